@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the participants tell each other about grains, as named fields with units.
+//
+// Units are the run's: SI for `scales.kind: physical`, otherwise D = u_c = rho_f = 1.
+// In two dimensions masses, forces and impulses are per unit length out of the plane, z components
+// of vectors are zero, and only the z component of angular quantities is used.
+//
+// Valid C++17: the OpenFOAM adapter includes this header.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace turbidite {
+
+using GrainId = std::int64_t;
+using Vec3 = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  // w, x, y, z; unit
+
+/// A rigid body at one instant.
+///
+/// `position` is the detection configuration q of the theta-scheme (Topin 2011, Eq. 17 shifted by
+/// (1 - theta) dt U): everybody, fluid included, sees the grain there.
+struct GrainState {
+    GrainId id = 0;
+    std::int32_t shape = 0;  ///< index into ShapeTable
+    double radius = 0.0;     ///< circumscribed radius R [m]
+    double density = 0.0;    ///< rho_s [kg/m3]
+    Vec3 position{};         ///< q [m]
+    Quaternion orientation{1.0, 0.0, 0.0, 0.0};
+    Vec3 velocity{};                 ///< U [m/s]
+    Vec3 angular_velocity{};         ///< omega [rad/s]
+    Vec3 contact_impulse{};          ///< sum of the window's contact impulses J_c [N s]
+    Vec3 contact_angular_impulse{};  ///< their moment about the centre [N m s]
+    Vec3 announced_impulse{};        ///< J_h: fluid impulse already spent in sub-steps [N s]
+    Vec3 announced_angular_impulse{};
+};
+
+/// What step 5 does to a grain over one window (Topin 2011, Eqs. 9-10).
+///
+/// The fluid fills velocities and multiplier impulses; the hub adds force and torque (hub/kick).
+struct Kick {
+    GrainId id = 0;
+    Vec3 velocity{};                    ///< corrected U^{n+1} [m/s]
+    Vec3 angular_velocity{};            ///< corrected omega^{n+1} [rad/s]
+    Vec3 multiplier_impulse{};          ///< dt * integral of lambda over the grain [N s]
+    Vec3 multiplier_angular_impulse{};  ///< dt * integral of r x lambda [N m s]
+    Vec3 force{};                       ///< F_h, buoyancy excluded [N]
+    Vec3 torque{};                      ///< T_h [N m]
+};
+
+/// Scheme `joint`: the fluid's answer to free grains. With impulse J and angular impulse K added,
+/// (U, omega) = (velocity, angular_velocity) + inertia^-1 (J, K).
+struct FreeResponse {
+    GrainId id = 0;
+    Vec3 velocity{};          ///< U^F [m/s]
+    Vec3 angular_velocity{};  ///< omega^F [rad/s]
+    /// Effective inertia, symmetric 6 x 6, upper triangle by rows: translation first.
+    /// [kg], [kg m], [kg m2]
+    std::array<double, 21> inertia{};
+};
+
+/// A shape known to both sides by its index. `kind` is a name of shapes/shape_list.
+struct ShapeRecord {
+    std::string kind;                 ///< "disc"
+    std::vector<double> vertices;     ///< x,y[,z] of unit circumradius; empty for round shapes
+};
+using ShapeTable = std::vector<ShapeRecord>;
+
+/// The order that opens a window.
+struct Window {
+    std::int64_t index = 0;  ///< 0-based
+    double time = 0.0;       ///< t^n at its start [s]
+    double step = 0.0;       ///< dt [s]
+    bool write_output = false;      ///< fields and series are due at its end
+    bool write_checkpoint = false;  ///< states are due at its end
+};
+
+/// How the contact side fared.
+struct ContactReport {
+    std::int64_t contacts = 0;     ///< with an impulse
+    std::int64_t iterations = 0;   ///< sweeps of the contact solver
+    double residual = 0.0;         ///< scaled natural map
+    bool converged = true;
+    double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
+    std::int64_t removed = 0;      ///< grains that left through a free side in this window
+    double wall_seconds = 0.0;     ///< time in the adapter's own work
+};
+
+/// What a grains rank sends: its grains and how the contact side fared.
+struct Motion {
+    std::vector<GrainState> grains;
+    ContactReport report;
+};
+
+/// How the fluid side fared.
+struct FluidReport {
+    std::int64_t multiplier_iterations = 0;
+    double multiplier_residual = 0.0;  ///< rms slip at the points [m/s]
+    double divergence = 0.0;           ///< max |div phi| after step 1 [1/s]
+    double final_divergence = 0.0;     ///< the same after step 5 (large by nature) [1/s]
+    /// |change of fluid momentum + dt sum(lambda) - boundary impulses| over the largest of them:
+    /// zero to solver tolerance.
+    double momentum_defect = 0.0;
+    double courant = 0.0;
+    double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
+};
+
+/// What a fluid rank answers to a Motion: kicks of the grains whose centre it owns.
+struct Kicks {
+    std::vector<Kick> kicks;
+    FluidReport report;
+};
+
+/// The part of space that a fluid rank is responsible for [m].
+struct Box {
+    Vec3 lower{};
+    Vec3 upper{};
+};
+
+}  // namespace turbidite

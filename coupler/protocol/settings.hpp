@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The resolved case as a flat list `key = value`: what the coupler tells every participant in its
+// welcome, so that no adapter reads YAML. Keys are those of the case file (`contact.friction`), plus
+// the run's physical values, already in the run's units:
+//
+//     run.diameter  run.velocity_scale  run.time_scale        D, u_c, t_c
+//     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
+//     run.step      run.windows         run.output_every      dt, number of windows, windows
+//     run.size_x    run.size_y  run.size_z                    domain [m]
+//     run.hash                                                hash of the resolved case
+//
+// Valid C++17.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace turbidite {
+
+class Settings {
+   public:
+    using Entry = std::pair<std::string, std::string>;
+
+    /// Adds or replaces.
+    void set(const std::string& key, const std::string& value);
+    void set(const std::string& key, double value);  ///< round-trips exactly
+    void set(const std::string& key, std::int64_t value);
+    void set(const std::string& key, bool value);
+
+    bool has(const std::string& key) const;
+
+    /// Typed look-ups; a missing key or a value of another type throws std::out_of_range or
+    /// std::invalid_argument naming the key.
+    const std::string& text(const std::string& key) const;
+    double real(const std::string& key) const;
+    std::int64_t integer(const std::string& key) const;
+    bool flag(const std::string& key) const;
+
+    const std::vector<Entry>& entries() const { return entries_; }
+
+   private:
+    std::vector<Entry> entries_;  // sorted by key
+};
+
+}  // namespace turbidite

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The geometry of one grain, shared by the fluid and the contact side so that both mean the same
+// body: volume, inertia, "is this point inside?", surface points. Body frame: centre of mass at
+// the origin. Sizes scale with the circumscribed radius R of the grain.
+//
+// Valid C++17.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite {
+
+/// A point of a grain's surface with its outward unit normal, body frame.
+struct SurfacePoint {
+    Eigen::Vector3d position;
+    Eigen::Vector3d normal;
+};
+
+class Shape {
+   public:
+    virtual ~Shape() = default;
+
+    virtual int dimension() const = 0;
+
+    /// Area (2-D, per unit length) or volume at radius R [m2 or m3].
+    virtual double volume(double radius) const = 0;
+
+    /// Moment of inertia tensor divided by density, body frame; 2-D uses (2,2) only [m4 or m5].
+    virtual Eigen::Matrix3d inertia_per_density(double radius) const = 0;
+
+    virtual bool contains(const Eigen::Vector3d& point, double radius) const = 0;
+
+    /// Points spaced as evenly as the shape allows, never closer than `spacing` [m].
+    virtual std::vector<SurfacePoint> surface_points(double radius, double spacing) const = 0;
+};
+
+/// Every shape there is, by the name used in `grains.shape`.
+struct ShapeEntry {
+    std::string kind;
+    std::string description;
+    std::shared_ptr<const Shape> (*make)(const ShapeRecord&);
+};
+const std::vector<ShapeEntry>& shape_list();
+
+/// Throws std::invalid_argument that lists the known kinds.
+std::shared_ptr<const Shape> make_shape(const ShapeRecord& record);
+
+}  // namespace turbidite
