@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What is wrong with a case, in words a user can act on: where, which key, which value, what is
+// allowed, what to do. Problems are collected and shown together; nothing starts while there is one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+struct CaseProblem {
+    std::string source;   ///< "quickstart.yaml", "--set", "grains.csv"
+    int line = 0;         ///< 1-based; 0 when there is none
+    std::string key;      ///< "contact.friction"; may be empty (syntax errors)
+    std::string value;    ///< as written; shown as `key = value`
+    std::string fault;    ///< replaces `= value`: "is unknown", "is missing", "is given twice"
+    std::string allowed;  ///< a sentence
+    std::string remedy;   ///< a sentence
+};
+
+/// The text shown on stderr; ends with "N errors, nothing was started. Exit code 2."
+std::string format_problems(const std::vector<CaseProblem>& problems);
+
+/// Exit code 2 with every problem found; what() is format_problems.
+class CaseRefused : public Failure {
+   public:
+    explicit CaseRefused(std::vector<CaseProblem> problems);
+    const std::vector<CaseProblem>& problems() const { return problems_; }
+
+   private:
+    std::vector<CaseProblem> problems_;
+};
+
+}  // namespace turbidite

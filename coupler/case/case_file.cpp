@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/case/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "coupler/case/case_entries.hpp"
+#include "coupler/case/case_rules.hpp"
+#include "coupler/case/key_check.hpp"
+#include "coupler/case/key_value.hpp"
+#include "coupler/case/population.hpp"
+#include "coupler/case/resolved_text.hpp"
+#include "coupler/case/run_folder.hpp"
+#include "coupler/protocol/case_hash.hpp"
+
+namespace turbidite {
+namespace {
+
+// The run folder holds a copy of the grains; the resolved case names that one, so that it can be
+// moved to another machine with its folder.
+constexpr auto copied_grains = "grains/initial.csv";
+
+struct Population {
+    Packing grains;
+    PopulationSource source;
+    std::vector<std::string> notes;
+};
+
+PackingBox packing_box(const Settings& settings) {
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    return {.width = size.at(0),
+            .height = size.at(1),
+            .periodic_x = settings.text("domain.left") == "cyclic",
+            .periodic_y = settings.text("domain.bottom") == "cyclic"};
+}
+
+SolidSides solid_sides(const Settings& settings) {
+    const auto solid = [&](const char* key) { return settings.text(key) == "wall"; };
+    return {solid("domain.left"), solid("domain.right"), solid("domain.bottom"),
+            solid("domain.top")};
+}
+
+PackingRequest packing_request(const Settings& settings) {
+    const bool counted = settings.has("grains.count");
+    return {.box = packing_box(settings),
+            .compacity = settings.real("grains.compacity"),
+            .count = counted ? settings.integer("grains.count") : 0,
+            .jitter = settings.real("grains.jitter"),
+            .seed = static_cast<std::uint64_t>(settings.integer("random.seed"))};
+}
+
+const GeneratorEntry& generator(const std::string& name) {
+    const auto& list = generator_list();
+    return *std::find_if(list.begin(), list.end(),
+                         [&](const GeneratorEntry& entry) { return entry.name == name; });
+}
+
+// The key whose value a generator refuses.
+std::string blamed_key(const Settings& settings) {
+    return settings.text("grains.generator") == "lattice" ? "grains.compacity" : "grains.count";
+}
+
+Population generated_grains(const Settings& settings, CaseEntries& entries) {
+    PackingResult result =
+        generator(settings.text("grains.generator")).make(packing_request(settings));
+    const std::string key = blamed_key(settings);
+    const CaseEntry* entry = entries.find(key);
+    const std::string file = entries.entries.front().source;
+    if (!result.refusal.empty())
+        entries.problems.push_back({.source = entry ? entry->source : file,
+                                    .line = entry ? entry->line : 0,
+                                    .key = key,
+                                    .value = settings.text(key) + (entry ? "" : " (default)"),
+                                    .fault = {},
+                                    .allowed = result.refusal,
+                                    .remedy = {}});
+    return {std::move(result.grains), {file, {}}, std::move(result.notes)};
+}
+
+CaseProblem missing_file(const CaseEntries& entries, const std::filesystem::path& file) {
+    const CaseEntry* entry = entries.find("grains.file");
+    return {.source = entry ? entry->source : file.string(),
+            .line = entry ? entry->line : 0,
+            .key = "grains.file",
+            .value = entry ? entry->value : file.filename().string(),
+            .fault = {},
+            .allowed = fmt::format("There is no file {}.", file.lexically_normal().string()),
+            .remedy = "Paths are relative to the folder of the case file."};
+}
+
+Population grains_from_file(const std::filesystem::path& file, CaseEntries& entries) {
+    if (!std::filesystem::is_regular_file(file)) {
+        entries.problems.push_back(missing_file(entries, file));
+        return {};
+    }
+    PopulationFile read = read_population_csv(file);
+    for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
+    return {std::move(read.grains), std::move(read.source), {}};
+}
+
+void check_grains(const Population& population, const Settings& settings, CaseEntries& entries) {
+    auto problems = check_population(population.grains, population.source, packing_box(settings),
+                                     solid_sides(settings));
+    for (CaseProblem& problem : problems) entries.problems.push_back(std::move(problem));
+}
+
+/// Grains of the given file, else of grains.file, else generated. Needs a valid box.
+Population make_population(Settings& settings, CaseEntries& entries,
+                           const std::filesystem::path& folder,
+                           const std::filesystem::path& given) {
+    for (const char* key : {"domain.size", "domain.left", "domain.right", "domain.bottom",
+                            "domain.top", "grains.generator", "grains.compacity", "grains.jitter",
+                            "random.seed"})
+        if (!settings.has(key)) return {};
+    const bool from_file = !given.empty() || settings.has("grains.file");
+    // A valid count is missing: the generator has nothing to go by.
+    const bool uncounted =
+        settings.text("grains.generator") == "random" && !settings.has("grains.count");
+    if (!from_file && uncounted) return {};
+    Population population =
+        !given.empty() ? grains_from_file(given, entries)
+        : from_file    ? grains_from_file(folder / settings.text("grains.file"), entries)
+                       : generated_grains(settings, entries);
+    check_grains(population, settings, entries);
+    if (settings.has("grains.file")) settings.set("grains.file", std::string(copied_grains));
+    return population;
+}
+
+std::vector<GrainState> grain_states(const Packing& grains, const Settings& settings,
+                                     const Scales& scales) {
+    std::vector<GrainState> states;
+    for (const PlacedGrain& grain : grains) {
+        GrainState state;
+        state.id = grain.id;
+        state.radius = grain.radius * scales.diameter;
+        state.density = settings.real("grains.density_ratio") * scales.fluid_density;
+        state.position = {grain.x * scales.diameter, grain.y * scales.diameter, 0.0};
+        states.push_back(state);
+    }
+    return states;
+}
+
+ResolvedCase finish(Settings settings, Population population) {
+    ResolvedCase result;
+    result.scales = make_scales(settings);
+    result.yaml = resolved_text(settings, population.grains);
+    result.notes = std::move(population.notes);
+    for (std::string& note : rule_notes(settings)) result.notes.push_back(std::move(note));
+    result.shapes.push_back({settings.text("grains.shape"), {}});
+    result.population = grain_states(population.grains, settings, result.scales);
+    result.packing = std::move(population.grains);
+    set_run_values(settings, result.scales);
+    settings.set("run.hash", case_hash(result.yaml));
+    result.settings = std::move(settings);
+    return result;
+}
+
+std::string file_text(const std::filesystem::path& file) {
+    std::ifstream input(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(input), {}};
+}
+
+ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
+                     const std::filesystem::path& given_grains) {
+    if (entries.entries.empty() && !entries.problems.empty())
+        throw CaseRefused(std::move(entries.problems));
+    Settings settings = check_keys(entries);
+    check_rules(settings, entries);
+    Population population = make_population(settings, entries, folder, given_grains);
+    if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
+    return finish(std::move(settings), std::move(population));
+}
+
+}  // namespace
+
+ResolvedCase load_case(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+    ResolvedCase result = resolve(read_case_entries(file, overrides), file.parent_path(), {});
+    result.name = file.stem().string();
+    return result;
+}
+
+ResolvedCase load_run_folder(const std::filesystem::path& folder) {
+    const RunFolder paths{folder};
+    ResolvedCase result =
+        resolve(read_case_entries(paths.resolved_case(), {}), folder, paths.initial_grains());
+    result.name = std::filesystem::absolute(folder).lexically_normal().filename().string();
+    // Every program of the job hashes the file itself, which may have been edited by hand.
+    result.settings.set("run.hash", case_hash(file_text(paths.resolved_case())));
+    return result;
+}
+
+}  // namespace turbidite

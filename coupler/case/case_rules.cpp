@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/case/case_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "coupler/case/key_value.hpp"
+
+namespace turbidite {
+namespace {
+
+/// What is wrong with `key`, or nothing.
+struct Objection {
+    std::string allowed;
+    std::string remedy;
+};
+using Verdict = std::optional<Objection>;
+
+struct Rule {
+    const char* key;                 ///< the one that is blamed
+    std::vector<const char*> reads;  ///< the others
+    Verdict (*check)(const Settings&);
+};
+
+bool is_cyclic(const Settings& s, const char* key) { return s.text(key) == "cyclic"; }
+
+Verdict opposite_sides(const Settings& s, const char* one, const char* other) {
+    if (is_cyclic(s, one) == is_cyclic(s, other)) return std::nullopt;
+    return Objection{fmt::format("Cyclic sides come in pairs, but {} = {}.", other, s.text(other)),
+                     "Make both cyclic, or neither."};
+}
+
+Verdict left_right(const Settings& s) { return opposite_sides(s, "domain.left", "domain.right"); }
+Verdict bottom_top(const Settings& s) { return opposite_sides(s, "domain.bottom", "domain.top"); }
+
+Verdict at_least_one_window(const Settings& s) {
+    if (s.real("time.end") >= s.real("time.step")) return std::nullopt;
+    return Objection{fmt::format("The end must be at least one time.step = {} t_c.",
+                                 s.text("time.step")),
+                     "Make the end later or the step smaller."};
+}
+
+// Step 2 is forward Euler: what moves at u_c may cross at most one cell, D/n, in a window.
+Verdict transport_is_stable(const Settings& s) {
+    const double cells = s.real("fluid.cells_per_diameter");
+    if (!s.flag("fluid.enabled") || s.real("time.step") * cells <= 1.0 + 1e-12) return std::nullopt;
+    return Objection{fmt::format("Explicit transport is unstable when u_c crosses more than one cell "
+                                 "in a step: at {} cells per diameter the step must be at most {} t_c.",
+                                 s.text("fluid.cells_per_diameter"), real_text(1.0 / cells)),
+                     "Use a smaller step or fewer cells."};
+}
+
+Verdict whole_cells(const Settings& s) {
+    if (!s.flag("fluid.enabled")) return std::nullopt;
+    const double cells = s.real("fluid.cells_per_diameter");
+    for (const double length : real_list("domain.size", s.text("domain.size"))) {
+        const double count = length * cells;
+        const double whole = std::max(1.0, std::round(count));
+        if (std::abs(count - whole) > 1e-6)
+            return Objection{fmt::format("With {} cells per diameter, {} D are {} cells; the mesh "
+                                         "needs whole ones.",
+                                         s.text("fluid.cells_per_diameter"), real_text(length),
+                                         real_text(count)),
+                             fmt::format("Use {} D.", real_text(whole / cells))};
+    }
+    return std::nullopt;
+}
+
+Verdict reynolds_follows(const Settings& s) {
+    if (s.text("scales.kind") != "physical") return std::nullopt;
+    return Objection{"With scales.kind: physical the Reynolds number follows from scales.viscosity.",
+                     "Remove it."};
+}
+
+Verdict limits_in_order(const Settings& s) {
+    if (s.real("limits.stall_soft") <= s.real("limits.stall_hard")) return std::nullopt;
+    return Objection{fmt::format("The hard limit comes after limits.stall_soft = {} s.",
+                                 s.text("limits.stall_soft")),
+                     "Enlarge it."};
+}
+
+const std::vector<Rule>& rules() {
+    static const std::vector<Rule> table = {
+        {"domain.left", {"domain.right"}, left_right},
+        {"domain.bottom", {"domain.top"}, bottom_top},
+        {"time.end", {"time.step"}, at_least_one_window},
+        {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_is_stable},
+        {"domain.size", {"fluid.enabled", "fluid.cells_per_diameter"}, whole_cells},
+        {"fluid.reynolds", {"scales.kind"}, reynolds_follows},
+        {"limits.stall_hard", {"limits.stall_soft"}, limits_in_order},
+    };
+    return table;
+}
+
+bool has_all(const Settings& settings, const Rule& rule) {
+    return settings.has(rule.key) &&
+           std::all_of(rule.reads.begin(), rule.reads.end(),
+                       [&](const char* key) { return settings.has(key); });
+}
+
+CaseProblem blame(const Rule& rule, const Objection& objection, const Settings& settings,
+                  const CaseEntries& entries) {
+    const CaseEntry* entry = entries.find(rule.key);
+    const std::string source = entries.entries.front().source;
+    return {.source = entry ? entry->source : source,
+            .line = entry ? entry->line : 0,
+            .key = rule.key,
+            .value = settings.text(rule.key) + (entry ? "" : " (default)"),
+            .fault = {},
+            .allowed = objection.allowed,
+            .remedy = objection.remedy};
+}
+
+}  // namespace
+
+void check_rules(const Settings& settings, CaseEntries& entries) {
+    for (const Rule& rule : rules()) {
+        if (!has_all(settings, rule)) continue;
+        if (const Verdict objection = rule.check(settings))
+            entries.problems.push_back(blame(rule, *objection, settings, entries));
+    }
+}
+
+std::vector<std::string> rule_notes(const Settings& settings) {
+    std::vector<std::string> notes;
+    const double step = settings.real("time.step");
+    const double end = settings.real("time.end");
+    const double windows = std::round(end / step);
+    if (std::abs(windows * step - end) > 1e-6 * end)
+        notes.push_back(fmt::format("time.end = {} is not a whole number of steps; the run ends after "
+                                    "{} windows at {:.6g} t_c",
+                                    end, windows, windows * step));
+    if (settings.real("output.interval") < step)
+        notes.push_back("output.interval is shorter than time.step; every window is written");
+    return notes;
+}
+
+}  // namespace turbidite

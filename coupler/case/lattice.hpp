@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The lattice of the paper: rows of spacing a, alternate rows shifted by a/2, neighbours in adjacent
+// rows touching, so with D = 1 the row height is sqrt(1 - a^2/4) and the compacity
+//
+//     phi = (pi/4) / (a sqrt(1 - a^2/4)),   a from 1 (pi / 2 sqrt 3, densest) to sqrt 2 (pi/4).
+//
+// Fill of a W x H box: row k at y = 1/2 + k height while y + 1/2 <= H; x from 1/2 (odd rows
+// 1/2 + a/2) while x + 1/2 <= W. 25 x 50 gives 1,397 grains (densest) to 1,190 (loosest).
+#pragma once
+
+#include "coupler/case/packing.hpp"
+
+namespace turbidite {
+
+/// Smallest and largest compacity of the lattice: pi/4 and pi/(2 sqrt 3).
+double loosest_compacity();
+double densest_compacity();
+
+/// Spacing a that gives the compacity [D]; the argument lies between the two bounds.
+double lattice_spacing(double compacity);
+
+/// Values within 1e-3 outside the bounds are clamped with a note, others refused.
+PackingResult lattice_packing(const PackingRequest& request);
+
+/// Displaces each grain by up to `jitter` along x and y; a displacement that would make grains
+/// overlap or leave the box is halved until it fits, and dropped in the end.
+void apply_jitter(Packing& grains, const PackingRequest& request);
+
+}  // namespace turbidite

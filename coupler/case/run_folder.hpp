@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Every path of a run folder, named once.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace turbidite {
+
+struct RunFolder {
+    std::filesystem::path root;
+
+    std::filesystem::path resolved_case() const { return root / "case.yaml"; }
+    std::filesystem::path record() const { return root / "run.json"; }
+    std::filesystem::path history() const { return root / "history.csv"; }
+    std::filesystem::path grains() const { return root / "grains"; }
+    std::filesystem::path initial_grains() const { return grains() / "initial.csv"; }
+    std::filesystem::path grains_series() const { return grains() / "grains.pvd"; }
+    std::filesystem::path fluid() const { return root / "fluid"; }
+    std::filesystem::path logs() const { return root / "logs"; }
+    std::filesystem::path log(const std::string& role) const { return logs() / (role + ".log"); }
+    std::filesystem::path report() const { return root / "report.html"; }
+
+    /// Its existence asks the coupler to end the run after the current window. Its text is the
+    /// signal's number.
+    std::filesystem::path stop() const { return root / "STOP"; }
+};
+
+}  // namespace turbidite

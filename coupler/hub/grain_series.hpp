@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The grains as a ParaView series: grains/grains.pvd over one VTK PolyData file per output. Apply a glyph (sphere, scaled by
+// `radius` with factor 2) to see them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite {
+
+class GrainSeries {
+   public:
+    explicit GrainSeries(std::filesystem::path folder);
+
+    /// Points in run units with id, radius, density, velocity, angular_velocity, force, contact_force. The series
+    /// file is rewritten each time, so that it is complete at any moment. `time` is in run units.
+    void write(double time, std::int64_t step, double window, const Motion& state,
+               const std::vector<Kick>& kicks);
+
+   private:
+    std::filesystem::path folder_;
+    std::vector<std::pair<double, std::string>> files_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// history.csv: one row per output interval, dimensionless with D, u_c, t_c. The columns are one table; their names and
+// order are a contract with outside tools. Quantities that do not apply are empty.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "coupler/hub/scheme.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// Seconds per window, means since the last row.
+struct WallTimes {
+    double step = 0.0;      ///< the whole window
+    double fluid = 0.0;     ///< in the fluid adapter's own work
+    double grains = 0.0;    ///< in the grains adapter's own work
+    double coupling = 0.0;  ///< in the coupler: routing, checks, output
+};
+
+/// Everything a row is made of.
+struct Row {
+    std::int64_t step = 0;  ///< number of windows done
+    double time = 0.0;      ///< t^{n+1} [s]
+    const Motion* state = nullptr;
+    const ContactReport* contact = nullptr;  ///< null before the first window
+    const FluidReport* fluid = nullptr;      ///< null in dry runs and before the first window
+    std::optional<WallTimes> wall;
+    std::optional<double> grain_balance;  ///< KickRule::defect
+};
+
+/// Means over the grains, in run units.
+struct Averages {
+    Vec3 velocity{};
+    Vec3 position{};
+    double speed = 0.0;
+    double front = 0.0;           ///< max (x + R)
+    double kinetic_energy = 0.0;  ///< sum of (m U^2 + I w^2)/2 [J]
+    double mass = 0.0;            ///< sum of m [kg]
+};
+Averages averages(const Motion& state, const KickRule& rule);
+
+class History {
+   public:
+    /// Creates the file with its header. Throws Failure when it cannot be written.
+    History(const std::filesystem::path& file, const Settings& settings, const KickRule& rule);
+
+    /// Throws Failure when the disk is full.
+    void append(const Row& row);
+
+   private:
+    std::filesystem::path file_;
+    std::ofstream out_;
+    const KickRule& rule_;
+    double diameter_, velocity_, time_;
+};
+
+/// The header line, for tests and readers.
+std::string history_header();
+
+}  // namespace turbidite

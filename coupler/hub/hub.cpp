@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/hub.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "coupler/hub/handshake.hpp"
+
+namespace turbidite {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// How long dismissed participants may take to write their last words [s].
+constexpr double farewell_limit = 30.0;
+
+// Stencils of a grain's points reach this many cells beyond its surface.
+constexpr double stencil_cells = 4.0;
+
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool on_terminal() {
+    const char* wish = std::getenv("TURBIDITE_PROGRESS");
+    return wish != nullptr && std::string(wish) == "terminal";
+}
+
+std::string scheme_name(const Settings& settings) {
+    return settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
+}
+
+Vec3 periods(const Settings& settings) {
+    const auto period = [&](const char* side, const char* size) {
+        return settings.text(side) == "cyclic" ? settings.real(size) : 0.0;
+    };
+    return {period("domain.left", "run.size_x"), period("domain.bottom", "run.size_y"), 0.0};
+}
+
+double routing_margin(const Settings& settings) {
+    return stencil_cells * settings.real("run.diameter") / settings.real("fluid.cells_per_diameter");
+}
+
+}  // namespace
+
+Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid)
+    : case_(std::move(the_case)),
+      files_(std::move(files)),
+      progress_(files_.log, on_terminal(), case_.settings.integer("run.windows")),
+      grains_(Role::grains, grains),
+      fluid_(fluid ? std::optional<ParticipantLink>(std::in_place, Role::fluid, *fluid) : std::nullopt),
+      links_(fluid_ ? std::vector<ParticipantLink*>{&*fluid_, &grains_}
+                    : std::vector<ParticipantLink*>{&grains_}),
+      watch_(links_, case_.settings.real("limits.stall_soft"),
+             case_.settings.real("limits.stall_hard"),
+             [this](const std::string& text) { progress_.say(text); }),
+      kick_rule_(case_.settings, case_.shapes),
+      scheme_(make_scheme(scheme_name(case_.settings))),
+      ledger_(case_.settings, case_.population.size()),
+      history_(files_.history, case_.settings, kick_rule_),
+      series_(files_.series) {}
+
+Hub::~Hub() = default;
+
+RunStatus Hub::run() {
+    const auto begin = Clock::now();
+    try {
+        start();
+        for (std::int64_t index = 0; index < case_.settings.integer("run.windows"); ++index)
+            play(index);
+    } catch (const Failure& failure) {
+        status_.code = failure.code();
+        status_.reason = failure.what();
+    } catch (const std::exception& error) {
+        status_.code = ExitCode::participant_failed;
+        status_.reason = error.what();
+    }
+    status_.wall_seconds = since(begin);
+    write_run_record(files_.record, status_, links_);
+    end({static_cast<int>(status_.code), status_.reason});
+    return status_;
+}
+
+void Hub::start() {
+    shake_hands(links_, case_.settings, case_.shapes, watch_);
+    for (ParticipantLink* link : links_) {
+        link->set_scheme(scheme_name(case_.settings));
+        for (int rank = 0; rank < link->ranks(); ++rank) {
+            const Hello& hello = link->hello(rank);
+            progress_.say(fmt::format("{:<14} {} in {} (host {}, pid {})", link->rank_name(rank),
+                                      hello.adapter, hello.host_code, hello.host, hello.pid));
+        }
+        link->send_all(Kind::settings, case_.settings);
+        link->send_all(Kind::shapes, case_.shapes);
+    }
+    grains_.send_each(Kind::population, shares_of(case_.population, grains_.ranks()));
+
+    std::vector<Box> boxes;
+    if (fluid_) {
+        watch_.wait_for(*fluid_, Kind::domain);
+        boxes = fluid_->take<Box>(Kind::domain);
+    }
+    plan_.emplace(std::move(boxes), routing_margin(case_.settings), periods(case_.settings));
+    watch_.wait_for(grains_, Kind::state);
+    state_ = plan_->gather(grains_.take<Motion>(Kind::state));
+    ledger_.check_start(state_);
+    Row row;
+    row.state = &state_;
+    history_.append(row);
+    series_.write(0.0, 0, 1.0, state_, {});
+}
+
+Window Hub::window(std::int64_t index) const {
+    const std::int64_t windows = case_.settings.integer("run.windows");
+    const std::int64_t every = case_.settings.integer("run.output_every");
+    Window window;
+    window.index = index;
+    window.step = case_.settings.real("run.step");
+    window.time = static_cast<double>(index) * window.step;
+    window.write_output = (index + 1) % every == 0 || index + 1 == windows;
+    return window;
+}
+
+void Hub::play(std::int64_t index) {
+    look_for_stop();
+    window_start_ = Clock::now();
+    const Window now = window(index);
+    Cast cast{grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, kick_rule_};
+    WindowResult result = scheme_->play(now, state_, cast);
+    ledger_.check(now, result);
+    account(now, std::move(result));
+}
+
+void Hub::account(const Window& window, WindowResult result) {
+    RunMaxima& maxima = status_.maxima;
+    const FluidReport& fluid = result.kicks.report;
+    const double length = case_.settings.real("run.diameter");
+    const double balance =
+        kick_rule_.defect(result.kicks.kicks, state_, result.motion, window.step);
+    maxima.penetration = std::max(maxima.penetration, result.state.report.max_penetration / length);
+    maxima.grain_balance = std::max(maxima.grain_balance, balance);
+    maxima.fluid_balance = std::max(maxima.fluid_balance, fluid.momentum_defect);
+    maxima.divergence = std::max(maxima.divergence, fluid.divergence * length /
+                                                        case_.settings.real("run.velocity_scale"));
+    maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
+
+    state_ = std::move(result.state);
+    status_.windows_done = window.index + 1;
+    Row row;
+    row.step = window.index + 1;
+    row.time = static_cast<double>(row.step) * window.step;
+    row.state = &state_;
+    row.contact = &result.motion.report;
+    row.fluid = fluid_ ? &fluid : nullptr;
+    if (fluid_) row.grain_balance = balance;
+    if (window.write_output) series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);
+
+    ++windows_since_row_;
+    const double step = since(window_start_);
+    wall_since_row_.step += step;
+    wall_since_row_.fluid += fluid.wall_seconds;
+    wall_since_row_.grains += result.motion.report.wall_seconds + state_.report.wall_seconds;
+    wall_since_row_.coupling += std::max(0.0, step - watch_.take_waited());
+    if (window.write_output) {
+        const double n = static_cast<double>(windows_since_row_);
+        const WallTimes& sum = wall_since_row_;
+        row.wall = WallTimes{sum.step / n, sum.fluid / n, sum.grains / n, sum.coupling / n};
+        history_.append(row);
+        wall_since_row_ = {};
+        windows_since_row_ = 0;
+    }
+    progress_.show(row, case_.settings, window.write_output);
+}
+
+void Hub::look_for_stop() const {
+    std::ifstream stop(files_.stop);
+    if (!stop) return;
+    int code = static_cast<int>(ExitCode::interrupted);
+    stop >> code;
+    const bool terminated = code == static_cast<int>(ExitCode::terminated);
+    throw Failure(terminated ? ExitCode::terminated : ExitCode::interrupted,
+                  "stopped on request after window " + std::to_string(status_.windows_done));
+}
+
+void Hub::end(const Verdict& verdict) {
+    if (!verdict.reason.empty()) progress_.say("turbidite: " + verdict.reason);
+    for (ParticipantLink* link : links_) link->dismiss(verdict);
+    Patience patience;
+    for (bool waiting = true; waiting; patience.wait()) {
+        waiting = false;
+        for (ParticipantLink* link : links_) waiting = !link->gone() || waiting;
+        if (waiting && patience.seconds() > farewell_limit)
+            throw Failure(status_.code == ExitCode::done ? ExitCode::stalled : status_.code,
+                          "a participant does not say farewell; ending the job\n" + wait_for_table());
+    }
+}
+
+}  // namespace turbidite

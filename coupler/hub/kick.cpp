@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/kick.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turbidite {
+namespace {
+
+Eigen::Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
+Vec3 array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Inertia tensors are given in the body frame.
+Eigen::Matrix3d in_space(const Eigen::Matrix3d& inertia, const Quaternion& q) {
+    const double w = q[0], x = q[1], y = q[2], z = q[3];
+    Eigen::Matrix3d rotation;
+    rotation << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+        2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
+    return rotation * inertia * rotation.transpose();
+}
+
+// The largest of the terms of a balance and what is left of it.
+struct Balance {
+    double largest = 0.0;
+    double rest = 0.0;
+
+    void add(std::initializer_list<Eigen::Vector3d> terms) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const auto& term : terms) {
+            sum += term;
+            largest = std::max(largest, term.norm());
+        }
+        rest = std::max(rest, sum.norm());
+    }
+};
+
+}  // namespace
+
+std::unordered_map<GrainId, const GrainState*> by_id(const Motion& motion) {
+    std::unordered_map<GrainId, const GrainState*> map;
+    map.reserve(motion.grains.size());
+    for (const GrainState& grain : motion.grains) map.emplace(grain.id, &grain);
+    return map;
+}
+
+KickRule::KickRule(const Settings& settings, const ShapeTable& shapes)
+    : fluid_density_(settings.flag("fluid.enabled") ? settings.real("run.fluid_density") : 0.0),
+      hydrodynamic_radius_(settings.real("fluid.hydrodynamic_radius")),
+      gravity_(settings.real("run.gravity")) {
+    for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
+}
+
+ImmersedBody KickRule::body(const GrainState& grain) const {
+    return immersed_body(*shapes_.at(grain.shape), grain.radius, grain.density, fluid_density_,
+                         hydrodynamic_radius_);
+}
+
+void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) const {
+    const auto old = by_id(before);
+    for (Kick& kick : kicks) {
+        const GrainState& grain = *old.at(kick.id);
+        const ImmersedBody immersed = body(grain);
+        const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
+        const Eigen::Vector3d spin_change =
+            vector(kick.angular_velocity) - vector(grain.angular_velocity);
+        kick.force = array((vector(kick.multiplier_impulse) +
+                            immersed.displaced_mass * velocity_change) / step);
+        kick.torque = array((vector(kick.multiplier_angular_impulse) +
+                             in_space(immersed.displaced_inertia, grain.orientation) * spin_change) /
+                            step);
+    }
+}
+
+double KickRule::defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
+                        double step) const {
+    const auto old = by_id(before);
+    const auto touched = by_id(contact);
+    Balance linear, angular;
+    for (const Kick& kick : kicks) {
+        const GrainState& grain = *old.at(kick.id);
+        const GrainState& with_contact = *touched.at(kick.id);
+        const ImmersedBody immersed = body(grain);
+        const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
+        const Eigen::Vector3d spin_change =
+            vector(kick.angular_velocity) - vector(grain.angular_velocity);
+        linear.add({immersed.mass * velocity_change,
+                    Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
+                    -vector(with_contact.contact_impulse), -step * vector(kick.force)});
+        angular.add({in_space(immersed.inertia, grain.orientation) * spin_change / grain.radius,
+                     -vector(with_contact.contact_angular_impulse) / grain.radius,
+                     -step * vector(kick.torque) / grain.radius});
+    }
+    const double largest = std::max(linear.largest, angular.largest);
+    return largest > 0.0 ? std::max(linear.rest, angular.rest) / largest : 0.0;
+}
+
+}  // namespace turbidite

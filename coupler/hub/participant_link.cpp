@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/participant_link.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr bool from_coupler = true;
+
+}  // namespace
+
+ParticipantLink::ParticipantLink(Role role, Channel& channel) : role_(role), channel_(channel) {
+    for (int rank = 0; rank < channel.peers(); ++rank)
+        ranks_.push_back({CallOrder(role, fmt::format("{} rank {}", role_name(role), rank)), {}, {}});
+}
+
+std::string ParticipantLink::rank_name(int rank) const {
+    return fmt::format("{} rank {}", role_name(role_), rank);
+}
+
+void ParticipantLink::set_scheme(const std::string& scheme) {
+    for (Rank& rank : ranks_) rank.order.set_scheme(scheme);
+}
+
+void ParticipantLink::send(int rank, Kind kind, Bytes payload) {
+    const Envelope envelope = ranks_[rank].order.next_sent(kind, from_coupler);
+    channel_.send(rank, frame({envelope, std::move(payload)}));
+    ranks_[rank].since = Clock::now();
+}
+
+bool ParticipantLink::pump() {
+    bool any = false;
+    while (auto frame = channel_.try_receive()) {
+        take_in(frame->peer, unframe(frame->bytes));
+        any = true;
+    }
+    return any;
+}
+
+void ParticipantLink::take_in(int rank, Message message) {
+    Rank& from = ranks_.at(rank);
+    from.order.received(message.envelope, !from_coupler);
+    from.since = Clock::now();
+    if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload));
+    from.inbox.push_back(std::move(message));
+}
+
+void ParticipantLink::raise(int rank, const Verdict& verdict) const {
+    const Hello& who = ranks_[rank].hello;
+    const std::string place =
+        who.host.empty() ? "" : fmt::format(" (host {}, log {})", who.host, who.log_file);
+    throw Failure(static_cast<ExitCode>(verdict.exit_code),
+                  fmt::format("{}{}: {}", rank_name(rank), place, verdict.reason));
+}
+
+bool ParticipantLink::ready(Kind kind) const {
+    return std::all_of(ranks_.begin(), ranks_.end(), [kind](const Rank& rank) {
+        return !rank.inbox.empty() && rank.inbox.front().envelope.kind == kind;
+    });
+}
+
+std::vector<Bytes> ParticipantLink::take_payloads(Kind kind) {
+    std::vector<Bytes> payloads;
+    for (Rank& rank : ranks_) {
+        if (rank.inbox.empty() || rank.inbox.front().envelope.kind != kind)
+            throw OrderViolation(std::string(role_name(role_)) + " has not delivered \"" +
+                                 kind_name(kind) + "\" yet");
+        payloads.push_back(std::move(rank.inbox.front().payload));
+        rank.inbox.pop_front();
+    }
+    return payloads;
+}
+
+bool ParticipantLink::owes() const {
+    return std::any_of(ranks_.begin(), ranks_.end(),
+                       [](const Rank& rank) { return !rank.order.due_from_coupler(); });
+}
+
+std::string ParticipantLink::state_of(int rank) const {
+    const Rank& of = ranks_[rank];
+    const double seconds = std::chrono::duration<double>(Clock::now() - of.since).count();
+    return fmt::format("{} (host {}, pid {}) {} \"{}\", window {}, since {:.0f} s", rank_name(rank),
+                       of.hello.host.empty() ? "unknown" : of.hello.host, of.hello.pid,
+                       of.order.due_from_coupler() ? "waits for the coupler's" : "works towards",
+                       kind_name(of.order.due()), of.order.window(), seconds);
+}
+
+void ParticipantLink::dismiss(const Verdict& verdict) {
+    for (int rank = 0; rank < ranks(); ++rank) send(rank, Kind::dismiss, encode(verdict));
+}
+
+bool ParticipantLink::gone() {
+    while (auto frame = channel_.try_receive())
+        if (unframe(frame->bytes).envelope.kind == Kind::farewell)
+            ranks_.at(frame->peer).said_farewell = true;
+    return channel_.flushed() && std::all_of(ranks_.begin(), ranks_.end(),
+                                             [](const Rank& rank) { return rank.said_farewell; });
+}
+
+}  // namespace turbidite

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// One participant as the coupler sees it: its ranks, what each of them is due to say, since when.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/call_order.hpp"
+#include "coupler/transport/channel.hpp"
+
+namespace turbidite {
+
+class ParticipantLink {
+   public:
+    using Clock = std::chrono::steady_clock;
+
+    ParticipantLink(Role role, Channel& channel);
+
+    Role role() const { return role_; }
+    int ranks() const { return static_cast<int>(ranks_.size()); }
+    std::string rank_name(int rank) const;
+
+    /// What the rank said of itself; empty before its hello.
+    const Hello& hello(int rank) const { return ranks_[rank].hello; }
+    void set_hello(int rank, Hello hello) { ranks_[rank].hello = std::move(hello); }
+    void set_scheme(const std::string& scheme);
+
+    void send(int rank, Kind kind, Bytes payload);
+    template <class Record>
+    void send_all(Kind kind, const Record& record) {
+        for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, encode(record));
+    }
+    template <class Record>
+    void send_each(Kind kind, const std::vector<Record>& records) {
+        for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, encode(records[rank]));
+    }
+
+    /// Takes in what has arrived, checked against the call order. Throws Failure when a rank reports
+    /// one. Returns whether anything arrived.
+    bool pump();
+
+    /// True when every rank has delivered a message of this kind.
+    bool ready(Kind kind) const;
+
+    /// The payloads that `ready` announced, one per rank.
+    template <class Record>
+    std::vector<Record> take(Kind kind) {
+        std::vector<Record> records;
+        for (Bytes& payload : take_payloads(kind)) records.push_back(decode<Record>(payload));
+        return records;
+    }
+
+    /// True while some rank owes the coupler a message.
+    bool owes() const;
+    /// "grains rank 0 (host h, pid 12) computes towards "motion" of window 4 since 3 s".
+    std::string state_of(int rank) const;
+
+    /// The run is over: tells the ranks; whatever they still send is thrown away until `gone`.
+    void dismiss(const Verdict& verdict);
+    bool gone();
+
+   private:
+    struct Rank {
+        CallOrder order;
+        Hello hello;
+        std::deque<Message> inbox;
+        Clock::time_point since = Clock::now();
+        bool said_farewell = false;
+    };
+
+    void take_in(int rank, Message message);
+    std::vector<Bytes> take_payloads(Kind kind);
+    [[noreturn]] void raise(int rank, const Verdict& verdict) const;
+
+    Role role_;
+    Channel& channel_;
+    std::vector<Rank> ranks_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/run_record.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace turbidite {
+namespace {
+
+const char* status_word(ExitCode code) {
+    switch (code) {
+        case ExitCode::done: return "done";
+        case ExitCode::handshake_refused: return "handshake refused";
+        case ExitCode::stalled: return "stalled";
+        case ExitCode::physics_refused: return "physics refused";
+        case ExitCode::interrupted:
+        case ExitCode::terminated: return "interrupted";
+        default: return "failed";
+    }
+}
+
+nlohmann::ordered_json rank_table(const std::vector<ParticipantLink*>& links) {
+    auto table = nlohmann::ordered_json::array();
+    for (const ParticipantLink* link : links)
+        for (int rank = 0; rank < link->ranks(); ++rank) {
+            const Hello& hello = link->hello(rank);
+            table.push_back({{"role", role_name(link->role())},
+                             {"rank", rank},
+                             {"adapter", hello.adapter},
+                             {"adapter_version", hello.adapter_version},
+                             {"host_code", hello.host_code},
+                             {"host", hello.host},
+                             {"pid", hello.pid},
+                             {"log", hello.log_file}});
+        }
+    return table;
+}
+
+}  // namespace
+
+void write_run_record(const std::filesystem::path& file, const RunStatus& status,
+                      const std::vector<ParticipantLink*>& links) {
+    nlohmann::ordered_json record = nlohmann::ordered_json::object();
+    if (std::ifstream old(file); old) {
+        record = nlohmann::ordered_json::parse(old, nullptr, false);
+        if (!record.is_object()) record = nlohmann::ordered_json::object();
+    }
+    record["status"] = status_word(status.code);
+    record["exit_code"] = static_cast<int>(status.code);
+    record["error"] = status.reason;
+    record["windows_done"] = status.windows_done;
+    record["wall_seconds"] = status.wall_seconds;
+    record["maxima"] = {{"penetration", status.maxima.penetration},
+                        {"grain_balance", status.maxima.grain_balance},
+                        {"fluid_balance", status.maxima.fluid_balance},
+                        {"divergence", status.maxima.divergence},
+                        {"unconverged_windows", status.maxima.unconverged_windows}};
+    record["ranks"] = rank_table(links);
+    const std::filesystem::path part = file.string() + ".part";
+    std::ofstream(part) << record.dump(2) << "\n";
+    std::filesystem::rename(part, file);
+}
+
+}  // namespace turbidite

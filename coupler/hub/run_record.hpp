@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The coupler's part of run.json: who took part, how far the run got, how it ended. What `turbidite run` wrote before is kept.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "coupler/hub/participant_link.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+struct RunMaxima {
+    double penetration = 0.0;    ///< [D]
+    double grain_balance = 0.0;  ///< KickRule::defect
+    double fluid_balance = 0.0;  ///< FluidReport::momentum_defect
+    double divergence = 0.0;     ///< after step 1 [u_c/D]
+    std::int64_t unconverged_windows = 0;  ///< contact solves that did not reach their tolerance
+};
+
+struct RunStatus {
+    ExitCode code = ExitCode::done;
+    std::string reason;  ///< the first error, empty when done
+    std::int64_t windows_done = 0;
+    double wall_seconds = 0.0;
+    RunMaxima maxima;
+};
+
+/// Replaces run.json in one step. `links` may be empty when the start failed.
+void write_run_record(const std::filesystem::path& file, const RunStatus& status,
+                      const std::vector<ParticipantLink*>& links);
+
+}  // namespace turbidite

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+Watch::Watch(std::vector<ParticipantLink*> links, double soft, double hard, Print print)
+    : links_(std::move(links)), soft_(soft), hard_(hard), print_(std::move(print)) {}
+
+void Watch::wait_for(ParticipantLink& link, Kind kind) {
+    double next_notice = soft_;
+    Patience patience;
+    for (;; patience.wait()) {
+        for (ParticipantLink* other : links_) other->pump();
+        if (link.ready(kind)) break;
+        if (patience.seconds() > hard_)
+            throw Failure(ExitCode::stalled,
+                          fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}", kind_name(kind),
+                                      role_name(link.role()), hard_, wait_for_table()));
+        if (patience.seconds() > next_notice) {
+            print_(fmt::format("still waiting for \"{}\" from {} after {:.0f} s\n{}", kind_name(kind),
+                               role_name(link.role()), patience.seconds(), wait_for_table()));
+            next_notice *= 2.0;
+        }
+    }
+    waited_ += patience.seconds();
+}
+
+std::string Watch::wait_for_table() const {
+    std::string table;
+    for (const ParticipantLink* link : links_)
+        for (int rank = 0; rank < link->ranks(); ++rank)
+            table += "  " + link->state_of(rank) + "\n";
+    return table;
+}
+
+double Watch::take_waited() { return std::exchange(waited_, 0.0); }
+
+}  // namespace turbidite

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/participant/conversation.hpp"
+
+#include <utility>
+
+namespace turbidite {
+namespace {
+
+constexpr bool from_coupler = true;
+
+}  // namespace
+
+Conversation::Conversation(Role role, Channel& channel)
+    : channel_(channel), order_(role, "coupler") {}
+
+Message Conversation::next(double expected) {
+    for (Patience patience(expected);; patience.wait()) {
+        if (auto frame = channel_.try_receive()) {
+            last_wait_ = patience.seconds();
+            return unframe(frame->bytes);
+        }
+        if (patience.seconds() > limit_)
+            throw Failure(ExitCode::stalled,
+                          "the coupler has been silent for " +
+                              std::to_string(static_cast<int>(limit_)) + " s while \"" +
+                              kind_name(order_.due()) + "\" was due");
+    }
+}
+
+void Conversation::send(Kind kind, Bytes payload) {
+    channel_.send(0, frame({order_.next_sent(kind, !from_coupler), std::move(payload)}));
+}
+
+Bytes Conversation::receive(Kind kind) {
+    Message message = next(last_wait_);
+    order_.received(message.envelope, from_coupler);
+    if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload)};
+    if (message.envelope.kind != kind)
+        throw OrderViolation("the adapter waits for \"" + kind_name(kind) + "\", the coupler sent \"" +
+                             kind_name(message.envelope.kind) + "\"");
+    return std::move(message.payload);
+}
+
+Verdict Conversation::fail(const Verdict& verdict) {
+    send(Kind::failure, encode(verdict));
+    for (;;) {  // whatever was on its way is no longer of interest
+        const Message message = next(0.0);
+        if (message.envelope.kind != Kind::dismiss) continue;
+        order_.received(message.envelope, from_coupler);
+        return decode<Verdict>(message.payload);
+    }
+}
+
+void Conversation::say_farewell() {
+    send(Kind::farewell, {});
+    for (Patience patience; !channel_.flushed() && patience.seconds() < limit_; patience.wait()) {
+    }
+}
+
+}  // namespace turbidite

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// One rank's talk with the coupler: frames, call order, waiting. Adapters see sessions, not this.
+#pragma once
+
+#include <optional>
+
+#include "coupler/protocol/call_order.hpp"
+#include "coupler/protocol/failure.hpp"
+#include "coupler/transport/channel.hpp"
+
+namespace turbidite {
+
+/// Thrown by `receive` when the coupler ends the run instead of going on.
+struct Dismissed {
+    Verdict verdict;
+};
+
+class Conversation {
+   public:
+    Conversation(Role role, Channel& channel);
+
+    void set_scheme(const std::string& scheme) { order_.set_scheme(scheme); }
+
+    /// Longest wait for the coupler [s] before `receive` gives up with Failure (stalled).
+    void set_limit(double seconds) { limit_ = seconds; }
+
+    void send(Kind kind, Bytes payload);
+
+    /// Waits for the message that is due. Throws Dismissed, OrderViolation, MalformedPayload, Failure.
+    Bytes receive(Kind kind);
+
+    /// Tells the coupler that this side cannot go on, and waits for its verdict on the run.
+    Verdict fail(const Verdict& verdict);
+
+    /// The last word: everything is written.
+    void say_farewell();
+
+   private:
+    Message next(double expected);
+
+    Channel& channel_;
+    CallOrder order_;
+    double limit_ = 600.0;
+    double last_wait_ = 0.0;
+};
+
+}  // namespace turbidite

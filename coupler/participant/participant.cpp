@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/participant/participant.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "coupler/protocol/case_hash.hpp"
+#include "coupler/transport/intercomm_channel.hpp"
+#include "coupler/transport/world.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string log_path(Role role, const std::string& run_folder, int rank, int ranks) {
+    const std::string name = role_name(role);
+    return run_folder + "/logs/" + name + (ranks > 1 ? ".rank" + std::to_string(rank) : "") + ".log";
+}
+
+// Both streams into one file, at the level of descriptors, so that the host code's output and Python's follow.
+void redirect_output(const std::string& file) {
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+    const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (log < 0) throw Failure(ExitCode::participant_failed, "cannot write the log " + file);
+    std::fflush(nullptr);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    close(log);
+}
+
+std::string hash_of_run(const std::string& run_folder) {
+    std::ifstream file(run_folder + "/case.yaml", std::ios::binary);
+    if (!file) return {};
+    return case_hash({std::istreambuf_iterator<char>(file), {}});
+}
+
+MPI_Comm own_communicator(Role role, std::uintptr_t given) {
+    if (given == 0) return split_world(role);
+    return reinterpret_cast<MPI_Comm>(given);  // Open MPI's handles are pointers
+}
+
+}  // namespace
+
+struct Membership::State {
+    State(Role role_, const Launch& launch)
+        : role(role_), mpi(launch.argc, launch.argv), local(own_communicator(role_, launch.communicator)) {
+        PMPI_Comm_rank(local, &rank);
+        PMPI_Comm_size(local, &ranks);
+        log = log_path(role, launch.run_folder, rank, ranks);
+        redirect_output(log);
+        hash = hash_of_run(launch.run_folder);
+        channel = std::make_unique<IntercommChannel>(join_coupler(local, role));
+    }
+
+    Role role;
+    MpiEnvironment mpi;
+    MPI_Comm local;
+    int rank = 0;
+    int ranks = 1;
+    std::string log;
+    std::string hash;
+    std::unique_ptr<IntercommChannel> channel;
+};
+
+Membership::Membership(Role role, const Launch& launch)
+    : state_(std::make_unique<State>(role, launch)) {}
+
+Membership::~Membership() = default;
+
+Channel& Membership::channel() { return *state_->channel; }
+
+Identity Membership::identity() const {
+    return {state_->rank, state_->ranks, state_->log, state_->hash};
+}
+
+int Membership::communicator() const { return MPI_Comm_c2f(state_->local); }
+
+int Membership::leave(const Outcome& outcome) {
+    const int code = static_cast<int>(outcome.code);
+    if (outcome.code != ExitCode::done)
+        std::fprintf(stderr, "turbidite: the run ended with code %d: %s\n", code, outcome.reason.c_str());
+    std::fflush(nullptr);
+    return code;
+}
+
+namespace {
+
+template <class Adapter>
+int run(Role role, Adapter& adapter, const Launch& launch) {
+    Membership membership(role, launch);
+    const auto session = make_session(adapter, membership.channel(), membership.identity());
+    try {
+        for (bool going = session->start(); going; going = session->step()) {
+        }
+        return membership.leave(session->outcome());
+    } catch (const std::exception& error) {
+        // The coupler no longer answers: nothing but ending the job is left.
+        const auto* failure = dynamic_cast<const Failure*>(&error);
+        const auto code = failure ? failure->code() : ExitCode::participant_failed;
+        std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), error.what());
+        std::fflush(nullptr);
+        PMPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+        return static_cast<int>(code);
+    }
+}
+
+}  // namespace
+
+int run_grains(GrainsAdapter& adapter, const Launch& launch) {
+    return run(Role::grains, adapter, launch);
+}
+
+int run_fluid(FluidAdapter& adapter, const Launch& launch) {
+    return run(Role::fluid, adapter, launch);
+}
+
+}  // namespace turbidite

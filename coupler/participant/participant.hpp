@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the `main` of a participant needs: everything between the command line and the exit code.
+//
+//     int main(int argc, char** argv) {
+//         MyAdapter adapter;
+//         return turbidite::run_grains(adapter, {&argc, &argv, run_folder});
+//     }
+//
+// Output goes to RUN/logs/<role>.log (one file per rank when there are several).
+// Valid C++17; includes neither MPI nor any host.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "coupler/participant/adapter.hpp"
+#include "coupler/participant/session.hpp"
+
+namespace turbidite {
+
+struct Launch {
+    int* argc = nullptr;
+    char*** argv = nullptr;
+    std::string run_folder;
+    /// A communicator that the host code split off the world already (YADE's mpy does), as the number
+    /// mpi4py calls its handle; 0: the library makes the split.
+    std::uintptr_t communicator = 0;
+};
+
+/// One rank's place in the job: its communicator, its channel to the coupler, its log.
+class Membership {
+   public:
+    /// Joins the job: the one split of the world, then the intercommunicator. Blocks until the coupler
+    /// has accepted.
+    Membership(Role role, const Launch& launch);
+    ~Membership();
+
+    Channel& channel();
+    Identity identity() const;
+
+    /// Fortran handle of the participant's own communicator (MPI_Comm_f2c gives it back).
+    int communicator() const;
+
+    /// After the farewell: leaves the job. With `done` MPI is finalised; any other code aborts the job
+    /// if the coupler has not ended it by then.
+    int leave(const Outcome& outcome);
+
+   private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The whole life of a participant. Returns the exit code of the program.
+int run_grains(GrainsAdapter& adapter, const Launch& launch);
+int run_fluid(FluidAdapter& adapter, const Launch& launch);
+
+}  // namespace turbidite

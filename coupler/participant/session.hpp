@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Drives an adapter through a run. A host code with a loop of its own (YADE) calls `start` once and
+// `step` once per window; programs without one use participant.hpp.
+//
+// Valid C++17; includes neither MPI nor any host.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "coupler/participant/adapter.hpp"
+
+namespace turbidite {
+
+class Channel;
+
+/// Who this rank is; fills the fields of Hello that the adapter cannot know.
+struct Identity {
+    int rank = 0;
+    int ranks = 1;
+    std::string log_file;
+    std::string case_hash;
+};
+
+/// How the run ended for this participant.
+struct Outcome {
+    ExitCode code = ExitCode::done;
+    std::string reason;
+};
+
+class Session {
+   public:
+    virtual ~Session();
+
+    /// Handshake, settings, initial state. False when the run is over already (refused).
+    bool start();
+
+    /// One window. False when the run is over; `outcome` tells why. An adapter's exception ends the run
+    /// for everybody, with its text.
+    bool step();
+
+    const Outcome& outcome() const;
+
+   protected:
+    Session();
+    struct Talk;
+    std::unique_ptr<Talk> talk_;
+
+   private:
+    virtual void begin() = 0;
+    virtual void play_window() = 0;
+    template <class Action>
+    bool guarded(Action action);
+};
+
+std::unique_ptr<Session> make_session(GrainsAdapter& adapter, Channel& channel, const Identity& identity);
+std::unique_ptr<Session> make_session(FluidAdapter& adapter, Channel& channel, const Identity& identity);
+
+}  // namespace turbidite

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/protocol/message.hpp"
+
+#include <utility>
+
+namespace turbidite {
+namespace {
+
+// "turbidit" read as a number: tells our frames from anybody else's on the same communicator.
+constexpr std::int64_t magic = 0x7469646962727574;
+
+const std::vector<std::pair<Kind, const char*>> kinds = {
+    {Kind::hello, "hello"},           {Kind::settings, "settings"},
+    {Kind::shapes, "shapes"},         {Kind::population, "population"},
+    {Kind::domain, "domain"},         {Kind::window, "window"},
+    {Kind::bodies, "bodies"},         {Kind::response, "response"},     {Kind::contact_input, "contact_input"},
+    {Kind::motion, "motion"},         {Kind::constraint, "constraint"},
+    {Kind::kicks, "kicks"},           {Kind::kick, "kick"},
+    {Kind::state, "state"},           {Kind::failure, "failure"},
+    {Kind::dismiss, "dismiss"},       {Kind::farewell, "farewell"},
+};
+
+}  // namespace
+
+std::string kind_name(Kind kind) {
+    for (const auto& [known, name] : kinds)
+        if (known == kind) return name;
+    return "kind " + std::to_string(static_cast<std::int32_t>(kind));
+}
+
+Bytes frame(const Message& message) {
+    Bytes out;
+    out.reserve(message.payload.size() + 6 * sizeof(std::int64_t));
+    Writer code(out);
+    code(magic);
+    code(static_cast<std::int32_t>(message.envelope.kind));
+    code(message.envelope.window);
+    code(message.envelope.iteration);
+    code(message.envelope.sequence);
+    code(static_cast<std::int64_t>(message.payload.size()));
+    out.insert(out.end(), message.payload.begin(), message.payload.end());
+    return out;
+}
+
+Message unframe(const Bytes& bytes) {
+    Reader code(bytes);
+    std::int64_t tag = 0;
+    std::int32_t kind = 0;
+    Message message;
+    code(tag);
+    if (tag != magic) throw MalformedPayload("not a frame of this protocol");
+    code(kind);
+    message.envelope.kind = static_cast<Kind>(kind);
+    code(message.envelope.window);
+    code(message.envelope.iteration);
+    code(message.envelope.sequence);
+    const std::size_t size = code.length();
+    message.payload.assign(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
+    if (bytes.size() != size + 6 * sizeof(std::int64_t))
+        throw MalformedPayload("frame of " + std::to_string(bytes.size()) + " bytes announces " +
+                               std::to_string(size));
+    return message;
+}
+
+Bytes encode(const Verdict& verdict) {
+    Bytes out;
+    Writer code(out);
+    code(verdict.exit_code);
+    code(verdict.reason);
+    return out;
+}
+
+template <>
+Verdict decode(const Bytes& in) {
+    Verdict verdict;
+    Reader code(in);
+    code(verdict.exit_code);
+    code(verdict.reason);
+    code.finish();
+    return verdict;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Every kind of message there is: its fixed number, its name, who sends it to whom. One table, linked by
+// all programs. Numbers are part of the protocol: never reuse one. Valid C++17.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/hello.hpp"
+#include "coupler/protocol/wire.hpp"
+
+namespace turbidite {
+
+enum class Kind : std::int32_t {
+    // start
+    hello = 1,       // participant → coupler   Hello
+    settings = 2,    // coupler → participant   Settings
+    shapes = 3,      // coupler → participant   ShapeTable
+    population = 4,  // coupler → grains        Motion: this rank's share at t = 0
+    domain = 5,      // fluid → coupler         Box of this rank
+    // window
+    window = 10,         // coupler → all       Window
+    bodies = 18,         // coupler → fluid     Motion at t^n, routed by place (joint)
+    response = 11,       // fluid → coupler     free responses (joint)
+    contact_input = 12,  // coupler → grains    the same, routed by id (joint)
+    motion = 13,         // grains → coupler    Motion after step 4
+    constraint = 14,     // coupler → fluid     the same, routed by place
+    kicks = 15,          // fluid → coupler     Kicks after step 5
+    kick = 16,           // coupler → grains    the same, routed by id
+    state = 17,          // grains → coupler    Motion at t^{n+1} (and once at t = 0)
+    // end
+    failure = 90,   // participant → coupler    exit code and text: I cannot go on
+    dismiss = 91,   // coupler → participant    exit code and reason: the run is over
+    farewell = 92,  // participant → coupler    everything written, about to leave
+};
+
+/// "motion"; "kind 77" for a number that is not in the table.
+std::string kind_name(Kind kind);
+
+/// Where a message stands in the run; compared with what was expected before its payload is used.
+struct Envelope {
+    Kind kind = Kind::hello;
+    std::int64_t window = -1;  ///< -1 outside the window loop
+    std::int64_t iteration = 0;
+    std::int64_t sequence = 0;  ///< counts the messages of one sender to one receiver
+};
+
+struct Message {
+    Envelope envelope;
+    Bytes payload;
+};
+
+/// A whole message as one frame of bytes, and back. `unframe` throws MalformedPayload when the
+/// frame is not one of ours.
+Bytes frame(const Message& message);
+Message unframe(const Bytes& bytes);
+
+/// What a `failure` or `dismiss` says.
+struct Verdict {
+    std::int64_t exit_code = 0;
+    std::string reason;
+};
+Bytes encode(const Verdict&);
+template <>
+Verdict decode(const Bytes&);
+
+}  // namespace turbidite

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How frames travel between the coupler and the ranks of one participant. A channel never blocks: sending
+// queues, receiving probes; who waits, waits in `Patience` below. Valid C++17.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "coupler/protocol/wire.hpp"
+
+namespace turbidite {
+
+class Channel {
+   public:
+    struct Frame {
+        int peer = 0;
+        Bytes bytes;
+    };
+
+    virtual ~Channel() = default;
+
+    /// Number of ranks at the other end.
+    virtual int peers() const = 0;
+
+    /// Takes the frame and returns at once; frames to one peer arrive in order.
+    virtual void send(int peer, Bytes bytes) = 0;
+
+    /// The next frame that has arrived, from any peer.
+    virtual std::optional<Frame> try_receive() = 0;
+
+    /// True when every frame sent has left.
+    virtual bool flushed() = 0;
+};
+
+/// Waiting that does not spin: hot for 50 us, then sleeps that grow to 400 us, so that a process
+/// that waits leaves its core to one that computes. Near the expected arrival (the duration of the last wait
+/// at the same point) sleeps are short again.
+class Patience {
+   public:
+    using Clock = std::chrono::steady_clock;
+
+    /// `expected` seconds from now; 0 when nothing is known.
+    explicit Patience(double expected = 0.0);
+
+    /// One turn of waiting.
+    void wait();
+
+    double seconds() const;
+
+   private:
+    Clock::time_point start_;
+    double expected_;
+    int sleeps_ = 0;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/transport/exchange_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+// Does [centre - reach, centre + reach] meet [lower, upper], directly or as a periodic image?
+bool meets(double centre, double reach, double lower, double upper, double period) {
+    const auto overlaps = [&](double c) { return c + reach >= lower && c - reach <= upper; };
+    return overlaps(centre) || (period > 0.0 && (overlaps(centre - period) || overlaps(centre + period)));
+}
+
+bool touches(const GrainState& grain, const Box& box, double margin, const Vec3& period) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!meets(grain.position[axis], grain.radius + margin, box.lower[axis], box.upper[axis],
+                   period[axis]))
+            return false;
+    return true;
+}
+
+void add(ContactReport& total, const ContactReport& share) {
+    total.contacts += share.contacts;
+    total.iterations = std::max(total.iterations, share.iterations);
+    total.residual = std::max(total.residual, share.residual);
+    total.converged = total.converged && share.converged;
+    total.max_penetration = std::max(total.max_penetration, share.max_penetration);
+    total.removed += share.removed;
+    total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
+}
+
+}  // namespace
+
+ExchangePlan::ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period)
+    : boxes_(std::move(fluid_boxes)), margin_(margin), period_(period) {}
+
+Motion ExchangePlan::gather(const std::vector<Motion>& shares) {
+    Motion all;
+    owner_.clear();
+    owners_ = shares.size();
+    for (std::size_t rank = 0; rank < shares.size(); ++rank) {
+        for (const GrainState& grain : shares[rank].grains)
+            if (!owner_.emplace(grain.id, static_cast<int>(rank)).second)
+                throw PhysicsRefused("grain " + std::to_string(grain.id) + " was sent twice");
+        all.grains.insert(all.grains.end(), shares[rank].grains.begin(), shares[rank].grains.end());
+        add(all.report, shares[rank].report);
+    }
+    return all;
+}
+
+std::vector<Motion> ExchangePlan::by_place(const Motion& motion) const {
+    std::vector<Motion> routed(boxes_.size());
+    for (std::size_t rank = 0; rank < boxes_.size(); ++rank) {
+        routed[rank].report = motion.report;
+        for (const GrainState& grain : motion.grains)
+            if (touches(grain, boxes_[rank], margin_, period_))
+                routed[rank].grains.push_back(grain);
+    }
+    return routed;
+}
+
+template <class Record>
+std::vector<std::vector<Record>> ExchangePlan::by_owner(const std::vector<Record>& records) const {
+    std::vector<std::vector<Record>> routed(owners_);
+    std::unordered_map<GrainId, int> missing = owner_;
+    for (const Record& record : records) {
+        const auto at = missing.find(record.id);
+        if (at == missing.end())
+            throw PhysicsRefused("the fluid answered for grain " + std::to_string(record.id) +
+                                 (owner_.count(record.id) ? " twice" : ", which nobody owns"));
+        routed[at->second].push_back(record);
+        missing.erase(at);
+    }
+    if (!missing.empty())
+        throw PhysicsRefused("the fluid did not answer for " + std::to_string(missing.size()) +
+                             " grains, among them " + std::to_string(missing.begin()->first) +
+                             ": is it outside the fluid's domain?");
+    return routed;
+}
+
+template std::vector<std::vector<Kick>> ExchangePlan::by_owner(const std::vector<Kick>&) const;
+template std::vector<std::vector<FreeResponse>> ExchangePlan::by_owner(
+    const std::vector<FreeResponse>&) const;
+
+std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks) {
+    std::vector<GrainState> sorted = population;
+    if (ranks > 1)
+        std::stable_sort(sorted.begin(), sorted.end(), [](const GrainState& a, const GrainState& b) {
+            return a.position[0] < b.position[0];
+        });
+    std::vector<Motion> shares(ranks);
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        shares[i * ranks / sorted.size()].grains.push_back(sorted[i]);
+    return shares;
+}
+
+}  // namespace turbidite

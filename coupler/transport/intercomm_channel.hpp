@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A channel over an MPI intercommunicator between the coupler and a participant.
+#pragma once
+
+#include <mpi.h>
+
+#include <list>
+
+#include "coupler/transport/channel.hpp"
+
+namespace turbidite {
+
+class IntercommChannel final : public Channel {
+   public:
+    /// Does not own the communicator.
+    explicit IntercommChannel(MPI_Comm intercomm);
+
+    int peers() const override { return peers_; }
+    void send(int peer, Bytes bytes) override;
+    std::optional<Frame> try_receive() override;
+    bool flushed() override;
+
+   private:
+    struct Pending {
+        Bytes bytes;
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+    MPI_Comm intercomm_;
+    int peers_ = 0;
+    std::list<Pending> pending_;  // frames that MPI still reads from
+};
+
+}  // namespace turbidite

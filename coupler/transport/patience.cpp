@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
+#include <thread>
+
+#include "coupler/transport/channel.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double hot = 50e-6;       // [s] spinning first: most answers on a quiet machine
+constexpr int shortest_sleep = 20;  // [us]
+constexpr int longest_sleep = 400;  // [us] bounds the delay a sleeper adds to a window
+
+}  // namespace
+
+Patience::Patience(double expected) : start_(Clock::now()), expected_(expected) {}
+
+double Patience::seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void Patience::wait() {
+    const double waited = seconds();
+    if (waited < hot) return;
+    int sleep = std::min(shortest_sleep << std::min(sleeps_++, 5), longest_sleep);
+    const bool near_arrival = expected_ > 0.0 && waited > 0.9 * expected_ && waited < 1.2 * expected_;
+    if (near_arrival) sleep = shortest_sleep;
+    std::this_thread::sleep_for(std::chrono::microseconds(sleep));
+}
+
+}  // namespace turbidite

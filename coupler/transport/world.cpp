@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/transport/world.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "coupler/protocol/failure.hpp"
+#include "coupler/transport/channel.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr int first_colour = 1000;  // private: 3 is YADE's, 1 EOF-Library's, small ones APPNUMs
+constexpr int announcement_tag = 1000;
+constexpr int intercomm_tag = 1010;  // + role
+
+}  // namespace
+
+MpiEnvironment::MpiEnvironment(int* argc, char*** argv) {
+    int running = 0;
+    PMPI_Initialized(&running);
+    if (running) return;
+    int provided = 0;
+    PMPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
+    ours_ = true;
+}
+
+MpiEnvironment::~MpiEnvironment() {
+    int finalized = 0;
+    PMPI_Finalized(&finalized);
+    if (ours_ && !finalized) PMPI_Finalize();
+}
+
+MPI_Comm split_world(Role role) {
+    MPI_Comm local = MPI_COMM_NULL;
+    PMPI_Comm_split(MPI_COMM_WORLD, first_colour + static_cast<int>(role), 0, &local);
+    return local;
+}
+
+MPI_Comm join_coupler(MPI_Comm local, Role role) {
+    int rank = 0, ranks = 0;
+    PMPI_Comm_rank(local, &rank);
+    PMPI_Comm_size(local, &ranks);
+    if (rank == 0) {
+        const std::array<int, 2> announcement = {static_cast<int>(role), ranks};
+        PMPI_Send(announcement.data(), 2, MPI_INT, 0, announcement_tag, MPI_COMM_WORLD);
+    }
+    MPI_Comm intercomm = MPI_COMM_NULL;
+    PMPI_Intercomm_create(local, 0, MPI_COMM_WORLD, 0, intercomm_tag + static_cast<int>(role),
+                          &intercomm);
+    return intercomm;
+}
+
+JoinedParticipant accept_participant(MPI_Comm local, double limit) {
+    MPI_Status status;
+    int arrived = 0;
+    for (Patience patience; !arrived; patience.wait()) {
+        PMPI_Iprobe(MPI_ANY_SOURCE, announcement_tag, MPI_COMM_WORLD, &arrived, &status);
+        if (!arrived && patience.seconds() > limit)
+            throw Failure(ExitCode::stalled, "no participant announced itself for " +
+                                                 std::to_string(static_cast<int>(limit)) +
+                                                 " s; look at its log in logs/");
+    }
+    std::array<int, 2> announcement{};
+    PMPI_Recv(announcement.data(), 2, MPI_INT, status.MPI_SOURCE, announcement_tag, MPI_COMM_WORLD,
+              MPI_STATUS_IGNORE);
+    JoinedParticipant joined;
+    joined.role = static_cast<Role>(announcement[0]);
+    joined.ranks = announcement[1];
+    PMPI_Intercomm_create(local, 0, MPI_COMM_WORLD, status.MPI_SOURCE,
+                          intercomm_tag + announcement[0], &joined.intercomm);
+    return joined;
+}
+
+struct StartWatch::State {
+    std::atomic<bool> armed{true};
+};
+
+StartWatch::StartWatch(double limit, const char* text) : state_(std::make_shared<State>()) {
+    std::thread([state = state_, limit, text = std::string(text)] {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
+        while (state->armed && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        if (!state->armed) return;
+        std::fprintf(stderr, "turbidite: %s\n", text.c_str());
+        _exit(static_cast<int>(ExitCode::stalled));
+    }).detach();
+}
+
+StartWatch::~StartWatch() { disarm(); }
+void StartWatch::disarm() { state_->armed = false; }
+
+}  // namespace turbidite

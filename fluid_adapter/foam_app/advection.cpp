@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/advection.hpp"
+
+#include <fvcDiv.H>
+
+namespace turbidite {
+
+void advect(FluidFields& fields) {
+    const Foam::tmp<Foam::volVectorField> change = Foam::fvc::div(fields.phi, fields.U, "div(phi,U)");
+    fields.U -= fields.time.deltaT() * change;
+    fields.U.correctBoundaryConditions();
+}
+
+}  // namespace turbidite

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/createFields.hpp"
+
+#include <IOdictionary.H>
+#include <fvcFlux.H>
+#include <fvcSurfaceIntegrate.H>
+
+namespace turbidite {
+namespace {
+
+Foam::fileName parent_of(const std::filesystem::path& directory) {
+    return Foam::fileName(std::filesystem::absolute(directory).lexically_normal().parent_path().string());
+}
+
+Foam::fileName name_of(const std::filesystem::path& directory) {
+    return Foam::fileName(std::filesystem::absolute(directory).lexically_normal().filename().string());
+}
+
+Foam::IOobject stored(const Foam::fvMesh& mesh, const char* name, Foam::IOobject::readOption read,
+                      Foam::IOobject::writeOption write) {
+    return Foam::IOobject(name, mesh.time().timeName(), mesh, read, write);
+}
+
+Foam::IOdictionary transport_properties(const Foam::fvMesh& mesh) {
+    return Foam::IOdictionary(Foam::IOobject("transportProperties", mesh.time().constant(), mesh,
+                                             Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE));
+}
+
+}  // namespace
+
+FluidFields::FluidFields(const std::filesystem::path& directory)
+    : time(Foam::Time::controlDictName, parent_of(directory), name_of(directory)),
+      mesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time.timeName(), time,
+                          Foam::IOobject::MUST_READ)),
+      p(stored(mesh, "p", Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE), mesh),
+      U(stored(mesh, "U", Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE), mesh),
+      lambda(stored(mesh, "lambda", Foam::IOobject::NO_READ, Foam::IOobject::AUTO_WRITE), mesh,
+             Foam::dimensionedVector(Foam::dimForce / Foam::dimVolume, Foam::Zero)),
+      phi(stored(mesh, "phi", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
+          Foam::fvc::flux(U)),
+      thickness(mesh.bounds().span().z()) {
+    const Foam::IOdictionary properties = transport_properties(mesh);
+    nu = Foam::dimensionedScalar("nu", Foam::dimViscosity, properties).value();
+    rho = Foam::dimensionedScalar("rho", Foam::dimDensity, properties).value();
+}
+
+void FluidFields::interpolate_flux() { phi = Foam::fvc::flux(U); }
+
+Foam::scalar FluidFields::largest_divergence() const {
+    Foam::scalarField sum(mesh.nCells(), 0.0);
+    Foam::fvc::surfaceIntegrate(sum, phi);
+    return Foam::gMax(Foam::mag(sum)());
+}
+
+Foam::scalar FluidFields::courant() const {
+    const Foam::tmp<Foam::volScalarField> sum = Foam::fvc::surfaceSum(Foam::mag(phi));
+    return 0.5 * time.deltaTValue() * Foam::gMax((sum().primitiveField() / mesh.V().field())());
+}
+
+Foam::vector FluidFields::momentum() const {
+    return rho / thickness * Foam::gSum((mesh.V().field() * U.primitiveField())());
+}
+
+}  // namespace turbidite

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The OpenFOAM case as objects: time, mesh, fields, constants.
+//
+//     U       velocity u at cell centres [m/s]
+//     phi     its flux through the faces [m3/s]
+//     p       reduced pressure over rho_f [m2/s2]
+//     lambda  force density of the fluid on the grains, of the last window [N/m3], output only
+#pragma once
+
+#include <fvMesh.H>
+#include <surfaceFields.H>
+#include <volFields.H>
+
+#include <filesystem>
+
+namespace turbidite {
+
+struct FluidFields {
+    /// Reads the case; throws Foam::error.
+    explicit FluidFields(const std::filesystem::path& directory);
+
+    Foam::Time time;
+    Foam::fvMesh mesh;
+    Foam::volScalarField p;
+    Foam::volVectorField U;
+    Foam::volVectorField lambda;
+    Foam::surfaceScalarField phi;
+    Foam::scalar nu;         ///< [m2/s]
+    Foam::scalar rho;        ///< rho_f [kg/m3]
+    Foam::scalar thickness;  ///< of the layer of cells [m]: integrals over it are per unit length
+
+    /// phi from U by interpolation: what a projection starts from.
+    void interpolate_flux();
+
+    /// max |div phi| over all cells [1/s].
+    Foam::scalar largest_divergence() const;
+
+    /// Largest Courant number of phi.
+    Foam::scalar courant() const;
+
+    /// Momentum of all fluid [N s/m].
+    Foam::vector momentum() const;
+};
+
+}  // namespace turbidite

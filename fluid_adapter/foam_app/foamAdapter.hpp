@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The fluid participant on OpenFOAM: the five adapter functions over the steps of the scheme (design:
+// Topin 2011, section 2.2). No OpenFOAM type appears here, so that tests can drive it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/multiplier/collocation_points.hpp"
+
+namespace turbidite {
+
+/// Time spent in the parts of a window [s], and what the multiplier step saw.
+struct FluidTimings {
+    double projection = 0.0, transport = 0.0, viscosity = 0.0, points = 0.0, multipliers = 0.0,
+           output = 0.0;
+};
+
+class FoamAdapter final : public FluidAdapter {
+   public:
+    /// `directory`: the OpenFOAM case.
+    explicit FoamAdapter(std::filesystem::path directory);
+    ~FoamAdapter() override;
+
+    Hello describe() const override;
+    Box initialise(const Settings& settings, const ShapeTable& shapes) override;
+    void advance(const Window& window) override;
+    std::vector<FreeResponse> respond(const Window& window,
+                                      const std::vector<GrainState>& grains) override;
+    Kicks impose(const Window& window, const std::vector<GrainState>& grains) override;
+    SavedState save() const override;
+    void restore(const SavedState& state) override;
+
+    /// Of the last window.
+    const FluidTimings& timings() const;
+    const CollocationPoints& points() const;
+
+    /// Sets u = (x, y) everywhere: initial conditions of tests and of restarts by hand.
+    void set_uniform_velocity(double x, double y);
+
+    /// u at a cell of the grid [m/s].
+    Vec3 velocity(int i, int j) const;
+
+   private:
+    struct State;
+    std::filesystem::path directory_;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace turbidite

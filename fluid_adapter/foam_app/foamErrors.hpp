@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// OpenFOAM's fatal errors as exceptions of ours, with OpenFOAM's text.
+#pragma once
+
+#include <error.H>
+
+#include <string>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+/// Calls `work`; what OpenFOAM throws becomes a Failure (exit code 4) that names what was going on.
+template <class Work>
+auto with_foam_errors(const std::string& doing, Work work) {
+    try {
+        return work();
+    } catch (const Foam::error& error) {
+        throw Failure(ExitCode::participant_failed,
+                      "OpenFOAM, " + doing + ": " + error.message());
+    }
+}
+
+}  // namespace turbidite

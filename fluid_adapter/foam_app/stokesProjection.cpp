@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/stokesProjection.hpp"
+
+#include <fvcGrad.H>
+#include <fvcSurfaceIntegrate.H>
+
+namespace turbidite {
+namespace {
+
+/// Divergence below this share of the goal is rounding: it has no pressure worth solving for.
+constexpr Foam::scalar rounding = 1e-7;
+
+/// The tolerance is a mean over cells, the goal a maximum: a few tightenings bridge them.
+constexpr int attempts = 4;
+
+}  // namespace
+
+StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal)
+    : fields_(fields),
+      goal_(goal),
+      solver_(std::make_unique<MatrixPressureSolver>(fields.p)),
+      given_("givenPhi", fields.phi) {}
+
+Foam::scalar StokesProjection::project() {
+    Foam::scalar divergence = fields_.largest_divergence();
+    if (divergence <= rounding * goal_) {
+        fields_.p = Foam::dimensionedScalar(fields_.p.dimensions(), Foam::Zero);
+        return divergence;
+    }
+    given_ = fields_.phi;
+    const Foam::dimensionedScalar dt = fields_.time.deltaT();
+    Foam::scalarField f(fields_.mesh.nCells(), 0.0);
+    Foam::fvc::surfaceIntegrate(f, given_);
+    f *= fields_.mesh.V().field() / dt.value();
+    Foam::scalar tighter = 1.0;
+    for (int attempt = 0; attempt < attempts; ++attempt, tighter *= 0.1) {
+        solver_->solve(f, tighter);
+        fields_.phi = given_ - dt * solver_->gradient_flux();
+        divergence = fields_.largest_divergence();
+        if (divergence <= goal_) break;
+    }
+    fields_.U -= dt * Foam::fvc::grad(fields_.p);
+    fields_.U.correctBoundaryConditions();
+    return divergence;
+}
+
+}  // namespace turbidite

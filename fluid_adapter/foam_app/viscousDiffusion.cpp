@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/viscousDiffusion.hpp"
+
+#include <fvmLaplacian.H>
+#include <fvmSup.H>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+void MatrixViscousSolver::assemble(Foam::scalar dt) {
+    const Foam::dimensionedScalar rate("rate", Foam::dimless / Foam::dimTime, 1.0 / dt);
+    const Foam::dimensionedScalar nu("nu", Foam::dimViscosity, nu_);
+    matrix_ = std::make_unique<Foam::fvVectorMatrix>(Foam::fvm::Sp(rate, U_) -
+                                                     Foam::fvm::laplacian(nu, U_));
+    assembled_for_ = dt;
+}
+
+void MatrixViscousSolver::solve(Foam::scalar dt) {
+    if (assembled_for_ != dt) assemble(dt);
+    matrix_->source() = U_.mesh().V().field() / dt * U_.primitiveField();
+    const Foam::dictionary& controls = U_.mesh().solverDict(U_.name());
+    const auto result = matrix_->solve(controls);
+    // A vector's convergence flag is never set in this version: the cap on iterations tells.
+    const Foam::label most = controls.getOrDefault<Foam::label>("maxIter", 1000);
+    if (Foam::cmptMax(result.nIterations()) >= most)
+        throw PhysicsRefused("the viscous solver did not converge in " + std::to_string(most) +
+                             " iterations");
+}
+
+}  // namespace turbidite

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/foam_case/fluid_case.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/foam_case/fluid_domain.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string header(const std::string& type, const std::string& location, const std::string& name) {
+    return fmt::format(
+        "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {};\n"
+        "    location    \"{}\";\n    object      {};\n}}\n\n",
+        type, location, name);
+}
+
+void write(const std::filesystem::path& directory, const std::string& location,
+           const std::string& name, const std::string& type, const std::string& body) {
+    const std::filesystem::path folder = directory / location;
+    std::filesystem::create_directories(folder);
+    std::ofstream file(folder / name);
+    file << header(type, location, name) << body;
+    file.close();
+    if (!file)
+        throw Failure(ExitCode::participant_failed, "cannot write " + (folder / name).string());
+}
+
+std::string control_dict(const Settings& settings) {
+    const double step = settings.real("run.step");
+    const double end = step * static_cast<double>(settings.integer("run.windows"));
+    // Fields are written when the coupler says so; OpenFOAM's own interval is out of reach.
+    return fmt::format(
+        "application     turbidite-fluid;\n"
+        "startFrom       startTime;\n"
+        "startTime       0;\n"
+        "stopAt          endTime;\n"
+        "endTime         {:.17g};\n"
+        "deltaT          {:.17g};\n"
+        "writeControl    timeStep;\n"
+        "writeInterval   2000000000;\n"
+        "purgeWrite      0;\n"
+        "writeFormat     binary;\n"
+        "writePrecision  10;\n"
+        "writeCompression off;\n"
+        "timeFormat      general;\n"
+        "timePrecision   10;\n"
+        "runTimeModifiable no;\n",
+        end, step);
+}
+
+std::string schemes(const Settings& settings) {
+    return fmt::format(
+        "ddtSchemes           {{ default Euler; }}\n"
+        "gradSchemes          {{ default Gauss linear; }}\n"
+        "divSchemes           {{ default none; div(phi,U) {}; }}\n"
+        "laplacianSchemes     {{ default Gauss linear orthogonal; }}\n"
+        "interpolationSchemes {{ default linear; }}\n"
+        "snGradSchemes        {{ default orthogonal; }}\n",
+        settings.text("fluid.transport_scheme"));
+}
+
+std::string pressure_solver(const std::string& name) {
+    if (name == "GAMG")
+        return "solver GAMG; smoother GaussSeidel; nPreSweeps 0; nPostSweeps 2; "
+               "nCellsInCoarsestLevel 20;";
+    if (name == "PCG") return "solver PCG; preconditioner DIC;";
+    throw Failure(ExitCode::bad_input,
+                  "fluid.pressure_solver = \"" + name + "\"; allowed are GAMG, PCG");
+}
+
+/// Tolerances are OpenFOAM's normalised residuals, thus relative to the problem's own size; a
+/// relTol would be relative to the quality of the first guess instead.
+std::string solution(const Settings& settings) {
+    return fmt::format(
+        "solvers\n{{\n"
+        "    p {{ {} tolerance {:.17g}; relTol 0; maxIter 2000; }}\n"
+        "    U {{ solver PCG; preconditioner DIC; tolerance {:.17g}; relTol 0; maxIter 1000; }}\n"
+        "}}\n",
+        pressure_solver(settings.text("fluid.pressure_solver")),
+        settings.real("fluid.pressure_tolerance"), settings.real("fluid.viscous_tolerance"));
+}
+
+std::string patch(const FluidDomain& domain, int side) {
+    static const char* faces[] = {"(0 4 7 3)", "(1 2 6 5)", "(0 1 5 4)", "(3 7 6 2)"};
+    const std::string& kind = domain.sides[side];
+    std::string type = kind == "wall" ? "wall" : "patch";
+    if (kind == "cyclic")  // partners: left-right, bottom-top
+        type = fmt::format("cyclic; neighbourPatch {}", side_names[side ^ 1]);
+    return fmt::format("    {} {{ type {}; faces ({}); }}\n", side_names[side], type, faces[side]);
+}
+
+std::string block_mesh(const FluidDomain& domain) {
+    std::string vertices;
+    for (double z : {0.0, domain.thickness})
+        for (const auto& [x, y] : {std::pair{0.0, 0.0}, {domain.size[0], 0.0},
+                                   {domain.size[0], domain.size[1]}, {0.0, domain.size[1]}})
+            vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
+    std::string patches;
+    for (int side = 0; side < 4; ++side) patches += patch(domain, side);
+    return fmt::format(
+        "scale 1;\nvertices\n(\n{});\n"
+        "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} 1) simpleGrading (1 1 1) );\n"
+        "edges ();\nboundary\n(\n{}"
+        "    frontAndBack {{ type empty; faces ((0 3 2 1) (4 5 6 7)); }}\n);\n",
+        vertices, domain.cells[0], domain.cells[1], patches);
+}
+
+std::string decomposition(const Settings& settings) {
+    const std::int64_t ranks = settings.integer("fluid.ranks");
+    return fmt::format(
+        "numberOfSubdomains {};\nmethod simple;\ncoeffs {{ n (1 {} 1); delta 0.001; }}\n", ranks,
+        ranks);
+}
+
+std::string boundary_field(const FluidDomain& domain, const std::string& at_wall,
+                           const std::string& at_free) {
+    std::string text = "boundaryField\n{\n";
+    for (int side = 0; side < 4; ++side) {
+        const std::string& kind = domain.sides[side];
+        const std::string& value = kind == "wall" ? at_wall : kind == "free" ? at_free : "type cyclic;";
+        text += fmt::format("    {} {{ {} }}\n", side_names[side], value);
+    }
+    return text + "    frontAndBack { type empty; }\n}\n";
+}
+
+std::string initial_velocity(const FluidDomain& domain) {
+    return "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\n" +
+           boundary_field(domain, "type noSlip;", "type zeroGradient;");
+}
+
+std::string initial_pressure(const FluidDomain& domain) {
+    return "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\n" +
+           boundary_field(domain, "type zeroGradient;", "type fixedValue; value uniform 0;");
+}
+
+std::string transport_properties(const Settings& settings) {
+    return fmt::format(
+        "transportModel Newtonian;\nnu  [0 2 -1 0 0 0 0] {:.17g};\nrho [1 -3 0 0 0 0 0] {:.17g};\n",
+        settings.real("run.viscosity"), settings.real("run.fluid_density"));
+}
+
+}  // namespace
+
+void write_fluid_case(const Settings& settings, const std::filesystem::path& directory) {
+    const FluidDomain domain = fluid_domain(settings);
+    write(directory, "system", "controlDict", "dictionary", control_dict(settings));
+    write(directory, "system", "fvSchemes", "dictionary", schemes(settings));
+    write(directory, "system", "fvSolution", "dictionary", solution(settings));
+    write(directory, "system", "blockMeshDict", "dictionary", block_mesh(domain));
+    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings));
+    write(directory, "constant", "transportProperties", "dictionary",
+          transport_properties(settings));
+    write(directory, "0", "U", "volVectorField", initial_velocity(domain));
+    write(directory, "0", "p", "volScalarField", initial_pressure(domain));
+    // ParaView's reader opens a case through an empty file of this name.
+    std::ofstream(directory / "fluid.foam");
+}
+
+}  // namespace turbidite

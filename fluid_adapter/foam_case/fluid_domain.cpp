@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/foam_case/fluid_domain.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Three layers let the widest stencil stand beside a wall.
+constexpr int least_cells = 4;
+
+int cell_count(const Settings& settings, const std::string& key, double size) {
+    const double per_length =
+        settings.real("fluid.cells_per_diameter") / settings.real("run.diameter");
+    const double cells = std::round(size * per_length);
+    if (!(cells >= least_cells && cells < 1e6))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{} = {} gives {} cells; allowed are {} to a million: change "
+                                  "domain.size or fluid.cells_per_diameter",
+                                  key, size, cells, least_cells));
+    return static_cast<int>(cells);
+}
+
+std::string side(const Settings& settings, const std::string& name) {
+    const std::string value = settings.text("domain." + name);
+    if (value != "wall" && value != "free" && value != "cyclic")
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("domain.{} = \"{}\"; allowed are wall, free, cyclic", name, value));
+    return value;
+}
+
+void check_pair(const FluidDomain& domain, int first, int second) {
+    if ((domain.sides[first] == "cyclic") != (domain.sides[second] == "cyclic"))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("domain.{} = {} and domain.{} = {}: cyclic sides come in pairs",
+                                  side_names[first], domain.sides[first], side_names[second],
+                                  domain.sides[second]));
+}
+
+}  // namespace
+
+FluidDomain fluid_domain(const Settings& settings) {
+    FluidDomain domain;
+    domain.size = {settings.real("run.size_x"), settings.real("run.size_y")};
+    domain.cells = {cell_count(settings, "run.size_x", domain.size[0]),
+                    cell_count(settings, "run.size_y", domain.size[1])};
+    domain.thickness = domain.size[0] / domain.cells[0];
+    for (int i = 0; i < 4; ++i) domain.sides[i] = side(settings, side_names[i]);
+    check_pair(domain, 0, 1);
+    check_pair(domain, 2, 3);
+    return domain;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The points at which the fluid must move with the grain (Topin 2011, Eq. 10), on the disc of radius
+// R_h. Two kinds:
+//
+//   interior   a cell centre inside the grain: u there is the cell's velocity
+//   boundary   a point of the surface: u there is interpolated from 3 x 3 cells which reach into the
+//              fluid (quadratic, chosen by the outward normal), or 2 x 2 where those leave the grid
+//
+// Rules, in this order. Rules 1-3 look at all candidates and not at survivors, so that the outcome does
+// not depend on how the grains are numbered.
+//
+//   1. A boundary point nearer than 2 cells to a wall is dropped.
+//   2. A boundary point inside another grain is dropped.
+//   3. Two boundary points of different grains nearer than the point spacing are both dropped.
+//   4. A boundary point whose 2 x 2 cells leave the grid is dropped.
+//   5. A cell centre inside several grains belongs to the one in which it lies deepest (smallest
+//      distance from the centre over R_h; the smaller id if equal).
+//   6. A cell used by a boundary point that is left, of whatever grain, is no interior point.
+//
+// With several ranks each looks at all grains it holds and keeps the points in cells it owns.
+// Valid C++17.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fluid_adapter/multiplier/fluid_field.hpp"
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+
+namespace turbidite {
+
+struct PointRules {
+    bool boundary = true;        ///< place boundary points at all
+    double spacing = 1.5;        ///< between boundary points, and rule 3 [cells]
+    double wall_distance = 2.0;  ///< rule 1 [cells]
+};
+
+/// How many boundary points each rule took.
+struct DroppedPoints {
+    int near_wall = 0;
+    int inside_grain = 0;
+    int near_point = 0;
+    int off_grid = 0;
+};
+
+/// Points of grain g are begin[g] .. begin[g+1]-1, interior ones first. The cells of point p are
+/// stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last one's memory.
+struct CollocationPoints {
+    std::vector<int> begin;
+    std::vector<int> boundary_begin;
+    std::vector<double> arm_x, arm_y;  ///< r = x - X [m]
+    std::vector<int> stencil;
+    std::vector<int> cell;
+    std::vector<double> weight;
+    std::vector<int> touched;  ///< every cell used, once
+    DroppedPoints dropped;
+
+    int size() const { return static_cast<int>(arm_x.size()); }
+    int grains() const { return static_cast<int>(begin.size()) - 1; }
+};
+
+/// Places the points of all grains.
+class PointPlacement {
+   public:
+    explicit PointPlacement(const PointRules& rules) : rules_(rules) {}
+
+    void place(const FluidField& field, const std::vector<ImmersedGrain>& grains,
+               CollocationPoints& points);
+
+   private:
+    enum class Fate : char { kept, near_wall, inside_grain, near_point, off_grid };
+
+    struct Candidate {
+        Eigen::Vector3d arm;     // from the grain's centre
+        Eigen::Vector3d normal;  // outward
+        Fate fate = Fate::kept;
+        std::array<int, 9> cell{};
+        std::array<double, 9> weight{};
+        int cells = 0;
+        bool owned = false;
+    };
+
+    void find_candidates(const FluidField& field, const std::vector<ImmersedGrain>& grains);
+    void apply_wall_rule(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
+    void apply_grain_rules(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
+    void compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b);
+    void build_stencils(const FluidField& field, const std::vector<ImmersedGrain>& grains);
+    void claim_cells(const FluidField& field, const std::vector<ImmersedGrain>& grains);
+    void collect(const FluidField& field, const std::vector<ImmersedGrain>& grains,
+                 CollocationPoints& points);
+    void collect_interior(const FluidField& field, const ImmersedGrain& grain, int g,
+                          CollocationPoints& points) const;
+    void collect_boundary(int g, CollocationPoints& points) const;
+    void count_dropped(CollocationPoints& points) const;
+    void list_touched(int local_cells, CollocationPoints& points);
+
+    PointRules rules_;
+    std::vector<int> first_;  // first candidate of each grain
+    std::vector<Candidate> candidates_;
+    std::vector<int> owner_;      // grain that claims a cell, -1 none
+    std::vector<double> depth_;   // its squared relative distance
+    std::vector<char> stencilled_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/neighbours.hpp"
+
+#include <algorithm>
+
+namespace turbidite {
+namespace {
+
+/// Square bins at least as wide as the reach of an interaction.
+class Bins {
+   public:
+    Bins(const CellGrid& grid, double reach) : grid_(grid) {
+        for (int axis = 0; axis < grid.dimension; ++axis)
+            counts_[axis] = std::max(1, static_cast<int>(grid.length(axis) / reach));
+        lists_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
+    }
+
+    void add(int grain, const Eigen::Vector3d& position) {
+        lists_[number(place(position))].push_back(grain);
+    }
+
+    /// Numbers of the bins around a position, each once even where the grid is two bins wide.
+    const std::vector<int>& around(const Eigen::Vector3d& position) {
+        near_.clear();
+        const std::array<int, 3> centre = place(position);
+        const int deep = grid_.dimension == 3 ? 1 : 0;
+        for (int k = -deep; k <= deep; ++k)
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) add_near({centre[0] + i, centre[1] + j, centre[2] + k});
+        std::sort(near_.begin(), near_.end());
+        near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+        return near_;
+    }
+
+    const std::vector<int>& grains(int bin) const { return lists_[bin]; }
+
+   private:
+    std::array<int, 3> place(const Eigen::Vector3d& position) const {
+        std::array<int, 3> index{0, 0, 0};
+        for (int axis = 0; axis < grid_.dimension; ++axis) {
+            double part = (position[axis] - grid_.origin[axis]) / grid_.length(axis);
+            if (grid_.cyclic(axis)) part -= std::floor(part);
+            const int i = static_cast<int>(std::floor(part * counts_[axis]));
+            index[axis] = std::clamp(i, 0, counts_[axis] - 1);
+        }
+        return index;
+    }
+
+    void add_near(std::array<int, 3> index) {
+        for (int axis = 0; axis < grid_.dimension; ++axis) {
+            const int n = counts_[axis];
+            if (grid_.cyclic(axis)) index[axis] = (index[axis] + n) % n;
+            if (index[axis] < 0 || index[axis] >= n) return;
+        }
+        near_.push_back(number(index));
+    }
+
+    int number(const std::array<int, 3>& index) const {
+        return index[0] + counts_[0] * (index[1] + counts_[1] * index[2]);
+    }
+
+    const CellGrid& grid_;
+    std::array<int, 3> counts_{1, 1, 1};
+    std::vector<std::vector<int>> lists_;
+    std::vector<int> near_;
+};
+
+double largest_radius(const std::vector<ImmersedGrain>& grains) {
+    double radius = 0.0;
+    for (const ImmersedGrain& grain : grains) radius = std::max(radius, grain.radius);
+    return radius;
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> near_pairs(const CellGrid& grid,
+                                            const std::vector<ImmersedGrain>& grains,
+                                            double margin) {
+    std::vector<std::pair<int, int>> pairs;
+    if (grains.size() < 2) return pairs;
+    Bins bins(grid, 2.0 * largest_radius(grains) + margin);
+    for (std::size_t b = 0; b < grains.size(); ++b) {
+        // Earlier grains only: each pair is met once, from its later member.
+        for (int bin : bins.around(grains[b].position))
+            for (int a : bins.grains(bin)) {
+                const Eigen::Vector3d apart =
+                    grid.nearest_image(grains[b].position - grains[a].position);
+                const double reach = grains[a].radius + grains[b].radius + margin;
+                if (apart.squaredNorm() < reach * reach) pairs.emplace_back(a, static_cast<int>(b));
+            }
+        bins.add(static_cast<int>(b), grains[b].position);
+    }
+    return pairs;
+}
+
+}  // namespace turbidite

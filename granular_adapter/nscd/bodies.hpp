@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// State of all bodies as arrays, one entry per body in each.
+//
+//     position      q, the detection configuration of the theta-scheme [m]
+//     mass          inertia that the contact problem sees: M when dry, c M when immersed [kg]
+//     inertia       moment about z, dry or immersed alike [kg m2]
+//     weight_mass   weight over g: M when dry, M - rho_f V when immersed [kg]
+//     force,torque  loads beside weight and contacts, constant over a step [N, N m]
+//
+// In two dimensions z components of vectors are zero and only the z component of spin is used.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite::nscd {
+
+/// Velocity and spin of one body.
+struct Twist {
+    Vec3 velocity{};  ///< [m/s]
+    Vec3 spin{};      ///< [rad/s]
+};
+
+/// One body, as it is added.
+struct Body {
+    GrainId id = 0;
+    std::int32_t shape = 0;  ///< index into the ShapeTable
+    double radius = 0.0;     ///< circumscribed [m]
+    double density = 0.0;    ///< [kg/m3]
+    double mass = 0.0;
+    double inertia = 0.0;
+    double weight_mass = 0.0;
+    Vec3 position{};
+    Quaternion orientation{1.0, 0.0, 0.0, 0.0};
+    Twist twist;
+    bool fixed = false;             ///< takes part in contacts, never accelerates
+    bool rotation_blocked = false;  ///< translates only
+};
+
+/// Plain arrays: hosts may overwrite any value between two steps.
+struct Bodies {
+    std::vector<GrainId> id;
+    std::vector<std::int32_t> shape;
+    std::vector<double> radius;
+    std::vector<double> density;
+    std::vector<double> mass;
+    std::vector<double> inertia;
+    std::vector<double> weight_mass;
+    std::vector<Vec3> position;
+    std::vector<Quaternion> orientation;
+    std::vector<Twist> twist;
+    std::vector<Vec3> force;
+    std::vector<Vec3> torque;
+    std::vector<std::uint8_t> fixed;
+    std::vector<std::uint8_t> rotation_blocked;
+    std::vector<Vec3> contact_impulse;          ///< of the last step, summed [N s]
+    std::vector<Vec3> contact_angular_impulse;  ///< about the centre [N m s]
+
+    std::size_t size() const { return id.size(); }
+
+    /// Zero for fixed bodies, which no impulse moves [1/kg, 1/(kg m2)].
+    double inverse_mass(std::size_t i) const { return fixed[i] ? 0.0 : 1.0 / mass[i]; }
+    double inverse_inertia(std::size_t i) const {
+        return fixed[i] || rotation_blocked[i] ? 0.0 : 1.0 / inertia[i];
+    }
+
+    void add(const Body& body);
+
+    /// Drops every body whose entry is zero; the others keep their order.
+    void keep(const std::vector<std::uint8_t>& mask);
+
+    /// Calls visit(array) for every array, always in the same order: adding a state variable is one
+    /// more line here, and removal and restart know it.
+    template <class Self, class Visit>
+    static void for_each_array(Self& self, Visit&& visit) {
+        visit(self.id), visit(self.shape), visit(self.radius), visit(self.density);
+        visit(self.mass), visit(self.inertia), visit(self.weight_mass);
+        visit(self.position), visit(self.orientation), visit(self.twist);
+        visit(self.force), visit(self.torque), visit(self.fixed), visit(self.rotation_blocked);
+        visit(self.contact_impulse), visit(self.contact_angular_impulse);
+    }
+};
+
+}  // namespace turbidite::nscd

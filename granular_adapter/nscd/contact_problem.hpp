@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The contact problem of one step as plain data.
+//
+//     v = v_free + M^-1 H r        velocities of the bodies            [m/s, rad/s]
+//     u = H^T v + b                contact velocities, (n, t) frame     [m/s]
+//     0 <= u_n  perp  r_n >= 0     Signorini, on velocities and gaps at once (b_n holds g/dt)
+//     |r_t| <= mu r_n, and r_t = -mu r_n u_t/|u_t| unless u_t = 0       Coulomb
+//
+// r [N s] are impulses over the step; body b receives +r, body a (if any) -r. Vectors in contact
+// frames have three components (n, t, s); in two dimensions s is zero. Nothing here knows shapes,
+// laws or solvers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "granular_adapter/nscd/bodies.hpp"
+
+namespace turbidite::nscd {
+
+/// In the contact frame (n, t, s).
+using Impulses = std::vector<Vec3>;
+
+struct BodyMobility {
+    double inverse_mass = 0.0;     ///< zero: the body does not move [1/kg]
+    double inverse_inertia = 0.0;  ///< about z [1/(kg m2)]
+};
+
+struct Contact {
+    std::int32_t a = -1;  ///< -1: at rest, immovable
+    std::int32_t b = -1;
+    Vec3 normal{};   ///< n, from a to b
+    Vec3 tangent{};  ///< t = e_z x n
+    Vec3 arm_a{};    ///< centre to contact point [m]
+    Vec3 arm_b{};
+    double friction = 0.0;  ///< mu
+    Vec3 bias{};            ///< b [m/s]
+};
+
+struct ContactProblem {
+    std::vector<BodyMobility> bodies;
+    std::vector<Twist> free;  ///< v_free
+    std::vector<Contact> contacts;
+};
+
+/// t = e_z x n.
+Vec3 tangent_of(const Vec3& normal);
+
+/// H_k^T v of one contact, bias left out.
+Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v);
+
+/// v_free + M^-1 H r.
+std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r);
+
+/// H_k r_k of one contact as a vector [N s].
+Vec3 world_impulse(const Contact& contact, const Vec3& r);
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/delassus.hpp"
+
+#include <algorithm>
+
+#include "granular_adapter/nscd/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+/// One body's share of W_kk: I/m + (arm x d_i)(arm x d_j)/J.
+void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
+    const double n = cross(arm, contact.normal)[2], t = cross(arm, contact.tangent)[2];
+    w.nn += body.inverse_mass + body.inverse_inertia * n * n;
+    w.nt += body.inverse_inertia * n * t;
+    w.tt += body.inverse_mass + body.inverse_inertia * t * t;
+}
+
+/// n and t rounded leave about 1e-17 of an exact zero.
+void drop_rounding(Block& w) {
+    if (std::abs(w.nt) < 1e-14 * std::min(w.nn, w.tt)) w.nt = 0.0;
+}
+
+}  // namespace
+
+Delassus::Delassus(const ContactProblem& problem) : problem_(problem) {
+    blocks_.reserve(problem.contacts.size());
+    for (const Contact& contact : problem.contacts) {
+        Block w;
+        add_share(w, contact, contact.arm_b, problem.bodies[contact.b]);
+        if (contact.a >= 0) add_share(w, contact, contact.arm_a, problem.bodies[contact.a]);
+        drop_rounding(w);
+        blocks_.push_back(w);
+    }
+}
+
+Impulses Delassus::apply(const Impulses& r) const {
+    const std::vector<Twist> rest(problem_.free.size());
+    const std::vector<Twist> v = body_velocities({problem_.bodies, rest, problem_.contacts}, r);
+    Impulses u;
+    u.reserve(r.size());
+    for (const Contact& contact : problem_.contacts) u.push_back(contact_velocity(contact, v));
+    return u;
+}
+
+bool Delassus::diagonal() const {
+    return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& w) { return w.nt == 0.0; });
+}
+
+}  // namespace turbidite::nscd

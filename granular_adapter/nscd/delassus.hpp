@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19): contact impulses to the change of contact
+// velocity that they cause, u = H^T v_free + b + W r. [1/kg]
+//
+// Differs from the paper: r is an impulse, not a force, so W carries no dt. W is applied, never
+// assembled; only its diagonal blocks are stored. For discs the arms are parallel to n, hence
+// W_nt = 0 in every block.
+#pragma once
+
+#include <vector>
+
+#include "granular_adapter/nscd/contact_problem.hpp"
+#include "granular_adapter/nscd/one_contact.hpp"
+
+namespace turbidite::nscd {
+
+class Delassus {
+ public:
+    /// Keeps a reference: the problem must live as long.
+    explicit Delassus(const ContactProblem& problem);
+
+    const Block& block(std::size_t contact) const { return blocks_[contact]; }
+
+    /// W r.
+    Impulses apply(const Impulses& r) const;
+
+    /// True when no block couples normal and tangent.
+    bool diagonal() const;
+
+ private:
+    const ContactProblem& problem_;
+    std::vector<Block> blocks_;
+};
+
+}  // namespace turbidite::nscd

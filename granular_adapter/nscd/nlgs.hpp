@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Non-linear Gauss-Seidel in body-velocity form: contact by contact in the order given,
+//
+//     u = H_k^T v + b_k,   r_k' = exact solution of the contact alone,   v += M^-1 H_k (r_k' - r_k)
+//
+// until the scaled natural map falls below the tolerance. Every few sweeps the natural map is
+// accumulated in the pass itself, where velocities are half old and half new; when that looks good
+// the published residual, of one consistent state, decides.
+#pragma once
+
+#include "granular_adapter/nscd/solver.hpp"
+
+namespace turbidite::nscd {
+
+class Nlgs final : public ContactSolver {
+ public:
+    SolverResult solve(const ContactProblem& problem, const Impulses& guess,
+                       const SolverSettings& settings) const override;
+};
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/theta_scheme.hpp"
+
+#include "granular_adapter/nscd/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+Quaternion normalized(Quaternion q) {
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (double& component : q) component /= length;
+    return q;
+}
+
+}  // namespace
+
+std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, double step) {
+    std::vector<Twist> free = bodies.twist;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const Vec3 load = bodies.weight_mass[i] * gravity + bodies.force[i];
+        free[i].velocity = free[i].velocity + step * bodies.inverse_mass(i) * load;
+        free[i].spin = free[i].spin + step * bodies.inverse_inertia(i) * bodies.torque[i];
+    }
+    return free;
+}
+
+Quaternion rotated(const Quaternion& orientation, const Vec3& angle) {
+    const double magnitude = norm(angle);
+    if (magnitude == 0.0) return orientation;
+    const double c = std::cos(0.5 * magnitude);
+    const Vec3 v = (std::sin(0.5 * magnitude) / magnitude) * angle;
+    const Vec3 w{orientation[1], orientation[2], orientation[3]};
+    const Vec3 vector = c * w + orientation[0] * v + cross(v, w);
+    return normalized({c * orientation[0] - dot(v, w), vector[0], vector[1], vector[2]});
+}
+
+void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
+          const PeriodicBox& box) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        bodies.position[i] = box.wrap(bodies.position[i] + step * velocities[i].velocity);
+        bodies.orientation[i] = rotated(bodies.orientation[i], step * velocities[i].spin);
+    }
+}
+
+Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta) {
+    return q - step * (1.0 - theta) * velocity;
+}
+
+}  // namespace turbidite::nscd

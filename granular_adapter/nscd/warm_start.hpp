@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The impulses of the last step, kept for the next one. A contact is recognised by the ids of its
+// bodies (or body and wall key) and its feature, so that it survives re-ordering and removal of
+// bodies. What is kept is the force J/dt: with a step of another length the guess is still right.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite::nscd {
+
+struct ContactKey {
+    GrainId first = 0;      ///< smaller body id, or the wall's key
+    GrainId second = 0;     ///< larger body id, or the body at the wall
+    std::int32_t wall = 0;  ///< 1: `first` is a wall
+    std::int32_t feature = 0;
+
+    auto operator<=>(const ContactKey&) const = default;
+};
+
+struct RememberedContact {
+    ContactKey key;
+    Vec3 force{};  ///< J/dt, contact frame [N]
+};
+
+class ContactMemory {
+ public:
+    /// Forgets all and takes these; `keys` must be distinct. Contacts without impulse are left out.
+    void remember(const std::vector<ContactKey>& keys, const std::vector<Vec3>& impulses,
+                  double step);
+
+    /// The remembered force times the step, zero for a new contact.
+    Vec3 guess(const ContactKey& key, double step) const;
+
+    void forget() { contacts_.clear(); }
+    const std::vector<RememberedContact>& contacts() const { return contacts_; }
+    void replace(std::vector<RememberedContact> contacts);
+
+ private:
+    std::vector<RememberedContact> contacts_;  ///< sorted by key
+};
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The contact engine as a grains adapter: step 4 of the splitting (Topin 2011, Eqs. 16-19) with the
+// immersed inertia of shapes/immersed_body, then motion with the velocities that
+// `coupling.positions` asks for. Hosts such as YADE wrap it: they overwrite bodies() before a call
+// and read them after.
+//
+// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top}, fluid.enabled,
+// fluid.hydrodynamic_radius, run.*. The domain is [0, run.size_x] x [0, run.size_y], gravity along
+// -y.
+//
+//     wall     a straight wall with the grains' friction; a centre beyond it ends the run
+//     free     grains whose centre is more than R past the side are removed and counted
+//     cyclic   positions wrap, neighbours are nearest images
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/participant/adapter.hpp"
+#include "granular_adapter/nscd/engine.hpp"
+
+namespace turbidite {
+
+class NscdAdapter final : public GrainsAdapter {
+ public:
+    /// Names under which it introduces itself; a host gives its own ("yade-nscd", "YADE 2023.02a").
+    explicit NscdAdapter(std::string adapter_name = "standalone-nscd",
+                         std::string host_code = "none");
+
+    Hello describe() const override;
+    Motion initialise(const Settings& settings, const ShapeTable& shapes,
+                      const std::vector<GrainState>& grains) override;
+    Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
+
+    /// One kick per grain, or none at all when the case has no fluid. Throws std::runtime_error
+    /// naming a grain that has no kick or two, or a kick of an unknown grain.
+    Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override;
+
+    SavedState save() const override;
+
+    /// After initialise() with the same settings.
+    void restore(const SavedState& state) override;
+
+    /// Between two calls a host may overwrite whatever it owns: positions, velocities, loads,
+    /// flags.
+    nscd::Bodies& bodies() { return engine().bodies(); }
+    const nscd::Bodies& bodies() const { return engine().bodies(); }
+
+    /// The last window's contacts, for the host's own pictures.
+    const nscd::Engine& engine() const;
+    nscd::Engine& engine();
+
+    /// Impulses of the last window as bytes, for hosts that keep bodies in their own files:
+    /// take_over_contacts() in the new process makes its first window start from them.
+    std::vector<char> contact_memory() const { return engine().save_memory(); }
+    void take_over_contacts(const std::vector<char>& bytes) { engine().restore_memory(bytes); }
+
+    /// Ids that left in the last apply_kick.
+    const std::vector<GrainId>& removed() const { return removed_; }
+
+ private:
+    enum class Side { wall, free, cyclic };
+    enum class Positions { corrected, contact };
+
+    /// One side of the domain: its name, what it is, and the inward half-plane.
+    struct Border {
+        std::string name;
+        Side side;
+        nscd::Wall plane;
+    };
+
+    static Side parse_side(const std::string& key, const std::string& text);
+    static Positions parse_positions(const std::string& text);
+    void lay_borders(const Settings& settings);
+    nscd::EngineSettings engine_settings(const Settings& settings) const;
+    void add_grains(const Settings& settings, const ShapeTable& shapes,
+                    const std::vector<GrainState>& grains);
+    void check_grains(const std::string& when) const;
+    void take_velocities(const Window& window, const std::vector<Kick>& kicks);
+    void remove_leavers();
+    Motion motion() const;
+
+    std::string adapter_name_;
+    std::string host_code_;
+    bool fluid_ = true;
+    Positions positions_ = Positions::corrected;
+    std::vector<Border> borders_;
+    std::unique_ptr<nscd::Engine> engine_;
+    std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window
+    std::vector<GrainId> removed_;
+    ContactReport report_;  ///< of this window
+};
+
+}  // namespace turbidite

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "coupler/protocol/failure.hpp"
+#include "coupler/transport/exchange_plan.hpp"
+
+namespace turbidite {
+namespace {
+
+GrainState grain(GrainId id, double x) {
+    GrainState g;
+    g.id = id;
+    g.radius = 0.5;
+    g.position = {x, 0.0, 0.0};
+    return g;
+}
+
+Kick kick(GrainId id) {
+    Kick k;
+    k.id = id;
+    return k;
+}
+
+// Two fluid ranks share [0, 10]; a grain at 4.8 with radius 0.5 touches both, one at 4.2 and margin 0.2 only the
+// left one (4.2 + 0.7 < 5).
+TEST(ExchangePlan, AGrainGoesToEveryFluidRankItTouches) {
+    const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.2, {});
+    const auto routed = plan.by_place({{grain(1, 4.8), grain(2, 4.2), grain(3, 9.0)}, {}});
+    ASSERT_EQ(routed[0].grains.size(), 2u);
+    ASSERT_EQ(routed[1].grains.size(), 2u);
+    EXPECT_EQ(routed[1].grains[0].id, 1);
+    EXPECT_EQ(routed[1].grains[1].id, 3);
+}
+
+// Period 10: the grain at 9.8 also touches the left rank, as its image at -0.2.
+TEST(ExchangePlan, PeriodicImagesAreRouted) {
+    const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.0, {10, 0, 0});
+    EXPECT_EQ(plan.by_place({{grain(1, 9.8)}, {}})[0].grains.size(), 1u);
+}
+
+TEST(ExchangePlan, KicksGoHomeWhateverTheIds) {
+    ExchangePlan plan({}, 0.0, {});
+    const GrainId huge = GrainId{1} << 60;  // ids are names, not array sizes
+    plan.gather({{{grain(huge, 0)}, {}}, {{grain(-3, 1), grain(7, 2)}, {}}});
+    const auto routed = plan.by_owner(std::vector{kick(7), kick(huge), kick(-3)});
+    ASSERT_EQ(routed.size(), 2u);
+    EXPECT_EQ(routed[0][0].id, huge);
+    EXPECT_EQ(routed[1].size(), 2u);
+}
+
+TEST(ExchangePlan, AMissingADoubleAndAForeignAnswerAreRefused) {
+    ExchangePlan plan({}, 0.0, {});
+    plan.gather({{{grain(1, 0), grain(2, 1)}, {}}});
+    EXPECT_THROW(plan.by_owner(std::vector{kick(1)}), PhysicsRefused);
+    EXPECT_THROW(plan.by_owner(std::vector{kick(1), kick(2), kick(2)}), PhysicsRefused);
+    EXPECT_THROW(plan.by_owner(std::vector{kick(1), kick(2), kick(3)}), PhysicsRefused);
+    EXPECT_THROW(plan.gather({{{grain(1, 0)}, {}}, {{grain(1, 0)}, {}}}), PhysicsRefused);
+}
+
+TEST(ExchangePlan, SharesAreEvenAndLoseNobody) {
+    std::vector<GrainState> population;
+    for (int i = 0; i < 7; ++i) population.push_back(grain(i, 7 - i));
+    const auto shares = shares_of(population, 3);
+    std::size_t total = 0;
+    for (const Motion& share : shares) {
+        EXPECT_GE(share.grains.size(), 2u);
+        EXPECT_LE(share.grains.size(), 3u);
+        total += share.grains.size();
+    }
+    EXPECT_EQ(total, 7u);
+    EXPECT_LT(shares[0].grains.back().position[0], shares[1].grains.front().position[0]);
+}
+
+}  // namespace
+}  // namespace turbidite

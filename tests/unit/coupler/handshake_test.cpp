@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "coupler/protocol/hello.hpp"
+
+namespace turbidite {
+namespace {
+
+Hello fitting() {
+    Hello hello;
+    hello.role = Role::grains;
+    hello.adapter = "yade-nscd";
+    hello.case_hash = "abc";
+    hello.capabilities.shapes = {"disc"};
+    return hello;
+}
+
+Expectation expected() {
+    Expectation e;
+    e.role = Role::grains;
+    e.adapter = "yade-nscd";
+    e.case_hash = "abc";
+    e.scheme = "split";
+    e.shapes = {"disc"};
+    return e;
+}
+
+TEST(Handshake, AFittingParticipantHasNoMismatch) { EXPECT_TRUE(mismatches(fitting(), expected()).empty()); }
+
+TEST(Handshake, AnotherMinorVersionIsWelcome) {
+    Hello hello = fitting();
+    hello.protocol_minor += 3;
+    EXPECT_TRUE(mismatches(hello, expected()).empty());
+}
+
+TEST(Handshake, EveryMismatchGetsItsSentence) {
+    Hello hello = fitting();
+    hello.protocol_major = 2;
+    hello.adapter = "lammps-md";
+    hello.dimension = 3;
+    hello.ranks = 4;
+    hello.case_hash = "xyz";
+    hello.capabilities.shapes = {"sphere"};
+    Expectation joint = expected();
+    joint.scheme = "joint";
+    const auto sentences = mismatches(hello, joint);
+    ASSERT_EQ(sentences.size(), 7u);
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.0, the case needs 1.x");
+    EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
+    EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
+}
+
+TEST(Handshake, AnAdapterStartedByHandMayTakeAnyCase) {
+    Hello hello = fitting();
+    hello.case_hash.clear();
+    EXPECT_TRUE(mismatches(hello, expected()).empty());
+}
+
+}  // namespace
+}  // namespace turbidite

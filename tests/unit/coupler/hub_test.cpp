@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The whole coupler without MPI: scripted participants in threads, loopback channels between.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "coupler/participant/scripted.hpp"
+#include "coupler/participant/session.hpp"
+#include "coupler/transport/loopback_channel.hpp"
+#include "tests/unit/coupler/test_case.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double drag = 0.3;
+
+struct Job {
+    Settings settings = test_settings();
+    int grains_ranks = 1, fluid_ranks = 1;
+    Fault grains_fault, fluid_fault;
+    LoopbackChannel::Hook to_grains;
+    std::string adapter = "scripted";
+    std::string hash = "0123456789abcdef";
+
+    RunStatus status;
+    std::vector<Outcome> outcomes;
+
+    void run(const TestFolder& folder) {
+        const bool wet = settings.flag("fluid.enabled");
+        settings.set("grains.ranks", std::int64_t{grains_ranks});
+        settings.set("fluid.ranks", std::int64_t{fluid_ranks});
+        auto [grains, grains_ends] = LoopbackChannel::connect(grains_ranks);
+        auto [fluid, fluid_ends] = LoopbackChannel::connect(fluid_ranks);
+        grains->set_hook(to_grains);
+        outcomes.resize(grains_ranks + fluid_ranks);
+
+        std::vector<std::thread> threads;
+        for (int rank = 0; rank < grains_ranks; ++rank)
+            threads.emplace_back([&, rank, end = grains_ends[rank].get()] {
+                ScriptedGrains adapter_object(adapter, grains_fault);
+                outcomes[rank] = live(*make_session(adapter_object, *end, identity(rank, grains_ranks)));
+            });
+        for (int rank = 0; wet && rank < fluid_ranks; ++rank)
+            threads.emplace_back([&, rank, end = fluid_ends[rank].get()] {
+                ScriptedFluid adapter_object(drag, rank, fluid_ranks, fluid_fault);
+                outcomes[grains_ranks + rank] =
+                    live(*make_session(adapter_object, *end, identity(rank, fluid_ranks)));
+            });
+        {
+            Hub hub({settings, {{"disc", {}}}, test_population()}, folder.files(), *grains,
+                    wet ? fluid.get() : nullptr);
+            status = hub.run();
+        }
+        for (std::thread& thread : threads) thread.join();
+    }
+
+   private:
+    Identity identity(int rank, int ranks) const { return {rank, ranks, "a.log", hash}; }
+    static Outcome live(Session& session) {
+        for (bool going = session.start(); going; going = session.step()) {
+        }
+        return session.outcome();
+    }
+};
+
+std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& file) {
+    std::vector<std::vector<std::string>> rows;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        rows.emplace_back();
+        std::stringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    }
+    return rows;
+}
+
+std::size_t column(const std::vector<std::string>& header, const std::string& name) {
+    return std::find(header.begin(), header.end(), name) - header.begin();
+}
+
+// M_eff = M/3, M_sub = M/3: free fall at g = 1. b = 1/(1 + gamma dt/M_eff), M_eff = 0.5 pi R^2 = pi/8. After n
+// windows U = -(a dt)(b + b^2 + ... + b^n).
+double expected_velocity(int windows) {
+    const double b = 1.0 / (1.0 + drag * 0.01 / (3.14159265358979323846 / 8.0));
+    double u = 0.0;
+    for (int k = 0; k < windows; ++k) u = b * (u - 0.01);
+    return u;
+}
+
+struct Layout {
+    const char* scheme;
+    int grains_ranks, fluid_ranks;
+};
+class EveryLayout : public testing::TestWithParam<Layout> {};
+
+TEST_P(EveryLayout, PlaysTheRunToItsExactEnd) {
+    const TestFolder folder(std::string("hub-layout-") + GetParam().scheme +
+                            std::to_string(GetParam().grains_ranks * 10 + GetParam().fluid_ranks));
+    Job job;
+    job.settings = test_settings(GetParam().scheme);
+    job.grains_ranks = GetParam().grains_ranks;
+    job.fluid_ranks = GetParam().fluid_ranks;
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_EQ(job.status.windows_done, 6);
+    for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::done);
+
+    const auto rows = read_csv(folder.path() / "history.csv");
+    ASSERT_EQ(rows.size(), 5u);  // header, t = 0, and windows 2, 4, 6
+    const std::size_t velocity = column(rows[0], "mean_velocity_y");
+    EXPECT_NEAR(std::stod(rows[4][velocity]), expected_velocity(6), 1e-9);
+    EXPECT_EQ(rows[4][column(rows[0], "grains")], "3");
+    EXPECT_LT(job.status.maxima.grain_balance, 1e-14);
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, EveryLayout,
+                         testing::Values(Layout{"split", 1, 1}, Layout{"split", 2, 3},
+                                         Layout{"joint", 1, 1}, Layout{"joint", 3, 2}));
+
+TEST(Hub, ADryRunFallsFreely) {
+    const TestFolder folder("hub-dry");
+    Job job;
+    job.settings = test_settings("split", false);
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    const auto rows = read_csv(folder.path() / "history.csv");
+    EXPECT_NEAR(std::stod(rows.back()[column(rows[0], "mean_velocity_y")]), -0.06, 1e-12);
+    EXPECT_EQ(rows.back()[column(rows[0], "divergence")], "");
+}
+
+TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnWords) {
+    const TestFolder folder("hub-failure");
+    Job job;
+    job.fluid_fault = [](const std::string& function, std::int64_t window) {
+        if (function == "impose" && window == 3) throw PhysicsRefused("the disc is on fire");
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::physics_refused);
+    EXPECT_EQ(job.status.reason.find("fluid rank 0 (host "), 0u) << job.status.reason;
+    EXPECT_NE(job.status.reason.find("the disc is on fire"), std::string::npos);
+    EXPECT_EQ(job.status.windows_done, 3);
+    for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::physics_refused);
+    const auto record = nlohmann::json::parse(std::ifstream(folder.path() / "run.json"));
+    EXPECT_EQ(record["exit_code"], 6);
+    EXPECT_EQ(record["ranks"].size(), 2u);
+    EXPECT_GE(read_csv(folder.path() / "history.csv").size(), 3u);  // what was good is kept
+}
+
+TEST(Hub, AnUnexpectedExceptionIsAFailedParticipant) {
+    const TestFolder folder("hub-exception");
+    Job job;
+    job.grains_fault = [](const std::string& function, std::int64_t) {
+        if (function == "initialise") throw std::runtime_error("no such material");
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::participant_failed);
+    EXPECT_NE(job.status.reason.find("no such material"), std::string::npos);
+}
+
+TEST(Hub, AllMismatchesOfTheHandshakeAreReportedTogether) {
+    const TestFolder folder("hub-handshake");
+    Job job;
+    job.adapter = "other-code";
+    job.hash = "feedfeedfeedfeed";
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::handshake_refused);
+    for (const char* part : {"grains rank 0: adapter is other-code, the case needs scripted",
+                             "grains rank 0: hash of the resolved case is feedfeedfeedfeed",
+                             "fluid rank 0: hash of the resolved case"})
+        EXPECT_NE(job.status.reason.find(part), std::string::npos) << job.status.reason;
+    for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::handshake_refused);
+}
+
+TEST(Hub, NaNIsRefusedBeforeItTravels) {
+    const TestFolder folder("hub-nan");
+    Job job;
+    // A spoilt velocity in the kick: the grains would carry it on.
+    job.to_grains = [](Bytes& bytes) {
+        Message message = unframe(bytes);
+        if (message.envelope.kind != Kind::kick || message.envelope.window != 2) return true;
+        Kicks kicks = decode<Kicks>(message.payload);
+        kicks.kicks[0].velocity[0] = NAN;
+        bytes = frame({message.envelope, encode(kicks)});
+        return true;
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::physics_refused);
+    EXPECT_NE(job.status.reason.find("is not finite after the move in window 2"), std::string::npos)
+        << job.status.reason;
+}
+
+TEST(Hub, ALostMessageStallsWithAWaitForTable) {
+    const TestFolder folder("hub-stall");
+    Job job;
+    job.settings.set("limits.stall_soft", 0.1);
+    job.settings.set("limits.stall_hard", 0.4);
+    job.to_grains = [](Bytes& bytes) {
+        const Message message = unframe(bytes);
+        return message.envelope.kind != Kind::kick || message.envelope.window != 1;
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::stalled);
+    EXPECT_NE(job.status.reason.find("no \"state\" from grains"), std::string::npos) << job.status.reason;
+    EXPECT_NE(job.status.reason.find("fluid rank 0"), std::string::npos);
+}
+
+TEST(Hub, ACorruptedFrameIsAnErrorNotAHang) {
+    const TestFolder folder("hub-corrupt");
+    Job job;
+    job.to_grains = [](Bytes& bytes) {
+        if (unframe(bytes).envelope.kind == Kind::kick) bytes.resize(bytes.size() - 8);
+        return true;
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::participant_failed);
+}
+
+TEST(Hub, AStopRequestEndsInOrder) {
+    const TestFolder folder("hub-stop");
+    Job job;
+    job.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 1) std::ofstream(folder.files().stop) << "143\n";
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::terminated);
+    EXPECT_EQ(job.status.windows_done, 2);
+}
+
+}  // namespace
+}  // namespace turbidite

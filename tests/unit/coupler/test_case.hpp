@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A small case for the coupler's tests: three discs in a 10 x 10 box, rho_s/rho_f = 1.5, g = 1.
+#pragma once
+
+#include <filesystem>
+
+#include "coupler/hub/hub.hpp"
+
+namespace turbidite {
+
+inline Settings test_settings(const std::string& scheme = "split", bool fluid = true) {
+    Settings s;
+    s.set("dimension", std::int64_t{2});
+    s.set("grains.adapter", std::string("scripted"));
+    s.set("grains.ranks", std::int64_t{1});
+    s.set("fluid.ranks", std::int64_t{1});
+    s.set("fluid.enabled", fluid);
+    s.set("fluid.hydrodynamic_radius", 1.0);
+    s.set("fluid.cells_per_diameter", 8.0);
+    s.set("coupling.scheme", scheme);
+    s.set("limits.stall_soft", 5.0);
+    s.set("limits.stall_hard", 20.0);
+    s.set("limits.penetration", 0.2);
+    for (const char* side : {"left", "right", "bottom", "top"})
+        s.set(std::string("domain.") + side, std::string("wall"));
+    s.set("run.diameter", 1.0), s.set("run.velocity_scale", 1.0), s.set("run.time_scale", 1.0);
+    s.set("run.gravity", 1.0), s.set("run.fluid_density", 1.0), s.set("run.viscosity", 0.1);
+    s.set("run.step", 0.01), s.set("run.windows", std::int64_t{6});
+    s.set("run.output_every", std::int64_t{2});
+    s.set("run.size_x", 10.0), s.set("run.size_y", 10.0), s.set("run.size_z", 0.0);
+    s.set("run.hash", std::string("0123456789abcdef"));
+    return s;
+}
+
+inline std::vector<GrainState> test_population() {
+    std::vector<GrainState> grains(3);
+    for (int i = 0; i < 3; ++i) {
+        grains[i].id = 100 + i;
+        grains[i].radius = 0.5;
+        grains[i].density = 1.5;
+        grains[i].position = {2.0 + 2.5 * i, 5.0, 0.0};
+    }
+    return grains;
+}
+
+/// A folder of its own for each test, removed afterwards.
+class TestFolder {
+   public:
+    explicit TestFolder(const std::string& name)
+        : path_(std::filesystem::temp_directory_path() / ("turbidite-" + name)) {
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~TestFolder() { std::filesystem::remove_all(path_); }
+    const std::filesystem::path& path() const { return path_; }
+    HubFiles files() const {
+        return {path_ / "history.csv", path_ / "grains", path_ / "coupler.log", path_ / "run.json",
+                path_ / "STOP"};
+    }
+
+   private:
+    std::filesystem::path path_;
+};
+
+}  // namespace turbidite

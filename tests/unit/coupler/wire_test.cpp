@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "coupler/protocol/message.hpp"
+
+namespace turbidite {
+namespace {
+
+// Numbers that a text format, or a float, would not keep.
+constexpr double awkward = 0.1 + 1e-17;
+constexpr double tiny = std::numeric_limits<double>::denorm_min();
+
+GrainState grain() {
+    GrainState g;
+    g.id = 9'007'199'254'740'993;  // 2^53 + 1: not a double
+    g.shape = 3;
+    g.radius = awkward;
+    g.density = 1.5;
+    g.position = {1.0 / 3.0, -tiny, 2.0};
+    g.orientation = {0.5, 0.5, 0.5, 0.5};
+    g.velocity = {1, 2, 3};
+    g.angular_velocity = {4, 5, 6};
+    g.contact_impulse = {7, 8, 9};
+    g.contact_angular_impulse = {10, 11, 12};
+    g.announced_impulse = {13, 14, 15};
+    g.announced_angular_impulse = {16, 17, 18};
+    return g;
+}
+
+TEST(Wire, MotionComesBackBitForBit) {
+    Motion motion;
+    motion.grains = {grain(), grain()};
+    motion.report = {41, 12, awkward, false, tiny, 2, 0.25};
+    const auto back = decode<Motion>(encode(motion));
+    ASSERT_EQ(back.grains.size(), 2u);
+    const GrainState& a = motion.grains[1];
+    const GrainState& b = back.grains[1];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.shape, b.shape);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.density, b.density);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.orientation, b.orientation);
+    EXPECT_EQ(a.velocity, b.velocity);
+    EXPECT_EQ(a.angular_velocity, b.angular_velocity);
+    EXPECT_EQ(a.contact_impulse, b.contact_impulse);
+    EXPECT_EQ(a.contact_angular_impulse, b.contact_angular_impulse);
+    EXPECT_EQ(a.announced_impulse, b.announced_impulse);
+    EXPECT_EQ(a.announced_angular_impulse, b.announced_angular_impulse);
+    EXPECT_EQ(back.report.contacts, 41);
+    EXPECT_EQ(back.report.iterations, 12);
+    EXPECT_EQ(back.report.residual, awkward);
+    EXPECT_FALSE(back.report.converged);
+    EXPECT_EQ(back.report.max_penetration, tiny);
+    EXPECT_EQ(back.report.removed, 2);
+    EXPECT_EQ(back.report.wall_seconds, 0.25);
+}
+
+TEST(Wire, KicksComeBack) {
+    Kicks kicks;
+    kicks.kicks.push_back({7, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 2}, {3, 5, 8}, {13, 21, 34}});
+    kicks.report = {9, awkward, 1e-5, 2.0, 1e-9, 0.4, 0.03};
+    const auto back = decode<Kicks>(encode(kicks));
+    ASSERT_EQ(back.kicks.size(), 1u);
+    EXPECT_EQ(back.kicks[0].id, 7);
+    EXPECT_EQ(back.kicks[0].velocity, (Vec3{1, 2, 3}));
+    EXPECT_EQ(back.kicks[0].multiplier_angular_impulse, (Vec3{1, 1, 2}));
+    EXPECT_EQ(back.kicks[0].torque, (Vec3{13, 21, 34}));
+    EXPECT_EQ(back.report.multiplier_residual, awkward);
+    EXPECT_EQ(back.report.momentum_defect, 1e-9);
+    EXPECT_EQ(back.report.wall_seconds, 0.03);
+}
+
+TEST(Wire, HelloComesBack) {
+    Hello hello;
+    hello.role = Role::fluid;
+    hello.adapter = "foam";
+    hello.host = "node07";
+    hello.pid = 12345;
+    hello.capabilities.effective_inertia = true;
+    hello.capabilities.shapes = {"disc", "sphere"};
+    const auto back = decode<Hello>(encode(hello));
+    EXPECT_EQ(back.role, Role::fluid);
+    EXPECT_EQ(back.adapter, "foam");
+    EXPECT_EQ(back.host, "node07");
+    EXPECT_EQ(back.pid, 12345);
+    EXPECT_TRUE(back.capabilities.effective_inertia);
+    EXPECT_EQ(back.capabilities.shapes, hello.capabilities.shapes);
+}
+
+TEST(Wire, FreeResponsesWindowsBoxesShapesComeBack) {
+    FreeResponse response;
+    response.id = 4;
+    response.inertia[20] = awkward;
+    EXPECT_EQ(decode<std::vector<FreeResponse>>(encode(std::vector{response}))[0].inertia[20], awkward);
+    const Window window{12, 0.5, 0.01, true, false};
+    EXPECT_EQ(decode<Window>(encode(window)).index, 12);
+    EXPECT_TRUE(decode<Window>(encode(window)).write_output);
+    EXPECT_FALSE(decode<Window>(encode(window)).write_checkpoint);
+    EXPECT_EQ(decode<Box>(encode(Box{{1, 2, 3}, {4, 5, 6}})).upper, (Vec3{4, 5, 6}));
+    const ShapeTable shapes = {{"polygon", {0, 1, awkward}}};
+    EXPECT_EQ(decode<ShapeTable>(encode(shapes))[0].vertices, shapes[0].vertices);
+}
+
+TEST(Wire, FrameKeepsTheEnvelope) {
+    Message message{{Kind::kicks, 41, 2, 77}, encode(std::string("payload"))};
+    const Message back = unframe(frame(message));
+    EXPECT_EQ(back.envelope.kind, Kind::kicks);
+    EXPECT_EQ(back.envelope.window, 41);
+    EXPECT_EQ(back.envelope.iteration, 2);
+    EXPECT_EQ(back.envelope.sequence, 77);
+    EXPECT_EQ(decode<std::string>(back.payload), "payload");
+}
+
+TEST(Wire, TruncatedOrForeignBytesAreRefused) {
+    Bytes motion = encode(Motion{{grain()}, {}});
+    motion.pop_back();
+    EXPECT_THROW(decode<Motion>(motion), MalformedPayload);
+    motion.push_back(0), motion.push_back(0);
+    EXPECT_THROW(decode<Motion>(motion), MalformedPayload);
+    EXPECT_THROW(unframe(Bytes(100, 'x')), MalformedPayload);
+    Bytes bytes = frame({{}, Bytes(10, 'y')});
+    bytes.resize(bytes.size() - 3);
+    EXPECT_THROW(unframe(bytes), MalformedPayload);
+}
+
+TEST(Wire, AHugeLengthIsRefusedBeforeMemoryIsTaken) {
+    Bytes bytes;
+    Writer code(bytes);
+    code(std::int64_t{1} << 60);
+    EXPECT_THROW(decode<Motion>(bytes), MalformedPayload);
+}
+
+}  // namespace
+}  // namespace turbidite
