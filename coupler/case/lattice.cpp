@@ -34,7 +34,7 @@ bool inside(const PlacedGrain& grain, const PackingBox& box) {
            grain.y >= grain.radius && grain.y + grain.radius <= box.height;
 }
 
-void displace(NeighbourGrid& grid, std::size_t index, double dx, double dy, const PackingBox& box) {
+bool displace(NeighbourGrid& grid, std::size_t index, double dx, double dy, const PackingBox& box) {
     constexpr int halvings = 5;
     for (int attempt = 0; attempt < halvings; ++attempt, dx /= 2.0, dy /= 2.0) {
         PlacedGrain moved = grid.grains()[index];
@@ -42,8 +42,9 @@ void displace(NeighbourGrid& grid, std::size_t index, double dx, double dy, cons
         moved.y += dy;
         if (!inside(moved, box) || !grid.is_free(moved, 0.0, index)) continue;
         grid.move(index, moved.x, moved.y);
-        return;
+        return true;
     }
+    return false;
 }
 
 }  // namespace
@@ -77,21 +78,32 @@ PackingResult lattice_packing(const PackingRequest& request) {
                                            used == high ? "densest" : "loosest"));
     result.grains = fill_box(request, lattice_spacing(used));
     if (result.grains.empty()) result.refusal = "The box is too small for a single grain.";
-    apply_jitter(result.grains, request);
+    apply_jitter(result, request);
     return result;
 }
 
-void apply_jitter(Packing& grains, const PackingRequest& request) {
-    if (request.jitter <= 0.0) return;
-    RandomNumbers random(request.seed);
+std::int64_t shake(Packing& grains, const PackingRequest& request) {
+    // A stream of its own, so that displacements do not repeat the numbers that placed the grains.
+    RandomNumbers random(request.seed ^ 0x9e3779b97f4a7c15u);
     NeighbourGrid grid(request.box, 0.5, 0.0);
     for (const PlacedGrain& grain : grains) grid.insert(grain);
+    std::int64_t moved = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const double dx = random.uniform(-request.jitter, request.jitter);
         const double dy = random.uniform(-request.jitter, request.jitter);
-        displace(grid, i, dx, dy, request.box);
+        moved += displace(grid, i, dx, dy, request.box);
     }
     grains = grid.grains();
+    return moved;
+}
+
+void apply_jitter(PackingResult& result, const PackingRequest& request) {
+    if (request.jitter <= 0.0) return;
+    const std::int64_t moved = shake(result.grains, request);
+    const auto all = static_cast<std::int64_t>(result.grains.size());
+    if (moved < all)
+        result.notes.push_back(fmt::format(
+            "grains.jitter moved {} of {} grains, the others had no room to move", moved, all));
 }
 
 }  // namespace turbidite

@@ -24,7 +24,10 @@ double lattice_spacing(double compacity);
 PackingResult lattice_packing(const PackingRequest& request);
 
 /// Displaces each grain by up to `jitter` along x and y; a displacement that would make grains
-/// overlap or leave the box is halved until it fits, and dropped in the end.
-void apply_jitter(Packing& grains, const PackingRequest& request);
+/// overlap or leave the box is halved until it fits, and dropped in the end. Returns how many moved.
+std::int64_t shake(Packing& grains, const PackingRequest& request);
+
+/// The same when there is a jitter, with a note when grains had no room.
+void apply_jitter(PackingResult& result, const PackingRequest& request);
 
 }  // namespace turbidite

@@ -81,11 +81,11 @@ Packing shaken_sites(const PackingRequest& request) {
     if (grains.empty()) return {};
     RandomNumbers random(request.seed);
     keep_random_sites(grains, request.count, random);
-    PackingRequest shake = request;
-    shake.jitter = shaking_distance;
+    PackingRequest shaking = request;
+    shaking.jitter = shaking_distance;
     for (int sweep = 0; sweep < shaking_sweeps; ++sweep) {
-        shake.seed = request.seed + static_cast<std::uint64_t>(sweep);
-        apply_jitter(grains, shake);
+        shaking.seed = request.seed + static_cast<std::uint64_t>(sweep);
+        shake(grains, shaking);
     }
     return grains;
 }
@@ -106,7 +106,7 @@ PackingResult random_packing(const PackingRequest& request) {
         if (result.grains.empty()) continue;
         result.notes.push_back(fmt::format("{} grains placed at random, at least {} D apart",
                                            request.count, gap));
-        apply_jitter(result.grains, request);
+        apply_jitter(result, request);
         return result;
     }
     result.grains = shaken_sites(request);

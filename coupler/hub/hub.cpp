@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -14,8 +15,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long dismissed participants may take to write their last words [s].
+// How long dismissed participants may take to write their last words [s]; one that is silent already gets
+// no second chance.
 constexpr double farewell_limit = 30.0;
+constexpr double farewell_limit_after_stall = 2.0;
 
 // Stencils of a grain's points reach this many cells beyond its surface.
 constexpr double stencil_cells = 4.0;
@@ -178,9 +181,9 @@ void Hub::account(const Window& window, WindowResult result) {
 void Hub::look_for_stop() const {
     std::ifstream stop(files_.stop);
     if (!stop) return;
-    int code = static_cast<int>(ExitCode::interrupted);
-    stop >> code;
-    const bool terminated = code == static_cast<int>(ExitCode::terminated);
+    int signal = SIGINT;
+    stop >> signal;
+    const bool terminated = signal == SIGTERM;
     throw Failure(terminated ? ExitCode::terminated : ExitCode::interrupted,
                   "stopped on request after window " + std::to_string(status_.windows_done));
 }
@@ -188,11 +191,19 @@ void Hub::look_for_stop() const {
 void Hub::end(const Verdict& verdict) {
     if (!verdict.reason.empty()) progress_.say("turbidite: " + verdict.reason);
     for (ParticipantLink* link : links_) link->dismiss(verdict);
+    const double limit =
+        status_.code == ExitCode::stalled ? farewell_limit_after_stall : farewell_limit;
+    await_all(&ParticipantLink::gone, limit);
+    for (ParticipantLink* link : links_) link->release();
+    await_all(&ParticipantLink::flushed, limit);
+}
+
+void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {
     Patience patience;
     for (bool waiting = true; waiting; patience.wait()) {
         waiting = false;
-        for (ParticipantLink* link : links_) waiting = !link->gone() || waiting;
-        if (waiting && patience.seconds() > farewell_limit)
+        for (ParticipantLink* link : links_) waiting = !(link->*condition)() || waiting;
+        if (waiting && patience.seconds() > limit)
             throw Failure(status_.code == ExitCode::done ? ExitCode::stalled : status_.code,
                           "a participant does not say farewell; ending the job\n" + wait_for_table());
     }

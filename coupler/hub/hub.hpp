@@ -45,6 +45,7 @@ class Hub {
     void write_output(const Row& row, const WindowResult& result, double step);
     void look_for_stop() const;
     void end(const Verdict& verdict);
+    void await_all(bool (ParticipantLink::*condition)(), double limit);
     Window window(std::int64_t index) const;
 
     HubCase case_;

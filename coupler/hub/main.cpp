@@ -38,7 +38,8 @@ Meeting meet_participants(MPI_Comm local, bool with_fluid) {
 }
 
 HubFiles hub_files(const RunFolder& folder) {
-    return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(), folder.stop()};
+    return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(),
+            folder.stop()};
 }
 
 RunStatus couple(const std::string& directory) {
@@ -48,7 +49,7 @@ RunStatus couple(const std::string& directory) {
     watch.disarm();
     Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"));
     Hub hub({resolved.settings, resolved.shapes, resolved.population},
-            hub_files(RunFolder(directory)), *meeting.grains, meeting.fluid.get());
+            hub_files(RunFolder{directory}), *meeting.grains, meeting.fluid.get());
     return hub.run();
 }
 

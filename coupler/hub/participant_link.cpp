@@ -95,11 +95,17 @@ void ParticipantLink::dismiss(const Verdict& verdict) {
 }
 
 bool ParticipantLink::gone() {
-    while (auto frame = channel_.try_receive())
-        if (unframe(frame->bytes).envelope.kind == Kind::farewell)
-            ranks_.at(frame->peer).said_farewell = true;
-    return channel_.flushed() && std::all_of(ranks_.begin(), ranks_.end(),
-                                             [](const Rank& rank) { return rank.said_farewell; });
+    while (auto frame = channel_.try_receive()) {
+        const Envelope envelope = unframe(frame->bytes).envelope;
+        if (envelope.kind == Kind::farewell)
+            ranks_.at(frame->peer).order.received(envelope, !from_coupler);
+    }
+    return std::all_of(ranks_.begin(), ranks_.end(),
+                       [](const Rank& rank) { return rank.order.due() == Kind::release; });
+}
+
+void ParticipantLink::release() {
+    for (int rank = 0; rank < ranks(); ++rank) send(rank, Kind::release, {});
 }
 
 }  // namespace turbidite

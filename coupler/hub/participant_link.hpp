@@ -61,13 +61,16 @@ class ParticipantLink {
     void dismiss(const Verdict& verdict);
     bool gone();
 
+    /// Everybody is gone: the ranks may leave.
+    void release();
+    bool flushed() { return channel_.flushed(); }
+
    private:
     struct Rank {
         CallOrder order;
         Hello hello;
         std::deque<Message> inbox;
         Clock::time_point since = Clock::now();
-        bool said_farewell = false;
     };
 
     void take_in(int rank, Message message);

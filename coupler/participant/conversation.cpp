@@ -53,8 +53,7 @@ Verdict Conversation::fail(const Verdict& verdict) {
 
 void Conversation::say_farewell() {
     send(Kind::farewell, {});
-    for (Patience patience; !channel_.flushed() && patience.seconds() < limit_; patience.wait()) {
-    }
+    order_.received(next(0.0).envelope, from_coupler);
 }
 
 }  // namespace turbidite

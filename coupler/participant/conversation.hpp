@@ -33,7 +33,8 @@ class Conversation {
     /// Tells the coupler that this side cannot go on, and waits for its verdict on the run.
     Verdict fail(const Verdict& verdict);
 
-    /// The last word: everything is written.
+    /// The last word: everything is written. Returns when the coupler has heard it from everybody, so that
+    /// nobody is inside MPI_Finalize while somebody else still has to be waited for, or ended.
     void say_farewell();
 
    private:

@@ -77,8 +77,8 @@ Kind CallOrder::due() const { return due_step().kind; }
 bool CallOrder::due_from_coupler() const { return due_step().from_coupler; }
 
 const Step& CallOrder::due_step() const {
-    static const Step last = {Kind::farewell, to_coupler};
-    return dismissed_ ? last : order_[at_];
+    static const Order end = {{Kind::farewell, to_coupler}, {Kind::release, from_coupler}};
+    return dismissed_ ? end[said_farewell_ ? 1 : 0] : order_[at_];
 }
 
 // Bad news may come at any time; nothing follows a dismissal but the farewell.
@@ -98,7 +98,8 @@ void CallOrder::demand(Kind kind, bool sent_by_coupler, const char* verb) const 
 
 void CallOrder::advance(Kind kind) {
     if (kind == Kind::dismiss) dismissed_ = true;
-    if (kind == Kind::dismiss || kind == Kind::failure || kind == Kind::farewell) return;
+    if (kind == Kind::farewell) said_farewell_ = true;
+    if (dismissed_ || kind == Kind::failure) return;
     if (kind == Kind::window) ++window_;
     if (++at_ < order_.size()) return;
     if (!started_) {
@@ -125,7 +126,8 @@ void CallOrder::received(const Envelope& envelope, bool sent_by_coupler) {
     const std::int64_t window = envelope.kind == Kind::window ? window_ + 1 : window_;
     const std::int64_t sequence = counter(sent_by_coupler)++;
     const bool interrupts = may_interrupt(envelope.kind, sent_by_coupler);
-    if (interrupts) return advance(envelope.kind);  // heard even after a message was lost
+    // Bad news and last words are heard even after a message was lost.
+    if (interrupts || dismissed_) return advance(envelope.kind);
     if (envelope.window != window || envelope.sequence != sequence)
         throw OrderViolation(peer_ + ": received " + step_text(envelope.kind, sent_by_coupler) +
                              " number " + std::to_string(envelope.sequence) + " of window " +

@@ -8,6 +8,8 @@
 //     joint   window → bodies → response ⇒ contact_input → motion ⇒ constraint → kicks ⇒ kick → state
 //     dry     window → kick → state            (no fluid; kick is empty and says "move")
 //
+// and for everybody, at any time: dismiss → farewell → release, or failure before them.
+//
 // (→ to or from the coupler, ⇒ through the coupler to the other side.) Under `split` the fluid does
 // steps 1-3 between `window` and `constraint` while the grains do step 4 between `window` and `motion`.
 #pragma once
@@ -70,6 +72,7 @@ class CallOrder {
     std::size_t at_ = 0;
     bool started_ = false;
     bool dismissed_ = false;
+    bool said_farewell_ = false;
     std::int64_t window_ = -1;
     std::int64_t from_coupler_ = 0;
     std::int64_t to_coupler_ = 0;

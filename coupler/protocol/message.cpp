@@ -18,6 +18,7 @@ const std::vector<std::pair<Kind, const char*>> kinds = {
     {Kind::kicks, "kicks"},           {Kind::kick, "kick"},
     {Kind::state, "state"},           {Kind::failure, "failure"},
     {Kind::dismiss, "dismiss"},       {Kind::farewell, "farewell"},
+    {Kind::release, "release"},
 };
 
 }  // namespace

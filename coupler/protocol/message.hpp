@@ -33,7 +33,8 @@ enum class Kind : std::int32_t {
     // end
     failure = 90,   // participant → coupler    exit code and text: I cannot go on
     dismiss = 91,   // coupler → participant    exit code and reason: the run is over
-    farewell = 92,  // participant → coupler    everything written, about to leave
+    farewell = 92,  // participant → coupler    everything written, ready to leave
+    release = 93,   // coupler → participant    all are ready: leave now
 };
 
 /// "motion"; "kind 77" for a number that is not in the table.

@@ -18,8 +18,8 @@
 namespace turbidite {
 namespace {
 
-/// |div phi| D / u_c asked of the projection: a tenth of what the run accepts.
-constexpr double divergence_goal = 1e-5;
+/// |div phi| D / u_c asked of the projection: half of what the run accepts.
+constexpr double divergence_goal = 5e-5;
 
 /// Adds the time until it goes out of scope.
 class Stopwatch {

@@ -4,6 +4,8 @@
 #include <fvcGrad.H>
 #include <fvcSurfaceIntegrate.H>
 
+#include <algorithm>
+
 namespace turbidite {
 namespace {
 
@@ -12,6 +14,11 @@ constexpr Foam::scalar rounding = 1e-7;
 
 /// The tolerance is a mean over cells, the goal a maximum: a few tightenings bridge them.
 constexpr int attempts = 4;
+
+/// Iterations go on from what is there, so a small step down costs little.
+Foam::scalar tightening(Foam::scalar goal, Foam::scalar divergence) {
+    return std::clamp(0.5 * goal / divergence, 0.01, 0.5);
+}
 
 }  // namespace
 
@@ -33,11 +40,12 @@ Foam::scalar StokesProjection::project() {
     Foam::fvc::surfaceIntegrate(f, given_);
     f *= fields_.mesh.V().field() / dt.value();
     Foam::scalar tighter = 1.0;
-    for (int attempt = 0; attempt < attempts; ++attempt, tighter *= 0.1) {
+    for (int attempt = 0; attempt < attempts; ++attempt) {
         solver_->solve(f, tighter);
         fields_.phi = given_ - dt * solver_->gradient_flux();
         divergence = fields_.largest_divergence();
         if (divergence <= goal_) break;
+        tighter *= tightening(goal_, divergence);
     }
     fields_.U -= dt * Foam::fvc::grad(fields_.p);
     fields_.U.correctBoundaryConditions();

@@ -65,7 +65,7 @@ std::string schemes(const Settings& settings) {
 
 std::string pressure_solver(const std::string& name) {
     if (name == "GAMG")
-        return "solver GAMG; smoother GaussSeidel; nPreSweeps 0; nPostSweeps 2; "
+        return "solver GAMG; smoother GaussSeidel; nPreSweeps 1; nPostSweeps 2; "
                "nCellsInCoarsestLevel 20;";
     if (name == "PCG") return "solver PCG; preconditioner DIC;";
     throw Failure(ExitCode::bad_input,

@@ -136,34 +136,42 @@ PassSums sweep(std::vector<Row>& rows, std::vector<PlaneBody>& bodies) {
     return sums;
 }
 
-std::vector<PlaneBody> pack_bodies(const ContactProblem& problem, const Impulses& guess) {
+/// Bodies in the order in which contacts meet them, so that a sweep walks through memory: slot of
+/// each body, -1 if nothing touches it. The slot after the last is the body at rest.
+struct Slots {
+    std::vector<std::int32_t> of_body;
+    std::int32_t at_rest = 0;
+
+    explicit Slots(const ContactProblem& problem) : of_body(problem.bodies.size(), -1) {
+        const auto meet = [this](std::int32_t body) {
+            if (body >= 0 && of_body[body] < 0) of_body[body] = at_rest++;
+        };
+        for (const Contact& contact : problem.contacts) meet(contact.a), meet(contact.b);
+    }
+
+    std::int32_t operator()(std::int32_t body) const { return body < 0 ? at_rest : of_body[body]; }
+};
+
+std::vector<PlaneBody> pack_bodies(const ContactProblem& problem, const Slots& slots,
+                                   const Impulses& guess) {
     const std::vector<Twist> start = body_velocities(problem, guess);
-    std::vector<PlaneBody> bodies;
-    bodies.reserve(start.size() + 1);
+    std::vector<PlaneBody> bodies(static_cast<std::size_t>(slots.at_rest) + 1);
     for (std::size_t i = 0; i < start.size(); ++i)
-        bodies.push_back({start[i].velocity[0], start[i].velocity[1], start[i].spin[2],
-                          problem.bodies[i].inverse_mass});
-    bodies.emplace_back();
+        if (slots.of_body[i] >= 0)
+            bodies[slots.of_body[i]] = {start[i].velocity[0], start[i].velocity[1],
+                                        start[i].spin[2], problem.bodies[i].inverse_mass};
     return bodies;
 }
 
 template <class Row>
-std::vector<Row> pack_rows(const ContactProblem& problem, const Delassus& w,
+std::vector<Row> pack_rows(const ContactProblem& problem, const Delassus& w, const Slots& slots,
                            const Impulses& guess) {
-    const auto at_rest = static_cast<std::int32_t>(problem.bodies.size());
     std::vector<Row> rows;
     rows.reserve(guess.size());
     for (std::size_t k = 0; k < guess.size(); ++k) {
         const Contact& c = problem.contacts[k];
-        const RowBase base{c.a < 0 ? at_rest : c.a,
-                           c.b,
-                           c.normal[0],
-                           c.normal[1],
-                           c.bias[0],
-                           c.bias[1],
-                           c.friction,
-                           guess[k][0],
-                           guess[k][1]};
+        const RowBase base{slots(c.a), slots(c.b), c.normal[0], c.normal[1], c.bias[0],
+                           c.bias[1],  c.friction, guess[k][0], guess[k][1]};
         const double ia = c.a < 0 ? 0.0 : problem.bodies[c.a].inverse_inertia;
         rows.emplace_back(base, c, w.block(k), ia, problem.bodies[c.b].inverse_inertia);
     }
@@ -185,8 +193,9 @@ bool check_due(std::int64_t sweep_number, const SolverSettings& settings) {
 template <class Row>
 SolverResult iterate(const ContactProblem& problem, const Delassus& w, const Impulses& guess,
                      const SolverSettings& settings) {
-    std::vector<PlaneBody> bodies = pack_bodies(problem, guess);
-    std::vector<Row> rows = pack_rows<Row>(problem, w, guess);
+    const Slots slots(problem);
+    std::vector<PlaneBody> bodies = pack_bodies(problem, slots, guess);
+    std::vector<Row> rows = pack_rows<Row>(problem, w, slots, guess);
     const double floor = rounding_floor(problem);
     const double target = settings.tolerance * settings.tolerance;
     SolverResult result;

@@ -97,6 +97,7 @@ TEST(CallOrder, BadNewsMayComeAtAnyTimeAndEndsTheTalk) {
     EXPECT_EQ(ends.participant.due(), Kind::farewell);
     EXPECT_THROW(ends.participant.next_sent(Kind::motion, !from_coupler), OrderViolation);
     ends.coupler.received(ends.participant.next_sent(Kind::farewell, !from_coupler), !from_coupler);
+    ends.participant.received(ends.coupler.next_sent(Kind::release, from_coupler), from_coupler);
 }
 
 TEST(CallOrder, UnknownSchemeIsNamed) {

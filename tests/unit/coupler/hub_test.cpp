@@ -3,6 +3,7 @@
 // The whole coupler without MPI: scripted participants in threads, loopback channels between.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -223,7 +224,7 @@ TEST(Hub, AStopRequestEndsInOrder) {
     const TestFolder folder("hub-stop");
     Job job;
     job.grains_fault = [&](const std::string& function, std::int64_t window) {
-        if (function == "advance" && window == 1) std::ofstream(folder.files().stop) << "143\n";
+        if (function == "advance" && window == 1) std::ofstream(folder.files().stop) << SIGTERM;
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::terminated);

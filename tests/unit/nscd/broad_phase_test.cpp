@@ -88,8 +88,8 @@ TEST(BroadPhase, HandlesNoBodyAndOne) {
     EXPECT_TRUE(candidate_pairs({{1, 1, 0}}, {0.5}, 0.1, {}).empty());
 }
 
-// Two discs of radius 0.5 in a period of 1.9 can touch on both sides (0.95 + 0.95 < 2 x 1); one disc
-// of diameter 1 fits.
+// Two discs of radius 0.5 in a period of 1.9 can touch on both sides (0.95 + 0.95 < 2 x 1); one
+// disc of diameter 1 fits.
 TEST(BroadPhase, RefusesAPeriodInWhichPairsTouchTwice) {
     PeriodicBox box;
     box.length = {1.9, 0.0, 0.0};

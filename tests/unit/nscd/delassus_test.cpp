@@ -45,8 +45,8 @@ ContactProblem skew_chain(int length) {
     for (int i = 0; i < length; ++i) {
         problem.bodies.push_back({1.0 + any(random), 4.0});
         problem.free.push_back({{any(random), -1.0, 0.0}, {0.0, 0.0, any(random)}});
-        problem.contacts.push_back(touch(i - 1, i, {any(random), any(random), 0.0},
-                                         {any(random), any(random), 0.0}));
+        problem.contacts.push_back(
+            touch(i - 1, i, {any(random), any(random), 0.0}, {any(random), any(random), 0.0}));
     }
     return problem;
 }
@@ -97,8 +97,8 @@ TEST(Nlgs, SolvesContactsThatCoupleNormalAndTangent) {
     EXPECT_LT(change_measures(problem, result.impulses).quad, 1e-8);
 }
 
-// Two sweeps are not enough for eight contacts in a row: the result must say so, with a residual above
-// the tolerance.
+// Two sweeps are not enough for eight contacts in a row: the result must say so, with a residual
+// above the tolerance.
 TEST(Nlgs, SaysThatItDidNotConverge) {
     const ContactProblem problem = skew_chain(8);
     SolverSettings settings;

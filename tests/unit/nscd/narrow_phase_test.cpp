@@ -21,8 +21,8 @@ void expect_near(const Vec3& a, const Vec3& b) {
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], 1e-15);
 }
 
-// Radii 0.5 and 1, centres (0,0) and (1.2, 1.6), 2 apart: gap 0.5, normal (0.6, 0.8); the point lies
-// 0.5 + 0.25 from a and 1 + 0.25 from b.
+// Radii 0.5 and 1, centres (0,0) and (1.2, 1.6), 2 apart: gap 0.5, normal (0.6, 0.8); the point
+// lies 0.5 + 0.25 from a and 1 + 0.25 from b.
 TEST(NarrowPhase, PutsTheContactHalfWayAcrossTheGap) {
     Bodies bodies;
     bodies.add(scenes::disc(1, 0.0, 0.0));
@@ -48,8 +48,8 @@ TEST(NarrowPhase, MeasuresOverlapWithAWall) {
     expect_near(points[0].arm_b, {0.0, -0.5, 0.0});
 }
 
-// Segment |x| <= 1 on y = 0: at x = 1.3, y = 0.4 the corner is 0.5 away: gap 0, normal (0.6, 0.8). A
-// centre behind the segment belongs to its other side.
+// Segment |x| <= 1 on y = 0: at x = 1.3, y = 0.4 the corner is 0.5 away: gap 0, normal (0.6, 0.8).
+// A centre behind the segment belongs to its other side.
 TEST(NarrowPhase, TouchesTheCornersOfASegment) {
     Wall segment = scenes::floor(0.0);
     segment.half_length = 1.0;
@@ -67,7 +67,7 @@ TEST(NarrowPhase, TouchesTheCornersOfASegment) {
 
 TEST(NarrowPhase, RefusesShapesWithoutContacts) {
     try {
-        NarrowPhase({{"cube", {}}});
+        NarrowPhase(ShapeTable{{"cube", {}}});
         FAIL();
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("\"cube\""), std::string::npos);

@@ -18,7 +18,7 @@ double defect(const Block& w, const Plane& b, double friction, const Plane& r) {
 }
 
 class Problems {
-   public:
+ public:
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random_);
     }
@@ -38,12 +38,12 @@ class Problems {
 
     Plane velocity() { return {uniform(-1, 1), uniform(-1, 1)}; }
 
-   private:
+ private:
     std::mt19937_64 random_{20111};
 };
 
-// The natural map is zero at solutions only. Rounding: conditions of W up to 1e4, slopes W_nn + s mu W_nt
-// down to about 1e-4 of W_nn: 1e-16 * 1e4 * 1e4 = 1e-8.
+// The natural map is zero at solutions only. Rounding: conditions of W up to 1e4, slopes W_nn + s
+// mu W_nt down to about 1e-4 of W_nn: 1e-16 * 1e4 * 1e4 = 1e-8.
 TEST(OneContact, SolvesAMillionRandomProblems) {
     Problems problems;
     int failures = 0;
@@ -77,8 +77,8 @@ TEST(OneContact, SticksInsideTheConeAndSlidesOnIt) {
 }
 
 // W = (2, -1.5; -1.5, 1.5), b = (-0.1, -1), mu = 1. Stick trial: A = 1.5 - 2.25/2 = 0.375,
-// c = -1 - (-1.5)(-0.1)/2 = -1.075, r_t = 2.867, r_n = -(-0.1 - 4.3)/2 = 2.2 < r_t: rejected. Slide,
-// s = +1: r_n = 0.1/(2 - 1.5) = 0.2, u_t = -0.3 + 0.3 - 1 = -1: opposite to r_t = 0.2.
+// c = -1 - (-1.5)(-0.1)/2 = -1.075, r_t = 2.867, r_n = -(-0.1 - 4.3)/2 = 2.2 < r_t: rejected.
+// Slide, s = +1: r_n = 0.1/(2 - 1.5) = 0.2, u_t = -0.3 + 0.3 - 1 = -1: opposite to r_t = 0.2.
 TEST(OneContact, SlidesInTheDirectionOfTheTrial) {
     const Plane r = solve_contact({2.0, -1.5, 1.5}, {-0.1, -1.0}, 1.0);
     EXPECT_NEAR(r[0], 0.2, 1e-14);

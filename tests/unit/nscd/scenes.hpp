@@ -35,10 +35,14 @@ inline Wall wall(std::int32_t key, Vec3 point, Vec3 normal, double friction) {
     return result;
 }
 
-inline Wall floor(double friction) { return wall(1, {0, 0, 0}, {0, 1, 0}, friction); }
+inline Wall floor(double friction) {
+    return wall(1, {0, 0, 0}, {0, 1, 0}, friction);
+}
 
 /// Gravity seen from a plane tilted by alpha: downhill is +x.
-inline Vec3 tilted(double alpha) { return {std::sin(alpha), -std::cos(alpha), 0.0}; }
+inline Vec3 tilted(double alpha) {
+    return {std::sin(alpha), -std::cos(alpha), 0.0};
+}
 
 inline EngineSettings exact(double friction, double tolerance = 1e-10) {
     EngineSettings settings;
@@ -60,8 +64,7 @@ inline Engine settling_pack(int columns, int rows, const EngineSettings& setting
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
             engine.bodies().add(disc(row * columns + column, 0.55 + 1.1 * column + jitter(random),
-                                     0.55 + 1.1 * row + jitter(random),
-                                     0.48 + jitter(random)));
+                                     0.55 + 1.1 * row + jitter(random), 0.48 + jitter(random)));
     return engine;
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A command of the program `turbidite`: its name, its options, what it does.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace turbidite {
+
+/// Returns the exit code; throws Failure for what the user should read.
+using CommandAction = std::function<int()>;
+
+struct Command {
+    std::string name;
+    std::string help;
+    /// Declares the options; the action it returns is called after parsing.
+    CommandAction (*declare)(CLI::App& options);
+};
+
+CommandAction declare_run(CLI::App& options);
+CommandAction declare_check(CLI::App& options);
+CommandAction declare_report(CLI::App& options);
+CommandAction declare_keys(CLI::App& options);
+CommandAction declare_test(CLI::App& options);
+
+}  // namespace turbidite

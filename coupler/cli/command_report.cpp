@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite report DIR: report.html from what a run folder holds.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "coupler/cli/command.hpp"
+#include "coupler/cli/report_script.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+int report(const std::string& directory) {
+    const RunFolder folder{std::filesystem::absolute(directory)};
+    if (!std::filesystem::exists(folder.resolved_case()))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{} is no run folder: it has no case.yaml\n  Give a folder that "
+                                  "`turbidite run` made. Exit code 2.",
+                                  directory));
+    if (!write_report(folder, find_programs()))
+        throw Failure(ExitCode::participant_failed, "report.html could not be written; see above.");
+    fmt::print("{}\n", folder.report().string());
+    return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+CommandAction declare_report(CLI::App& app) {
+    const auto directory = std::make_shared<std::string>();
+    app.add_option("DIR", *directory, "run folder")->required();
+    return [directory] { return report(*directory); };
+}
+
+}  // namespace turbidite

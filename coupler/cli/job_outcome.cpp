@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/cli/job_outcome.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <deque>
+#include <fstream>
+#include <vector>
+
+#include "coupler/cli/run_json.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr std::size_t lines_shown = 6;
+
+std::deque<std::string> last_lines(const std::filesystem::path& file) {
+    std::ifstream input(file);
+    std::deque<std::string> lines;
+    for (std::string line; std::getline(input, line);) {
+        if (line.empty()) continue;
+        lines.push_back(line);
+        if (lines.size() > lines_shown) lines.pop_front();
+    }
+    return lines;
+}
+
+std::string tail(const RunFolder& folder, const std::filesystem::path& log) {
+    const auto lines = last_lines(log);
+    if (lines.empty()) return "";
+    std::string text =
+        fmt::format("  Last lines of {}:\n", std::filesystem::relative(log, folder.root).string());
+    for (const std::string& line : lines) text += "    " + line + "\n";
+    return text;
+}
+
+std::vector<std::filesystem::path> log_files(const RunFolder& folder) {
+    std::vector<std::filesystem::path> files;
+    if (!std::filesystem::exists(folder.logs())) return files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.logs()))
+        if (entry.path().extension() == ".log" && entry.path() != folder.log("mpirun"))
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    files.insert(files.begin(), folder.log("mpirun"));
+    return files;
+}
+
+ExitCode signal_code(int signal) {
+    return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+}
+
+// mpirun passes on the exit code of the rank that ended first; of those only ours mean something.
+ExitCode code_of_status(int status) {
+    for (const ExitCode code :
+         {ExitCode::handshake_refused, ExitCode::stalled, ExitCode::physics_refused})
+        if (status == static_cast<int>(code)) return code;
+    return ExitCode::participant_failed;
+}
+
+JobOutcome without_a_word(const JobEnd& end) {
+    if (end.killed) return {signal_code(end.signal), "killed on request"};
+    if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
+    return {code_of_status(end.status),
+            fmt::format("mpirun ended with status {} and the coupler left no word: a program of the "
+                        "job failed or never started",
+                        end.status)};
+}
+
+}  // namespace
+
+JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end) {
+    auto record = read_run_json(folder.record());
+    if (const auto code = record.find("exit_code"); code != record.end() && code->is_number_integer())
+        return {static_cast<ExitCode>(code->get<int>()), record.value("error", std::string())};
+    const JobOutcome outcome = without_a_word(end);
+    record["status"] = end.signal == 0 ? "failed" : "interrupted";
+    record["exit_code"] = static_cast<int>(outcome.code);
+    record["error"] = outcome.error;
+    write_run_json(folder.record(), record);
+    return outcome;
+}
+
+std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
+    if (outcome.code == ExitCode::done)
+        return fmt::format("Done. Results in {}: report.html, history.csv, grains/grains.pvd and "
+                           "fluid/ (ParaView).\n",
+                           folder.root.string());
+    const bool asked_for =
+        outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
+    return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n",
+                       asked_for ? "Interrupted: " : "The run failed: ", outcome.error,
+                       asked_for ? "" : log_tails(folder), folder.root.string(),
+                       static_cast<int>(outcome.code));
+}
+
+std::string log_tails(const RunFolder& folder) {
+    std::string text;
+    for (const auto& log : log_files(folder)) text += tail(folder, log);
+    return text;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How a job ended: the coupler's word in run.json if there is one, else what mpirun's exit status and
+// the logs tell.
+#pragma once
+
+#include <string>
+
+#include "coupler/case/run_folder.hpp"
+#include "coupler/cli/job.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+struct JobOutcome {
+    ExitCode code = ExitCode::done;
+    std::string error;  ///< empty when done
+};
+
+/// Completes run.json when the coupler left no word.
+JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end);
+
+/// What the user reads at the end.
+std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome);
+
+/// The last lines of every log, those of mpirun first.
+std::string log_tails(const RunFolder& folder);
+
+}  // namespace turbidite

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The mpirun line of a prepared run folder: what `turbidite run` starts and --dry-run prints.
+//
+//     mpirun … -n 1 turbidite-coupler RUN : -n F turbidite-fluid -case RUN/fluid : -n G <grains>
+//
+// It carries all it needs: absolute paths, exported variables. Dry cases have no fluid part.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupler/case/run_folder.hpp"
+#include "coupler/cli/programs.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+struct LaunchSite {
+    Programs programs;
+    bool as_root = false;        ///< mpirun refuses root unless told
+    std::string openfoam = {};   ///< WM_PROJECT_DIR
+};
+
+/// Of this machine and user.
+LaunchSite this_site();
+
+std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
+                                          const LaunchSite& site);
+
+/// Quoted where needed, to be pasted in a shell.
+std::string shell_line(const std::vector<std::string>& arguments);
+
+/// The programs that the line starts, to be looked for before the job.
+std::vector<std::filesystem::path> needed_programs(const Settings& settings,
+                                                   const Programs& programs);
+
+}  // namespace turbidite

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/cli/prepare_run.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <fstream>
+
+#include "coupler/case/population.hpp"
+#include "coupler/cli/launch_line.hpp"
+#include "coupler/cli/run_json.hpp"
+#include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/foam_case/fluid_case.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string local_time(const char* form) {
+    const std::tm now = fmt::localtime(std::time(nullptr));
+    char text[64];
+    std::strftime(text, sizeof text, form, &now);
+    return text;
+}
+
+// Two runs started within one second get numbers.
+fs::path fresh_folder(const std::string& case_name) {
+    const fs::path wanted = fs::path("runs") / (case_name + "-" + local_time("%Y%m%d-%H%M%S"));
+    fs::path folder = wanted;
+    for (int i = 2; fs::exists(folder); ++i) folder = wanted.string() + "-" + std::to_string(i);
+    return folder;
+}
+
+bool holds_something(const fs::path& folder) {
+    return fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder));
+}
+
+// Only what a run writes, so that a mistyped --out --force costs nothing else.
+void empty_run_folder(const RunFolder& folder) {
+    for (const fs::path& part : {folder.resolved_case(), folder.record(), folder.history(),
+                                 folder.grains(), folder.fluid(), folder.logs(), folder.report(),
+                                 folder.stop()})
+        fs::remove_all(part);
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream output(file, std::ios::binary);
+    output << text;
+    if (!output.flush())
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + file.string() + ": is the disk full?");
+}
+
+nlohmann::ordered_json first_record(const ResolvedCase& resolved,
+                                    const std::vector<std::string>& command) {
+    const Scales& scales = resolved.scales;
+    return {{"status", "prepared"},
+            {"exit_code", nullptr},
+            {"error", ""},
+            {"case", resolved.name},
+            {"case_hash", resolved.settings.text("run.hash")},
+            {"versions", {{"turbidite", TURBIDITE_VERSION}}},
+            {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
+            {"scales", scales.kind},
+            {"D", scales.diameter},
+            {"u_c", scales.velocity},
+            {"t_c", scales.time},
+            {"g", scales.gravity},
+            {"rho", scales.fluid_density},
+            {"nu", scales.viscosity},
+            {"reynolds", scales.reynolds},
+            {"seed", resolved.settings.integer("random.seed")},
+            {"grains", resolved.population.size()},
+            {"windows", resolved.settings.integer("run.windows")},
+            {"notes", resolved.notes},
+            {"command", shell_line(command)}};
+}
+
+}  // namespace
+
+RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
+    const fs::path wanted = order.out.empty() ? fresh_folder(case_name) : order.out;
+    // The trailing slash of `--out DIR/` would become an empty last part.
+    const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
+    if (holds_something(folder.root) && !(order.force && fs::is_directory(folder.root)))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("--out = {} already holds something\n  A run needs a new or empty "
+                                  "folder. Choose another --out, or add --force to overwrite the "
+                                  "run that is there.\nNothing was started. Exit code 2.",
+                                  wanted.string()));
+    if (order.force) empty_run_folder(folder);
+    std::error_code error;
+    for (const fs::path& part : {folder.grains(), folder.logs()}) {
+        fs::create_directories(part, error);
+        if (error)
+            throw Failure(ExitCode::bad_input,
+                          fmt::format("--out = {} cannot be created: {}\n  Choose a folder you may "
+                                      "write to. Nothing was started. Exit code 2.",
+                                      wanted.string(), error.message()));
+    }
+    return folder;
+}
+
+void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
+                 const std::vector<std::string>& command) {
+    write_text(folder.resolved_case(), resolved.yaml);
+    write_population_csv(resolved.packing, folder.initial_grains());
+    write_run_json(folder.record(), first_record(resolved, command));
+    if (!resolved.settings.flag("fluid.enabled")) return;
+    write_fluid_case(resolved.settings, folder.fluid());
+    build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
+}
+
+void require_programs(const Settings& settings, const std::vector<fs::path>& needed) {
+    for (const fs::path& program : needed) {
+        if (fs::exists(program)) continue;
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{} is not there, but the case needs it (grains.adapter = {}, "
+                                  "fluid.enabled = {})\n  Build or install it with ./turbidite, or "
+                                  "choose another adapter.\nNothing was started. Exit code 2.",
+                                  program.string(), settings.text("grains.adapter"),
+                                  settings.text("fluid.enabled")));
+    }
+}
+
+}  // namespace turbidite

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/cli/run_json.hpp"
+
+#include <fstream>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+nlohmann::ordered_json read_run_json(const std::filesystem::path& file) {
+    std::ifstream input(file);
+    nlohmann::ordered_json record = nlohmann::ordered_json::parse(input, nullptr, false);
+    return record.is_object() ? record : nlohmann::ordered_json::object();
+}
+
+void write_run_json(const std::filesystem::path& file, const nlohmann::ordered_json& record) {
+    const std::filesystem::path part = file.string() + ".part";
+    std::ofstream output(part);
+    output << record.dump(2) << "\n";
+    if (!output.flush())
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + file.string() + ": is the disk full?");
+    std::filesystem::rename(part, file);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Python module `turbidite_yade`: what a YADE script sees of the participant.
+#include <boost/python.hpp>
+#include <memory>
+#include <string>
+
+#include "coupler/participant/participant.hpp"
+#include "granular_adapter/yade/yade_adapter.hpp"
+
+namespace turbidite::yade {
+namespace {
+
+namespace python = boost::python;
+
+// The text of the Python exception that is set, which thereby is handled.
+std::string take_python_error() {
+    PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
+    PyErr_Fetch(&type, &value, &trace);
+    PyErr_NormalizeException(&type, &value, &trace);
+    const python::object traceback = python::import("traceback");
+    const auto object = [](PyObject* p) {
+        return p ? python::object(python::handle<>(p)) : python::object();
+    };
+    const python::object lines =
+        traceback.attr("format_exception")(object(type), object(value), object(trace));
+    return python::extract<std::string>(python::str("").join(lines));
+}
+
+// Python exceptions of the scene's functions travel on as ordinary ones.
+template <class Action>
+auto guarded(Action action) {
+    try {
+        return action();
+    } catch (const python::error_already_set&) {
+        throw Failure(ExitCode::participant_failed, "in YADE: " + take_python_error());
+    }
+}
+
+class GuardedAdapter final : public GrainsAdapter {
+   public:
+    explicit GuardedAdapter(YadeAdapter& inner) : inner_(inner) {}
+
+    Hello describe() const override { return inner_.describe(); }
+    Motion initialise(const Settings& settings, const ShapeTable& shapes,
+                      const std::vector<GrainState>& grains) override {
+        return guarded([&] { return inner_.initialise(settings, shapes, grains); });
+    }
+    Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override {
+        return guarded([&] { return inner_.advance(window, responses); });
+    }
+    Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override {
+        return guarded([&] { return inner_.apply_kick(window, kicks); });
+    }
+    SavedState save() const override { return inner_.save(); }
+    void restore(const SavedState& state) override {
+        guarded([&] { return inner_.restore(state), 0; });
+    }
+
+   private:
+    YadeAdapter& inner_;
+};
+
+/// One YADE process in the job.
+class Participant {
+   public:
+    /// `communicator`: handle of mpy's communicator. Output goes to RUN/logs/grains.log from here on.
+    Participant(const std::string& run_folder, std::uintptr_t communicator, python::object scene,
+                const std::string& yade_version)
+        : adapter_(scene, yade_version), guarded_(adapter_) {
+        Launch launch;
+        launch.run_folder = run_folder;
+        launch.communicator = communicator;
+        membership_ = std::make_unique<Membership>(Role::grains, launch);
+        session_ = make_session(guarded_, membership_->channel(), membership_->identity());
+    }
+
+    bool start() { return session_->start(); }
+    bool step() { return session_->step(); }
+    int leave() { return membership_->leave(session_->outcome()); }
+
+   private:
+    YadeAdapter adapter_;
+    GuardedAdapter guarded_;
+    std::unique_ptr<Membership> membership_;
+    std::unique_ptr<Session> session_;
+};
+
+}  // namespace
+}  // namespace turbidite::yade
+
+BOOST_PYTHON_MODULE(turbidite_yade) {
+    using turbidite::yade::Participant;
+    namespace python = boost::python;
+    python::class_<Participant, boost::noncopyable>(
+        "Participant",
+        "One YADE process in a coupled job.\n\n"
+        "Participant(run_folder, communicator, scene, yade_version): scene has create(settings, grains),\n"
+        "which returns the states of the bodies it built, and erase(ids).",
+        python::init<std::string, std::uintptr_t, python::object, std::string>())
+        .def("start", &Participant::start, "Handshake and initial state; False when the run is over.")
+        .def("step", &Participant::step, "One window; False when the run is over.")
+        .def("leave", &Participant::leave, "The exit code of the run, after the last window.");
+}

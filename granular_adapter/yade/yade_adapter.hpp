@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact engine with its bodies in YADE: before each contact problem positions and velocities are read from
+// YADE's bodies, after the move they are written back. Whatever a user's script does to a body in
+// between counts.
+#pragma once
+
+#include <boost/python/object.hpp>
+#include <string>
+
+#include "coupler/participant/adapter.hpp"
+#include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/yade/yade_bodies.hpp"
+
+namespace turbidite::yade {
+
+class YadeAdapter final : public GrainsAdapter {
+   public:
+    /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains) returns their
+    /// states, erase(ids) removes bodies by grain id.
+    YadeAdapter(boost::python::object scene, std::string yade_version);
+
+    Hello describe() const override { return engine_.describe(); }
+    Motion initialise(const Settings& settings, const ShapeTable& shapes,
+                      const std::vector<GrainState>& grains) override;
+    Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
+    Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override;
+    SavedState save() const override { return engine_.save(); }
+    void restore(const SavedState& state) override;
+
+   private:
+    void read_bodies();
+    void write_bodies();
+    void erase_leavers(const std::vector<GrainId>& before);
+
+    boost::python::object scene_;
+    NscdAdapter engine_;
+    BodyStates states_;
+};
+
+}  // namespace turbidite::yade

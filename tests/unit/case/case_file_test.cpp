@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Every kind of mistake in a case has a text that names the place, the value and the way out; a good
+// case resolves to a text that loads to itself.
+#include "coupler/case/case_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "coupler/case/keys.hpp"
+#include "coupler/case/population.hpp"
+#include "coupler/case/run_folder.hpp"
+#include "coupler/protocol/case_hash.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+using ::testing::Test;
+
+constexpr auto good_case =
+    "domain:\n"              // line 1
+    "  size: [12, 24]\n"     // 2
+    "grains:\n"              // 3
+    "  count: 20\n"          // 4
+    "fluid:\n"               // 5
+    "  reynolds: 36\n"       // 6
+    "time:\n"                // 7
+    "  step: 0.01\n"         // 8
+    "  end: 1\n";            // 9; further text starts at line 10
+
+class CaseFile : public Test {
+   protected:
+    ScratchFolder folder;
+
+    ResolvedCase load(const std::string& more = "", const std::vector<std::string>& set = {}) {
+        return load_case(folder.write("box.yaml", good_case + more), set);
+    }
+
+    /// The text shown for the good case with this added; empty if nothing was wrong.
+    std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) {
+        try {
+            load(more, set);
+        } catch (const CaseRefused& refused) {
+            EXPECT_EQ(refused.code(), ExitCode::bad_input);
+            return refused.what();
+        }
+        return "";
+    }
+};
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(CaseFile, FillsDefaults) {
+    const ResolvedCase box = load();
+    EXPECT_EQ(box.name, "box");
+    EXPECT_EQ(box.settings.text("grains.adapter"), "yade-nscd");
+    EXPECT_DOUBLE_EQ(box.settings.real("contact.friction"), 0.3);
+    EXPECT_EQ(box.settings.integer("run.windows"), 100);     // 1 / 0.01
+    EXPECT_EQ(box.settings.integer("run.output_every"), 50); // 0.5 / 0.01
+    EXPECT_EQ(box.population.size(), 20u);
+    ASSERT_EQ(box.shapes.size(), 1u);
+    EXPECT_EQ(box.shapes[0].kind, "disc");
+}
+
+TEST_F(CaseFile, EveryDefaultIsAllowed) {
+    // Fully defaulted keys written out explicitly must pass their own checks.
+    std::vector<std::string> set;
+    for (const KeySpec& key : key_table())
+        if (key.need == Need::fallback) set.push_back(key.name + "=" + key.fallback);
+    EXPECT_EQ(load("", set).yaml, load().yaml);
+}
+
+TEST_F(CaseFile, ResolvedTextLoadsToItself) {
+    const ResolvedCase box = load("scales: {kind: sedimentation}\n");
+    const ResolvedCase again = load_case(folder.write("again.yaml", box.yaml));
+    EXPECT_EQ(again.yaml, box.yaml);
+    EXPECT_EQ(again.settings.text("run.hash"), box.settings.text("run.hash"));
+    EXPECT_EQ(box.settings.text("run.hash"), case_hash(box.yaml));
+}
+
+TEST_F(CaseFile, ResolvedTextNamesEveryAvailableKeyOrLeavesAReason) {
+    const std::string yaml = load().yaml;
+    for (const KeySpec& key : key_table())
+        if (key.available && key.need != Need::conditional) {
+            EXPECT_SAYS(yaml, key.name.substr(key.name.find('.') + 1) + ":");
+        }
+}
+
+TEST_F(CaseFile, HashFollowsEveryChange) {
+    const std::string hash = load().settings.text("run.hash");
+    EXPECT_NE(load("", {"contact.friction=0.31"}).settings.text("run.hash"), hash);
+    EXPECT_NE(load("", {"random.seed=2"}).settings.text("run.hash"), hash);
+    EXPECT_EQ(load("", {"contact.friction=0.30"}).settings.text("run.hash"), hash);
+}
+
+TEST_F(CaseFile, RunFolderReadsBackTheSameCase) {
+    folder.write("grains.csv", "id,x,y,radius\n7,3.1,4.7,0.5\n3,9,20.25,0.4\n");
+    const ResolvedCase box = load("", {"grains.file=grains.csv"});
+    const RunFolder run{folder.path() / "run"};
+    folder.write("run/case.yaml", box.yaml);
+    folder.write("run/grains/initial.csv", population_csv(box.packing));
+    const ResolvedCase again = load_run_folder(run.root);
+    EXPECT_EQ(again.settings.entries(), box.settings.entries());
+    ASSERT_EQ(again.population.size(), 2u);
+    EXPECT_EQ(again.population[0].id, 7);
+    EXPECT_EQ(again.population[1].position, box.population[1].position);
+    EXPECT_EQ(again.population[1].radius, 0.4);
+}
+
+TEST_F(CaseFile, RunFolderPrefersItsOwnGrains) {
+    const ResolvedCase box = load();
+    folder.write("run/case.yaml", box.yaml);
+    folder.write("run/grains/initial.csv", "id,x,y\n5,2,2\n");
+    EXPECT_EQ(load_run_folder(folder.path() / "run").population.at(0).id, 5);
+}
+
+TEST_F(CaseFile, OverridesReplaceValuesOfTheFile) {
+    const ResolvedCase box = load("", {"time.step=0.02", "domain.size=[6, 8]", "grains.count=3"});
+    EXPECT_EQ(box.settings.integer("run.windows"), 50);
+    EXPECT_DOUBLE_EQ(box.settings.real("run.size_x"), 6.0);
+    EXPECT_EQ(box.population.size(), 3u);
+}
+
+TEST_F(CaseFile, UnknownKeyNamesTheNearest) {
+    const std::string text = refusal("contact:\n  fricton: 0.3\n");
+    EXPECT_SAYS(text, "box.yaml line 11: contact.fricton is unknown");
+    EXPECT_SAYS(text, "Did you mean contact.friction?");
+    EXPECT_SAYS(text, "1 error, nothing was started. Exit code 2.");
+}
+
+TEST_F(CaseFile, UnknownKeyOnTheCommandLineNamesTheNearest) {
+    const std::string text = refusal("", {"contact.fricton=0.3"});
+    EXPECT_SAYS(text, "--set: contact.fricton is unknown");
+    EXPECT_SAYS(text, "contact.friction");
+}
+
+TEST_F(CaseFile, KeyWithoutItsGroupNamesTheKey) {
+    EXPECT_SAYS(refusal("friction: 0.3\n"), "Did you mean contact.friction?");
+}
+
+TEST_F(CaseFile, MisspeltGroupNamesTheKey) {
+    EXPECT_SAYS(refusal("grain: {adapter: yade-nscd}\n"), "Did you mean grains.adapter?");
+}
+
+TEST_F(CaseFile, GroupGivenAValue) {
+    EXPECT_SAYS(refusal("contact: 0.3\n"), "contact is a group of keys, not a key");
+}
+
+TEST_F(CaseFile, AllErrorsAtOnce) {
+    const std::string text = refusal(
+        "contact:\n  friction: -0.3\n  theta: 0.2\nlimits: {stall: 3}\n", {"time.step=0"});
+    EXPECT_SAYS(text, "box.yaml line 11: contact.friction = -0.3\n  A friction coefficient must be "
+                      "zero or positive. Use 0 for smooth grains.");
+    EXPECT_SAYS(text, "box.yaml line 12: contact.theta = 0.2");
+    EXPECT_SAYS(text, "It must be a number from 0.5 up to 1.");
+    EXPECT_SAYS(text, "limits.stall is unknown");
+    EXPECT_SAYS(text, "--set: time.step = 0");
+    EXPECT_SAYS(text, "4 errors, nothing was started. Exit code 2.");
+}
+
+TEST_F(CaseFile, ZeroAndNegativeStep) {
+    for (const char* step : {"0", "-0.01"}) {
+        const std::string text = refusal("", {std::string("time.step=") + step});
+        EXPECT_SAYS(text, std::string("time.step = ") + step);
+        EXPECT_SAYS(text, "must be above 0");
+    }
+}
+
+TEST_F(CaseFile, NumbersMustBeFinite) {
+    for (const char* value : {".nan", "nan", ".inf", "-inf"}) {
+        const std::string text = refusal("", {std::string("contact.friction=") + value});
+        EXPECT_SAYS(text, "contact.friction = ");
+        EXPECT_SAYS(text, "finite");
+    }
+}
+
+TEST_F(CaseFile, WrongTypes) {
+    EXPECT_SAYS(refusal("", {"contact.friction=rough"}), "\"rough\" is not a number.");
+    EXPECT_SAYS(refusal("", {"contact.friction=0.3x"}), "\"0.3x\" is not a number.");
+    EXPECT_SAYS(refusal("", {"contact.friction=[0.3, 0.4]"}), "A list cannot stand here.");
+    EXPECT_SAYS(refusal("", {"grains.count=2.5"}), "\"2.5\" is not a whole number.");
+    EXPECT_SAYS(refusal("", {"fluid.enabled=maybe"}), "Either true or false.");
+    EXPECT_SAYS(refusal("", {"domain.size=[12]"}), "Width and height of the box in D");
+    EXPECT_SAYS(refusal("", {"domain.size=12"}), "Write for example size: [12, 24].");
+    EXPECT_SAYS(refusal("", {"contact.friction="}), "contact.friction has no value");
+}
+
+TEST_F(CaseFile, DuplicateKey) {
+    const std::string text = refusal("contact:\n  friction: 0.3\n  friction: 0.4\n");
+    EXPECT_SAYS(text, "line 12: contact.friction is given twice");
+    EXPECT_SAYS(text, "It is already 0.3 in line 11.");
+}
+
+TEST_F(CaseFile, MissingKeys) {
+    const auto file = folder.write("empty.yaml", "dimension: 2\n");
+    try {
+        load_case(file);
+        FAIL() << "an empty case was accepted";
+    } catch (const CaseRefused& refused) {
+        const std::string text = refused.what();
+        EXPECT_SAYS(text, "empty.yaml: domain.size is missing");
+        EXPECT_SAYS(text, "time.step is missing");
+        EXPECT_SAYS(text, "time.end is missing");
+        EXPECT_SAYS(text, "grains.count is missing (needed with grains.generator: random");
+        EXPECT_SAYS(text, "fluid.reynolds is missing (needed with a fluid");
+        EXPECT_SAYS(text, "5 errors");
+    }
+}
+
+TEST_F(CaseFile, MissingFileAndBadYaml) {
+    try {
+        load_case(folder.path() / "nowhere.yaml");
+        FAIL() << "a missing file was accepted";
+    } catch (const CaseRefused& refused) {
+        EXPECT_SAYS(std::string(refused.what()), "nowhere.yaml: cannot be read");
+    }
+    const std::string text = refusal("contact: {friction: 0.3\n");
+    EXPECT_SAYS(text, "box.yaml line 1");
+    EXPECT_SAYS(text, "is not YAML");
+}
+
+TEST_F(CaseFile, AdaptersOfLaterVersions) {
+    for (const char* adapter : {"yade-md", "lammps-md"}) {
+        const std::string text = refusal("", {std::string("grains.adapter=") + adapter});
+        EXPECT_SAYS(text, std::string(adapter) + " is not available in this version.");
+        EXPECT_SAYS(text, "Available: yade-nscd, standalone-nscd.");
+    }
+    EXPECT_SAYS(refusal("", {"grains.adapter=yade-nsdc"}), "Use yade-nscd.");
+}
+
+TEST_F(CaseFile, VariantsOfLaterVersions) {
+    for (const char* set : {"coupling.scheme=joint", "fluid.splitting=explicit-multiplier",
+                            "dimension=3", "grains.shape=triangle"})
+        EXPECT_SAYS(refusal("", {set}), "is not available in this version.");
+    EXPECT_SAYS(refusal("", {"checkpoint.interval=1"}), "not available in this version");
+    EXPECT_SAYS(refusal("", {"fluid.ranks=2"}), "one rank in this version");
+    EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
+}
+
+TEST_F(CaseFile, CyclicSidesComeInPairs) {
+    const std::string text = refusal("", {"domain.left=cyclic"});
+    EXPECT_SAYS(text, "--set: domain.left = cyclic");
+    EXPECT_SAYS(text, "domain.right = wall");
+    EXPECT_EQ(refusal("", {"domain.left=cyclic", "domain.right=cyclic"}), "");
+}
+
+TEST_F(CaseFile, ExplicitTransportLimitsTheStep) {
+    // At 16 cells per diameter u_c crosses a cell in 1/16 t_c = 0.0625.
+    EXPECT_EQ(refusal("", {"time.step=0.0625"}), "");
+    const std::string text = refusal("", {"time.step=0.07"});
+    EXPECT_SAYS(text, "time.step = 0.07");
+    EXPECT_SAYS(text, "at most 0.0625 t_c");
+    EXPECT_EQ(refusal("", {"time.step=0.07", "fluid.enabled=false"}), "");
+}
+
+TEST_F(CaseFile, MeshNeedsWholeCells) {
+    // 12.3 x 16 = 196.8 cells; the nearest whole number is 197 = 12.3125 D.
+    EXPECT_SAYS(refusal("", {"domain.size=[12.3, 24]"}), "Use 12.3125 D.");
+}
+
+TEST_F(CaseFile, EndAndStep) {
+    EXPECT_SAYS(refusal("", {"time.end=0.001"}), "time.end = 0.001");
+    const ResolvedCase odd = load("", {"time.step=0.03"});
+    EXPECT_EQ(odd.settings.integer("run.windows"), 33);  // 1 / 0.03 = 33.3
+    ASSERT_FALSE(odd.notes.empty());
+    EXPECT_SAYS(odd.notes.back(), "33 windows at 0.99 t_c");
+}
+
+TEST_F(CaseFile, ReynoldsIsDerivedFromPhysicalValues) {
+    EXPECT_SAYS(refusal("scales: {kind: physical, diameter: 0.001, gravity: 9.81, fluid_density: "
+                        "1000, viscosity: 1e-6}\n"),
+                "follows from scales.viscosity");
+    EXPECT_SAYS(refusal("scales: {kind: physical}\n"), "scales.viscosity is missing");
+}
+
+TEST_F(CaseFile, GrainsFileIsLookedUpBesideTheCase) {
+    const std::string text = refusal("", {"grains.file=missing.csv"});
+    EXPECT_SAYS(text, "--set: grains.file = missing.csv");
+    EXPECT_SAYS(text, (folder.path() / "missing.csv").string());
+    folder.write("one.csv", "id,x,y\n0,6,6\n");
+    EXPECT_EQ(load("", {"grains.file=one.csv"}).population.size(), 1u);
+}
+
+TEST_F(CaseFile, OverlapInAGrainsFile) {
+    folder.write("two.csv", "id,x,y\n4,6,6\n9,6.75,6\n");  // centres 0.75 D apart
+    const std::string text = refusal("", {"grains.file=two.csv"});
+    EXPECT_SAYS(text, "two.csv line 3: grains 4 and 9 overlap by 0.25 D");
+}
+
+TEST_F(CaseFile, GrainOutsideTheBox) {
+    folder.write("out.csv", "id,x,y\n4,6,6\n5,11.75,6\n");  // reaches 12.25 of 12
+    EXPECT_SAYS(refusal("", {"grains.file=out.csv"}),
+                "out.csv line 3: grain 5 at (11.75, 6) is outside the box: 0.25 D beyond its right");
+}
+
+TEST_F(CaseFile, MoreGrainsThanTheBoxHolds) {
+    const std::string text = refusal("", {"grains.count=1000"});
+    EXPECT_SAYS(text, "grains.count = 1000");
+    EXPECT_SAYS(text, "holds at most");
+}
+
+TEST_F(CaseFile, CompacityOutsideTheLattice) {
+    const std::string text = refusal("", {"grains.generator=lattice", "grains.compacity=0.5"});
+    EXPECT_SAYS(text, "grains.compacity = 0.5");
+    EXPECT_SAYS(text, "0.7854");
+}
+
+TEST_F(CaseFile, DensityOfDryGrainsKeepsItsUnit) {
+    const ResolvedCase dry = load("", {"fluid.enabled=false"});
+    EXPECT_EQ(dry.settings.real("run.fluid_density"), 0.0);
+    EXPECT_EQ(dry.population.at(0).density, 1.5);
+}
+
+TEST(ShippedCases, AreValid) {
+    int found = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
+        if (entry.path().extension() != ".yaml") continue;
+        EXPECT_NO_THROW(load_case(entry.path())) << entry.path();
+        ++found;
+    }
+    EXPECT_GE(found, 1);
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/case/packing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "coupler/case/lattice.hpp"
+#include "coupler/case/population.hpp"
+#include "coupler/case/random_numbers.hpp"
+#include "coupler/case/random_packing.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr PackingBox paper_box{.width = 25.0, .height = 50.0};
+
+bool is_sound(const Packing& grains, const PackingBox& box) {
+    return check_population(grains, {"test", {}}, box, {}).empty();
+}
+
+double smallest_gap(const Packing& grains) {
+    double smallest = 1e9;
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            smallest = std::min(smallest, std::hypot(grains[i].x - grains[j].x,
+                                                     grains[i].y - grains[j].y) - 1.0);
+    return smallest;
+}
+
+TEST(Lattice, SpacingGivesTheCompacity) {
+    EXPECT_NEAR(lattice_spacing(densest_compacity()), 1.0, 1e-7);
+    EXPECT_NEAR(lattice_spacing(loosest_compacity()), std::numbers::sqrt2, 1e-7);
+    const double a = lattice_spacing(0.85);
+    EXPECT_NEAR(std::numbers::pi / 4.0 / (a * std::sqrt(1.0 - a * a / 4.0)), 0.85, 1e-12);
+}
+
+TEST(Lattice, DenseBoxOfThePaper) {
+    // a = 1, rows of height sqrt(3)/2: 49 / 0.866 = 56.58, so 57 rows; 29 even ones of 25 grains and
+    // 28 odd ones of 24: 725 + 672 = 1397.
+    const PackingResult result = lattice_packing({.box = paper_box, .compacity = 0.9069});
+    EXPECT_EQ(result.grains.size(), 1397u);
+    EXPECT_EQ(result.notes.size(), 1u);  // 0.9069 is a rounding of pi / (2 sqrt 3) = 0.90690
+    EXPECT_TRUE(is_sound(result.grains, paper_box));
+    EXPECT_NEAR(smallest_gap(result.grains), 0.0, 1e-9);
+}
+
+TEST(Lattice, LooseBoxOfThePaper) {
+    // a = sqrt 2, rows of height 1/sqrt 2: 49 x 1.41421 = 69.3, so 70 rows; 24 / 1.41421 = 16.97
+    // gives 17 grains, odd rows (24 - 0.7071) / 1.41421 = 16.47 also 17: 70 x 17 = 1190.
+    const PackingResult result = lattice_packing({.box = paper_box, .compacity = 0.7854});
+    EXPECT_EQ(result.grains.size(), 1190u);
+    EXPECT_TRUE(is_sound(result.grains, paper_box));
+}
+
+TEST(Lattice, ClampsOnlyRoundingErrors) {
+    EXPECT_EQ(lattice_packing({.box = paper_box, .compacity = 0.9078}).grains.size(), 1397u);
+    EXPECT_NE(lattice_packing({.box = paper_box, .compacity = 0.91}).refusal, "");
+    EXPECT_EQ(lattice_packing({.box = paper_box, .compacity = 0.785}).grains.size(), 1190u);
+    EXPECT_NE(lattice_packing({.box = paper_box, .compacity = 0.78}).refusal, "");
+}
+
+TEST(Lattice, JitterNeverMakesOverlap) {
+    // Rows touch, so most grains cannot move; a note says so.
+    const PackingResult result =
+        lattice_packing({.box = paper_box, .compacity = 0.80, .jitter = 0.2, .seed = 5});
+    EXPECT_TRUE(is_sound(result.grains, paper_box));
+    ASSERT_EQ(result.notes.size(), 1u);
+    EXPECT_NE(result.notes[0].find("had no room"), std::string::npos);
+}
+
+TEST(RandomPacking, JitterMovesWithinItsBound) {
+    // Grains 0.1 apart, moved by at most 0.03 each along x and y: everyone has room.
+    PackingRequest request{.box = {.width = 12.0, .height = 24.0}, .count = 60, .seed = 1};
+    const Packing still = random_packing(request).grains;
+    request.jitter = 0.03;
+    const Packing moved = random_packing(request).grains;
+    for (std::size_t i = 0; i < still.size(); ++i) {
+        EXPECT_NE(moved[i].x, still[i].x);
+        EXPECT_LE(std::abs(moved[i].x - still[i].x), 0.03);
+        EXPECT_LE(std::abs(moved[i].y - still[i].y), 0.03);
+    }
+    EXPECT_TRUE(is_sound(moved, request.box));
+}
+
+TEST(RandomPacking, KeepsItsDistanceWhenThereIsRoom) {
+    // 60 discs in 12 x 24: solid fraction 0.16, far below saturation.
+    const PackingBox box{.width = 12.0, .height = 24.0};
+    const PackingResult result = random_packing({.box = box, .count = 60, .seed = 1});
+    ASSERT_EQ(result.grains.size(), 60u);
+    EXPECT_GE(smallest_gap(result.grains), 0.1 - 1e-9);
+    EXPECT_TRUE(is_sound(result.grains, box));
+}
+
+TEST(RandomPacking, DenseRequestsTakeLatticeSites) {
+    // 9 x 9 with 70 discs is 0.68 solid, beyond what random addition reaches (0.547).
+    const PackingBox box{.width = 9.0, .height = 9.0};
+    const PackingResult result = random_packing({.box = box, .count = 70, .seed = 3});
+    ASSERT_EQ(result.grains.size(), 70u);
+    EXPECT_TRUE(is_sound(result.grains, box));
+    EXPECT_NE(result.notes.at(0).find("lattice"), std::string::npos);
+}
+
+TEST(RandomPacking, RefusesWhatCannotFit) {
+    // The densest lattice in 3 x 3 has rows of 3, 2, 3.
+    const PackingResult result =
+        random_packing({.box = {.width = 3.0, .height = 3.0}, .count = 50, .seed = 1});
+    EXPECT_TRUE(result.grains.empty());
+    EXPECT_NE(result.refusal.find("holds at most 8 grains"), std::string::npos) << result.refusal;
+}
+
+TEST(RandomPacking, SeedDecides) {
+    const PackingRequest one{.box = paper_box, .count = 30, .seed = 1};
+    const PackingRequest two{.box = paper_box, .count = 30, .seed = 2};
+    EXPECT_EQ(population_csv(random_packing(one).grains), population_csv(random_packing(one).grains));
+    EXPECT_NE(population_csv(random_packing(one).grains), population_csv(random_packing(two).grains));
+}
+
+TEST(RandomNumbers, AreTheSameEverywhere) {
+    // The standard fixes the 10000th output of mt19937_64 with its default seed 5489:
+    // 9981545732273789042; our mapping keeps its upper 53 bits.
+    RandomNumbers random(5489);
+    double last = 0.0;
+    for (int i = 0; i < 10000; ++i) last = random.uniform();
+    EXPECT_EQ(last, std::ldexp(static_cast<double>(9981545732273789042ull >> 11), -53));
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/case/population.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr PackingBox box{.width = 10.0, .height = 10.0};
+
+std::string texts(const std::vector<CaseProblem>& problems) {
+    return problems.empty() ? "" : format_problems(problems);
+}
+
+std::string read_errors(const std::string& csv) {
+    const ScratchFolder folder;
+    return texts(read_population_csv(folder.write("grains.csv", csv)).problems);
+}
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST(PopulationFile, ReadsOptionalColumnsInAnyOrder) {
+    const ScratchFolder folder;
+    const PopulationFile read = read_population_csv(
+        folder.write("grains.csv", "radius, id, x, y, z\r\n0.4, 7, 1.5, 2.5, 0\r\n\n0.5,8,4,4,0\n"));
+    ASSERT_EQ(texts(read.problems), "");
+    ASSERT_EQ(read.grains.size(), 2u);
+    EXPECT_EQ(read.grains[0].id, 7);
+    EXPECT_EQ(read.grains[0].radius, 0.4);
+    EXPECT_EQ(read.source.lines, (std::vector<int>{2, 4}));
+}
+
+TEST(PopulationFile, RadiusIsHalfADiameterUnlessGiven) {
+    const ScratchFolder folder;
+    EXPECT_EQ(read_population_csv(folder.write("g.csv", "id,x,y\n0,1,1\n")).grains[0].radius, 0.5);
+}
+
+TEST(PopulationFile, WritesWhatItReads) {
+    const ScratchFolder folder;
+    const Packing grains{{.id = 3, .x = 1.0 / 3.0, .y = 2e-7, .radius = 0.1},
+                         {.id = 4000000000, .x = 5.0, .y = 9.9, .radius = 0.5}};
+    write_population_csv(grains, folder.path() / "g.csv");
+    const Packing again = read_population_csv(folder.path() / "g.csv").grains;
+    ASSERT_EQ(again.size(), 2u);
+    EXPECT_EQ(again[0].x, grains[0].x);
+    EXPECT_EQ(again[0].y, grains[0].y);
+    EXPECT_EQ(again[1].id, 4000000000);
+}
+
+TEST(PopulationFile, ErrorsNameTheLine) {
+    EXPECT_SAYS(read_errors("id,x,y\n0,1,1\n1,2\n"), "grains.csv line 3: 2 values in \"1,2\"");
+    EXPECT_SAYS(read_errors("id,x,y\n0,one,1\n"), "grains.csv line 2: x = one");
+    EXPECT_SAYS(read_errors("id,x,y\n0,nan,1\n"), "grains.csv line 2: x = nan");
+    EXPECT_SAYS(read_errors("id,x,y\n0.5,1,1\n"), "line 2: id = 0.5");
+    EXPECT_SAYS(read_errors("id,x,y,z\n0,1,1,1\n"), "In two dimensions z is 0.");
+    EXPECT_SAYS(read_errors("id,x\n0,1\n"), "line 1: column \"y\" is missing");
+    EXPECT_SAYS(read_errors("id,x,y,mass\n0,1,1,1\n"), "line 1: column \"mass\" is unknown");
+    EXPECT_SAYS(read_errors("id,x,y\n"), "holds no grain");
+}
+
+TEST(Population, RepeatedIdsAndBadRadii) {
+    const Packing grains{{.id = 1, .x = 2, .y = 2},
+                         {.id = 1, .x = 5, .y = 5},
+                         {.id = 2, .x = 8, .y = 8, .radius = 0.0},
+                         {.id = 3, .x = 8, .y = 2, .radius = -0.5}};
+    const std::string text = texts(check_population(grains, {"g.csv", {2, 3, 4, 5}}, box, {}));
+    EXPECT_SAYS(text, "g.csv line 3: grain id 1 is given twice");
+    EXPECT_SAYS(text, "g.csv line 4: grain 2: radius = 0");
+    EXPECT_SAYS(text, "g.csv line 5: grain 3: radius = -0.5");
+    EXPECT_SAYS(text, "3 errors");
+}
+
+TEST(Population, GrainsOfAllSizesAreCompared) {
+    // 3 - 0.1 - 2.95 = -0.05: the small grain is inside the large one's rim.
+    const Packing grains{{.id = 0, .x = 3, .y = 5, .radius = 2.95},
+                         {.id = 1, .x = 6, .y = 5, .radius = 0.1}};
+    EXPECT_SAYS(texts(check_population(grains, {"g", {}}, box, {})),
+                "grains 0 and 1 overlap by 0.05 D");
+}
+
+TEST(Population, TouchingIsNoOverlap) {
+    const Packing grains{{.id = 0, .x = 0.5, .y = 0.5}, {.id = 1, .x = 1.5, .y = 0.5}};
+    EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, {})), "");
+}
+
+TEST(Population, CyclicSidesAreJoined) {
+    // 0.2 and 9.8 are 0.4 apart across the joined sides: an overlap of 0.6.
+    const Packing grains{{.id = 0, .x = 0.2, .y = 5}, {.id = 1, .x = 9.8, .y = 5}};
+    PackingBox joined = box;
+    joined.periodic_x = true;
+    const SolidSides sides{.left = false, .right = false};
+    EXPECT_SAYS(texts(check_population(grains, {"g", {}}, joined, sides)), "overlap by 0.6 D");
+    EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, sides)), "");
+}
+
+TEST(Population, FreeSidesAskOnlyForTheCentre) {
+    const Packing grains{{.id = 0, .x = 9.8, .y = 5}};
+    EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, {.right = false})), "");
+    EXPECT_SAYS(texts(check_population(grains, {"g", {}}, box, {})), "beyond its right side");
+}
+
+TEST(Population, LongListsAreCutWithACount) {
+    Packing grains;
+    for (int i = 0; i < 30; ++i) grains.push_back({.id = i, .x = -5.0 - 2.0 * i, .y = 5.0});
+    const auto problems = check_population(grains, {"g", {}}, box, {});
+    EXPECT_EQ(problems.size(), 10u);
+    EXPECT_SAYS(texts(problems), "(20 more grains outside not shown.)");
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/collocation_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "fluid_adapter/multiplier/constraint_operator.hpp"
+#include "tests/unit/multiplier/memory_field.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double h = 1.0 / 16.0;
+
+CollocationPoints place(const MemoryField& field, const std::vector<ImmersedGrain>& grains,
+                        bool boundary = true) {
+    PointRules rules;
+    rules.boundary = boundary;
+    CollocationPoints points;
+    PointPlacement(rules).place(field, grains, points);
+    return points;
+}
+
+int boundary_points(const CollocationPoints& points, int g) {
+    return points.begin[g + 1] - points.boundary_begin[g];
+}
+
+/// Chord of a full ring: 2 R sin(pi/n) >= 1.5 h with R = 8 h gives n = floor(pi / asin(1.5/16)) = 33.
+constexpr int full_ring = 33;
+
+TEST(CollocationPoints, AreaOfInteriorCellsIsThatOfTheDisc) {
+    // pi (D/2)^2 / h^2 = 201.06 cells; a grid misses it by the cells cut, at most some per cent.
+    MemoryField field(64, 64, Side::wall);
+    const CollocationPoints points = place(field, {disc(1, 2.013, 2.007)}, false);
+    EXPECT_NEAR(points.size(), 201.06, 4.0);
+}
+
+TEST(CollocationPoints, BoundaryStencilsAreNoInteriorPoints) {
+    MemoryField field(64, 64, Side::wall);
+    const CollocationPoints points = place(field, {disc(1, 2.013, 2.007)});
+    ASSERT_EQ(boundary_points(points, 0), full_ring);
+    std::set<int> stencilled;
+    for (int s = points.stencil[points.boundary_begin[0]]; s < points.stencil[points.size()]; ++s)
+        stencilled.insert(points.cell[s]);
+    ASSERT_GT(points.boundary_begin[0], 100);
+    for (int p = 0; p < points.boundary_begin[0]; ++p)
+        EXPECT_EQ(stencilled.count(points.cell[points.stencil[p]]), 0u);
+}
+
+TEST(CollocationPoints, AGrainAcrossACyclicSideHasAllItsPoints) {
+    MemoryField field(64, 64, Side::cyclic);
+    const CollocationPoints middle = place(field, {disc(1, 2.01, 2.02)});
+    // 2.01 - 2 D: the same place on the grid, moved by 32 whole cells.
+    const CollocationPoints across = place(field, {disc(1, 0.01, 0.02)});
+    EXPECT_EQ(across.size(), middle.size());
+    EXPECT_EQ(boundary_points(across, 0), full_ring);
+    for (int p = 0; p < across.size(); ++p) {
+        EXPECT_NEAR(across.arm_x[p], middle.arm_x[p], 1e-12);
+        EXPECT_NEAR(across.arm_y[p], middle.arm_y[p], 1e-12);
+    }
+}
+
+TEST(CollocationPoints, PointsNearAWallAreDropped) {
+    MemoryField field(64, 64, Side::wall);
+    // The disc touches the floor: points with R + R sin(angle) < 2 h = R / 4 go, that is
+    // sin(angle) < -0.75: a share of (pi - 2 asin(0.75)) / 2 pi = 0.230 of the ring, 7.6 points.
+    const CollocationPoints points = place(field, {disc(1, 2.0, 0.5)});
+    EXPECT_NEAR(points.dropped.near_wall, 0.230 * full_ring, 1.0);
+    EXPECT_EQ(boundary_points(points, 0), full_ring - points.dropped.near_wall);
+}
+
+TEST(CollocationPoints, TouchingGrainsLoseTheSamePointsWhateverTheirOrder) {
+    MemoryField field(64, 64, Side::wall);
+    const ImmersedGrain a = disc(1, 1.5, 2.0), b = disc(2, 2.5, 2.0);
+    const CollocationPoints ab = place(field, {a, b});
+    const CollocationPoints ba = place(field, {b, a});
+    EXPECT_GT(ab.dropped.near_point, 4);
+    EXPECT_EQ(boundary_points(ab, 0), boundary_points(ba, 1));
+    EXPECT_EQ(boundary_points(ab, 1), boundary_points(ba, 0));
+    EXPECT_EQ(ab.begin[1], ba.size() - ba.begin[1]);
+}
+
+TEST(CollocationPoints, SurvivorsOfDifferentGrainsKeepTheirDistance) {
+    MemoryField field(64, 64, Side::wall);
+    const std::vector<ImmersedGrain> grains = {disc(1, 1.5, 2.0), disc(2, 2.45, 2.0)};  // overlap
+    const CollocationPoints points = place(field, grains);
+    EXPECT_GT(points.dropped.inside_grain, 0);
+    for (int p = points.boundary_begin[0]; p < points.begin[1]; ++p)
+        for (int q = points.boundary_begin[1]; q < points.begin[2]; ++q) {
+            const double dx = 1.5 + points.arm_x[p] - 2.45 - points.arm_x[q];
+            const double dy = points.arm_y[p] - points.arm_y[q];
+            EXPECT_GE(std::hypot(dx, dy), 1.5 * h);
+        }
+}
+
+TEST(CollocationPoints, EveryCellHasOneOwner) {
+    MemoryField field(64, 64, Side::wall);
+    const CollocationPoints points =
+        place(field, {disc(1, 1.5, 2.0), disc(2, 2.4, 2.0), disc(3, 1.95, 2.7)}, false);
+    const std::set<int> once(points.cell.begin(), points.cell.end());
+    EXPECT_EQ(once.size(), points.cell.size());
+}
+
+TEST(CollocationPoints, AGrainLeavingThroughAFreeSideKeepsWhatIsInside) {
+    MemoryField field(64, 64, Side::open);
+    const CollocationPoints points = place(field, {disc(1, 0.0, 2.0)});  // half out
+    EXPECT_GT(points.dropped.off_grid, 10);
+    EXPECT_NEAR(points.boundary_begin[0], 201 / 2 - 30, 30);
+    for (int p = 0; p < points.size(); ++p) EXPECT_GT(points.arm_x[p], -h);
+}
+
+TEST(CollocationPoints, ReusedMemoryGivesTheSamePoints) {
+    MemoryField field(64, 64, Side::wall);
+    PointPlacement placement(PointRules{});
+    CollocationPoints points;
+    placement.place(field, {disc(1, 1.0, 1.0), disc(2, 2.5, 2.5)}, points);
+    placement.place(field, {disc(1, 2.013, 2.007)}, points);
+    const CollocationPoints fresh = place(field, {disc(1, 2.013, 2.007)});
+    EXPECT_EQ(points.cell, fresh.cell);
+    EXPECT_EQ(points.weight, fresh.weight);
+    EXPECT_EQ(points.touched, fresh.touched);
+}
+
+/// Largest error of the interpolation of sin(k x) cos(k y) at the boundary points.
+double interpolation_error(double cell) {
+    const int n = static_cast<int>(std::lround(4.0 / cell));
+    MemoryField field(n, n, Side::wall, cell);
+    const auto wave = [](double x, double y) {
+        return Planar(std::sin(1.7 * x) * std::cos(1.3 * y), 0.0, 0.0);
+    };
+    field.fill(wave);
+    const CollocationPoints points = place(field, {disc(1, 2.013, 2.007)});
+    std::vector<double> slip(2 * points.size());
+    const Planar rest = Planar::Zero();
+    ConstraintOperator(points).apply(field.velocity(0), field.velocity(1), &rest, slip.data());
+    double error = 0.0;
+    for (int p = points.boundary_begin[0]; p < points.size(); ++p)
+        error = std::max(error, std::abs(slip[p] - wave(2.013 + points.arm_x[p],
+                                                        2.007 + points.arm_y[p]).x()));
+    return error;
+}
+
+TEST(CollocationPoints, BoundaryInterpolationIsOfThirdOrder) {
+    // Quadratic: error ~ h^3, so a factor 8 per halving of h.
+    const double coarse = interpolation_error(1.0 / 16.0), fine = interpolation_error(1.0 / 32.0);
+    EXPECT_GT(coarse / fine, 6.0);
+    EXPECT_LT(coarse / fine, 11.0);
+}
+
+TEST(CollocationPoints, RefusesThreeDimensions) {
+    class Deep final : public FluidField {
+       public:
+        Deep() { grid_.dimension = 3; }
+        const CellGrid& grid() const override { return grid_; }
+        int cell(int, int, int) const override { return -1; }
+        int local_cells() const override { return 0; }
+        bool owns(int) const override { return false; }
+        double cell_mass() const override { return 1.0; }
+        double* velocity(int) override { return nullptr; }
+
+       private:
+        CellGrid grid_;
+    } field;
+    CollocationPoints points;
+    EXPECT_THROW(PointPlacement(PointRules{}).place(field, {}, points), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A fluid field that is two arrays, and grains on it, for tests of the multiplier method.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "coupler/shapes/disc.hpp"
+#include "coupler/shapes/immersed_body.hpp"
+#include "fluid_adapter/multiplier/fluid_field.hpp"
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+
+namespace turbidite {
+
+/// n x m cells of edge h = 1/16 (D = rho_f = 1), all sides of one kind.
+class MemoryField final : public FluidField {
+   public:
+    MemoryField(int n, int m, Side side, double h = 1.0 / 16.0) {
+        grid_.counts = {n, m, 1};
+        grid_.spacing = {h, h, 1.0};
+        grid_.sides[0] = grid_.sides[1] = {side, side};
+        x_.resize(n * m);
+        y_.resize(n * m);
+    }
+
+    const CellGrid& grid() const override { return grid_; }
+    int cell(int i, int j, int k) const override {
+        const bool inside = i >= 0 && j >= 0 && k == 0 && i < grid_.counts[0] && j < grid_.counts[1];
+        return inside ? i + grid_.counts[0] * j : -1;
+    }
+    int local_cells() const override { return static_cast<int>(x_.size()); }
+    bool owns(int) const override { return true; }
+    double cell_mass() const override { return grid_.spacing[0] * grid_.spacing[1]; }
+    double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
+
+    void fill(const std::function<Planar(double, double)>& velocity_at) {
+        for (int j = 0; j < grid_.counts[1]; ++j)
+            for (int i = 0; i < grid_.counts[0]; ++i) {
+                const Planar u = velocity_at(grid_.centre(0, i), grid_.centre(1, j));
+                x_[cell(i, j, 0)] = u.x();
+                y_[cell(i, j, 0)] = u.y();
+            }
+    }
+
+    void fill_randomly(unsigned seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> value(-1.0, 1.0);
+        for (double& u : x_) u = value(random);
+        for (double& u : y_) u = value(random);
+    }
+
+    Planar momentum() const {
+        Planar sum = Planar::Zero();
+        for (double u : x_) sum.x() += cell_mass() * u;
+        for (double u : y_) sum.y() += cell_mass() * u;
+        return sum;
+    }
+
+   private:
+    CellGrid grid_;
+    std::vector<double> x_, y_;
+};
+
+/// A disc of diameter 1 with the given motion after the contact step.
+inline ImmersedGrain disc(GrainId id, double x, double y, const Planar& motion = Planar::Zero(),
+                          double density_ratio = 1.5) {
+    static const Disc shape;
+    const ImmersedBody body = immersed_body(shape, 0.5, density_ratio, 1.0, 1.0);
+    ImmersedGrain grain;
+    grain.id = id;
+    grain.shape = &shape;
+    grain.radius = 0.5;
+    grain.position = {x, y, 0.0};
+    grain.effective_mass = body.effective_mass;
+    grain.effective_inertia = body.effective_inertia(2, 2);
+    grain.contact_motion = motion;
+    return grain;
+}
+
+}  // namespace turbidite

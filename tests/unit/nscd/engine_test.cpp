@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include "granular_adapter/nscd/vec3.hpp"
+#include "scenes.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+/// Momentum and angular momentum about the origin.
+std::pair<Vec3, Vec3> momentum(const Bodies& b) {
+    std::pair<Vec3, Vec3> sum{};
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const Vec3 p = b.mass[i] * b.twist[i].velocity;
+        sum.first = sum.first + p;
+        sum.second = sum.second + cross(b.position[i], p) + b.inertia[i] * b.twist[i].spin;
+    }
+    return sum;
+}
+
+// Over one step: change = weight dt + impulses at walls, each at the point where the disc touches.
+// Contacts between grains drop out, in force and in moment. Also when not converged.
+TEST(Engine, BalancesMomentumToRoundOff) {
+    EngineSettings settings = scenes::exact(0.3, 1e-3);
+    settings.solver_settings.max_iterations = 20;
+    Engine engine = scenes::settling_pack(8, 8, settings);
+    scenes::run(engine, 1.5, 0.01);
+    const Bodies& b = engine.bodies();
+    auto expected = momentum(b);
+    engine.step(0.01);
+    ASSERT_GT(engine.points().size(), 50u);
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const Vec3 weight{0.0, -b.weight_mass[i] * 0.01, 0.0};
+        expected.first = expected.first + weight;
+        expected.second = expected.second + cross(b.position[i], weight);
+    }
+    for (std::size_t k = 0; k < engine.points().size(); ++k) {
+        const ContactPoint& point = engine.points()[k];
+        if (point.wall < 0) continue;
+        const Vec3 p = world_impulse(engine.problem().contacts[k], engine.impulses()[k]);
+        expected.first = expected.first + p;
+        expected.second = expected.second + cross(b.position[point.b] + point.arm_b, p);
+    }
+    const auto now = momentum(b);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(now.first[axis], expected.first[axis], 1e-12);
+        EXPECT_NEAR(now.second[axis], expected.second[axis], 1e-12);
+    }
+}
+
+// What each grain is told it received is what changed its motion.
+TEST(Engine, HandsOutTheImpulsesThatMovedTheGrains) {
+    Engine engine = scenes::settling_pack(6, 6, scenes::exact(0.3, 1e-3));
+    scenes::run(engine, 1.5, 0.01);
+    const std::vector<Twist> before = engine.bodies().twist;
+    engine.step(0.01);
+    const Bodies& b = engine.bodies();
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const Vec3 change = b.mass[i] * (b.twist[i].velocity - before[i].velocity);
+        EXPECT_NEAR(b.contact_impulse[i][0], change[0], 1e-13);
+        EXPECT_NEAR(b.contact_impulse[i][1], change[1] + 0.01 * b.weight_mass[i], 1e-13);
+        EXPECT_NEAR(b.contact_angular_impulse[i][2],
+                    b.inertia[i] * (b.twist[i].spin[2] - before[i].spin[2]), 1e-13);
+    }
+}
+
+// r_n >= 0, |r_t| <= mu r_n, u_n + b_n >= 0 for every contact, to the solver's tolerance.
+TEST(Engine, ContactsAreAdmissible) {
+    Engine engine = scenes::settling_pack(8, 8, scenes::exact(0.3, 1e-9));
+    EXPECT_TRUE(scenes::run(engine, 1.0, 0.01));
+    engine.step(0.01);
+    for (std::size_t k = 0; k < engine.points().size(); ++k) {
+        const Contact& contact = engine.problem().contacts[k];
+        const Vec3 u = contact_velocity(contact, engine.bodies().twist), r = engine.impulses()[k];
+        EXPECT_GE(r[0], 0.0);
+        EXPECT_LE(std::abs(r[1]), 0.3 * r[0] * (1 + 1e-15));
+        EXPECT_GE(u[0] + contact.bias[0], -1e-7);
+        EXPECT_LE(std::abs((u[0] + contact.bias[0]) * r[0]), 1e-8);
+    }
+}
+
+// Discs fall into a box and come to rest, at the default tolerance: the last ones roll down by t
+// = 13. Positions follow the contact velocities, so overlap is what the tolerance leaves.
+TEST(Engine, SettlesWithoutOverlap) {
+    for (const double dt : {0.02, 0.01, 0.005}) {
+        EngineSettings settings = scenes::exact(0.3, 1e-3);
+        settings.solver_settings.max_iterations = 2000;
+        Engine engine = scenes::settling_pack(10, 10, settings);
+        double deepest = 0.0;
+        for (int n = 0; n * dt < 14.0; ++n) {
+            EXPECT_TRUE(engine.step(dt).converged);
+            engine.move(dt);
+            deepest = std::max(deepest, engine.max_penetration());
+        }
+        EXPECT_LT(deepest, 1e-4);
+        double speed = 0.0;
+        for (const Twist& twist : engine.bodies().twist) speed += norm(twist.velocity) / 100.0;
+        EXPECT_LT(speed, 0.01);
+    }
+}
+
+TEST(Engine, RepeatsItselfBitForBit) {
+    const auto result = [] {
+        Engine engine = scenes::settling_pack(8, 8, scenes::exact(0.3, 1e-3));
+        scenes::run(engine, 2.0, 0.01);
+        return engine.save();
+    };
+    EXPECT_EQ(result(), result());
+}
+
+// 100 + 100 steps with a save between equal 200 steps, bit for bit: impulses are part of the state.
+TEST(Engine, RestartsBitForBit) {
+    const EngineSettings settings = scenes::exact(0.3, 1e-3);
+    Engine whole = scenes::settling_pack(8, 8, settings);
+    scenes::run(whole, 1.0, 0.01);
+    const std::vector<char> middle = whole.save();
+    scenes::run(whole, 1.0, 0.01);
+
+    Engine second(settings, scenes::discs, whole.walls());
+    second.restore(middle);
+    EXPECT_EQ(second.save(), middle);
+    scenes::run(second, 1.0, 0.01);
+    EXPECT_EQ(second.save(), whole.save());
+
+    Engine forgetful(settings, scenes::discs, whole.walls());
+    forgetful.restore(middle);
+    forgetful.memory().forget();
+    scenes::run(forgetful, 1.0, 0.01);
+    EXPECT_NE(forgetful.save(), whole.save()) << "the memory must matter, or this tests nothing";
+}
+
+TEST(Engine, RefusesBrokenStates) {
+    Engine engine = scenes::settling_pack(2, 2, scenes::exact(0.3));
+    std::vector<char> state = engine.save();
+    state.pop_back();
+    EXPECT_THROW(engine.restore(state), std::invalid_argument);
+    EXPECT_THROW(engine.restore({'n', 'o'}), std::invalid_argument);
+    EXPECT_THROW(engine.restore(engine.save_memory()), std::invalid_argument);
+    EXPECT_EQ(engine.bodies().size(), 4u) << "a refused state changes nothing";
+}
+
+// Bodies keep their order; contacts of those that stay keep their impulses.
+TEST(Engine, ForgetsOnlyRemovedBodies) {
+    Engine engine = scenes::settling_pack(3, 1, scenes::exact(0.3));
+    scenes::run(engine, 1.0, 0.01);
+    const std::size_t before = engine.memory().contacts().size();
+    engine.keep({1, 0, 1});
+    EXPECT_EQ(engine.bodies().id, (std::vector<GrainId>{0, 2}));
+    EXPECT_EQ(engine.bodies().contact_impulse.size(), 2u);
+    EXPECT_EQ(engine.memory().contacts().size(), before);
+    EXPECT_TRUE(engine.step(0.01).converged);
+    EXPECT_EQ(engine.memory().contacts().size(), 2u);
+}
+
+// Discs that fall side by side, touching, with nothing to hold them: solved at once, no contact
+// force beyond rounding.
+TEST(Engine, FallingLatticeCountsAsSolved) {
+    Engine engine(scenes::exact(0.3, 1e-3), scenes::discs, {});
+    for (int k = 0; k < 30; ++k)
+        engine.bodies().add(scenes::disc(k, k % 6 + 0.5 * (k / 6 % 2), std::sqrt(0.75) * (k / 6)));
+    for (int n = 0; n < 20; ++n) {
+        const StepReport report = engine.step(0.01);
+        EXPECT_TRUE(report.converged);
+        EXPECT_LT(report.iterations, 300);
+        engine.move(0.01);
+    }
+    for (const Vec3& impulse : engine.bodies().contact_impulse) EXPECT_LT(norm(impulse), 1e-12);
+}
+
+TEST(Engine, RefusesBadSettings) {
+    EngineSettings settings;
+    settings.theta = 0.4;
+    EXPECT_THROW(Engine(settings, scenes::discs, {}), std::invalid_argument);
+    settings = {};
+    settings.friction = -0.1;
+    EXPECT_THROW(Engine(settings, scenes::discs, {}), std::invalid_argument);
+    Wall slanted = scenes::floor(0.3);
+    slanted.normal = {0.5, 0.5, 0.0};
+    EXPECT_THROW(Engine({}, scenes::discs, {slanted}), std::invalid_argument);
+    Engine engine({}, scenes::discs, {});
+    EXPECT_THROW(engine.step(0.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace turbidite::nscd

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/warm_start.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+// Impulse 0.2 over dt = 0.01 is a force of 20: 0.1 over half the step.
+TEST(ContactMemory, KeepsForcesAndMatchesByKey) {
+    ContactMemory memory;
+    memory.remember({{7, 9, 0, 0}, {3, 9, 1, 0}, {7, 9, 0, 1}},
+                    {{0.2, -0.1, 0.0}, {0.4, 0.0, 0.0}, {0.0, 0.0, 0.0}}, 0.01);
+    EXPECT_NEAR(memory.guess({7, 9, 0, 0}, 0.005)[0], 0.1, 1e-16);
+    EXPECT_NEAR(memory.guess({7, 9, 0, 0}, 0.005)[1], -0.05, 1e-16);
+    EXPECT_NEAR(memory.guess({3, 9, 1, 0}, 0.01)[0], 0.4, 1e-16);
+    EXPECT_EQ(memory.guess({3, 9, 0, 0}, 0.01), (Vec3{}));
+    EXPECT_EQ(memory.guess({7, 9, 0, 1}, 0.01), (Vec3{}));
+    EXPECT_EQ(memory.contacts().size(), 2u);
+}
+
+/// Sweeps over 50 steps of a pack at rest.
+std::int64_t sweeps(bool warm, double dt) {
+    Engine engine = scenes::settling_pack(10, 10, scenes::exact(0.3, 1e-3));
+    scenes::run(engine, 14.0, 0.01);
+    std::int64_t sum = 0;
+    for (int n = 0; n < 50; ++n) {
+        if (!warm) engine.memory().forget();
+        sum += engine.step(dt).iterations;
+        engine.move(dt);
+    }
+    return sum;
+}
+
+// At rest the last step's forces are the answer: less than half the sweeps, also with a shorter
+// step.
+TEST(WarmStart, SavesSweeps) {
+    EXPECT_LT(2 * sweeps(true, 0.01), sweeps(false, 0.01));
+    EXPECT_LT(2 * sweeps(true, 0.005), sweeps(false, 0.005));
+}
+
+}  // namespace
+}  // namespace turbidite::nscd

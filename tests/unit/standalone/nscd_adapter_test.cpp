@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/standalone/nscd_adapter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+namespace turbidite {
+namespace {
+
+const ShapeTable discs = {{"disc", {}}};
+
+// Box of 10 x 20, g = 1, rho_f = 1.
+Settings box_settings() {
+    Settings settings;
+    for (const char* side : {"left", "right", "bottom", "top"})
+        settings.set(std::string("domain.") + side, std::string("wall"));
+    settings.set("coupling.positions", std::string("corrected"));
+    settings.set("fluid.enabled", true);
+    settings.set("fluid.hydrodynamic_radius", 1.0);
+    settings.set("contact.friction", 0.3);
+    settings.set("contact.theta", 0.5);
+    settings.set("contact.tolerance", 1e-10);
+    settings.set("contact.iterations", std::int64_t{100000});
+    settings.set("contact.recovery_fraction", 0.2);
+    settings.set("contact.recovery_speed", 0.5);
+    settings.set("run.gravity", 1.0);
+    settings.set("run.fluid_density", 1.0);
+    settings.set("run.velocity_scale", 1.0);
+    settings.set("run.size_x", 10.0);
+    settings.set("run.size_y", 20.0);
+    return settings;
+}
+
+/// rho_s = 1.5, D = 1.
+GrainState grain_at(GrainId id, double x, double y) {
+    GrainState grain;
+    grain.id = id;
+    grain.radius = 0.5;
+    grain.density = 1.5;
+    grain.position = {x, y, 0.0};
+    return grain;
+}
+
+Window window(std::int64_t index, double step = 0.01) {
+    Window result;
+    result.index = index;
+    result.time = double(index) * step;
+    result.step = step;
+    return result;
+}
+
+/// A fluid that leaves all velocities as they are.
+std::vector<Kick> same_velocities(const Motion& motion) {
+    std::vector<Kick> kicks;
+    for (const GrainState& grain : motion.grains) {
+        Kick kick;
+        kick.id = grain.id;
+        kick.velocity = grain.velocity;
+        kick.angular_velocity = grain.angular_velocity;
+        kicks.push_back(kick);
+    }
+    return kicks;
+}
+
+/// The text of the error that `call` throws.
+template <class Error>
+std::string refusal(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return {};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// Effective mass and weight carry the same c = 1 - rho_f/rho_s: one window from rest gives -g dt.
+TEST(NscdAdapter, ImmersedGrainFallsWithGravity) {
+    for (const double dt : {0.02, 0.01, 0.005}) {
+        NscdAdapter adapter;
+        adapter.initialise(box_settings(), discs, {grain_at(1, 5, 10)});
+        const Motion motion = adapter.advance(window(0, dt), {});
+        EXPECT_NEAR(motion.grains[0].velocity[1], -dt, 1e-15);
+        EXPECT_EQ(motion.grains[0].position, (Vec3{5, 10, 0})) << "advance does not move";
+    }
+}
+
+// R_h/R = 0.9: (M - m_f) g / (M - rho_f V(R_h)) = (1.5 - 1)/(1.5 - 0.81) g.
+TEST(NscdAdapter, HydrodynamicRadiusChangesTheFall) {
+    Settings settings = box_settings();
+    settings.set("fluid.hydrodynamic_radius", 0.9);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(1, 5, 10)});
+    const Motion motion = adapter.advance(window(0), {});
+    EXPECT_NEAR(motion.grains[0].velocity[1], -0.01 * 0.5 / 0.69, 1e-15);
+}
+
+/// Floor reaction of one grain at rest, over dt.
+double reaction(bool fluid) {
+    Settings settings = box_settings();
+    settings.set("fluid.enabled", fluid);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(1, 5, 0.5)});
+    const Motion motion = adapter.advance(window(0), {});
+    EXPECT_EQ(motion.report.contacts, 1);
+    EXPECT_TRUE(motion.report.converged);
+    return motion.grains[0].contact_impulse[1] / 0.01;
+}
+
+// The floor carries the buoyant weight (rho_s - rho_f) V g under water, rho_s V g when dry.
+TEST(NscdAdapter, ReactionIsTheBuoyantWeight) {
+    EXPECT_NEAR(reaction(true), 0.5 * std::numbers::pi / 4, 1e-13);
+    EXPECT_NEAR(reaction(false), 1.5 * std::numbers::pi / 4, 1e-13);
+}
+
+// J_t sums of a spinning grain on the floor: W_tt = 3/m', spin -> slip speed R s = 0.05, friction
+// needs 0.05 m'/3 with m' = 0.5 pi/4, below mu J_n = 0.3 m' g dt only if dt > 0.0556: at dt = 0.01
+// it slides, so the angular impulse is -R mu J_n = -0.5 * 0.3 * m' * 0.01.
+TEST(NscdAdapter, ReportsTheAngularImpulse) {
+    GrainState spinning = grain_at(1, 5, 0.5);
+    spinning.angular_velocity = {0.0, 0.0, 0.1};
+    NscdAdapter adapter;
+    adapter.initialise(box_settings(), discs, {spinning});
+    const Motion motion = adapter.advance(window(0), {});
+    EXPECT_NEAR(motion.grains[0].contact_angular_impulse[2],
+                -0.5 * 0.3 * 0.5 * std::numbers::pi / 4 * 0.01, 1e-14);
+}
+
+/// One window of a falling grain whose kick says (0.3, -0.2) and spin 2.
+Motion kicked(const std::string& positions) {
+    Settings settings = box_settings();
+    settings.set("coupling.positions", positions);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(4, 5, 10)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {}));
+    kicks[0].velocity = {0.3, -0.2, 0.0};
+    kicks[0].angular_velocity = {0.0, 0.0, 2.0};
+    return adapter.apply_kick(window(0), kicks);
+}
+
+// `corrected`: q + dt U^{n+1}; `contact`: q + dt U^{n+4/5} = (0, -g dt) dt. Velocities are the
+// kick's.
+TEST(NscdAdapter, MovesWithTheVelocitiesOfTheCase) {
+    const GrainState corrected = kicked("corrected").grains[0];
+    EXPECT_NEAR(corrected.position[0], 5.003, 1e-14);
+    EXPECT_NEAR(corrected.position[1], 9.998, 1e-14);
+    EXPECT_NEAR(corrected.orientation[3], std::sin(0.01), 1e-15);
+    const GrainState contact = kicked("contact").grains[0];
+    EXPECT_NEAR(contact.position[0], 5.0, 1e-14);
+    EXPECT_NEAR(contact.position[1], 10.0 - 1e-4, 1e-14);
+    EXPECT_EQ(contact.velocity, (Vec3{0.3, -0.2, 0.0}));
+    EXPECT_EQ(contact.angular_velocity, (Vec3{0.0, 0.0, 2.0}));
+}
+
+TEST(NscdAdapter, DryGrainsMoveWithoutKicks) {
+    Settings settings = box_settings();
+    settings.set("fluid.enabled", false);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(4, 5, 10)});
+    adapter.advance(window(0), {});
+    const Motion motion = adapter.apply_kick(window(0), {});
+    EXPECT_NEAR(motion.grains[0].position[1], 10.0 - 1e-4, 1e-14);
+    EXPECT_NEAR(motion.grains[0].velocity[1], -0.01, 1e-16);
+}
+
+TEST(NscdAdapter, EveryGrainNeedsExactlyOneKick) {
+    const auto error = [](const std::function<void(std::vector<Kick>&)>& spoil) {
+        NscdAdapter adapter;
+        adapter.initialise(box_settings(), discs, {grain_at(11, 3, 10), grain_at(22, 7, 10)});
+        std::vector<Kick> kicks = same_velocities(adapter.advance(window(3), {}));
+        spoil(kicks);
+        return refusal<std::runtime_error>([&] { adapter.apply_kick(window(3), kicks); });
+    };
+    const std::string missing = error([](auto& kicks) { kicks.pop_back(); });
+    EXPECT_TRUE(contains(missing, "no kick") && contains(missing, "grain 22")) << missing;
+    const std::string twice = error([](auto& kicks) { kicks[1].id = 11; });
+    EXPECT_TRUE(contains(twice, "two kicks") && contains(twice, "grain 11")) << twice;
+    const std::string stranger = error([](auto& kicks) { kicks[0].id = 99; });
+    EXPECT_TRUE(contains(stranger, "grain 99")) << stranger;
+    const std::string none = error([](auto& kicks) { kicks.clear(); });
+    EXPECT_TRUE(contains(none, "no kick") && contains(none, "grain 11")) << none;
+}
+
+TEST(NscdAdapter, KicksMayComeInAnyOrder) {
+    NscdAdapter adapter;
+    adapter.initialise(box_settings(), discs, {grain_at(11, 3, 10), grain_at(22, 7, 10)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {}));
+    kicks[0].velocity = {1.0, 0.0, 0.0};
+    std::swap(kicks[0], kicks[1]);
+    const Motion motion = adapter.apply_kick(window(0), kicks);
+    EXPECT_EQ(motion.grains[0].id, 11);
+    EXPECT_EQ(motion.grains[0].velocity, (Vec3{1.0, 0.0, 0.0}));
+}
+
+// Kicked down at 100 over dt = 0.01 from y = 0.5: the centre is at -0.5.
+TEST(NscdAdapter, RefusesAGrainThroughAWall) {
+    NscdAdapter adapter;
+    adapter.initialise(box_settings(), discs, {grain_at(17, 5, 0.5)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(12), {}));
+    kicks[0].velocity = {0.0, -100.0, 0.0};
+    const std::string text =
+        refusal<PhysicsRefused>([&] { adapter.apply_kick(window(12), kicks); });
+    for (const char* part : {"grain 17", "(5, -0.5)", "bottom wall", "window 12"})
+        EXPECT_TRUE(contains(text, part)) << text;
+}
+
+TEST(NscdAdapter, RefusesWhatIsNotANumber) {
+    NscdAdapter adapter;
+    adapter.initialise(box_settings(), discs, {grain_at(17, 5, 5)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(4), {}));
+    kicks[0].velocity[0] = std::numeric_limits<double>::quiet_NaN();
+    const std::string text = refusal<PhysicsRefused>([&] { adapter.apply_kick(window(4), kicks); });
+    for (const char* part : {"grain 17", "not a number", "window 4"})
+        EXPECT_TRUE(contains(text, part)) << text;
+}
+
+// The right side is open at x = 10: a disc of radius 0.5 stays until its centre is past 10.5.
+TEST(NscdAdapter, RemovesAndCountsGrainsPastAFreeSide) {
+    Settings settings = box_settings();
+    settings.set("domain.right", std::string("free"));
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(1, 9.0, 5), grain_at(2, 5, 5)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {}));
+    kicks[0].velocity = {149.0, 0.0, 0.0};
+    Motion motion = adapter.apply_kick(window(0), kicks);
+    EXPECT_EQ(motion.report.removed, 0);
+    EXPECT_EQ(motion.grains.size(), 2u);
+    kicks = same_velocities(adapter.advance(window(1), {}));
+    kicks[0].velocity = {2.0, 0.0, 0.0};
+    motion = adapter.apply_kick(window(1), kicks);
+    EXPECT_EQ(motion.report.removed, 1);
+    EXPECT_EQ(adapter.removed(), std::vector<GrainId>{1});
+    ASSERT_EQ(motion.grains.size(), 1u);
+    EXPECT_EQ(motion.grains[0].id, 2);
+    EXPECT_EQ(adapter.advance(window(2), {}).report.removed, 0);
+}
+
+// Period 10: from 9.99 at speed 2 over 0.01 to 0.01.
+TEST(NscdAdapter, WrapsCyclicSides) {
+    Settings settings = box_settings();
+    settings.set("domain.left", std::string("cyclic"));
+    settings.set("domain.right", std::string("cyclic"));
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(1, 9.99, 5)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {}));
+    kicks[0].velocity = {2.0, 0.0, 0.0};
+    EXPECT_NEAR(adapter.apply_kick(window(0), kicks).grains[0].position[0], 0.01, 1e-13);
+    settings.set("domain.left", std::string("wall"));
+    EXPECT_THROW(NscdAdapter().initialise(settings, discs, {}), std::invalid_argument);
+}
+
+// Discs 0.95 apart overlap by 0.05; the wall at 0 is overlapped by 0.02.
+TEST(NscdAdapter, ReportsTheDeepestOverlapOfWhatItReturns) {
+    NscdAdapter adapter;
+    const Motion start =
+        adapter.initialise(box_settings(), discs, {grain_at(1, 0.48, 5), grain_at(2, 1.43, 5)});
+    EXPECT_NEAR(start.report.max_penetration, 0.05, 1e-14);
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {}));
+    kicks[0].velocity = {0.0, 0.0, 0.0};
+    kicks[1].velocity = {-1.0, 0.0, 0.0};
+    EXPECT_NEAR(adapter.apply_kick(window(0), kicks).report.max_penetration, 0.06, 1e-14);
+}
+
+/// A column of grains that fall on each other.
+std::vector<GrainState> column() {
+    std::vector<GrainState> grains;
+    for (int k = 0; k < 15; ++k) grains.push_back(grain_at(k, 5 + 0.1 * (k % 3), 0.5 + 1.05 * k));
+    return grains;
+}
+
+Motion windows(NscdAdapter& adapter, std::int64_t first, std::int64_t last) {
+    Motion motion;
+    for (std::int64_t n = first; n < last; ++n)
+        motion = adapter.apply_kick(window(n), same_velocities(adapter.advance(window(n), {})));
+    return motion;
+}
+
+TEST(NscdAdapter, RestartsBitForBit) {
+    NscdAdapter whole, second;
+    whole.initialise(box_settings(), discs, column());
+    windows(whole, 0, 100);
+    second.initialise(box_settings(), discs, column());
+    second.restore(whole.save());
+    windows(whole, 100, 200);
+    windows(second, 100, 200);
+    EXPECT_EQ(whole.save(), second.save());
+}
+
+// A host that keeps bodies in its own files copies them and hands over the contact impulses.
+TEST(NscdAdapter, HostMayKeepBodiesItself) {
+    NscdAdapter whole, second;
+    whole.initialise(box_settings(), discs, column());
+    windows(whole, 0, 100);
+    second.initialise(box_settings(), discs, column());
+    second.bodies().position = whole.bodies().position;
+    second.bodies().orientation = whole.bodies().orientation;
+    second.bodies().twist = whole.bodies().twist;
+    second.take_over_contacts(whole.contact_memory());
+    windows(whole, 100, 200);
+    windows(second, 100, 200);
+    EXPECT_EQ(whole.save(), second.save());
+}
+
+TEST(NscdAdapter, SaysWhatItIs) {
+    const Hello hello = NscdAdapter("yade-nscd", "YADE 2023.02a").describe();
+    EXPECT_EQ(hello.adapter, "yade-nscd");
+    EXPECT_EQ(hello.host_code, "YADE 2023.02a");
+    EXPECT_EQ(hello.role, Role::grains);
+    EXPECT_EQ(hello.capabilities.shapes, std::vector<std::string>{"disc"});
+    EXPECT_EQ(hello.capabilities.contact_laws, std::vector<std::string>{"coulomb"});
+    EXPECT_FALSE(hello.capabilities.effective_inertia);
+}
+
+TEST(NscdAdapter, RefusesJointResponses) {
+    NscdAdapter adapter;
+    adapter.initialise(box_settings(), discs, {grain_at(1, 5, 5)});
+    const std::string text = refusal<std::runtime_error>(
+        [&] { adapter.advance(window(0), std::vector<FreeResponse>(1)); });
+    EXPECT_TRUE(contains(text, "joint")) << text;
+}
+
+TEST(NscdAdapter, RefusesTheSameIdTwice) {
+    NscdAdapter adapter;
+    const std::string text = refusal<std::runtime_error>([&] {
+        adapter.initialise(box_settings(), discs, {grain_at(5, 3, 3), grain_at(5, 6, 6)});
+    });
+    EXPECT_TRUE(contains(text, "grain 5")) << text;
+}
+
+}  // namespace
+}  // namespace turbidite
