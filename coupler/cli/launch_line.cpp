@@ -58,14 +58,17 @@ Arguments mpirun_options(const LaunchSite& site) {
     return options;
 }
 
-Arguments exports(const LaunchSite& site) {
-    return {"-x", "WM_PROJECT_DIR=" + site.openfoam, "-x", "OMP_NUM_THREADS=1",
-            "-x", "PYTHONPATH=" + site.programs.yade_folder().string()};
+// mpirun exports -x to the program of the same part only, so every part repeats it.
+Arguments part(std::int64_t ranks, const LaunchSite& site, const Arguments& command) {
+    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam, "-x", "OMP_NUM_THREADS=1",
+                   "-x", "PYTHONPATH=" + site.programs.yade_folder().string(),
+                   "-n", std::to_string(ranks)};
+    append(part, command);
+    return part;
 }
 
-Arguments fluid_part(const Settings& settings, const RunFolder& folder, const Programs& programs) {
-    const std::int64_t ranks = settings.integer("fluid.ranks");
-    Arguments part{":", "-n", std::to_string(ranks), programs.fluid(), "-case", folder.fluid()};
+Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
+    Arguments part{programs.fluid(), "-case", folder.fluid()};
     if (ranks > 1) part.push_back("-parallel");
     return part;
 }
@@ -94,11 +97,15 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
                                           const LaunchSite& site) {
     const Programs& programs = site.programs;
     Arguments line = mpirun_options(site);
-    append(line, exports(site));
-    append(line, {"-n", "1", programs.coupler(), folder.root});
-    if (settings.flag("fluid.enabled")) append(line, fluid_part(settings, folder, programs));
-    append(line, {":", "-n", settings.text("grains.ranks")});
-    append(line, grains_program(settings.text("grains.adapter")).command(programs, folder.root));
+    append(line, part(1, site, {programs.coupler(), folder.root}));
+    if (settings.flag("fluid.enabled")) {
+        const std::int64_t ranks = settings.integer("fluid.ranks");
+        line.push_back(":");
+        append(line, part(ranks, site, fluid_command(ranks, folder, programs)));
+    }
+    line.push_back(":");
+    append(line, part(settings.integer("grains.ranks"), site,
+                      grains_program(settings.text("grains.adapter")).command(programs, folder.root)));
     return line;
 }
 

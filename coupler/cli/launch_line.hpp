@@ -2,7 +2,7 @@
 //
 // The mpirun line of a prepared run folder: what `turbidite run` starts and --dry-run prints.
 //
-//     mpirun … -n 1 turbidite-coupler RUN : -n F turbidite-fluid -case RUN/fluid : -n G <grains>
+//     mpirun … -n 1 turbidite-coupler RUN : … -n F turbidite-fluid -case RUN/fluid : … -n G <grains>
 //
 // It carries all it needs: absolute paths, exported variables. Dry cases have no fluid part.
 #pragma once

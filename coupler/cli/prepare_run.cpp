@@ -45,6 +45,12 @@ void empty_run_folder(const RunFolder& folder) {
         fs::remove_all(part);
 }
 
+Failure folder_refused(const fs::path& out, const std::string& fault, const std::string& remedy) {
+    return Failure(ExitCode::bad_input,
+                   fmt::format("--out = {} {}\n  {}\nNothing was started. Exit code 2.",
+                               out.string(), fault, remedy));
+}
+
 void write_text(const fs::path& file, const std::string& text) {
     std::ofstream output(file, std::ios::binary);
     output << text;
@@ -84,22 +90,19 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
     const fs::path wanted = order.out.empty() ? fresh_folder(case_name) : order.out;
     // The trailing slash of `--out DIR/` would become an empty last part.
     const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
+    if (folder.root.string().find_first_of(" \t\n\"'") != std::string::npos)
+        throw folder_refused(folder.root, "has a space or a quote in its path",
+                             "OpenFOAM drops these from file names. Choose another --out.");
     if (holds_something(folder.root) && !(order.force && fs::is_directory(folder.root)))
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("--out = {} already holds something\n  A run needs a new or empty "
-                                  "folder. Choose another --out, or add --force to overwrite the "
-                                  "run that is there.\nNothing was started. Exit code 2.",
-                                  wanted.string()));
+        throw folder_refused(wanted, "already holds something",
+                             "A run needs a new or empty folder. Choose another --out, or add "
+                             "--force to overwrite the run that is there.");
     if (order.force) empty_run_folder(folder);
     std::error_code error;
-    for (const fs::path& part : {folder.grains(), folder.logs()}) {
-        fs::create_directories(part, error);
-        if (error)
-            throw Failure(ExitCode::bad_input,
-                          fmt::format("--out = {} cannot be created: {}\n  Choose a folder you may "
-                                      "write to. Nothing was started. Exit code 2.",
-                                      wanted.string(), error.message()));
-    }
+    for (const fs::path& part : {folder.grains(), folder.logs()})
+        if (fs::create_directories(part, error); error)
+            throw folder_refused(wanted, "cannot be created: " + error.message(),
+                                 "Choose a folder you may write to.");
     return folder;
 }
 

@@ -8,7 +8,8 @@
 namespace turbidite {
 
 bool write_report(const RunFolder& folder, const Programs& programs) {
-    const std::string line = shell_line({programs.python(), programs.report(), folder.root});
+    // -B: no __pycache__ in the source tree.
+    const std::string line = shell_line({programs.python(), "-B", programs.report(), folder.root});
     return std::system(line.c_str()) == 0;
 }
 

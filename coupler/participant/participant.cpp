@@ -53,6 +53,7 @@ struct Membership::State {
         log = log_path(role, launch.run_folder, rank, ranks);
         redirect_output(log);
         hash = hash_of_run(launch.run_folder);
+        if (launch.joined) launch.joined(MPI_Comm_c2f(local));
         channel = std::make_unique<IntercommChannel>(join_coupler(local, role));
     }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,9 @@ struct Launch {
     /// A communicator that the host code split off the world already (YADE's mpy does), as the number
     /// mpi4py calls its handle; 0: the library makes the split.
     std::uintptr_t communicator = 0;
+    /// Called once with the Fortran handle of the participant's own communicator, before the adapter is: the
+    /// moment to isolate a host code's world.
+    std::function<void(int)> joined = {};
 };
 
 /// One rank's place in the job: its communicator, its channel to the coupler, its log.

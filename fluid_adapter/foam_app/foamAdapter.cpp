@@ -313,8 +313,8 @@ const FluidTimings& FoamAdapter::timings() const { return state_->timings; }
 
 const CollocationPoints& FoamAdapter::points() const { return state_->points; }
 
-void FoamAdapter::set_uniform_velocity(double x, double y) {
-    state_->fields.U.primitiveFieldRef() = Foam::vector(x, y, 0.0);
+void FoamAdapter::add_velocity(double x, double y) {
+    state_->fields.U.primitiveFieldRef() += Foam::vector(x, y, 0.0);
     state_->fields.U.correctBoundaryConditions();
     state_->fields.interpolate_flux();
 }

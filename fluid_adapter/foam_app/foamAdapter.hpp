@@ -37,8 +37,8 @@ class FoamAdapter final : public FluidAdapter {
     const FluidTimings& timings() const;
     const CollocationPoints& points() const;
 
-    /// Sets u = (x, y) everywhere: initial conditions of tests and of restarts by hand.
-    void set_uniform_velocity(double x, double y);
+    /// Adds (x, y) to u everywhere: a stream to begin with, or a uniform body force times dt.
+    void add_velocity(double x, double y);
 
     /// u at a cell of the grid [m/s].
     Vec3 velocity(int i, int j) const;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "coupler/shapes/immersed_body.hpp"
+#include "granular_adapter/nscd/broad_phase.hpp"
 #include "granular_adapter/nscd/law_list.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
 
@@ -94,6 +95,7 @@ Hello NscdAdapter::describe() const {
     Hello hello;
     hello.role = Role::grains;
     hello.adapter = adapter_name_;
+    hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = host_code_;
     hello.dimension = 2;
     hello.capabilities.saves_state = true;
@@ -117,6 +119,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
         if (border.side == Side::wall) walls.push_back(border.plane);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
     add_grains(settings, shapes, grains);
+    nscd::check_periods(bodies().radius, engine().settings().box);
     check_grains("at the start");
     report_ = {};
     report_.max_penetration = engine_->max_penetration();

@@ -120,6 +120,15 @@ TEST(Residual, IsTheShareOfTheImpulseThatIsWrong) {
     EXPECT_NEAR(natural_map_residual(problem, {{0.9, 0.0, 0.0}}), 0.1 / 0.9, 1e-14);
 }
 
+// The same at r_n = 0.9: one update makes it 1, du = 0.1, R = 0.95, so quad = max = 0.1/0.95.
+TEST(Residual, ChangeMeasuresLookAtOneUpdate) {
+    Contact contact = touch(-1, 0, {}, {});
+    const ContactProblem problem{{{1.0, 1.0}}, {{-1.0 * contact.normal, {}}}, {contact}};
+    const ChangeMeasures change = change_measures(problem, {{0.9, 0.0, 0.0}});
+    EXPECT_NEAR(change.quad, 0.1 / 0.95, 1e-14);
+    EXPECT_NEAR(change.max, 0.1 / 0.95, 1e-14);
+}
+
 TEST(SolverList, NamesTheKnownSolversWhenAskedForAnother) {
     try {
         make_solver("newton");

@@ -253,8 +253,22 @@ TEST(NscdAdapter, WrapsCyclicSides) {
     std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {}));
     kicks[0].velocity = {2.0, 0.0, 0.0};
     EXPECT_NEAR(adapter.apply_kick(window(0), kicks).grains[0].position[0], 0.01, 1e-13);
-    settings.set("domain.left", std::string("wall"));
-    EXPECT_THROW(NscdAdapter().initialise(settings, discs, {}), std::invalid_argument);
+}
+
+// One cyclic side without the other means nothing; a period of 1.5 lets two discs touch on both
+// sides.
+TEST(NscdAdapter, RefusesImpossibleCyclicSides) {
+    Settings settings = box_settings();
+    settings.set("domain.right", std::string("cyclic"));
+    const std::string half =
+        refusal<std::invalid_argument>([&] { NscdAdapter().initialise(settings, discs, {}); });
+    EXPECT_TRUE(contains(half, "domain.left and domain.right")) << half;
+    settings.set("domain.left", std::string("cyclic"));
+    settings.set("run.size_x", 1.5);
+    const std::string narrow = refusal<std::invalid_argument>([&] {
+        NscdAdapter().initialise(settings, discs, {grain_at(1, 0.5, 5), grain_at(2, 0.5, 7)});
+    });
+    EXPECT_TRUE(contains(narrow, "at least 2")) << narrow;
 }
 
 // Discs 0.95 apart overlap by 0.05; the wall at 0 is overlapped by 0.02.
@@ -313,6 +327,7 @@ TEST(NscdAdapter, SaysWhatItIs) {
     const Hello hello = NscdAdapter("yade-nscd", "YADE 2023.02a").describe();
     EXPECT_EQ(hello.adapter, "yade-nscd");
     EXPECT_EQ(hello.host_code, "YADE 2023.02a");
+    EXPECT_FALSE(hello.adapter_version.empty());
     EXPECT_EQ(hello.role, Role::grains);
     EXPECT_EQ(hello.capabilities.shapes, std::vector<std::string>{"disc"});
     EXPECT_EQ(hello.capabilities.contact_laws, std::vector<std::string>{"coulomb"});

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// turbidite-fluid -case RUN/fluid: OpenFOAM as the fluid participant. The steps of a window are in foamAdapter.cpp.
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "coupler/participant/participant.hpp"
+#include "coupler/transport/world_isolation.hpp"
+#include "fluid_adapter/foam_app/foamAdapter.hpp"
+
+int main(int argc, char** argv) {
+    if (argc != 3 || std::string(argv[1]) != "-case") {
+        std::fprintf(stderr, "usage: turbidite-fluid -case RUN/fluid   (started by `turbidite run`)\n");
+        return static_cast<int>(turbidite::ExitCode::bad_input);
+    }
+    const std::filesystem::path foam_case = std::filesystem::absolute(argv[2]).lexically_normal();
+    turbidite::FoamAdapter adapter(foam_case);
+
+    turbidite::Launch launch{&argc, &argv, foam_case.parent_path().string()};
+    launch.joined = [](int communicator) { turbidite::isolate_world(MPI_Comm_f2c(communicator)); };
+    return turbidite::run_fluid(adapter, launch);
+}

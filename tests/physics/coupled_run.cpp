@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/physics/coupled_run.hpp"
+
+#include <stdlib.h>
+
+#include <stdexcept>
+
+#include "coupler/shapes/disc.hpp"
+#include "fluid_adapter/foam_case/fluid_case.hpp"
+
+namespace turbidite {
+namespace {
+
+/// The case and its mesh; returns the folder.
+std::filesystem::path prepared(const std::filesystem::path& folder, const CoupledSetup& setup) {
+    write_fluid_case(settings_of(setup), folder);
+    build_fluid_mesh(folder, folder / "blockMesh.log");
+    return folder;
+}
+
+void set_run_values(Settings& settings, const CoupledSetup& setup) {
+    settings.set("run.diameter", 1.0);
+    settings.set("run.velocity_scale", 1.0);
+    settings.set("run.time_scale", 1.0);
+    settings.set("run.fluid_density", 1.0);
+    settings.set("run.gravity", setup.gravity);
+    settings.set("run.viscosity", 1.0 / setup.reynolds);
+    settings.set("run.step", setup.step);
+    settings.set("run.windows", std::int64_t{setup.windows});
+    settings.set("run.output_every", std::int64_t{setup.windows});
+    settings.set("run.size_x", setup.width);
+    settings.set("run.size_y", setup.height);
+    settings.set("run.size_z", 0.0);
+    settings.set("dimension", std::int64_t{2});
+    settings.set("domain.left", setup.left_right);
+    settings.set("domain.right", setup.left_right);
+    settings.set("domain.bottom", setup.bottom);
+    settings.set("domain.top", setup.top);
+}
+
+void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
+    settings.set("fluid.enabled", true);
+    settings.set("fluid.cells_per_diameter", std::int64_t{setup.cells_per_diameter});
+    settings.set("fluid.ranks", std::int64_t{1});
+    settings.set("fluid.points", setup.points);
+    settings.set("fluid.point_spacing", 1.5);
+    settings.set("fluid.hydrodynamic_radius", setup.hydrodynamic_radius);
+    settings.set("fluid.multiplier_tolerance", setup.tolerance);
+    settings.set("fluid.multiplier_iterations", std::int64_t{200});
+    settings.set("fluid.transport_scheme", std::string("Gauss limitedLinearV 1"));
+    settings.set("fluid.pressure_solver", std::string("GAMG"));
+    settings.set("fluid.pressure_tolerance", 1e-6);
+    settings.set("fluid.viscous_tolerance", 1e-8);
+}
+
+void set_contact_values(Settings& settings) {
+    settings.set("contact.friction", 0.3);
+    settings.set("contact.theta", 0.5);
+    settings.set("contact.tolerance", 1e-3);
+    settings.set("contact.iterations", std::int64_t{2000});
+    settings.set("contact.recovery_fraction", 0.2);
+    settings.set("contact.recovery_speed", 0.5);
+    settings.set("coupling.scheme", std::string("split"));
+    settings.set("coupling.positions", std::string("corrected"));
+    settings.set("limits.penetration", 0.2);
+}
+
+}  // namespace
+
+Settings settings_of(const CoupledSetup& setup) {
+    Settings settings;
+    set_run_values(settings, setup);
+    set_fluid_values(settings, setup);
+    set_contact_values(settings);
+    return settings;
+}
+
+GrainState disc_at(const CoupledSetup& setup, double x, double y, double vx, double vy) {
+    GrainState grain;
+    grain.id = 1;
+    grain.radius = 0.5;
+    grain.density = setup.density_ratio;
+    grain.position = {x, y, 0.0};
+    grain.velocity = {vx, vy, 0.0};
+    return grain;
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "turbidite-test-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder " + name);
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;  // a folder left over is no reason to fail a test
+    std::filesystem::remove_all(path_, ignored);
+}
+
+CoupledRun::CoupledRun(const CoupledSetup& setup, std::vector<GrainState> grains)
+    : setup_(setup), fluid_(prepared(folder_.path(), setup)), grains_(std::move(grains)) {
+    const Settings settings = settings_of(setup);
+    const ShapeTable shapes = {ShapeRecord{"disc", {}}};
+    for (std::size_t g = 0; g < grains_.size(); ++g) grains_[g].id = static_cast<GrainId>(g) + 1;
+    fluid_.initialise(settings, shapes);
+    grains_ = contact_.initialise(settings, shapes, grains_).grains;
+}
+
+ImmersedBody CoupledRun::body() const {
+    return immersed_body(Disc(), 0.5, setup_.density_ratio, 1.0, setup_.hydrodynamic_radius);
+}
+
+void CoupledRun::advance(bool write_output) {
+    const Window window{window_, static_cast<double>(window_) * setup_.step, setup_.step,
+                        write_output, false};
+    before_ = grains_;
+    fluid_.advance(window);
+    between_ = contact_.advance(window, {}).grains;
+    answer_ = fluid_.impose(window, between_);
+    grains_ = contact_.apply_kick(window, answer_.kicks).grains;
+    ++window_;
+}
+
+}  // namespace turbidite

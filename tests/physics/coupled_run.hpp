@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fluid and contact adapters in one process, called in the order of the `split` scheme without hub or
+// messages. Run units: D = u_c = rho_f = 1.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/shapes/immersed_body.hpp"
+#include "fluid_adapter/foam_app/foamAdapter.hpp"
+#include "granular_adapter/standalone/nscd_adapter.hpp"
+
+namespace turbidite {
+
+struct CoupledSetup {
+    double width = 4.0, height = 4.0;  ///< [D]
+    std::string left_right = "wall", bottom = "wall", top = "wall";
+    double reynolds = 100.0;
+    double step = 0.01;
+    int windows = 1000;
+    int cells_per_diameter = 16;
+    double density_ratio = 1.5;
+    double gravity = 0.0;
+    std::string points = "interior+boundary";
+    double tolerance = 1e-4;
+    double hydrodynamic_radius = 1.0;
+};
+
+Settings settings_of(const CoupledSetup& setup);
+
+/// A disc of diameter 1.
+GrainState disc_at(const CoupledSetup& setup, double x, double y, double vx = 0.0, double vy = 0.0);
+
+/// An empty folder, removed at the end.
+class TemporaryFolder {
+   public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+   private:
+    std::filesystem::path path_;
+};
+
+class CoupledRun {
+   public:
+    CoupledRun(const CoupledSetup& setup, std::vector<GrainState> grains);
+
+    /// One window.
+    void advance(bool write_output = false);
+
+    const CoupledSetup& setup() const { return setup_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
+    FoamAdapter& fluid() { return fluid_; }
+    const std::vector<GrainState>& before() const { return before_; }    ///< U^n
+    const std::vector<GrainState>& between() const { return between_; }  ///< U^{n+4/5}
+    const std::vector<GrainState>& grains() const { return grains_; }    ///< U^{n+1}
+    const Kicks& answer() const { return answer_; }
+    ImmersedBody body() const;
+
+   private:
+    CoupledSetup setup_;
+    TemporaryFolder folder_;
+    FoamAdapter fluid_;
+    NscdAdapter contact_;
+    std::vector<GrainState> before_, between_, grains_;
+    Kicks answer_;
+    std::int64_t window_ = 0;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One disc in a box against the force balance of the scheme. Gravity as in sedimentation at density
+// ratio 1.5 and compacity 0.2: g = u_c^2 / ((pi D/2)(1/2)(1 - 0.2)^10) = 11.86 u_c^2/D.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/physics/coupled_run.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double g = 11.86;
+
+CoupledSetup settling(const std::string& points) {
+    CoupledSetup setup;
+    setup.gravity = g;
+    setup.reynolds = 36.0;
+    setup.points = points;
+    return setup;
+}
+
+class SettlingDisc : public testing::TestWithParam<std::string> {};
+
+/// Grain side, to round-off, in flight and at rest on the floor: M (U' - U)/dt = -(M - m_f) g + F_c + F_h
+/// with F_h = J_lambda/dt + m_f (U' - U)/dt. Fluid side, to solver tolerance: its own momentum changed by
+/// -J_lambda and by what crossed the walls.
+TEST_P(SettlingDisc, BalancesForcesInEveryWindow) {
+    const CoupledSetup setup = settling(GetParam());
+    CoupledRun run(setup, {disc_at(setup, 2.03, 1.5)});
+    const ImmersedBody body = run.body();
+    const double weight = body.submerged_mass * g;
+    bool landed = false;
+    for (int n = 0; n < 300; ++n) {
+        run.advance();
+        const double dU = run.grains()[0].velocity[1] - run.before()[0].velocity[1];
+        const Kick& kick = run.answer().kicks[0];
+        const double contact = run.between()[0].contact_impulse[1] / setup.step;
+        const double hydrodynamic =
+            kick.multiplier_impulse[1] / setup.step + body.displaced_mass * dU / setup.step;
+        EXPECT_NEAR(body.mass * dU / setup.step, -weight + contact + hydrodynamic, 1e-10 * weight);
+        EXPECT_LT(run.answer().report.momentum_defect, 1e-6);
+        EXPECT_LT(run.answer().report.divergence, 1e-4);
+        landed |= contact > 0.0;
+    }
+    EXPECT_TRUE(landed);
+    EXPECT_NEAR(run.grains()[0].position[1], 0.5, 0.01);
+}
+
+/// A disc in the middle of a symmetric box keeps to the middle and does not turn.
+TEST_P(SettlingDisc, FallsStraightInASymmetricBox) {
+    const CoupledSetup setup = settling(GetParam());
+    CoupledRun run(setup, {disc_at(setup, 2.0, 3.0)});
+    for (int n = 0; n < 60; ++n) run.advance();
+    EXPECT_LT(run.grains()[0].velocity[1], -0.2);
+    EXPECT_NEAR(run.grains()[0].position[0], 2.0, 2e-3);
+    EXPECT_NEAR(run.grains()[0].angular_velocity[2], 0.0, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Points, SettlingDisc, testing::Values("interior", "interior+boundary"),
+                         [](const auto& info) {
+                             return info.param == "interior" ? "interior" : "boundary";
+                         });
+
+TEST(SettlingDiscRefusal, NotANumberNamesStepAndWindow) {
+    const CoupledSetup setup = settling("interior+boundary");
+    CoupledRun run(setup, {disc_at(setup, 2.0, 3.0)});
+    run.advance();
+    std::vector<GrainState> bad = run.grains();
+    bad[0].velocity[0] = std::nan("");
+    run.fluid().advance({1, setup.step, setup.step, false, false});
+    try {
+        run.fluid().impose({1, setup.step, setup.step, false, false}, bad);
+        FAIL() << "accepted a velocity that is not a number";
+    } catch (const PhysicsRefused& refused) {
+        EXPECT_NE(std::string(refused.what()).find("step 5"), std::string::npos) << refused.what();
+        EXPECT_NE(std::string(refused.what()).find("window 1"), std::string::npos) << refused.what();
+    }
+}
+
+TEST(SettlingDiscState, RestoredFluidGoesOnTheSame) {
+    const CoupledSetup setup = settling("interior+boundary");
+    CoupledRun run(setup, {disc_at(setup, 2.03, 3.0)});
+    for (int n = 0; n < 5; ++n) run.advance();
+    const SavedState saved = run.fluid().save();
+    const std::vector<GrainState> grains = run.grains();
+    const Window next{5, 5 * setup.step, setup.step, false, false};
+
+    run.fluid().advance(next);
+    const Kicks first = run.fluid().impose(next, grains);
+    run.fluid().restore(saved);
+    run.fluid().advance(next);
+    const Kicks second = run.fluid().impose(next, grains);
+    EXPECT_EQ(first.kicks[0].velocity, second.kicks[0].velocity);
+    EXPECT_EQ(first.kicks[0].multiplier_impulse, second.kicks[0].multiplier_impulse);
+}
+
+}  // namespace
+}  // namespace turbidite
