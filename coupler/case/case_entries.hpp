@@ -16,8 +16,8 @@ struct CaseEntry {
     std::string source;  ///< file name or "--set"
     int line = 0;        ///< 1-based; 0 for --set
     std::string key;
-    std::string value;               ///< as written; lists as "[a, b]"
-    bool is_null = false;            ///< nothing after the colon, or ~
+    std::string value;     ///< as written; lists as "[a, b]"
+    bool is_null = false;  ///< nothing after the colon, or ~
     bool is_list = false;
     std::vector<std::string> items;  ///< of a list
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // What is wrong with a case, in words a user can act on: where, which key, which value, what is
-// allowed, what to do. Problems are collected and shown together; nothing starts while there is one.
+// allowed, what to do. Problems are collected and shown together; nothing starts while there is
+// one.
 #pragma once
 
 #include <string>
@@ -26,11 +27,11 @@ std::string format_problems(const std::vector<CaseProblem>& problems);
 
 /// Exit code 2 with every problem found; what() is format_problems.
 class CaseRefused : public Failure {
-   public:
+ public:
     explicit CaseRefused(std::vector<CaseProblem> problems);
     const std::vector<CaseProblem>& problems() const { return problems_; }
 
-   private:
+ private:
     std::vector<CaseProblem> problems_;
 };
 

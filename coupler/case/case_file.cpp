@@ -113,19 +113,19 @@ void check_grains(const Population& population, const Settings& settings, CaseEn
 Population make_population(Settings& settings, CaseEntries& entries,
                            const std::filesystem::path& folder,
                            const std::filesystem::path& given) {
-    for (const char* key : {"domain.size", "domain.left", "domain.right", "domain.bottom",
-                            "domain.top", "grains.generator", "grains.compacity", "grains.jitter",
-                            "random.seed"})
+    for (const char* key :
+         {"domain.size", "domain.left", "domain.right", "domain.bottom", "domain.top",
+          "grains.generator", "grains.compacity", "grains.jitter", "random.seed"})
         if (!settings.has(key)) return {};
     const bool from_file = !given.empty() || settings.has("grains.file");
     // A valid count is missing: the generator has nothing to go by.
     const bool uncounted =
         settings.text("grains.generator") == "random" && !settings.has("grains.count");
     if (!from_file && uncounted) return {};
-    Population population =
-        !given.empty() ? grains_from_file(given, entries)
-        : from_file    ? grains_from_file(folder / settings.text("grains.file"), entries)
-                       : generated_grains(settings, entries);
+    Population population = !given.empty() ? grains_from_file(given, entries)
+                            : from_file
+                                ? grains_from_file(folder / settings.text("grains.file"), entries)
+                                : generated_grains(settings, entries);
     check_grains(population, settings, entries);
     if (settings.has("grains.file")) settings.set("grains.file", std::string(copied_grains));
     return population;

@@ -25,7 +25,9 @@ struct Rule {
     Verdict (*check)(const Settings&);
 };
 
-bool is_cyclic(const Settings& s, const char* key) { return s.text(key) == "cyclic"; }
+bool is_cyclic(const Settings& s, const char* key) {
+    return s.text(key) == "cyclic";
+}
 
 Verdict opposite_sides(const Settings& s, const char* one, const char* other) {
     if (is_cyclic(s, one) == is_cyclic(s, other)) return std::nullopt;
@@ -33,24 +35,29 @@ Verdict opposite_sides(const Settings& s, const char* one, const char* other) {
                      "Make both cyclic, or neither."};
 }
 
-Verdict left_right(const Settings& s) { return opposite_sides(s, "domain.left", "domain.right"); }
-Verdict bottom_top(const Settings& s) { return opposite_sides(s, "domain.bottom", "domain.top"); }
+Verdict left_right(const Settings& s) {
+    return opposite_sides(s, "domain.left", "domain.right");
+}
+Verdict bottom_top(const Settings& s) {
+    return opposite_sides(s, "domain.bottom", "domain.top");
+}
 
 Verdict at_least_one_window(const Settings& s) {
     if (s.real("time.end") >= s.real("time.step")) return std::nullopt;
-    return Objection{fmt::format("The end must be at least one time.step = {} t_c.",
-                                 s.text("time.step")),
-                     "Make the end later or the step smaller."};
+    return Objection{
+        fmt::format("The end must be at least one time.step = {} t_c.", s.text("time.step")),
+        "Make the end later or the step smaller."};
 }
 
 // Step 2 is forward Euler: what moves at u_c may cross at most one cell, D/n, in a window.
 Verdict transport_is_stable(const Settings& s) {
     const double cells = s.real("fluid.cells_per_diameter");
     if (!s.flag("fluid.enabled") || s.real("time.step") * cells <= 1.0 + 1e-12) return std::nullopt;
-    return Objection{fmt::format("Explicit transport is unstable when u_c crosses more than one cell "
-                                 "in a step: at {} cells per diameter the step must be at most {} t_c.",
-                                 s.text("fluid.cells_per_diameter"), real_text(1.0 / cells)),
-                     "Use a smaller step or fewer cells."};
+    return Objection{
+        fmt::format("Explicit transport is unstable when u_c crosses more than one cell "
+                    "in a step: at {} cells per diameter the step must be at most {} t_c.",
+                    s.text("fluid.cells_per_diameter"), real_text(1.0 / cells)),
+        "Use a smaller step or fewer cells."};
 }
 
 Verdict whole_cells(const Settings& s) {
@@ -71,8 +78,9 @@ Verdict whole_cells(const Settings& s) {
 
 Verdict reynolds_follows(const Settings& s) {
     if (s.text("scales.kind") != "physical") return std::nullopt;
-    return Objection{"With scales.kind: physical the Reynolds number follows from scales.viscosity.",
-                     "Remove it."};
+    return Objection{
+        "With scales.kind: physical the Reynolds number follows from scales.viscosity.",
+        "Remove it."};
 }
 
 Verdict limits_in_order(const Settings& s) {
@@ -130,9 +138,10 @@ std::vector<std::string> rule_notes(const Settings& settings) {
     const double end = settings.real("time.end");
     const double windows = std::round(end / step);
     if (std::abs(windows * step - end) > 1e-6 * end)
-        notes.push_back(fmt::format("time.end = {} is not a whole number of steps; the run ends after "
-                                    "{} windows at {:.6g} t_c",
-                                    end, windows, windows * step));
+        notes.push_back(
+            fmt::format("time.end = {} is not a whole number of steps; the run ends after "
+                        "{} windows at {:.6g} t_c",
+                        end, windows, windows * step));
     if (settings.real("output.interval") < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
     return notes;

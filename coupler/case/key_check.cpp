@@ -79,11 +79,16 @@ Checked check_value(const KeySpec& key, const CaseEntry& entry, CaseProblem& pro
         return std::nullopt;
     }
     switch (key.type) {
-        case KeyType::choice: return check_choice(key, entry.value, problem);
-        case KeyType::real: return check_real(key, entry.value, problem);
-        case KeyType::integer: return check_integer(key, entry.value, problem);
-        case KeyType::flag: return check_flag(entry.value);
-        default: return entry.value.empty() ? std::nullopt : Checked(entry.value);
+        case KeyType::choice:
+            return check_choice(key, entry.value, problem);
+        case KeyType::real:
+            return check_real(key, entry.value, problem);
+        case KeyType::integer:
+            return check_integer(key, entry.value, problem);
+        case KeyType::flag:
+            return check_flag(entry.value);
+        default:
+            return entry.value.empty() ? std::nullopt : Checked(entry.value);
     }
 }
 

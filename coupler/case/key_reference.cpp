@@ -17,10 +17,14 @@ constexpr auto introduction =
 
 std::string default_text(const KeySpec& key) {
     switch (key.need) {
-        case Need::fallback: return "`" + key.fallback + "`";
-        case Need::required: return "required";
-        case Need::conditional: return "required with " + key.when;
-        case Need::optional: return "none";
+        case Need::fallback:
+            return "`" + key.fallback + "`";
+        case Need::required:
+            return "required";
+        case Need::conditional:
+            return "required with " + key.when;
+        case Need::optional:
+            return "none";
     }
     return "";
 }
@@ -51,9 +55,10 @@ std::string key_reference() {
     for (const KeySpec& key : key_table()) {
         if (group_of(key.name) != group) {
             group = group_of(key.name);
-            text += fmt::format("\n## {}\n\n| key | meaning | unit | default | allowed |\n"
-                                "|---|---|---|---|---|\n",
-                                group.empty() ? "general" : group);
+            text += fmt::format(
+                "\n## {}\n\n| key | meaning | unit | default | allowed |\n"
+                "|---|---|---|---|---|\n",
+                group.empty() ? "general" : group);
         }
         text += row(key);
     }

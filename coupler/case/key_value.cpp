@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <stdexcept>
 
 namespace turbidite {
@@ -47,7 +47,9 @@ std::optional<bool> parse_flag(const std::string& text) {
     return std::nullopt;
 }
 
-std::string real_text(double value) { return fmt::format("{}", value); }
+std::string real_text(double value) {
+    return fmt::format("{}", value);
+}
 
 std::string list_text(const std::vector<double>& values) {
     std::string text;
@@ -61,7 +63,8 @@ std::vector<double> real_list(const std::string& key, const std::string& text) {
     for (const char c : text) {
         if (c == ',' || c == ']') {
             const auto value = parse_real(field);
-            if (!value) throw std::invalid_argument(key + " = \"" + text + "\" is not a list of numbers");
+            if (!value)
+                throw std::invalid_argument(key + " = \"" + text + "\" is not a list of numbers");
             values.push_back(*value);
             field.clear();
         } else if (c != '[' && c != ' ') {

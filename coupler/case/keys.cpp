@@ -16,15 +16,20 @@ bool is(const Settings& settings, const char* key, const char* value) {
     return settings.has(key) && settings.text(key) == value;
 }
 
-bool is_physical(const Settings& s) { return is(s, "scales.kind", "physical"); }
-bool needs_reynolds(const Settings& s) { return is(s, "fluid.enabled", "true") && !is_physical(s); }
+bool is_physical(const Settings& s) {
+    return is(s, "scales.kind", "physical");
+}
+bool needs_reynolds(const Settings& s) {
+    return is(s, "fluid.enabled", "true") && !is_physical(s);
+}
 bool needs_count(const Settings& s) {
     return is(s, "grains.generator", "random") && !s.has("grains.file");
 }
 
 std::vector<Choice> generator_choices() {
     std::vector<Choice> choices;
-    for (const GeneratorEntry& entry : generator_list()) choices.push_back({entry.name, entry.help});
+    for (const GeneratorEntry& entry : generator_list())
+        choices.push_back({entry.name, entry.help});
     return choices;
 }
 
@@ -50,181 +55,330 @@ constexpr Range exactly_one{.lower = 1.0, .upper = 1.0};
 constexpr Range tolerance{.lower = 0.0, .upper = 1.0, .lower_open = true, .upper_open = true};
 
 KeySpec side(const std::string& name) {
-    return {.name = "domain." + name, .type = KeyType::choice, .fallback = "wall",
-            .choices = side_choices(), .help = name + " side of the box"};
+    return {.name = "domain." + name,
+            .type = KeyType::choice,
+            .fallback = "wall",
+            .choices = side_choices(),
+            .help = name + " side of the box"};
 }
 
 KeySpec physical(const std::string& name, const std::string& unit, const std::string& help) {
-    return {.name = "scales." + name, .type = KeyType::real, .unit = unit,
-            .need = Need::conditional, .range = positive, .help = help,
-            .remedy = "Give its value in SI units.", .when = "scales.kind: physical",
+    return {.name = "scales." + name,
+            .type = KeyType::real,
+            .unit = unit,
+            .need = Need::conditional,
+            .range = positive,
+            .help = help,
+            .remedy = "Give its value in SI units.",
+            .when = "scales.kind: physical",
             .required = is_physical};
 }
 
 std::vector<KeySpec> general_keys() {
     return {
-        {.name = "dimension", .type = KeyType::choice, .fallback = "2",
+        {.name = "dimension",
+         .type = KeyType::choice,
+         .fallback = "2",
          .choices = {{"2", "plane; masses and forces per unit length"}, {"3", "space", false}},
          .help = "dimension of space"},
-        {.name = "domain.size", .type = KeyType::real_list, .unit = "D", .need = Need::required,
-         .range = positive, .help = "width and height of the box",
+        {.name = "domain.size",
+         .type = KeyType::real_list,
+         .unit = "D",
+         .need = Need::required,
+         .range = positive,
+         .help = "width and height of the box",
          .allowed = "Width and height of the box in D, both above 0.",
          .remedy = "Write for example size: [12, 24]."},
-        side("left"), side("right"), side("bottom"), side("top"),
+        side("left"),
+        side("right"),
+        side("bottom"),
+        side("top"),
     };
 }
 
 std::vector<KeySpec> grains_keys() {
     return {
-        {.name = "grains.adapter", .type = KeyType::choice, .fallback = "yade-nscd",
+        {.name = "grains.adapter",
+         .type = KeyType::choice,
+         .fallback = "yade-nscd",
          .choices = {{"yade-nscd", "contact engine hosted by YADE"},
                      {"standalone-nscd", "the same engine without YADE"},
                      {"yade-md", "YADE's own molecular dynamics", false},
                      {"lammps-md", "LAMMPS granular", false}},
          .help = "the program that moves the grains"},
-        {.name = "grains.ranks", .type = KeyType::integer, .fallback = "1", .range = exactly_one,
+        {.name = "grains.ranks",
+         .type = KeyType::integer,
+         .fallback = "1",
+         .range = exactly_one,
          .help = "MPI ranks of the grains program",
-         .allowed = "The NSCD adapters run on one rank in this version.", .remedy = "Use 1."},
-        {.name = "grains.shape", .type = KeyType::choice, .fallback = "disc",
-         .choices = shape_choices(), .help = "shape of every grain"},
-        {.name = "grains.density_ratio", .type = KeyType::real, .fallback = "1.5",
-         .range = {.lower = 1.0, .lower_open = true}, .help = "density of the grains over the fluid's",
+         .allowed = "The NSCD adapters run on one rank in this version.",
+         .remedy = "Use 1."},
+        {.name = "grains.shape",
+         .type = KeyType::choice,
+         .fallback = "disc",
+         .choices = shape_choices(),
+         .help = "shape of every grain"},
+        {.name = "grains.density_ratio",
+         .type = KeyType::real,
+         .fallback = "1.5",
+         .range = {.lower = 1.0, .lower_open = true},
+         .help = "density of the grains over the fluid's",
          .allowed = "Grains must be denser than the fluid: a ratio above 1.",
          .remedy = "Use for example 1.5."},
-        {.name = "grains.generator", .type = KeyType::choice, .fallback = "random",
-         .choices = generator_choices(), .help = "how the grains are placed"},
-        {.name = "grains.compacity", .type = KeyType::real, .fallback = "0.9069",
+        {.name = "grains.generator",
+         .type = KeyType::choice,
+         .fallback = "random",
+         .choices = generator_choices(),
+         .help = "how the grains are placed"},
+        {.name = "grains.compacity",
+         .type = KeyType::real,
+         .fallback = "0.9069",
          .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
          .help = "solid fraction of the lattice (generator lattice)"},
-        {.name = "grains.count", .type = KeyType::integer, .need = Need::conditional,
-         .range = {.lower = 1.0}, .help = "number of grains (generator random)",
+        {.name = "grains.count",
+         .type = KeyType::integer,
+         .need = Need::conditional,
+         .range = {.lower = 1.0},
+         .help = "number of grains (generator random)",
          .remedy = "Write for example count: 60.",
-         .when = "grains.generator: random without grains.file", .required = needs_count},
-        {.name = "grains.jitter", .type = KeyType::real, .unit = "D", .fallback = "0",
+         .when = "grains.generator: random without grains.file",
+         .required = needs_count},
+        {.name = "grains.jitter",
+         .type = KeyType::real,
+         .unit = "D",
+         .fallback = "0",
          .range = not_negative,
-         .help = "largest random displacement along each axis; shortened where grains would overlap"},
-        {.name = "grains.file", .type = KeyType::text, .need = Need::optional,
+         .help =
+             "largest random displacement along each axis; shortened where grains would overlap"},
+        {.name = "grains.file",
+         .type = KeyType::text,
+         .need = Need::optional,
          .help = "CSV file of the grains (header id,x,y[,z][,radius], lengths in D; path relative "
                  "to the case file); overrides the generator"},
-        {.name = "random.seed", .type = KeyType::integer, .fallback = "1", .range = not_negative,
+        {.name = "random.seed",
+         .type = KeyType::integer,
+         .fallback = "1",
+         .range = not_negative,
          .help = "seed of everything random"},
     };
 }
 
 std::vector<KeySpec> fluid_keys() {
     return {
-        {.name = "fluid.enabled", .type = KeyType::flag, .fallback = "true",
+        {.name = "fluid.enabled",
+         .type = KeyType::flag,
+         .fallback = "true",
          .help = "false: dry grains, no fluid program"},
-        {.name = "fluid.ranks", .type = KeyType::integer, .fallback = "1", .range = exactly_one,
+        {.name = "fluid.ranks",
+         .type = KeyType::integer,
+         .fallback = "1",
+         .range = exactly_one,
          .help = "MPI ranks of the fluid program",
-         .allowed = "The fluid runs on one rank in this version.", .remedy = "Use 1."},
-        {.name = "fluid.cells_per_diameter", .type = KeyType::integer, .fallback = "16",
-         .range = {.lower = 2.0, .upper = 1024.0}, .help = "mesh cells along a grain diameter"},
-        {.name = "fluid.reynolds", .type = KeyType::real, .need = Need::conditional,
-         .range = positive, .help = "u_c D / nu", .remedy = "Write for example reynolds: 36.",
-         .when = "a fluid, unless scales.kind is physical", .required = needs_reynolds},
-        {.name = "fluid.splitting", .type = KeyType::choice, .fallback = "marchuk-yanenko",
+         .allowed = "The fluid runs on one rank in this version.",
+         .remedy = "Use 1."},
+        {.name = "fluid.cells_per_diameter",
+         .type = KeyType::integer,
+         .fallback = "16",
+         .range = {.lower = 2.0, .upper = 1024.0},
+         .help = "mesh cells along a grain diameter"},
+        {.name = "fluid.reynolds",
+         .type = KeyType::real,
+         .need = Need::conditional,
+         .range = positive,
+         .help = "u_c D / nu",
+         .remedy = "Write for example reynolds: 36.",
+         .when = "a fluid, unless scales.kind is physical",
+         .required = needs_reynolds},
+        {.name = "fluid.splitting",
+         .type = KeyType::choice,
+         .fallback = "marchuk-yanenko",
          .choices = {{"marchuk-yanenko", "the paper's"},
                      {"explicit-multiplier", "carries the multipliers into steps 1-3", false},
                      {"implicit-multiplier", "viscosity solved with the multipliers", false}},
          .help = "order of the fluid's fractional steps"},
-        {.name = "fluid.hydrodynamic_radius", .type = KeyType::real, .fallback = "1",
+        {.name = "fluid.hydrodynamic_radius",
+         .type = KeyType::real,
+         .fallback = "1",
          .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
          .help = "radius of the rigid disc the fluid sees, over the grain's"},
-        {.name = "fluid.points", .type = KeyType::choice, .fallback = "interior+boundary",
+        {.name = "fluid.points",
+         .type = KeyType::choice,
+         .fallback = "interior+boundary",
          .choices = {{"interior", "cell centres inside a grain"},
                      {"interior+boundary", "and points on its surface"}},
          .help = "where the rigid motion is imposed"},
-        {.name = "fluid.point_spacing", .type = KeyType::real, .unit = "cells", .fallback = "1.5",
-         .range = {.lower = 1.4, .upper = 4.0}, .help = "distance of boundary points",
+        {.name = "fluid.point_spacing",
+         .type = KeyType::real,
+         .unit = "cells",
+         .fallback = "1.5",
+         .range = {.lower = 1.4, .upper = 4.0},
+         .help = "distance of boundary points",
          .allowed = "Between 1.4 and 4 cells; closer points make the multipliers ill-conditioned.",
          .remedy = "Use 1.5."},
-        {.name = "fluid.multiplier_tolerance", .type = KeyType::real, .unit = "u_c",
-         .fallback = "0.0001", .range = tolerance, .help = "rms slip at which the multipliers stop"},
-        {.name = "fluid.multiplier_iterations", .type = KeyType::integer, .fallback = "200",
-         .range = {.lower = 1.0}, .help = "most iterations of the multiplier problem"},
-        {.name = "fluid.transport_scheme", .type = KeyType::text,
-         .fallback = "Gauss limitedLinearV 1", .help = "OpenFOAM scheme of div(phi,U)"},
-        {.name = "fluid.pressure_solver", .type = KeyType::choice, .fallback = "GAMG",
+        {.name = "fluid.multiplier_tolerance",
+         .type = KeyType::real,
+         .unit = "u_c",
+         .fallback = "0.0001",
+         .range = tolerance,
+         .help = "rms slip at which the multipliers stop"},
+        {.name = "fluid.multiplier_iterations",
+         .type = KeyType::integer,
+         .fallback = "200",
+         .range = {.lower = 1.0},
+         .help = "most iterations of the multiplier problem"},
+        {.name = "fluid.transport_scheme",
+         .type = KeyType::text,
+         .fallback = "Gauss limitedLinearV 1",
+         .help = "OpenFOAM scheme of div(phi,U)"},
+        {.name = "fluid.pressure_solver",
+         .type = KeyType::choice,
+         .fallback = "GAMG",
          .choices = {{"GAMG", "OpenFOAM's multigrid"}, {"PCG", "conjugate gradients"}},
          .help = "linear solver of the pressure"},
-        {.name = "fluid.pressure_tolerance", .type = KeyType::real, .fallback = "1e-06",
-         .range = tolerance, .help = "relative tolerance of the pressure"},
-        {.name = "fluid.viscous_tolerance", .type = KeyType::real, .fallback = "1e-08",
-         .range = tolerance, .help = "relative tolerance of the viscous step"},
+        {.name = "fluid.pressure_tolerance",
+         .type = KeyType::real,
+         .fallback = "1e-06",
+         .range = tolerance,
+         .help = "relative tolerance of the pressure"},
+        {.name = "fluid.viscous_tolerance",
+         .type = KeyType::real,
+         .fallback = "1e-08",
+         .range = tolerance,
+         .help = "relative tolerance of the viscous step"},
     };
 }
 
 std::vector<KeySpec> contact_keys() {
     return {
-        {.name = "contact.friction", .type = KeyType::real, .fallback = "0.3",
-         .range = not_negative, .help = "Coulomb friction coefficient, grains and walls",
+        {.name = "contact.friction",
+         .type = KeyType::real,
+         .fallback = "0.3",
+         .range = not_negative,
+         .help = "Coulomb friction coefficient, grains and walls",
          .allowed = "A friction coefficient must be zero or positive.",
          .remedy = "Use 0 for smooth grains."},
-        {.name = "contact.theta", .type = KeyType::real, .fallback = "0.5",
-         .range = {.lower = 0.5, .upper = 1.0}, .help = "theta of the time integration, Eqs. 16-18"},
-        {.name = "contact.tolerance", .type = KeyType::real, .fallback = "0.001",
-         .range = tolerance, .help = "scaled natural map at which the contact solver stops"},
-        {.name = "contact.iterations", .type = KeyType::integer, .fallback = "2000",
-         .range = {.lower = 1.0}, .help = "most sweeps of the contact solver"},
-        {.name = "contact.recovery_fraction", .type = KeyType::real, .unit = "per window",
-         .fallback = "0.2", .range = {.lower = 0.0, .upper = 1.0},
+        {.name = "contact.theta",
+         .type = KeyType::real,
+         .fallback = "0.5",
+         .range = {.lower = 0.5, .upper = 1.0},
+         .help = "theta of the time integration, Eqs. 16-18"},
+        {.name = "contact.tolerance",
+         .type = KeyType::real,
+         .fallback = "0.001",
+         .range = tolerance,
+         .help = "scaled natural map at which the contact solver stops"},
+        {.name = "contact.iterations",
+         .type = KeyType::integer,
+         .fallback = "2000",
+         .range = {.lower = 1.0},
+         .help = "most sweeps of the contact solver"},
+        {.name = "contact.recovery_fraction",
+         .type = KeyType::real,
+         .unit = "per window",
+         .fallback = "0.2",
+         .range = {.lower = 0.0, .upper = 1.0},
          .help = "part of an overlap that is pushed out in a window"},
-        {.name = "contact.recovery_speed", .type = KeyType::real, .unit = "u_c", .fallback = "0.5",
-         .range = not_negative, .help = "fastest such push"},
+        {.name = "contact.recovery_speed",
+         .type = KeyType::real,
+         .unit = "u_c",
+         .fallback = "0.5",
+         .range = not_negative,
+         .help = "fastest such push"},
     };
 }
 
 std::vector<KeySpec> scheme_keys() {
     return {
-        {.name = "coupling.scheme", .type = KeyType::choice, .fallback = "split",
+        {.name = "coupling.scheme",
+         .type = KeyType::choice,
+         .fallback = "split",
          .choices = {{"split", "the paper's: contacts, then fluid"},
                      {"joint", "contacts solved with the fluid's effective inertia", false},
                      {"sub-iterated", "both repeated within a window", false}},
          .help = "order of the exchange"},
-        {.name = "coupling.positions", .type = KeyType::choice, .fallback = "corrected",
+        {.name = "coupling.positions",
+         .type = KeyType::choice,
+         .fallback = "corrected",
          .choices = {{"corrected", "grains move with the fluid-corrected velocity"},
                      {"contact", "grains move with the velocity the contacts allow"}},
          .help = "velocity that moves the grains"},
-        {.name = "time.step", .type = KeyType::real, .unit = "t_c", .need = Need::required,
-         .range = positive, .help = "coupling window",
-         .allowed = "The time step must be above 0 and finite.", .remedy = "Use for example 0.01."},
-        {.name = "time.end", .type = KeyType::real, .unit = "t_c", .need = Need::required,
-         .range = positive, .help = "end of the run; rounded to whole windows"},
-        {.name = "output.interval", .type = KeyType::real, .unit = "t_c", .fallback = "0.5",
-         .range = positive, .help = "between rows of history.csv and pictures; whole windows"},
-        {.name = "checkpoint.interval", .type = KeyType::real, .unit = "t_c",
-         .need = Need::optional, .range = positive, .help = "between checkpoints",
+        {.name = "time.step",
+         .type = KeyType::real,
+         .unit = "t_c",
+         .need = Need::required,
+         .range = positive,
+         .help = "coupling window",
+         .allowed = "The time step must be above 0 and finite.",
+         .remedy = "Use for example 0.01."},
+        {.name = "time.end",
+         .type = KeyType::real,
+         .unit = "t_c",
+         .need = Need::required,
+         .range = positive,
+         .help = "end of the run; rounded to whole windows"},
+        {.name = "output.interval",
+         .type = KeyType::real,
+         .unit = "t_c",
+         .fallback = "0.5",
+         .range = positive,
+         .help = "between rows of history.csv and pictures; whole windows"},
+        {.name = "checkpoint.interval",
+         .type = KeyType::real,
+         .unit = "t_c",
+         .need = Need::optional,
+         .range = positive,
+         .help = "between checkpoints",
          .available = false},
     };
 }
 
 std::vector<KeySpec> scales_keys() {
     return {
-        {.name = "scales.kind", .type = KeyType::choice, .fallback = "avalanche",
+        {.name = "scales.kind",
+         .type = KeyType::choice,
+         .fallback = "avalanche",
          .choices = {{"avalanche", "u_c = sqrt(g D)"},
                      {"sedimentation", "u_c from Eq. 21"},
                      {"physical", "SI values; u_c given or from Eq. 21"}},
          .help = "characteristic velocity"},
-        {.name = "scales.compacity", .type = KeyType::real, .fallback = "0.2",
+        {.name = "scales.compacity",
+         .type = KeyType::real,
+         .fallback = "0.2",
          .range = {.lower = 0.0, .upper = 1.0, .upper_open = true},
          .help = "phi of Eq. 21 (sedimentation, physical)"},
-        physical("diameter", "m", "D"), physical("gravity", "m/s2", "g, along -y"),
+        physical("diameter", "m", "D"),
+        physical("gravity", "m/s2", "g, along -y"),
         physical("fluid_density", "kg/m3", "rho_f"),
         physical("viscosity", "m2/s", "kinematic viscosity nu"),
-        {.name = "scales.velocity", .type = KeyType::real, .unit = "m/s", .need = Need::optional,
-         .range = positive, .help = "u_c (physical); otherwise Eq. 21"},
+        {.name = "scales.velocity",
+         .type = KeyType::real,
+         .unit = "m/s",
+         .need = Need::optional,
+         .range = positive,
+         .help = "u_c (physical); otherwise Eq. 21"},
     };
 }
 
 std::vector<KeySpec> limit_keys() {
     return {
-        {.name = "limits.stall_soft", .type = KeyType::real, .unit = "s", .fallback = "60",
-         .range = positive, .help = "waiting after which who waits for whom is printed"},
-        {.name = "limits.stall_hard", .type = KeyType::real, .unit = "s", .fallback = "600",
-         .range = positive, .help = "waiting after which the run ends with code 5"},
-        {.name = "limits.penetration", .type = KeyType::real, .unit = "D", .fallback = "0.2",
-         .range = positive, .help = "overlap of grains beyond which the run ends with code 6"},
+        {.name = "limits.stall_soft",
+         .type = KeyType::real,
+         .unit = "s",
+         .fallback = "60",
+         .range = positive,
+         .help = "waiting after which who waits for whom is printed"},
+        {.name = "limits.stall_hard",
+         .type = KeyType::real,
+         .unit = "s",
+         .fallback = "600",
+         .range = positive,
+         .help = "waiting after which the run ends with code 5"},
+        {.name = "limits.penetration",
+         .type = KeyType::real,
+         .unit = "D",
+         .fallback = "0.2",
+         .range = positive,
+         .help = "overlap of grains beyond which the run ends with code 6"},
     };
 }
 
@@ -244,8 +398,7 @@ std::string range_text(const KeySpec& key) {
     const Range& range = key.range;
     std::string text = type_name(key.type);
     if (range.lower == range.upper) return fmt::format("{}", range.lower);
-    if (std::isfinite(range.lower))
-        text += bound(" above", " from", range.lower_open, range.lower);
+    if (std::isfinite(range.lower)) text += bound(" above", " from", range.lower_open, range.lower);
     if (std::isfinite(range.upper))
         text += bound(" below", " up to", range.upper_open, range.upper);
     else if (std::isfinite(range.lower) && !range.lower_open)
@@ -296,12 +449,18 @@ std::string allowed_values(const KeySpec& key) {
 
 std::string type_name(KeyType type) {
     switch (type) {
-        case KeyType::text: return "a text";
-        case KeyType::choice: return "a choice";
-        case KeyType::real: return "a number";
-        case KeyType::integer: return "a whole number";
-        case KeyType::flag: return "true or false";
-        case KeyType::real_list: return "a list of numbers";
+        case KeyType::text:
+            return "a text";
+        case KeyType::choice:
+            return "a choice";
+        case KeyType::real:
+            return "a number";
+        case KeyType::integer:
+            return "a whole number";
+        case KeyType::flag:
+            return "true or false";
+        case KeyType::real_list:
+            return "a list of numbers";
     }
     return "";
 }

@@ -49,8 +49,12 @@ bool displace(NeighbourGrid& grid, std::size_t index, double dx, double dy, cons
 
 }  // namespace
 
-double loosest_compacity() { return std::numbers::pi / 4.0; }
-double densest_compacity() { return std::numbers::pi / (2.0 * std::numbers::sqrt3); }
+double loosest_compacity() {
+    return std::numbers::pi / 4.0;
+}
+double densest_compacity() {
+    return std::numbers::pi / (2.0 * std::numbers::sqrt3);
+}
 
 double lattice_spacing(double compacity) {
     // a^2 (1 - a^2/4) = q^2 with q = (pi/4)/phi; the root between 1 and sqrt 2 is the smaller one.
@@ -72,10 +76,10 @@ PackingResult lattice_packing(const PackingRequest& request) {
         return result;
     }
     if (used != request.compacity)
-        result.notes.push_back(fmt::format("grains.compacity = {} is clamped to {:.6f}, the {} the "
-                                           "lattice can be",
-                                           request.compacity, used,
-                                           used == high ? "densest" : "loosest"));
+        result.notes.push_back(
+            fmt::format("grains.compacity = {} is clamped to {:.6f}, the {} the "
+                        "lattice can be",
+                        request.compacity, used, used == high ? "densest" : "loosest"));
     result.grains = fill_box(request, lattice_spacing(used));
     if (result.grains.empty()) result.refusal = "The box is too small for a single grain.";
     apply_jitter(result, request);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The lattice of the paper: rows of spacing a, alternate rows shifted by a/2, neighbours in adjacent
-// rows touching, so with D = 1 the row height is sqrt(1 - a^2/4) and the compacity
+// The lattice of the paper: rows of spacing a, alternate rows shifted by a/2, neighbours in
+// adjacent rows touching, so with D = 1 the row height is sqrt(1 - a^2/4) and the compacity
 //
 //     phi = (pi/4) / (a sqrt(1 - a^2/4)),   a from 1 (pi / 2 sqrt 3, densest) to sqrt 2 (pi/4).
 //
@@ -24,7 +24,8 @@ double lattice_spacing(double compacity);
 PackingResult lattice_packing(const PackingRequest& request);
 
 /// Displaces each grain by up to `jitter` along x and y; a displacement that would make grains
-/// overlap or leave the box is halved until it fits, and dropped in the end. Returns how many moved.
+/// overlap or leave the box is halved until it fits, and dropped in the end. Returns how many
+/// moved.
 std::int64_t shake(Packing& grains, const PackingRequest& request);
 
 /// The same when there is a jitter, with a note when grains had no room.

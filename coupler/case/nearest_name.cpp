@@ -7,7 +7,9 @@
 namespace turbidite {
 namespace {
 
-std::string last_part(const std::string& name) { return name.substr(name.rfind('.') + 1); }
+std::string last_part(const std::string& name) {
+    return name.substr(name.rfind('.') + 1);
+}
 
 // A name without its group is compared with the last parts, at the price of one edit.
 std::size_t distance(const std::string& name, const std::string& known) {

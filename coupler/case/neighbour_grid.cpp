@@ -11,7 +11,8 @@ namespace {
 constexpr double most_cells_per_side = 4096.0;
 
 std::size_t cells_along(double length, double cell) {
-    return static_cast<std::size_t>(std::clamp(std::floor(length / cell), 1.0, most_cells_per_side));
+    return static_cast<std::size_t>(
+        std::clamp(std::floor(length / cell), 1.0, most_cells_per_side));
 }
 
 std::size_t cell_of(double place, double length, std::size_t count) {
@@ -32,8 +33,12 @@ NeighbourGrid::NeighbourGrid(const PackingBox& box, double largest_radius, doubl
     cells_.resize(columns_ * rows_);
 }
 
-std::size_t NeighbourGrid::column(double x) const { return cell_of(x, box_.width, columns_); }
-std::size_t NeighbourGrid::row(double y) const { return cell_of(y, box_.height, rows_); }
+std::size_t NeighbourGrid::column(double x) const {
+    return cell_of(x, box_.width, columns_);
+}
+std::size_t NeighbourGrid::row(double y) const {
+    return cell_of(y, box_.height, rows_);
+}
 
 void NeighbourGrid::insert(const PlacedGrain& grain) {
     cells_[row(grain.y) * columns_ + column(grain.x)].push_back(grains_.size());

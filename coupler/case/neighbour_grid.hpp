@@ -13,7 +13,7 @@
 namespace turbidite {
 
 class NeighbourGrid {
-   public:
+ public:
     /// `reach` is the largest gap that will be asked about [D].
     NeighbourGrid(const PackingBox& box, double largest_radius, double reach);
 
@@ -32,7 +32,7 @@ class NeighbourGrid {
     bool is_free(const PlacedGrain& grain, double smallest_gap,
                  std::size_t except = static_cast<std::size_t>(-1)) const;
 
-   private:
+ private:
     std::size_t column(double x) const;
     std::size_t row(double y) const;
     std::vector<std::size_t> around(std::size_t centre, std::size_t count, bool periodic) const;

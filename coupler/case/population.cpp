@@ -93,10 +93,9 @@ void set_field(Reader& reader, PlacedGrain& grain, const std::string& column,
 void read_row(Reader& reader, const std::string& text) {
     const auto fields = split(text);
     if (fields.size() != reader.columns.size())
-        return reader.refuse(
-            fmt::format("{} values in \"{}\"", fields.size(), text),
-            fmt::format("The header names {} columns.", reader.columns.size()),
-            "Give one value per column.");
+        return reader.refuse(fmt::format("{} values in \"{}\"", fields.size(), text),
+                             fmt::format("The header names {} columns.", reader.columns.size()),
+                             "Give one value per column.");
     PlacedGrain grain;
     for (std::size_t i = 0; i < fields.size(); ++i)
         set_field(reader, grain, reader.columns[i], fields[i]);
@@ -110,7 +109,7 @@ bool is_blank(const std::string& text) {
 
 /// Adds to a list up to a number; `finish` says how many were left out.
 class Collector {
-   public:
+ public:
     Collector(std::vector<CaseProblem>& problems, const PopulationSource& source)
         : problems_(problems), source_(source) {}
 
@@ -133,7 +132,7 @@ class Collector {
             fmt::format(" ({} more {} not shown.)", count_ - most_problems_of_a_kind, kind);
     }
 
-   private:
+ private:
     std::vector<CaseProblem>& problems_;
     const PopulationSource& source_;
     std::size_t count_ = 0;
@@ -177,12 +176,13 @@ void check_inside(const Packing& grains, const PackingBox& box, const SolidSides
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const Side side = worst_side(grains[i], box, walls);
         if (side.excess > touching_tolerance)
-            problems.add(i,
-                         fmt::format("grain {} at ({}, {}) is outside the box: {:.4g} D beyond its "
-                                     "{} side",
-                                     grains[i].id, grains[i].x, grains[i].y, side.excess, side.name),
-                         fmt::format("The box is {} x {} D.", box.width, box.height),
-                         "Move the grain or enlarge domain.size.");
+            problems.add(
+                i,
+                fmt::format("grain {} at ({}, {}) is outside the box: {:.4g} D beyond its "
+                            "{} side",
+                            grains[i].id, grains[i].x, grains[i].y, side.excess, side.name),
+                fmt::format("The box is {} x {} D.", box.width, box.height),
+                "Move the grain or enlarge domain.size.");
     }
     problems.finish("grains outside");
 }

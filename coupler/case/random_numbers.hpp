@@ -10,7 +10,7 @@
 namespace turbidite {
 
 class RandomNumbers {
-   public:
+ public:
     explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
 
     /// Uniform in [0, 1): the upper 53 bits.
@@ -23,7 +23,7 @@ class RandomNumbers {
         return static_cast<std::int64_t>(uniform() * static_cast<double>(count));
     }
 
-   private:
+ private:
     std::mt19937_64 engine_;
 };
 

@@ -92,9 +92,10 @@ Packing shaken_sites(const PackingRequest& request) {
 
 std::string does_not_fit(const PackingRequest& request) {
     const auto most = lattice_of(request, densest_compacity()).size();
-    return fmt::format("A box of {} x {} D holds at most {} grains in the densest lattice. "
-                       "Ask for fewer grains or enlarge domain.size.",
-                       request.box.width, request.box.height, most);
+    return fmt::format(
+        "A box of {} x {} D holds at most {} grains in the densest lattice. "
+        "Ask for fewer grains or enlarge domain.size.",
+        request.box.width, request.box.height, most);
 }
 
 }  // namespace
@@ -104,8 +105,8 @@ PackingResult random_packing(const PackingRequest& request) {
     for (const double gap : gaps) {
         result.grains = add_one_by_one(request, gap);
         if (result.grains.empty()) continue;
-        result.notes.push_back(fmt::format("{} grains placed at random, at least {} D apart",
-                                           request.count, gap));
+        result.notes.push_back(
+            fmt::format("{} grains placed at random, at least {} D apart", request.count, gap));
         apply_jitter(result, request);
         return result;
     }

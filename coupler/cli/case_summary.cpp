@@ -21,9 +21,9 @@ std::string fluid_line(const ResolvedCase& resolved) {
 
 std::string case_summary(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
-    std::string text = fmt::format(
-        "{}: {} grains ({}) in {} D\n", resolved.name, resolved.population.size(),
-        settings.text("grains.adapter"), settings.text("domain.size"));
+    std::string text =
+        fmt::format("{}: {} grains ({}) in {} D\n", resolved.name, resolved.population.size(),
+                    settings.text("grains.adapter"), settings.text("domain.size"));
     text += fluid_line(resolved);
     text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
                         settings.integer("run.windows"), settings.text("time.step"),

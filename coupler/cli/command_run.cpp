@@ -37,9 +37,10 @@ void request_stop(const RunFolder& folder, int signal) {
 int run_to_the_end(const RunFolder& folder, const std::vector<std::string>& line,
                    const Programs& programs) {
     ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
-    const JobEnd end = run_job({.arguments = line,
-                                .error_log = folder.log("mpirun"),
-                                .request_stop = [&](int s) { request_stop(folder, s); }});
+    const JobEnd end =
+        run_job({.arguments = line, .error_log = folder.log("mpirun"), .request_stop = [&](int s) {
+                     request_stop(folder, s);
+                 }});
     const JobOutcome outcome = settle_outcome(folder, end);
     const bool reported = write_report(folder, programs);
     std::fflush(stdout);

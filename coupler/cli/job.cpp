@@ -30,7 +30,7 @@ sigset_t watched_signals() {
 
 /// Signals wait in a queue while the job runs, so none is lost between two looks at it.
 class BlockedSignals {
-   public:
+ public:
     BlockedSignals() : set_(watched_signals()) { sigprocmask(SIG_BLOCK, &set_, &old_); }
     ~BlockedSignals() { sigprocmask(SIG_SETMASK, &old_, nullptr); }
     BlockedSignals(const BlockedSignals&) = delete;
@@ -39,7 +39,7 @@ class BlockedSignals {
     const sigset_t& set() const { return set_; }
     const sigset_t& old() const { return old_; }
 
-   private:
+ private:
     sigset_t set_;
     sigset_t old_;
 };
@@ -83,7 +83,9 @@ void kill_session(pid_t session) {
     }
 }
 
-bool has_ended(pid_t child, int& status) { return waitpid(child, &status, WNOHANG) == child; }
+bool has_ended(pid_t child, int& status) {
+    return waitpid(child, &status, WNOHANG) == child;
+}
 
 void end_session(pid_t child, const BlockedSignals& signals, int& status) {
     kill(-child, SIGTERM);

@@ -62,17 +62,19 @@ ExitCode code_of_status(int status) {
 JobOutcome without_a_word(const JobEnd& end) {
     if (end.killed) return {signal_code(end.signal), "killed on request"};
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
-    return {code_of_status(end.status),
-            fmt::format("mpirun ended with status {} and the coupler left no word: a program of the "
-                        "job failed or never started",
-                        end.status)};
+    return {
+        code_of_status(end.status),
+        fmt::format("mpirun ended with status {} and the coupler left no word: a program of the "
+                    "job failed or never started",
+                    end.status)};
 }
 
 }  // namespace
 
 JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end) {
     auto record = read_run_json(folder.record());
-    if (const auto code = record.find("exit_code"); code != record.end() && code->is_number_integer())
+    if (const auto code = record.find("exit_code");
+        code != record.end() && code->is_number_integer())
         return {static_cast<ExitCode>(code->get<int>()), record.value("error", std::string())};
     const JobOutcome outcome = without_a_word(end);
     record["status"] = end.signal == 0 ? "failed" : "interrupted";
@@ -84,9 +86,11 @@ JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end) {
 
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
     if (outcome.code == ExitCode::done)
-        return fmt::format("Done. Results in {}: report.html, history.csv, grains/grains.pvd and "
-                           "fluid/ (ParaView).\n",
-                           folder.root.string());
+        return fmt::format(
+            "Done. Results in {}: report.html, history.csv; for ParaView "
+            "grains/grains.pvd{}.\n",
+            folder.root.string(),
+            std::filesystem::exists(folder.fluid()) ? " and fluid/fluid.foam" : "");
     const bool asked_for =
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
     return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n",

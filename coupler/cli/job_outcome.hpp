@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How a job ended: the coupler's word in run.json if there is one, else what mpirun's exit status and
-// the logs tell.
+// How a job ended: the coupler's word in run.json if there is one, else what mpirun's exit status
+// and the logs tell.
 #pragma once
 
 #include <string>

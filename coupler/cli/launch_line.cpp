@@ -34,7 +34,9 @@ struct GrainsProgram {
 const std::vector<GrainsProgram>& grains_programs() {
     static const std::vector<GrainsProgram> table = {
         {"yade-nscd", yade_nscd,
-         [](const Programs& p) { return std::vector{p.yade(), p.yade_nscd(), p.yade_extension()}; }},
+         [](const Programs& p) {
+             return std::vector{p.yade(), p.yade_nscd(), p.yade_extension()};
+         }},
         {"standalone-nscd", standalone_nscd,
          [](const Programs& p) { return std::vector{p.grains()}; }},
     };
@@ -44,10 +46,13 @@ const std::vector<GrainsProgram>& grains_programs() {
 const GrainsProgram& grains_program(const std::string& adapter) {
     for (const GrainsProgram& program : grains_programs())
         if (adapter == program.adapter) return program;
-    throw Failure(ExitCode::bad_input, "grains.adapter = " + adapter + " has no program in this version");
+    throw Failure(ExitCode::bad_input,
+                  "grains.adapter = " + adapter + " has no program in this version");
 }
 
-void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
+void append(Arguments& to, const Arguments& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
 
 // Copying between processes through the kernel is forbidden in most containers; mpirun would warn.
 Arguments mpirun_options(const LaunchSite& site) {
@@ -60,7 +65,8 @@ Arguments mpirun_options(const LaunchSite& site) {
 
 // mpirun exports -x to the program of the same part only, so every part repeats it.
 Arguments part(std::int64_t ranks, const LaunchSite& site, const Arguments& command) {
-    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam, "-x", "OMP_NUM_THREADS=1",
+    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam,
+                   "-x", "OMP_NUM_THREADS=1",
                    "-x", "PYTHONPATH=" + site.programs.yade_folder().string(),
                    "-n", std::to_string(ranks)};
     append(part, command);
@@ -104,8 +110,9 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
         append(line, part(ranks, site, fluid_command(ranks, folder, programs)));
     }
     line.push_back(":");
-    append(line, part(settings.integer("grains.ranks"), site,
-                      grains_program(settings.text("grains.adapter")).command(programs, folder.root)));
+    append(line,
+           part(settings.integer("grains.ranks"), site,
+                grains_program(settings.text("grains.adapter")).command(programs, folder.root)));
     return line;
 }
 

@@ -2,7 +2,8 @@
 //
 // The mpirun line of a prepared run folder: what `turbidite run` starts and --dry-run prints.
 //
-//     mpirun … -n 1 turbidite-coupler RUN : … -n F turbidite-fluid -case RUN/fluid : … -n G <grains>
+//     mpirun … -n 1 turbidite-coupler RUN : … -n F turbidite-fluid -case RUN/fluid : … -n G
+//     <grains>
 //
 // It carries all it needs: absolute paths, exported variables. Dry cases have no fluid part.
 #pragma once
@@ -19,8 +20,8 @@ namespace turbidite {
 
 struct LaunchSite {
     Programs programs;
-    bool as_root = false;        ///< mpirun refuses root unless told
-    std::string openfoam = {};   ///< WM_PROJECT_DIR
+    bool as_root = false;       ///< mpirun refuses root unless told
+    std::string openfoam = {};  ///< WM_PROJECT_DIR
 };
 
 /// Of this machine and user.

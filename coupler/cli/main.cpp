@@ -55,9 +55,10 @@ std::string unknown_command(int argc, char** argv) {
     std::vector<std::string> names;
     for (const Command& command : commands()) names.push_back(command.name);
     if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
-    return fmt::format("turbidite: there is no command \"{}\"\n  Did you mean {}? The commands are "
-                       "{}.",
-                       argv[1], nearest_name(argv[1], names), fmt::join(names, ", "));
+    return fmt::format(
+        "turbidite: there is no command \"{}\"\n  Did you mean {}? The commands are "
+        "{}.",
+        argv[1], nearest_name(argv[1], names), fmt::join(names, ", "));
 }
 
 int turbidite_main(int argc, char** argv) {
@@ -87,4 +88,6 @@ int turbidite_main(int argc, char** argv) {
 }  // namespace
 }  // namespace turbidite
 
-int main(int argc, char** argv) { return turbidite::turbidite_main(argc, argv); }
+int main(int argc, char** argv) {
+    return turbidite::turbidite_main(argc, argv);
+}

@@ -39,9 +39,9 @@ bool holds_something(const fs::path& folder) {
 
 // Only what a run writes, so that a mistyped --out --force costs nothing else.
 void empty_run_folder(const RunFolder& folder) {
-    for (const fs::path& part : {folder.resolved_case(), folder.record(), folder.history(),
-                                 folder.grains(), folder.fluid(), folder.logs(), folder.report(),
-                                 folder.stop()})
+    for (const fs::path& part :
+         {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
+          folder.fluid(), folder.logs(), folder.report(), folder.stop()})
         fs::remove_all(part);
 }
 

@@ -15,6 +15,7 @@ class Dry final : public Scheme {
         cast.watch.wait_for(cast.grains, Kind::state);
         result.state = cast.plan.gather(cast.grains.take<Motion>(Kind::state));
         result.motion = result.state;
+        result.motion.report.wall_seconds = 0.0;  // counted once, in the state
         return result;
     }
 };

@@ -53,6 +53,16 @@ RunStatus couple(const std::string& directory) {
     return hub.run();
 }
 
+// A hub that ran has written its own record, and knows more.
+void record_failure(const std::string& directory, ExitCode code, const std::string& reason) {
+    const auto record = RunFolder{directory}.record();
+    if (!std::filesystem::exists(record) || has_verdict(record)) return;
+    RunStatus status;
+    status.code = code;
+    status.reason = reason;
+    write_run_record(record, status, {});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,6 +79,7 @@ int main(int argc, char** argv) {
         if (failure) code = failure->code();
         std::fprintf(stderr, "turbidite-coupler: %s\n", error.what());
         std::fflush(nullptr);
+        record_failure(argv[1], code, error.what());
         PMPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
     }
     return static_cast<int>(code);

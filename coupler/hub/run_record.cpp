@@ -38,6 +38,12 @@ nlohmann::ordered_json rank_table(const std::vector<ParticipantLink*>& links) {
 
 }  // namespace
 
+bool has_verdict(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    const auto record = nlohmann::json::parse(in, nullptr, false);
+    return record.is_object() && record.contains("exit_code") && !record["exit_code"].is_null();
+}
+
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
                       const std::vector<ParticipantLink*>& links) {
     nlohmann::ordered_json record = nlohmann::ordered_json::object();

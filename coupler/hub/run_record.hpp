@@ -31,4 +31,7 @@ struct RunStatus {
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
                       const std::vector<ParticipantLink*>& links);
 
+/// True when the record says how the run ended.
+bool has_verdict(const std::filesystem::path& file);
+
 }  // namespace turbidite

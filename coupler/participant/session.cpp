@@ -129,7 +129,10 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         const Motion motion = adapter_.advance(window, responses);
         if (talk_->scheme != "dry") send(Kind::motion, motion);
         const auto kicks = receive<Kicks>(Kind::kick);
-        send(Kind::state, adapter_.apply_kick(window, kicks.kicks));
+        Motion state = adapter_.apply_kick(window, kicks.kicks);
+        if (talk_->scheme == "dry")  // the window's only report
+            state.report.wall_seconds += motion.report.wall_seconds;
+        send(Kind::state, state);
     }
 };
 

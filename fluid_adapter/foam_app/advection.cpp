@@ -6,7 +6,8 @@
 namespace turbidite {
 
 void advect(FluidFields& fields) {
-    const Foam::tmp<Foam::volVectorField> change = Foam::fvc::div(fields.phi, fields.U, "div(phi,U)");
+    const Foam::tmp<Foam::volVectorField> change =
+        Foam::fvc::div(fields.phi, fields.U, "div(phi,U)");
     fields.U -= fields.time.deltaT() * change;
     fields.U.correctBoundaryConditions();
 }

@@ -9,11 +9,13 @@ namespace turbidite {
 namespace {
 
 Foam::fileName parent_of(const std::filesystem::path& directory) {
-    return Foam::fileName(std::filesystem::absolute(directory).lexically_normal().parent_path().string());
+    return Foam::fileName(
+        std::filesystem::absolute(directory).lexically_normal().parent_path().string());
 }
 
 Foam::fileName name_of(const std::filesystem::path& directory) {
-    return Foam::fileName(std::filesystem::absolute(directory).lexically_normal().filename().string());
+    return Foam::fileName(
+        std::filesystem::absolute(directory).lexically_normal().filename().string());
 }
 
 Foam::IOobject stored(const Foam::fvMesh& mesh, const char* name, Foam::IOobject::readOption read,
@@ -44,7 +46,9 @@ FluidFields::FluidFields(const std::filesystem::path& directory)
     rho = Foam::dimensionedScalar("rho", Foam::dimDensity, properties).value();
 }
 
-void FluidFields::interpolate_flux() { phi = Foam::fvc::flux(U); }
+void FluidFields::interpolate_flux() {
+    phi = Foam::fvc::flux(U);
+}
 
 Foam::scalar FluidFields::largest_divergence() const {
     Foam::scalarField sum(mesh.nCells(), 0.0);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 
+#include <OSspecific.H>
+#include <sigFpe.H>
+
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
@@ -23,14 +26,14 @@ constexpr double divergence_goal = 5e-5;
 
 /// Adds the time until it goes out of scope.
 class Stopwatch {
-   public:
+ public:
     explicit Stopwatch(double& total) : total_(total) {}
     ~Stopwatch() {
         total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
     Stopwatch(const Stopwatch&) = delete;
 
-   private:
+ private:
     double& total_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -42,7 +45,9 @@ struct GrainRules {
     double hydrodynamic_radius = 1.0;
 };
 
-Eigen::Vector3d vector_of(const Vec3& v) { return {v[0], v[1], v[2]}; }
+Eigen::Vector3d vector_of(const Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
 
 Planar planar(const Vec3& linear, const Vec3& angular) {
     return {linear[0], linear[1], angular[2]};
@@ -125,7 +130,8 @@ void check_finite(const std::vector<Kick>& kicks, const Window& window) {
 }  // namespace
 
 struct FoamAdapter::State {
-    State(const std::filesystem::path& directory, const Settings& settings, const ShapeTable& table);
+    State(const std::filesystem::path& directory, const Settings& settings,
+          const ShapeTable& table);
 
     FluidFields fields;
     FoamFluidField field;
@@ -171,9 +177,9 @@ void FoamAdapter::State::begin(const Window& window) {
     report = {};
     fields.time.setDeltaT(window.step);
     if (!fields.time.loop())
-        throw Failure(ExitCode::participant_failed,
-                      "window " + std::to_string(window.index) + " begins at or after endTime of " +
-                          "the fluid case's system/controlDict");
+        throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
+                                                        " begins at or after endTime of " +
+                                                        "the fluid case's system/controlDict");
 }
 
 MultiplierResult FoamAdapter::State::solve_multipliers(const Window& window,
@@ -182,8 +188,7 @@ MultiplierResult FoamAdapter::State::solve_multipliers(const Window& window,
         const Stopwatch watch(timings.points);
         field.load();
         grains.clear();
-        for (const GrainState& state : states)
-            grains.push_back(immersed_grain(state, grain_rules));
+        for (const GrainState& state : states) grains.push_back(immersed_grain(state, grain_rules));
         placement.place(field, grains, points);
     }
     const Stopwatch watch(timings.multipliers);
@@ -217,6 +222,9 @@ Foam::vector FoamAdapter::State::impulse_to_grains() const {
 FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move(directory)) {
     Foam::FatalError.throwExceptions();
     Foam::FatalIOError.throwExceptions();
+    // Debian's controlDict asks for the floating-point trap, which kills the job without a word;
+    // finiteness is checked instead. Who sets FOAM_SIGFPE gets it back.
+    if (!Foam::getEnv("FOAM_SIGFPE").empty()) Foam::sigFpe::set(false);
 }
 
 FoamAdapter::~FoamAdapter() = default;
@@ -267,9 +275,10 @@ void FoamAdapter::advance(const Window& window) {
 }
 
 std::vector<FreeResponse> FoamAdapter::respond(const Window&, const std::vector<GrainState>&) {
-    throw Failure(ExitCode::bad_input,
-                  "coupling.scheme = joint: the OpenFOAM adapter does not know effective inertia yet; "
-                  "use split");
+    throw Failure(
+        ExitCode::bad_input,
+        "coupling.scheme = joint: the OpenFOAM adapter does not know effective inertia yet; "
+        "use split");
 }
 
 Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& grains) {
@@ -296,22 +305,31 @@ Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& g
             const Stopwatch watch(s.timings.output);
             s.fields.time.writeNow();
         });
+    // The last window: lets function objects finish, as OpenFOAM's own loops do.
+    if (!s.fields.time.running())
+        with_foam_errors("ending function objects", [&] { s.fields.time.run(); });
     const FluidTimings& t = s.timings;
-    s.report.wall_seconds = t.projection + t.transport + t.viscosity + t.points + t.multipliers +
-                            t.output;
+    s.report.wall_seconds =
+        t.projection + t.transport + t.viscosity + t.points + t.multipliers + t.output;
     answer.report = s.report;
     return answer;
 }
 
-SavedState FoamAdapter::save() const { return save_fields(state_->fields); }
+SavedState FoamAdapter::save() const {
+    return save_fields(state_->fields);
+}
 
 void FoamAdapter::restore(const SavedState& state) {
     with_foam_errors("restoring the fluid", [&] { restore_fields(state, state_->fields); });
 }
 
-const FluidTimings& FoamAdapter::timings() const { return state_->timings; }
+const FluidTimings& FoamAdapter::timings() const {
+    return state_->timings;
+}
 
-const CollocationPoints& FoamAdapter::points() const { return state_->points; }
+const CollocationPoints& FoamAdapter::points() const {
+    return state_->points;
+}
 
 void FoamAdapter::add_velocity(double x, double y) {
     state_->fields.U.primitiveFieldRef() += Foam::vector(x, y, 0.0);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The fluid participant on OpenFOAM: the five adapter functions over the steps of the scheme (design:
-// Topin 2011, section 2.2). No OpenFOAM type appears here, so that tests can drive it.
+// The fluid participant on OpenFOAM: the five adapter functions over the steps of the scheme
+// (Topin 2011,
+// section 2.2). No OpenFOAM type appears here, so that tests can drive it.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@ struct FluidTimings {
 };
 
 class FoamAdapter final : public FluidAdapter {
-   public:
+ public:
     /// `directory`: the OpenFOAM case.
     explicit FoamAdapter(std::filesystem::path directory);
     ~FoamAdapter() override;
@@ -43,7 +44,7 @@ class FoamAdapter final : public FluidAdapter {
     /// u at a cell of the grid [m/s].
     Vec3 velocity(int i, int j) const;
 
-   private:
+ private:
     struct State;
     std::filesystem::path directory_;
     std::unique_ptr<State> state_;

@@ -17,8 +17,7 @@ auto with_foam_errors(const std::string& doing, Work work) {
     try {
         return work();
     } catch (const Foam::error& error) {
-        throw Failure(ExitCode::participant_failed,
-                      "OpenFOAM, " + doing + ": " + error.message());
+        throw Failure(ExitCode::participant_failed, "OpenFOAM, " + doing + ": " + error.message());
     }
 }
 

@@ -49,7 +49,8 @@ void FoamFluidField::map_cells() {
         for (int axis = 0; axis < 2; ++axis) {
             index[axis] = grid_.wrapped(axis, grid_.layer(axis, centre[axis]));
             const double off = centre[axis] - grid_.centre(axis, std::max(index[axis], 0));
-            uniform &= index[axis] >= 0 && std::abs(off) < placement_tolerance * grid_.spacing[axis];
+            uniform &=
+                index[axis] >= 0 && std::abs(off) < placement_tolerance * grid_.spacing[axis];
         }
         if (!uniform) break;
         local_[index[0] + static_cast<std::size_t>(grid_.counts[0]) * index[1]] = c;
@@ -58,7 +59,8 @@ void FoamFluidField::map_cells() {
     if (!uniform)
         throw Failure(ExitCode::bad_input,
                       "the fluid mesh is not the uniform grid of " +
-                          std::to_string(grid_.counts[0]) + " x " + std::to_string(grid_.counts[1]) +
+                          std::to_string(grid_.counts[0]) + " x " +
+                          std::to_string(grid_.counts[1]) +
                           " cells that the case asks for: run blockMesh on the fluid case again");
 }
 

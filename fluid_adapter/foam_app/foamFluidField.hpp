@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number. Velocities
-// are copied to contiguous components before step 5 and back after it.
+// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number.
+// Velocities are copied to contiguous components before step 5 and back after it.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@
 namespace turbidite {
 
 class FoamFluidField final : public FluidField {
-   public:
+ public:
     /// Throws Failure when the mesh is not the uniform grid of the case.
     FoamFluidField(FluidFields& fields, const FluidDomain& domain);
 
@@ -29,7 +29,7 @@ class FoamFluidField final : public FluidField {
     /// To U, cells in `touched` only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
     void store(const std::vector<int>& touched, bool force_density);
 
-   private:
+ private:
     void map_cells();
 
     FluidFields& fields_;

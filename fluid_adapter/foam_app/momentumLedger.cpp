@@ -11,8 +11,8 @@ void MomentumLedger::open() {
     largest_ = 0.0;
 }
 
-/// Sums `per_face(patch)`, a tmp<vectorField> of impulse over rho_f, over the true boundary: faces shared
-/// by ranks or joined by a cyclic side have two sides that cancel.
+/// Sums `per_face(patch)`, a tmp<vectorField> of impulse over rho_f, over the true boundary: faces
+/// shared by ranks or joined by a cyclic side have two sides that cancel.
 template <class PerFace>
 void MomentumLedger::add(PerFace per_face) {
     Foam::vector sum = Foam::Zero;

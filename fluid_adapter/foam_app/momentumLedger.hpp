@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Does the fluid's momentum change by what crosses its boundaries and by what the grains take, and by
-// nothing else? Per window,
+// Does the fluid's momentum change by what crosses its boundaries and by what the grains take, and
+// by nothing else? Per window,
 //
 //     P^{n+1} - P^n  =  - sum over grains of dt lambda  +  sum over boundary faces of impulses
 //
@@ -14,19 +14,19 @@
 namespace turbidite {
 
 class MomentumLedger {
-   public:
+ public:
     explicit MomentumLedger(const FluidFields& fields) : fields_(fields) {}
 
-    void open();  ///< before step 1: takes P^n
+    void open();            ///< before step 1: takes P^n
     void add_pressure();    ///< after step 1, with p
     void add_convection();  ///< before step 2 changes U, with phi
     void add_viscosity();   ///< after step 3, with U
 
-    /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the largest of
-    /// the terms; zero if all are.
+    /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the
+    /// largest of the terms; zero if all are.
     double close(const Foam::vector& to_grains) const;
 
-   private:
+ private:
     template <class PerFace>
     void add(PerFace per_face);
 

@@ -38,9 +38,8 @@ void restore_fields(const SavedState& state, FluidFields& fields) {
     if (state.size() == sizeof header + bytes_of(U) + bytes_of(p))
         std::memcpy(&header, state.data(), sizeof header);
     if (header.cells != fields.mesh.nCells())
-        throw Failure(ExitCode::bad_input,
-                      "the saved fluid state does not belong to a mesh of " +
-                          std::to_string(fields.mesh.nCells()) + " cells");
+        throw Failure(ExitCode::bad_input, "the saved fluid state does not belong to a mesh of " +
+                                               std::to_string(fields.mesh.nCells()) + " cells");
     std::memcpy(U.data(), state.data() + sizeof header, bytes_of(U));
     std::memcpy(p.data(), state.data() + sizeof header + bytes_of(U), bytes_of(p));
     fields.U.correctBoundaryConditions();

@@ -17,14 +17,14 @@
 namespace turbidite {
 
 class StokesProjection {
-   public:
+ public:
     /// `goal`: the largest |div phi| asked for [1/s].
     StokesProjection(FluidFields& fields, Foam::scalar goal);
 
     /// From phi = interpolated U to the projected phi, U and p. Returns max |div phi| [1/s].
     Foam::scalar project();
 
-   private:
+ private:
     FluidFields& fields_;
     Foam::scalar goal_;
     std::unique_ptr<PressureSolver> solver_;

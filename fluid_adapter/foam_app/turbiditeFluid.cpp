@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// turbidite-fluid -case RUN/fluid: OpenFOAM as the fluid participant. The steps of a window are in foamAdapter.cpp.
+// turbidite-fluid -case RUN/fluid: OpenFOAM as the fluid participant. The steps of a window are in
+// foamAdapter.cpp.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -11,7 +12,8 @@
 
 int main(int argc, char** argv) {
     if (argc != 3 || std::string(argv[1]) != "-case") {
-        std::fprintf(stderr, "usage: turbidite-fluid -case RUN/fluid   (started by `turbidite run`)\n");
+        std::fprintf(stderr,
+                     "usage: turbidite-fluid -case RUN/fluid   (started by `turbidite run`)\n");
         return static_cast<int>(turbidite::ExitCode::bad_input);
     }
     const std::filesystem::path foam_case = std::filesystem::absolute(argv[2]).lexically_normal();

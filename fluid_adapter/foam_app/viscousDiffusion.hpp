@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3). The problem stands behind one door, so
-// that a direct solver can stand in for OpenFOAM's iterative ones.
+// Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3). The problem stands behind one door,
+// so that a direct solver can stand in for OpenFOAM's iterative ones.
 #pragma once
 
 #include <fvMatrices.H>
@@ -13,7 +13,7 @@
 namespace turbidite {
 
 class ViscousSolver {
-   public:
+ public:
     virtual ~ViscousSolver() = default;
 
     /// From u2 to u3, in the U the solver was made with.
@@ -22,12 +22,12 @@ class ViscousSolver {
 
 /// With OpenFOAM's matrix, assembled when dt changes, and the solver that fvSolution names.
 class MatrixViscousSolver final : public ViscousSolver {
-   public:
+ public:
     MatrixViscousSolver(Foam::volVectorField& U, Foam::scalar nu) : U_(U), nu_(nu) {}
 
     void solve(Foam::scalar dt) override;
 
-   private:
+ private:
     void assemble(Foam::scalar dt);
 
     Foam::volVectorField& U_;

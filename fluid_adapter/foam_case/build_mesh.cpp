@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// blockMesh as a child process. OpenFOAM finds its own settings through WM_PROJECT_DIR, which Debian
-// does not set: /usr/share/openfoam unless the user has another.
+// blockMesh as a child process. OpenFOAM finds its own settings through WM_PROJECT_DIR, which
+// Debian does not set: /usr/share/openfoam unless the user has another.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -46,7 +46,8 @@ std::string last_words(const std::filesystem::path& log) {
     text << file.rdbuf();
     const std::string all = text.str();
     const std::size_t error = all.find("FOAM FATAL");
-    const std::size_t from = error != std::string::npos ? error : all.size() - std::min<std::size_t>(all.size(), 500);
+    const std::size_t from =
+        error != std::string::npos ? error : all.size() - std::min<std::size_t>(all.size(), 500);
     return all.substr(from, 1000);
 }
 
@@ -67,8 +68,8 @@ int build_fluid_mesh(const std::filesystem::path& directory, const std::filesyst
                       "OpenFOAM 1912's programs on PATH");
     if (status != 0)
         throw Failure(ExitCode::participant_failed,
-                      fmt::format("blockMesh failed with code {} on {} (see {}):\n{}", status, where,
-                                  into, last_words(log)));
+                      fmt::format("blockMesh failed with code {} on {} (see {}):\n{}", status,
+                                  where, into, last_words(log)));
     return 0;
 }
 

@@ -96,8 +96,10 @@ std::string patch(const FluidDomain& domain, int side) {
 std::string block_mesh(const FluidDomain& domain) {
     std::string vertices;
     for (double z : {0.0, domain.thickness})
-        for (const auto& [x, y] : {std::pair{0.0, 0.0}, {domain.size[0], 0.0},
-                                   {domain.size[0], domain.size[1]}, {0.0, domain.size[1]}})
+        for (const auto& [x, y] : {std::pair{0.0, 0.0},
+                                   {domain.size[0], 0.0},
+                                   {domain.size[0], domain.size[1]},
+                                   {0.0, domain.size[1]}})
             vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
     std::string patches;
     for (int side = 0; side < 4; ++side) patches += patch(domain, side);
@@ -121,7 +123,9 @@ std::string boundary_field(const FluidDomain& domain, const std::string& at_wall
     std::string text = "boundaryField\n{\n";
     for (int side = 0; side < 4; ++side) {
         const std::string& kind = domain.sides[side];
-        const std::string& value = kind == "wall" ? at_wall : kind == "free" ? at_free : "type cyclic;";
+        const std::string& value = kind == "wall"   ? at_wall
+                                   : kind == "free" ? at_free
+                                                    : "type cyclic;";
         text += fmt::format("    {} {{ {} }}\n", side_names[side], value);
     }
     return text + "    frontAndBack { type empty; }\n}\n";

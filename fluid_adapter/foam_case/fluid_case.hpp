@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The fluid's part of a run folder: a legal OpenFOAM case, written from the resolved case. Two
-// dimensions are one layer of cells between `empty` patches. p is kinematic (over rho_f) and reduced
-// (without its hydrostatic part). Valid C++17.
+// dimensions are one layer of cells between `empty` patches. p is kinematic (over rho_f) and
+// reduced (without its hydrostatic part). Valid C++17.
 #pragma once
 
 #include <filesystem>

@@ -28,8 +28,9 @@ int cell_count(const Settings& settings, const std::string& key, double size) {
 std::string side(const Settings& settings, const std::string& name) {
     const std::string value = settings.text("domain." + name);
     if (value != "wall" && value != "free" && value != "cyclic")
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("domain.{} = \"{}\"; allowed are wall, free, cyclic", name, value));
+        throw Failure(
+            ExitCode::bad_input,
+            fmt::format("domain.{} = \"{}\"; allowed are wall, free, cyclic", name, value));
     return value;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A uniform grid of cells by numbers alone: cell (i, j, k) is found from a place by index arithmetic,
-// never by scanning. In two dimensions the third axis has one cell.
+// A uniform grid of cells by numbers alone: cell (i, j, k) is found from a place by index
+// arithmetic, never by scanning. In two dimensions the third axis has one cell.
 //
 // Valid C++17.
 #pragma once

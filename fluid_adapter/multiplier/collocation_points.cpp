@@ -17,8 +17,9 @@ struct AxisStencil {
 };
 
 /// Quadratic through the last centre at or behind the point and the two ahead of it, seen along the
-/// outward direction: the point always lies between the first two nodes, so nothing is extrapolated.
-/// A normal without component along the axis counts as positive, whatever its rounding.
+/// outward direction: the point always lies between the first two nodes, so nothing is
+/// extrapolated. A normal without component along the axis counts as positive, whatever its
+/// rounding.
 AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate, double normal) {
     const int out = normal < -1e-9 ? -1 : 1;
     const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
@@ -40,6 +41,20 @@ bool fits(const CellGrid& grid, int axis, const AxisStencil& stencil) {
     for (int n = 0; n < stencil.nodes; ++n)
         if (grid.wrapped(axis, stencil.layer[n]) < 0) return false;
     return true;
+}
+
+using PlaneStencil = std::array<AxisStencil, 2>;
+
+/// Quadratic where it fits, else linear, else without nodes.
+PlaneStencil plane_stencil(const CellGrid& grid, const Eigen::Vector3d& x,
+                           const Eigen::Vector3d& normal) {
+    PlaneStencil along;
+    for (int axis = 0; axis < 2; ++axis)
+        along[axis] = quadratic_outward(grid, axis, x[axis], normal[axis]);
+    if (fits(grid, 0, along[0]) && fits(grid, 1, along[1])) return along;
+    for (int axis = 0; axis < 2; ++axis) along[axis] = linear(grid, axis, x[axis]);
+    if (fits(grid, 0, along[0]) && fits(grid, 1, along[1])) return along;
+    return {};
 }
 
 /// Calls visit(cell, arm) for the known cells whose centre the grain contains.
@@ -154,6 +169,24 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
     }
 }
 
+/// Tensor product of two axes as cells and weights.
+template <class Candidate>
+void fill_stencil(const FluidField& field, const AxisStencil& along_x, const AxisStencil& along_y,
+                  Candidate& point) {
+    const CellGrid& grid = field.grid();
+    point.cells = 0;
+    for (int n = 0; n < along_y.nodes; ++n)
+        for (int m = 0; m < along_x.nodes; ++m) {
+            const double weight = along_x.weight[m] * along_y.weight[n];
+            if (weight == 0.0) continue;
+            const int cell =
+                field.cell(grid.wrapped(0, along_x.layer[m]), grid.wrapped(1, along_y.layer[n]), 0);
+            if (cell < 0) continue;  // beyond the halo: another rank's point
+            point.cell[point.cells] = cell;
+            point.weight[point.cells++] = weight;
+        }
+}
+
 void PointPlacement::build_stencils(const FluidField& field,
                                     const std::vector<ImmersedGrain>& grains) {
     const CellGrid& grid = field.grid();
@@ -162,29 +195,15 @@ void PointPlacement::build_stencils(const FluidField& field,
             Candidate& point = candidates_[c];
             if (point.fate != Fate::kept) continue;
             const Eigen::Vector3d x = grains[g].position + point.arm;
-            AxisStencil along[2];
-            for (int axis = 0; axis < 2; ++axis)
-                along[axis] = quadratic_outward(grid, axis, x[axis], point.normal[axis]);
-            if (!fits(grid, 0, along[0]) || !fits(grid, 1, along[1]))
-                for (int axis = 0; axis < 2; ++axis) along[axis] = linear(grid, axis, x[axis]);
-            if (!fits(grid, 0, along[0]) || !fits(grid, 1, along[1])) {
+            const PlaneStencil along = plane_stencil(grid, x, point.normal);
+            if (along[0].nodes == 0) {
                 point.fate = Fate::off_grid;
                 continue;
             }
             const int home = field.cell(grid.wrapped(0, grid.layer(0, x[0])),
                                         grid.wrapped(1, grid.layer(1, x[1])), 0);
             point.owned = home >= 0 && field.owns(home);
-            point.cells = 0;
-            for (int n = 0; n < along[1].nodes; ++n)
-                for (int m = 0; m < along[0].nodes; ++m) {
-                    const double weight = along[0].weight[m] * along[1].weight[n];
-                    if (weight == 0.0) continue;
-                    const int cell = field.cell(grid.wrapped(0, along[0].layer[m]),
-                                                grid.wrapped(1, along[1].layer[n]), 0);
-                    if (cell < 0) continue;  // beyond the halo: another rank's point
-                    point.cell[point.cells] = cell;
-                    point.weight[point.cells++] = weight;
-                }
+            fill_stencil(field, along[0], along[1], point);
         }
 }
 

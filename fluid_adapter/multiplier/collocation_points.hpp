@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The points at which the fluid must move with the grain (Topin 2011, Eq. 10), on the disc of radius
-// R_h. Two kinds:
+// The points at which the fluid must move with the grain (Topin 2011, Eq. 10), on the disc of
+// radius R_h. Two kinds:
 //
 //   interior   a cell centre inside the grain: u there is the cell's velocity
-//   boundary   a point of the surface: u there is interpolated from 3 x 3 cells which reach into the
-//              fluid (quadratic, chosen by the outward normal), or 2 x 2 where those leave the grid
+//   boundary   a point of the surface: u there is interpolated from 3 x 3 cells which reach out
+//              into the fluid (quadratic, chosen by the outward normal), or from 2 x 2 where those
+//              leave the grid
 //
-// Boundary points stand a fraction of a cell inside R_h. Interpolation that reaches outwards ties fluid
-// beyond the surface and makes the grain look larger: on R_h itself the drag of a square array
-// (Sangani & Acrivos 1982, area fraction 0.2, D/16) came out 5 % high, as published for such points,
-// and the mass that follows an accelerated disc 8 % high. 0.15 cells inside, the drag is within 1 %.
-// Yu & Shao (2007) retract their points likewise. It vanishes with h.
+// Boundary points stand a fraction of a cell inside R_h. Interpolation that reaches outwards ties
+// fluid beyond the surface and makes the grain look larger: on R_h itself the drag of a square
+// array (Sangani & Acrivos 1982, area fraction 0.2, D/16) came out 5 % high, as published for such
+// points, and the mass that follows an accelerated disc 8 % high. 0.15 cells inside, the drag is
+// within 1 %. Yu & Shao (2007) retract their points likewise. It vanishes with h.
 //
-// Rules, in this order. Rules 1-3 look at all candidates and not at survivors, so that the outcome does
-// not depend on how the grains are numbered.
+// Rules, in this order. Rules 1-3 look at all candidates and not at survivors, so that the outcome
+// does not depend on how the grains are numbered.
 //
 //   1. A boundary point nearer than 2 cells to a wall is dropped.
 //   2. A boundary point inside another grain is dropped.
@@ -52,7 +53,8 @@ struct DroppedPoints {
 };
 
 /// Points of grain g are begin[g] .. begin[g+1]-1, interior ones first. The cells of point p are
-/// stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last one's memory.
+/// stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last one's
+/// memory.
 struct CollocationPoints {
     std::vector<int> begin;
     std::vector<int> boundary_begin;
@@ -69,13 +71,13 @@ struct CollocationPoints {
 
 /// Places the points of all grains.
 class PointPlacement {
-   public:
+ public:
     explicit PointPlacement(const PointRules& rules) : rules_(rules) {}
 
     void place(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                CollocationPoints& points);
 
-   private:
+ private:
     enum class Fate : char { kept, near_wall, inside_grain, near_point, off_grid };
 
     struct Candidate {
@@ -105,8 +107,8 @@ class PointPlacement {
     PointRules rules_;
     std::vector<int> first_;  // first candidate of each grain
     std::vector<Candidate> candidates_;
-    std::vector<int> owner_;      // grain that claims a cell, -1 none
-    std::vector<double> depth_;   // its squared relative distance
+    std::vector<int> owner_;     // grain that claims a cell, -1 none
+    std::vector<double> depth_;  // its squared relative distance
     std::vector<char> stencilled_;
 };
 

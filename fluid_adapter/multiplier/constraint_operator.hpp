@@ -4,8 +4,8 @@
 //
 //     slip = B u - T U - R omega        (u - U - omega x r, point by point) [m/s]
 //
-// and its transpose. Point vectors hold all x components, then all y components. Velocities of grains
-// are rows (x, y, spin). Valid C++17.
+// and its transpose. Point vectors hold all x components, then all y components. Velocities of
+// grains are rows (x, y, spin). Valid C++17.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@
 namespace turbidite {
 
 class ConstraintOperator {
-   public:
+ public:
     explicit ConstraintOperator(const CollocationPoints& points) : points_(points) {}
 
     int rows() const { return 2 * points_.size(); }
@@ -29,7 +29,7 @@ class ConstraintOperator {
     /// out = (T^T, R^T) values: force and moment of every grain, from this rank's points.
     void sum_by_grain(const double* values, Planar* out) const;
 
-   private:
+ private:
     const CollocationPoints& points_;
 };
 

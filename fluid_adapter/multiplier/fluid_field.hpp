@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the multiplier method asks of a fluid: velocities in the cells of a uniform grid, the mass that
-// answers for them, and sums over the ranks that share the grid. A rank sees its own cells and a halo
-// of at least two layers; both have local indices. Valid C++17.
+// What the multiplier method asks of a fluid: velocities in the cells of a uniform grid, the mass
+// that answers for them, and sums over the ranks that share the grid. A rank sees its own cells and
+// a halo of at least two layers; both have local indices. Valid C++17.
 #pragma once
 
 #include "coupler/protocol/records.hpp"
@@ -11,13 +11,13 @@
 namespace turbidite {
 
 class FluidField {
-   public:
+ public:
     virtual ~FluidField() = default;
 
     /// The whole grid, over all ranks.
     virtual const CellGrid& grid() const = 0;
 
-    /// Local index of a cell inside the grid, halo included; -1 where this rank knows nothing of it.
+    /// Local index of a cell, halo included; -1 where this rank knows nothing of it.
     virtual int cell(int i, int j, int k) const = 0;
 
     virtual int local_cells() const = 0;  ///< owned and halo cells
@@ -38,8 +38,8 @@ class FluidField {
     /// Sums over the ranks of the fluid, in place.
     virtual void sum_over_ranks(double*, int) const {}
 
-    /// Sums, in place, the rows of grains that more than one rank holds: `per_grain` numbers for each
-    /// of `count` ids.
+    /// Sums, in place, the rows of grains that more than one rank holds: `per_grain` numbers for
+    /// each of `count` ids.
     virtual void sum_over_holders(const GrainId*, int, double*, int) const {}
 };
 

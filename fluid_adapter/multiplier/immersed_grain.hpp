@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A grain as step 5 sees it (Topin 2011, Eqs. 9-10): where it is, what inertia it adds to the fluid it
-// covers, and how it would move without that fluid. Plane motion: two velocities and a spin.
+// A grain as step 5 sees it (Topin 2011, Eqs. 9-10): where it is, what inertia it adds to the fluid
+// it covers, and how it would move without that fluid. Plane motion: two velocities and a spin.
 // Valid C++17.
 #pragma once
 
@@ -18,13 +18,13 @@ using Planar = Eigen::Vector3d;
 struct ImmersedGrain {
     GrainId id = 0;
     const Shape* shape = nullptr;
-    double radius = 0.0;                                            ///< hydrodynamic radius R_h [m]
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();             ///< q [m]
-    Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();      ///< body to world
-    double effective_mass = 0.0;                                    ///< cM [kg/m]
-    double effective_inertia = 0.0;                                 ///< cI about z [kg m]
-    Planar contact_motion = Planar::Zero();                         ///< U^{n+4/5}, omega^{n+4/5}
-    Planar announced_impulse = Planar::Zero();                      ///< J_h and its moment
+    double radius = 0.0;                                        ///< hydrodynamic radius R_h [m]
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< q [m]
+    Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< body to world
+    double effective_mass = 0.0;                                ///< cM [kg/m]
+    double effective_inertia = 0.0;                             ///< cI about z [kg m]
+    Planar contact_motion = Planar::Zero();                     ///< U^{n+4/5}, omega^{n+4/5}
+    Planar announced_impulse = Planar::Zero();                  ///< J_h and its moment
 
     /// Velocity with which the multipliers find the grain: an announced impulse is already in
     /// U^{n+4/5} and is taken back, for the multipliers contain it.

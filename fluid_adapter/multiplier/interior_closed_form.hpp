@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Step 5 without iteration when every point is a cell centre: B selects, so the multipliers of a grain
-// are eliminated exactly. Per grain, with m = rho_f V_c and sums over its cells,
+// Step 5 without iteration when every point is a cell centre: B selects, so the multipliers of a
+// grain are eliminated exactly. Per grain, with m = rho_f V_c and sums over its cells,
 //
 //     cM U45 - J_h + m sum u3          [ cM + m n      0          -m sum r_y    ] [ U_x   ]
 //     (x, y and moment)             =  [     0       cM + m n      m sum r_x    ] [ U_y   ]
@@ -15,7 +15,8 @@
 
 namespace turbidite {
 
-/// Throws std::invalid_argument when a point is not a cell centre. Result: no iterations, no residual.
+/// Throws std::invalid_argument when a point is not a cell centre. Nothing is iterated or left
+/// over, and the result says so.
 MultiplierResult interior_closed_form(SaddlePoint& system, const MultiplierSettings& settings,
                                       MultiplierWorkspace& work);
 

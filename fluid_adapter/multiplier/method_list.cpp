@@ -8,7 +8,8 @@ namespace turbidite {
 const std::vector<MethodEntry>& method_list() {
     static const std::vector<MethodEntry> methods = {
         {"interior", "cell centres inside the grain; closed form", false, interior_closed_form},
-        {"interior+boundary", "cell centres and surface points; conjugate gradients", true, uzawa_cg},
+        {"interior+boundary", "cell centres and surface points; conjugate gradients", true,
+         uzawa_cg},
     };
     return methods;
 }

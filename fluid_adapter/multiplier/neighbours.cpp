@@ -8,7 +8,7 @@ namespace {
 
 /// Square bins at least as wide as the reach of an interaction.
 class Bins {
-   public:
+ public:
     Bins(const CellGrid& grid, double reach) : grid_(grid) {
         for (int axis = 0; axis < grid.dimension; ++axis)
             counts_[axis] = std::max(1, static_cast<int>(grid.length(axis) / reach));
@@ -26,7 +26,8 @@ class Bins {
         const int deep = grid_.dimension == 3 ? 1 : 0;
         for (int k = -deep; k <= deep; ++k)
             for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) add_near({centre[0] + i, centre[1] + j, centre[2] + k});
+                for (int i = -1; i <= 1; ++i)
+                    add_near({centre[0] + i, centre[1] + j, centre[2] + k});
         std::sort(near_.begin(), near_.end());
         near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
         return near_;
@@ -34,7 +35,7 @@ class Bins {
 
     const std::vector<int>& grains(int bin) const { return lists_[bin]; }
 
-   private:
+ private:
     std::array<int, 3> place(const Eigen::Vector3d& position) const {
         std::array<int, 3> index{0, 0, 0};
         for (int axis = 0; axis < grid_.dimension; ++axis) {

@@ -12,9 +12,10 @@
 
 namespace turbidite {
 
-/// Pairs (a, b), a < b, of indices of grains whose circumscribed circles of radius R_h come nearer than
-/// `margin` [m], images across cyclic sides included; every pair once.
+/// Pairs (a, b), a < b, of indices of grains whose circumscribed circles of radius R_h come nearer
+/// than `margin` [m], images across cyclic sides included; every pair once.
 std::vector<std::pair<int, int>> near_pairs(const CellGrid& grid,
-                                            const std::vector<ImmersedGrain>& grains, double margin);
+                                            const std::vector<ImmersedGrain>& grains,
+                                            double margin);
 
 }  // namespace turbidite

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Step 5 of the splitting (Topin 2011, Eqs. 9-10 restricted to mass terms and multipliers) as a system
-// for the multiplier impulses L = dt lambda [N s/m], one per point and component:
+// Step 5 of the splitting (Topin 2011, Eqs. 9-10 restricted to mass terms and multipliers) as a
+// system for the multiplier impulses L = dt lambda [N s/m], one per point and component:
 //
 //     m_c (u - u3)      = - B^T L                 every cell, m_c = rho_f V_c
 //     cM  (U - U45)     =   T^T L - J_h           every grain; J_h: impulse already announced
@@ -22,7 +22,7 @@
 namespace turbidite {
 
 class SaddlePoint {
-   public:
+ public:
     /// Takes a new window: grains, their points, the fluid after step 3. All are kept by reference.
     void assemble(FluidField& field, const std::vector<ImmersedGrain>& grains,
                   const CollocationPoints& points);
@@ -47,8 +47,8 @@ class SaddlePoint {
     /// Number of points on all ranks.
     double points_everywhere() const;
 
-    const std::vector<Planar>& motions() const { return motions_; }   ///< U, omega after impose
-    const std::vector<Planar>& impulses() const { return sums_; }     ///< T^T L, R^T L
+    const std::vector<Planar>& motions() const { return motions_; }  ///< U, omega after impose
+    const std::vector<Planar>& impulses() const { return sums_; }    ///< T^T L, R^T L
 
     /// For solvers that know U already: the same as `impose`, without the products.
     std::vector<Planar>& motions() { return motions_; }
@@ -57,7 +57,7 @@ class SaddlePoint {
     /// Adds up rows of grains held by several ranks: `per_grain` numbers each.
     void sum_over_holders(double* rows, int per_grain) const;
 
-   private:
+ private:
     void clear_touched();
     void share(double* cells) const;
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Conjugate gradients on the multipliers (Uzawa; Wachs 2011, appendix, with its two signs corrected):
-// S L = s of saddle_point.hpp, where the residual s - S L is the slip left at the points.
+// Conjugate gradients on the multipliers (Uzawa; Wachs 2011, appendix, with its two signs
+// corrected): S L = s of saddle_point.hpp, where the residual s - S L is the slip left at the
+// points.
 //
 // Always from L = 0: interior points change with every cell the grain crosses, so last window's
-// multipliers belong to other places, and would be state to save, for a few of about ten iterations.
+// multipliers belong to other places, and would be state to save, for a few of about ten
+// iterations.
 //
 // Valid C++17.
 #pragma once
@@ -17,12 +19,12 @@
 namespace turbidite {
 
 struct MultiplierSettings {
-    double tolerance = 1e-4;       ///< of the rms slip, over u_c; usual 1e-4 .. 1e-6
-    double reduction = 1e-2;       ///< least reduction of the first rms slip: with a short dt the slip
-                                   ///< is below `tolerance` at once and the grain would not feel
-                                   ///< the fluid
-    double velocity_scale = 1.0;   ///< u_c [m/s]
-    int iterations = 200;          ///< at most
+    double tolerance = 1e-4;  ///< of the rms slip, over u_c; usual 1e-4 .. 1e-6
+    double reduction = 1e-2;  ///< least reduction of the first rms slip: with a short dt the slip
+                              ///< is below `tolerance` at once and the grain would not feel
+                              ///< the fluid
+    double velocity_scale = 1.0;  ///< u_c [m/s]
+    int iterations = 200;         ///< at most
 };
 
 struct MultiplierResult {

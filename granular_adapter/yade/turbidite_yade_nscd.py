@@ -7,15 +7,22 @@ opens a prompt and the job waits for ever.
 """
 import math
 import sys
+import traceback
 
 # First of all: mpy splits the world when it is imported, and every process of the job takes part in that
 # one split now. Imported later (YADE does so at its exit) it would hang a finished job.
 from yade import mpy
 
-import turbidite_yade
 import yade.config
 from yade import *
 from yade import utils
+
+try:
+    import turbidite_yade
+except ImportError:
+    # An orderly exit would wait in MPI_Finalize for programs that wait for this one.
+    traceback.print_exc()
+    mpy.MPI.COMM_WORLD.Abort(4)
 
 
 class Scene:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fluid and contact adapters in one process, called in the order of the `split` scheme without hub or
-// messages. Run units: D = u_c = rho_f = 1.
+// Fluid and contact adapters in one process, called in the order of the `split` scheme without hub
+// or messages. Run units: D = u_c = rho_f = 1.
 #pragma once
 
 #include <filesystem>
@@ -36,18 +36,18 @@ GrainState disc_at(const CoupledSetup& setup, double x, double y, double vx = 0.
 
 /// An empty folder, removed at the end.
 class TemporaryFolder {
-   public:
+ public:
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     const std::filesystem::path& path() const { return path_; }
 
-   private:
+ private:
     std::filesystem::path path_;
 };
 
 class CoupledRun {
-   public:
+ public:
     CoupledRun(const CoupledSetup& setup, std::vector<GrainState> grains);
 
     /// One window.
@@ -62,7 +62,7 @@ class CoupledRun {
     const Kicks& answer() const { return answer_; }
     ImmersedBody body() const;
 
-   private:
+ private:
     CoupledSetup setup_;
     TemporaryFolder folder_;
     FoamAdapter fluid_;

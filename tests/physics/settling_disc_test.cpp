@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
+#include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "tests/physics/coupled_run.hpp"
 
 namespace turbidite {
@@ -24,9 +26,9 @@ CoupledSetup settling(const std::string& points) {
 
 class SettlingDisc : public testing::TestWithParam<std::string> {};
 
-/// Grain side, to round-off, in flight and at rest on the floor: M (U' - U)/dt = -(M - m_f) g + F_c + F_h
-/// with F_h = J_lambda/dt + m_f (U' - U)/dt. Fluid side, to solver tolerance: its own momentum changed by
-/// -J_lambda and by what crossed the walls.
+/// Grain side, to round-off, in flight and at rest on the floor: M (U' - U)/dt = -(M - m_f) g + F_c
+/// + F_h with F_h = J_lambda/dt + m_f (U' - U)/dt. Fluid side, to solver tolerance: its own
+/// momentum changed by -J_lambda and by what crossed the walls.
 TEST_P(SettlingDisc, BalancesForcesInEveryWindow) {
     const CoupledSetup setup = settling(GetParam());
     CoupledRun run(setup, {disc_at(setup, 2.03, 1.5)});
@@ -76,7 +78,30 @@ TEST(SettlingDiscRefusal, NotANumberNamesStepAndWindow) {
         FAIL() << "accepted a velocity that is not a number";
     } catch (const PhysicsRefused& refused) {
         EXPECT_NE(std::string(refused.what()).find("step 5"), std::string::npos) << refused.what();
-        EXPECT_NE(std::string(refused.what()).find("window 1"), std::string::npos) << refused.what();
+        EXPECT_NE(std::string(refused.what()).find("window 1"), std::string::npos)
+            << refused.what();
+    }
+}
+
+TEST(SettlingDiscRefusal, AProjectionThatDoesNotConvergeNamesStepAndWindow) {
+    const CoupledSetup setup = settling("interior+boundary");
+    const TemporaryFolder folder;
+    write_fluid_case(settings_of(setup), folder.path());
+    build_fluid_mesh(folder.path(), folder.path() / "blockMesh.log");
+    // Two sweeps cannot do what takes some ten.
+    std::ofstream(folder.path() / "system" / "fvSolution", std::ios::app)
+        << "solvers { p { maxIter 2; } }\n";
+    FoamAdapter fluid(folder.path());
+    fluid.initialise(settings_of(setup), {ShapeRecord{"disc", {}}});
+    fluid.advance({0, 0.0, setup.step, false, false});  // still fluid: nothing to solve
+    fluid.impose({0, 0.0, setup.step, false, false}, {disc_at(setup, 2.0, 2.0, 0.0, -0.1)});
+    try {
+        fluid.advance({1, setup.step, setup.step, false, false});
+        FAIL() << "went on without a pressure";
+    } catch (const PhysicsRefused& refused) {
+        EXPECT_NE(std::string(refused.what()).find("step 1 (projection) of window 1"),
+                  std::string::npos)
+            << refused.what();
     }
 }
 

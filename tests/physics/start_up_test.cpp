@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A lone disc let go in still fluid. The fluid around it resists like the mass m_f it displaces (added
-// mass coefficient 1 of a disc in potential flow), so
+// A lone disc let go in still fluid. The fluid around it resists like the mass m_f it displaces
+// (added mass coefficient 1 of a disc in potential flow), so
 //
 //     (M + m_f) dU/dt = (M - m_f) g,   dU/dt = (rho_s - rho_f)/(rho_s + rho_f) g = g/5 at ratio 1.5
 //
 // The splitting gets there in a few windows. Step 5 gives U' = c (U + g dt) + r V with r = 1 - c =
-// rho_f/rho_s and V the fluid in the disc, which each projection moves halfway: V' = (U + V)/2. The lag
-// d = U - V then follows d' = c (d/2 + g dt): it converges as (c/2)^n = 6^-n to c g dt/(1 - c/2), and
-// (U' - U)/dt to c g/(2 - c), which is the value above. The first window finds V = 0 and gives c g,
-// that is c/(c + rho_f/rho_s) g.
+// rho_f/rho_s and V the fluid in the disc, which each projection moves halfway: V' = (U + V)/2. The
+// lag d = U - V then follows d' = c (d/2 + g dt): it converges as (c/2)^n = 6^-n to c g dt/(1 -
+// c/2), and (U' - U)/dt to c g/(2 - c), which is the value above. The first window finds V = 0 and
+// gives c g, that is c/(c + rho_f/rho_s) g.
 //
 // What else acts, at nu = 1e-3 D u_c, dt = 1e-3 D/u_c and t = 10 dt:
 //   viscosity   the layer is sqrt(nu t) = 0.003 D thick; its shear and pressure weigh
@@ -55,15 +55,15 @@ constexpr double offsets[][2] = {{0.03, 0.017}, {0.021, 0.05}, {0.01, 0.03}};
 class StartUp : public testing::TestWithParam<std::string> {};
 
 TEST_P(StartUp, FirstWindowIsTheSplittingsTransient) {
-    // c/(c + rho_f/rho_s) g = g/3. Cells tied by the points stand for the disc's area to some per cent.
+    // c/(c + rho_f/rho_s) g = g/3; the tied cells' area is the disc's to about a per cent.
     const CoupledSetup setup = large_box(GetParam());
     CoupledRun run(setup, {disc_at(setup, 8.03, 8.017)});
     EXPECT_NEAR(accelerations(run, 1)[0], 1.0 / 3.0, 0.03 / 3.0);
 }
 
 TEST_P(StartUp, TheLagDecaysSixfoldPerWindow) {
-    // U' - U = c (d + g dt) + r (V' - U)... in numbers for c = 1/3: a_n/g = 1/5 + (2/15) 6^-n, so
-    // windows 1 and 2 (from 0) give 0.2222 and 0.2037; by window 3 other errors are larger.
+    // In numbers for c = 1/3: a_n/g = 1/5 + (2/15) 6^-n, so windows 1 and 2 (from 0) give 0.2222
+    // and 0.2037; by window 3 other errors are larger.
     const CoupledSetup setup = large_box(GetParam());
     CoupledRun run(setup, {disc_at(setup, 8.03, 8.017)});
     const std::vector<double> a = accelerations(run, 3);
@@ -72,8 +72,8 @@ TEST_P(StartUp, TheLagDecaysSixfoldPerWindow) {
 }
 
 TEST_P(StartUp, TenthWindowHasTheAccelerationOfPotentialFlow) {
-    // 0.2 less 1.4 % for viscosity and walls (above). What is left is of the grid: fluid within half a
-    // cell of the surface that follows the disc. It shrinks with h.
+    // 0.2 less 1.4 % for viscosity and walls (above). What is left is of the grid: fluid within
+    // half a cell of the surface that follows the disc. It shrinks with h.
     const double expected = 0.2 * (1.0 - 0.014);
     double sum = 0.0;
     for (const auto& offset : offsets) {

@@ -33,8 +33,8 @@ TEST_P(UniformStream, IsNotDisturbedByADiscMovingWithIt) {
         }
 }
 
-/// A disc faster than the stream shares its momentum with a box that nothing else acts on: the sum of
-/// cM U and the fluid's momentum stays, to the tolerance of the solvers.
+/// A disc faster than the stream shares its momentum with a box that nothing else acts on: the sum
+/// of cM U and the fluid's momentum stays, to the tolerance of the solvers.
 TEST_P(UniformStream, SharesMomentumInACyclicBox) {
     const CoupledSetup setup = cyclic_box(GetParam());
     CoupledRun run(setup, {disc_at(setup, 2.03, 2.01, 1.0, 0.0)});

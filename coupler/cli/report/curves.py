@@ -5,6 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 
+# Residuals of lone contacts are round-off; drawn at their value they would flatten everything else.
+LOG_FLOOR = 1e-8
+
+
 @dataclass
 class Curve:
     column: str
@@ -28,9 +32,10 @@ PLOTS = [
     Plot('Deepest overlap', 'overlap / D', [Curve('max_penetration', 'max_penetration')]),
     Plot('Contacts with an impulse, and sweeps of the solver', 'count',
          [Curve('contacts', 'contacts'), Curve('contact_iterations', 'sweeps')]),
-    Plot('Residuals', 'contact: natural map; multipliers: slip / u_c; div: D/u_c',
-         [Curve('contact_residual', 'contact'), Curve('multiplier_residual', 'multipliers'),
-          Curve('divergence', 'divergence after step 1')], logarithmic=True),
+    Plot('Residuals', 'dimensionless',
+         [Curve('contact_residual', 'contact (scaled natural map)'),
+          Curve('multiplier_residual', 'multipliers (rms slip / u_c)'),
+          Curve('divergence', 'divergence after step 1 (D / u_c)')], logarithmic=True),
     Plot('Iterations of the multiplier problem', 'count',
          [Curve('multiplier_iterations', 'multiplier iterations')]),
     Plot('Wall time of a window', 'seconds',
@@ -49,7 +54,7 @@ def draw(plot, history, height, axes):
     for curve in available(plot, history):
         values = history[curve.column] / (height if plot.divide_by_height else 1.0)
         if plot.logarithmic:
-            values = np.where(values > 0.0, values, np.nan)
+            values = np.where(values > 0.0, np.maximum(values, LOG_FLOOR), np.nan)
         axes.plot(history['time'], values, label=curve.label, linewidth=1.4)
     if plot.logarithmic:
         axes.set_yscale('log')

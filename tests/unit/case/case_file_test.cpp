@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every kind of mistake in a case has a text that names the place, the value and the way out; a good
-// case resolves to a text that loads to itself.
+// Every kind of mistake in a case has a text that names the place, the value and the way out; a
+// good case resolves to a text that loads to itself.
 #include "coupler/case/case_file.hpp"
 
 #include <gtest/gtest.h>
@@ -18,18 +18,18 @@ namespace {
 using ::testing::Test;
 
 constexpr auto good_case =
-    "domain:\n"              // line 1
-    "  size: [12, 24]\n"     // 2
-    "grains:\n"              // 3
-    "  count: 20\n"          // 4
-    "fluid:\n"               // 5
-    "  reynolds: 36\n"       // 6
-    "time:\n"                // 7
-    "  step: 0.01\n"         // 8
-    "  end: 1\n";            // 9; further text starts at line 10
+    "domain:\n"           // line 1
+    "  size: [12, 24]\n"  // 2
+    "grains:\n"           // 3
+    "  count: 20\n"       // 4
+    "fluid:\n"            // 5
+    "  reynolds: 36\n"    // 6
+    "time:\n"             // 7
+    "  step: 0.01\n"      // 8
+    "  end: 1\n";         // 9; further text starts at line 10
 
 class CaseFile : public Test {
-   protected:
+ protected:
     ScratchFolder folder;
 
     ResolvedCase load(const std::string& more = "", const std::vector<std::string>& set = {}) {
@@ -55,8 +55,8 @@ TEST_F(CaseFile, FillsDefaults) {
     EXPECT_EQ(box.name, "box");
     EXPECT_EQ(box.settings.text("grains.adapter"), "yade-nscd");
     EXPECT_DOUBLE_EQ(box.settings.real("contact.friction"), 0.3);
-    EXPECT_EQ(box.settings.integer("run.windows"), 100);     // 1 / 0.01
-    EXPECT_EQ(box.settings.integer("run.output_every"), 50); // 0.5 / 0.01
+    EXPECT_EQ(box.settings.integer("run.windows"), 100);      // 1 / 0.01
+    EXPECT_EQ(box.settings.integer("run.output_every"), 50);  // 0.5 / 0.01
     EXPECT_EQ(box.population.size(), 20u);
     ASSERT_EQ(box.shapes.size(), 1u);
     EXPECT_EQ(box.shapes[0].kind, "disc");
@@ -147,10 +147,11 @@ TEST_F(CaseFile, GroupGivenAValue) {
 }
 
 TEST_F(CaseFile, AllErrorsAtOnce) {
-    const std::string text = refusal(
-        "contact:\n  friction: -0.3\n  theta: 0.2\nlimits: {stall: 3}\n", {"time.step=0"});
-    EXPECT_SAYS(text, "box.yaml line 11: contact.friction = -0.3\n  A friction coefficient must be "
-                      "zero or positive. Use 0 for smooth grains.");
+    const std::string text =
+        refusal("contact:\n  friction: -0.3\n  theta: 0.2\nlimits: {stall: 3}\n", {"time.step=0"});
+    EXPECT_SAYS(text,
+                "box.yaml line 11: contact.friction = -0.3\n  A friction coefficient must be "
+                "zero or positive. Use 0 for smooth grains.");
     EXPECT_SAYS(text, "box.yaml line 12: contact.theta = 0.2");
     EXPECT_SAYS(text, "It must be a number from 0.5 up to 1.");
     EXPECT_SAYS(text, "limits.stall is unknown");
@@ -289,8 +290,9 @@ TEST_F(CaseFile, OverlapInAGrainsFile) {
 
 TEST_F(CaseFile, GrainOutsideTheBox) {
     folder.write("out.csv", "id,x,y\n4,6,6\n5,11.75,6\n");  // reaches 12.25 of 12
-    EXPECT_SAYS(refusal("", {"grains.file=out.csv"}),
-                "out.csv line 3: grain 5 at (11.75, 6) is outside the box: 0.25 D beyond its right");
+    EXPECT_SAYS(
+        refusal("", {"grains.file=out.csv"}),
+        "out.csv line 3: grain 5 at (11.75, 6) is outside the box: 0.25 D beyond its right");
 }
 
 TEST_F(CaseFile, MoreGrainsThanTheBoxHolds) {

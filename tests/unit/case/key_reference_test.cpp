@@ -31,7 +31,7 @@ TEST(KeyTable, IsComplete) {
 }
 
 TEST(NearestName, CountsEdits) {
-    EXPECT_EQ(edit_distance("fricton", "friction"), 1u);   // one letter missing
+    EXPECT_EQ(edit_distance("fricton", "friction"), 1u);     // one letter missing
     EXPECT_EQ(edit_distance("yade-nsdc", "yade-nscd"), 1u);  // neighbours swapped
     EXPECT_EQ(edit_distance("", "abc"), 3u);
     EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);  // the textbook example

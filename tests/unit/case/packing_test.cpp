@@ -24,8 +24,8 @@ double smallest_gap(const Packing& grains) {
     double smallest = 1e9;
     for (std::size_t i = 0; i < grains.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            smallest = std::min(smallest, std::hypot(grains[i].x - grains[j].x,
-                                                     grains[i].y - grains[j].y) - 1.0);
+            smallest = std::min(
+                smallest, std::hypot(grains[i].x - grains[j].x, grains[i].y - grains[j].y) - 1.0);
     return smallest;
 }
 
@@ -37,8 +37,8 @@ TEST(Lattice, SpacingGivesTheCompacity) {
 }
 
 TEST(Lattice, DenseBoxOfThePaper) {
-    // a = 1, rows of height sqrt(3)/2: 49 / 0.866 = 56.58, so 57 rows; 29 even ones of 25 grains and
-    // 28 odd ones of 24: 725 + 672 = 1397.
+    // a = 1, rows of height sqrt(3)/2: 49 / 0.866 = 56.58, so 57 rows; 29 even ones of 25 grains
+    // and 28 odd ones of 24: 725 + 672 = 1397.
     const PackingResult result = lattice_packing({.box = paper_box, .compacity = 0.9069});
     EXPECT_EQ(result.grains.size(), 1397u);
     EXPECT_EQ(result.notes.size(), 1u);  // 0.9069 is a rounding of pi / (2 sqrt 3) = 0.90690
@@ -113,8 +113,10 @@ TEST(RandomPacking, RefusesWhatCannotFit) {
 TEST(RandomPacking, SeedDecides) {
     const PackingRequest one{.box = paper_box, .count = 30, .seed = 1};
     const PackingRequest two{.box = paper_box, .count = 30, .seed = 2};
-    EXPECT_EQ(population_csv(random_packing(one).grains), population_csv(random_packing(one).grains));
-    EXPECT_NE(population_csv(random_packing(one).grains), population_csv(random_packing(two).grains));
+    EXPECT_EQ(population_csv(random_packing(one).grains),
+              population_csv(random_packing(one).grains));
+    EXPECT_NE(population_csv(random_packing(one).grains),
+              population_csv(random_packing(two).grains));
 }
 
 TEST(RandomNumbers, AreTheSameEverywhere) {

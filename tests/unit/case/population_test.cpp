@@ -23,8 +23,8 @@ std::string read_errors(const std::string& csv) {
 
 TEST(PopulationFile, ReadsOptionalColumnsInAnyOrder) {
     const ScratchFolder folder;
-    const PopulationFile read = read_population_csv(
-        folder.write("grains.csv", "radius, id, x, y, z\r\n0.4, 7, 1.5, 2.5, 0\r\n\n0.5,8,4,4,0\n"));
+    const PopulationFile read = read_population_csv(folder.write(
+        "grains.csv", "radius, id, x, y, z\r\n0.4, 7, 1.5, 2.5, 0\r\n\n0.5,8,4,4,0\n"));
     ASSERT_EQ(texts(read.problems), "");
     ASSERT_EQ(read.grains.size(), 2u);
     EXPECT_EQ(read.grains[0].id, 7);

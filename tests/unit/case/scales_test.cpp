@@ -45,9 +45,9 @@ TEST(Scales, PhysicalValuesWithoutVelocity) {
 }
 
 TEST(Scales, PhysicalValuesWithVelocity) {
-    const ResolvedCase run =
-        with_scales("kind: physical, diameter: 1e-3, gravity: 9.81, fluid_density: 1000, "
-                    "viscosity: 1e-6, velocity: 0.05");
+    const ResolvedCase run = with_scales(
+        "kind: physical, diameter: 1e-3, gravity: 9.81, fluid_density: 1000, "
+        "viscosity: 1e-6, velocity: 0.05");
     EXPECT_DOUBLE_EQ(run.scales.velocity, 0.05);
     EXPECT_DOUBLE_EQ(run.settings.real("run.time_scale"), 0.02);
 }

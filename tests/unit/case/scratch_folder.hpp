@@ -13,7 +13,7 @@
 namespace turbidite {
 
 class ScratchFolder {
-   public:
+ public:
     ScratchFolder() {
         std::string pattern = std::filesystem::temp_directory_path() / "turbidite-XXXXXX";
         if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
@@ -31,7 +31,7 @@ class ScratchFolder {
         return path_ / name;
     }
 
-   private:
+ private:
     std::filesystem::path path_;
 };
 

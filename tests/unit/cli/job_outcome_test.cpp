@@ -13,7 +13,7 @@ namespace {
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 class Outcome : public ::testing::Test {
-   protected:
+ protected:
     ScratchFolder scratch;
     RunFolder folder{scratch.path()};
 };

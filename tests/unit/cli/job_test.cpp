@@ -19,7 +19,7 @@ namespace turbidite {
 namespace {
 
 class JobTest : public ::testing::Test {
-   protected:
+ protected:
     ScratchFolder scratch;
     int requests = 0;
 
@@ -40,7 +40,7 @@ class JobTest : public ::testing::Test {
 
 // Signals go to the thread that waits in run_job: this process has them blocked everywhere else.
 class Later {
-   public:
+ public:
     Later(int count, int signal) {
         sigset_t set;
         sigemptyset(&set);
@@ -55,7 +55,7 @@ class Later {
     }
     ~Later() { thread_.join(); }
 
-   private:
+ private:
     std::thread thread_;
 };
 

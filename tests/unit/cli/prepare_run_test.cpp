@@ -51,7 +51,8 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     scratch.write("run/case.yaml", "old");
     scratch.write("run/STOP", "130");
     scratch.write("run/thesis.tex", "mine");
-    const RunFolder folder = make_run_folder({.out = scratch.path() / "run", .force = true}, "case");
+    const RunFolder folder =
+        make_run_folder({.out = scratch.path() / "run", .force = true}, "case");
     EXPECT_FALSE(fs::exists(folder.resolved_case()));
     EXPECT_FALSE(fs::exists(folder.stop()));
     EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
@@ -60,7 +61,8 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
 TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
     const ScratchFolder scratch;
     scratch.write("file", "x");
-    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}), "already holds something");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}),
+                "already holds something");
     EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}), "has a space or a quote in its path");
 }
 

@@ -64,8 +64,8 @@ TEST(CollocationPoints, AGrainAcrossACyclicSideHasAllItsPoints) {
 
 TEST(CollocationPoints, PointsNearAWallAreDropped) {
     MemoryField field(64, 64, Side::wall);
-    // The disc touches the floor: points with 8 h + 7.85 h sin(angle) < 2 h go, that is sin(angle) <
-    // -0.764: a share of (pi - 2 asin(0.764)) / 2 pi = 0.223 of the ring, 7.1 points.
+    // The disc touches the floor: points with 8 h + 7.85 h sin(angle) < 2 h go, that is sin(angle)
+    // < -0.764: a share of (pi - 2 asin(0.764)) / 2 pi = 0.223 of the ring, 7.1 points.
     const CollocationPoints points = place(field, {disc(1, 2.0, 0.5)});
     EXPECT_NEAR(points.dropped.near_wall, 0.223 * full_ring, 1.0);
     EXPECT_EQ(boundary_points(points, 0), full_ring - points.dropped.near_wall);
@@ -137,8 +137,8 @@ double interpolation_error(double cell) {
     ConstraintOperator(points).apply(field.velocity(0), field.velocity(1), &rest, slip.data());
     double error = 0.0;
     for (int p = points.boundary_begin[0]; p < points.size(); ++p)
-        error = std::max(error, std::abs(slip[p] - wave(2.013 + points.arm_x[p],
-                                                        2.007 + points.arm_y[p]).x()));
+        error = std::max(
+            error, std::abs(slip[p] - wave(2.013 + points.arm_x[p], 2.007 + points.arm_y[p]).x()));
     return error;
 }
 
@@ -151,7 +151,7 @@ TEST(CollocationPoints, BoundaryInterpolationIsOfThirdOrder) {
 
 TEST(CollocationPoints, RefusesThreeDimensions) {
     class Deep final : public FluidField {
-       public:
+     public:
         Deep() { grid_.dimension = 3; }
         const CellGrid& grid() const override { return grid_; }
         int cell(int, int, int) const override { return -1; }
@@ -160,7 +160,7 @@ TEST(CollocationPoints, RefusesThreeDimensions) {
         double cell_mass() const override { return 1.0; }
         double* velocity(int) override { return nullptr; }
 
-       private:
+     private:
         CellGrid grid_;
     } field;
     CollocationPoints points;

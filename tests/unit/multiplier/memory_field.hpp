@@ -16,7 +16,7 @@ namespace turbidite {
 
 /// n x m cells of edge h = 1/16 (D = rho_f = 1), all sides of one kind.
 class MemoryField final : public FluidField {
-   public:
+ public:
     MemoryField(int n, int m, Side side, double h = 1.0 / 16.0) {
         grid_.counts = {n, m, 1};
         grid_.spacing = {h, h, 1.0};
@@ -27,7 +27,8 @@ class MemoryField final : public FluidField {
 
     const CellGrid& grid() const override { return grid_; }
     int cell(int i, int j, int k) const override {
-        const bool inside = i >= 0 && j >= 0 && k == 0 && i < grid_.counts[0] && j < grid_.counts[1];
+        const bool inside =
+            i >= 0 && j >= 0 && k == 0 && i < grid_.counts[0] && j < grid_.counts[1];
         return inside ? i + grid_.counts[0] * j : -1;
     }
     int local_cells() const override { return static_cast<int>(x_.size()); }
@@ -58,7 +59,7 @@ class MemoryField final : public FluidField {
         return sum;
     }
 
-   private:
+ private:
     CellGrid grid_;
     std::vector<double> x_, y_;
 };

@@ -154,9 +154,9 @@ TEST_P(BothMethods, AnAnnouncedImpulseIsNotCountedTwice) {
     const Planar held(0.02, -0.05, 0.01);
     ImmersedGrain plain = disc(1, 3.013, 3.007, {0.1, -0.5, 0.7}), announced = plain;
     announced.announced_impulse = held;
-    announced.contact_motion += Planar(held.x() / plain.effective_mass,
-                                       held.y() / plain.effective_mass,
-                                       held.z() / plain.effective_inertia);
+    announced.contact_motion +=
+        Planar(held.x() / plain.effective_mass, held.y() / plain.effective_mass,
+               held.z() / plain.effective_inertia);
     const bool boundary = find_method(GetParam()).boundary_points;
     Problem first({plain}, boundary), second({announced}, boundary);
     first.solve(GetParam(), 1e-12);
