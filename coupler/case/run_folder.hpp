@@ -23,7 +23,7 @@ struct RunFolder {
     std::filesystem::path report() const { return root / "report.html"; }
 
     /// Its existence asks the coupler to end the run after the current window. Its text is the
-    /// signal's number.
+    /// exit code to end with, 130 or 143.
     std::filesystem::path stop() const { return root / "STOP"; }
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -181,9 +180,9 @@ void Hub::account(const Window& window, WindowResult result) {
 void Hub::look_for_stop() const {
     std::ifstream stop(files_.stop);
     if (!stop) return;
-    int signal = SIGINT;
-    stop >> signal;
-    const bool terminated = signal == SIGTERM;
+    int code = static_cast<int>(ExitCode::interrupted);
+    stop >> code;
+    const bool terminated = code == static_cast<int>(ExitCode::terminated);
     throw Failure(terminated ? ExitCode::terminated : ExitCode::interrupted,
                   "stopped on request after window " + std::to_string(status_.windows_done));
 }

@@ -14,7 +14,8 @@ Watch::Watch(std::vector<ParticipantLink*> links, double soft, double hard, Prin
 
 void Watch::wait_for(ParticipantLink& link, Kind kind) {
     double next_notice = soft_;
-    Patience patience;
+    double& usual = usual_wait_[kind];
+    Patience patience(usual);
     for (;; patience.wait()) {
         for (ParticipantLink* other : links_) other->pump();
         if (link.ready(kind)) break;
@@ -28,7 +29,8 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
             next_notice *= 2.0;
         }
     }
-    waited_ += patience.seconds();
+    usual = patience.seconds();
+    waited_ += usual;
 }
 
 std::string Watch::wait_for_table() const {

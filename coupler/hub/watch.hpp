@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ class Watch {
     double soft_, hard_;
     Print print_;
     double waited_ = 0.0;
+    std::map<Kind, double> usual_wait_;  ///< seconds, as it was the last time
 };
 
 }  // namespace turbidite

@@ -13,10 +13,10 @@ constexpr bool from_coupler = true;
 Conversation::Conversation(Role role, Channel& channel)
     : channel_(channel), order_(role, "coupler") {}
 
-Message Conversation::next(double expected) {
-    for (Patience patience(expected);; patience.wait()) {
+Message Conversation::next(Kind kind) {
+    for (Patience patience(usual_wait_[kind]);; patience.wait()) {
         if (auto frame = channel_.try_receive()) {
-            last_wait_ = patience.seconds();
+            usual_wait_[kind] = patience.seconds();
             return unframe(frame->bytes);
         }
         if (patience.seconds() > limit_)
@@ -32,7 +32,7 @@ void Conversation::send(Kind kind, Bytes payload) {
 }
 
 Bytes Conversation::receive(Kind kind) {
-    Message message = next(last_wait_);
+    Message message = next(kind);
     order_.received(message.envelope, from_coupler);
     if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload)};
     if (message.envelope.kind != kind)
@@ -44,7 +44,7 @@ Bytes Conversation::receive(Kind kind) {
 Verdict Conversation::fail(const Verdict& verdict) {
     send(Kind::failure, encode(verdict));
     for (;;) {  // whatever was on its way is no longer of interest
-        const Message message = next(0.0);
+        const Message message = next(Kind::dismiss);
         if (message.envelope.kind != Kind::dismiss) continue;
         order_.received(message.envelope, from_coupler);
         return decode<Verdict>(message.payload);
@@ -53,7 +53,7 @@ Verdict Conversation::fail(const Verdict& verdict) {
 
 void Conversation::say_farewell() {
     send(Kind::farewell, {});
-    order_.received(next(0.0).envelope, from_coupler);
+    order_.received(next(Kind::release).envelope, from_coupler);
 }
 
 }  // namespace turbidite

@@ -3,7 +3,7 @@
 // One rank's talk with the coupler: frames, call order, waiting. Adapters see sessions, not this.
 #pragma once
 
-#include <optional>
+#include <map>
 
 #include "coupler/protocol/call_order.hpp"
 #include "coupler/protocol/failure.hpp"
@@ -38,12 +38,12 @@ class Conversation {
     void say_farewell();
 
    private:
-    Message next(double expected);
+    Message next(Kind kind);
 
     Channel& channel_;
     CallOrder order_;
     double limit_ = 600.0;
-    double last_wait_ = 0.0;
+    std::map<Kind, double> usual_wait_;  ///< seconds, as it was the last time
 };
 
 }  // namespace turbidite

@@ -8,8 +8,10 @@ namespace turbidite {
 namespace {
 
 constexpr double hot = 50e-6;       // [s] spinning first: most answers on a quiet machine
-constexpr int shortest_sleep = 20;  // [us]
+constexpr int shortest_sleep = 20;  // [us] near the expected arrival
 constexpr int longest_sleep = 400;  // [us] bounds the delay a sleeper adds to a window
+constexpr double alert_from = 0.8;  // of the expected wait: from here on sleeps are short
+constexpr double alert_until = 1.5;
 
 }  // namespace
 
@@ -23,7 +25,7 @@ void Patience::wait() {
     const double waited = seconds();
     if (waited < hot) return;
     int sleep = std::min(shortest_sleep << std::min(sleeps_++, 5), longest_sleep);
-    const bool near_arrival = expected_ > 0.0 && waited > 0.9 * expected_ && waited < 1.2 * expected_;
+    const bool near_arrival = waited > alert_from * expected_ && waited < alert_until * expected_;
     if (near_arrival) sleep = shortest_sleep;
     std::this_thread::sleep_for(std::chrono::microseconds(sleep));
 }

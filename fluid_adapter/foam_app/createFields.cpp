@@ -40,10 +40,15 @@ FluidFields::FluidFields(const std::filesystem::path& directory)
              Foam::dimensionedVector(Foam::dimForce / Foam::dimVolume, Foam::Zero)),
       phi(stored(mesh, "phi", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
           Foam::fvc::flux(U)),
+      excess(stored(mesh, "excess", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE), 0.0 * phi),
       thickness(mesh.bounds().span().z()) {
     const Foam::IOdictionary properties = transport_properties(mesh);
     nu = Foam::dimensionedScalar("nu", Foam::dimViscosity, properties).value();
     rho = Foam::dimensionedScalar("rho", Foam::dimDensity, properties).value();
+}
+
+bool FluidFields::finished() const {
+    return time.value() >= time.endTime().value() - 0.5 * time.deltaTValue();
 }
 
 void FluidFields::interpolate_flux() {

@@ -4,6 +4,7 @@
 //
 //     U       velocity u at cell centres [m/s]
 //     phi     its flux through the faces [m3/s]
+//     excess  what phi had over the interpolated u after the last projection [m3/s]
 //     p       reduced pressure over rho_f [m2/s2]
 //     lambda  force density of the fluid on the grains, of the last window [N/m3], output only
 #pragma once
@@ -26,9 +27,13 @@ struct FluidFields {
     Foam::volVectorField U;
     Foam::volVectorField lambda;
     Foam::surfaceScalarField phi;
+    Foam::surfaceScalarField excess;
     Foam::scalar nu;         ///< [m2/s]
     Foam::scalar rho;        ///< rho_f [kg/m3]
     Foam::scalar thickness;  ///< of the layer of cells [m]: integrals over it are per unit length
+
+    /// No window is left before the case's endTime.
+    bool finished() const;
 
     /// phi from U by interpolation: what a projection starts from.
     void interpolate_flux();

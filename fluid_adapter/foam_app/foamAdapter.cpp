@@ -233,6 +233,7 @@ Hello FoamAdapter::describe() const {
     Hello hello;
     hello.role = Role::fluid;
     hello.adapter = "openfoam";
+    hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = "OpenFOAM 1912";
     hello.dimension = 2;
     hello.capabilities.saves_state = true;
@@ -306,7 +307,7 @@ Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& g
             s.fields.time.writeNow();
         });
     // The last window: lets function objects finish, as OpenFOAM's own loops do.
-    if (!s.fields.time.running())
+    if (s.fields.finished())
         with_foam_errors("ending function objects", [&] { s.fields.time.run(); });
     const FluidTimings& t = s.timings;
     s.report.wall_seconds =

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The fluid participant on OpenFOAM: the five adapter functions over the steps of the scheme
-// (Topin 2011,
-// section 2.2). No OpenFOAM type appears here, so that tests can drive it.
+// (Topin 2011, section 2.2). No OpenFOAM type appears here, so that tests can drive it.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a restart needs of the fluid: time, u and p (the first guess of the next projection). phi
-// follows from u, and the multipliers start from zero in every window.
+// What a restart needs of the fluid: time, u, p (the first guess of the next projection) and what
+// the faces know beyond u. phi follows from these, and the multipliers start from zero in every
+// window.
 #pragma once
 
 #include "coupler/participant/adapter.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/stokesProjection.hpp"
 
+#include <fvcFlux.H>
 #include <fvcGrad.H>
 #include <fvcSurfaceIntegrate.H>
 
@@ -29,9 +30,11 @@ StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal)
       given_("givenPhi", fields.phi) {}
 
 Foam::scalar StokesProjection::project() {
+    fields_.phi += kept_share() * fields_.excess;
     Foam::scalar divergence = fields_.largest_divergence();
     if (divergence <= rounding * goal_) {
         fields_.p = Foam::dimensionedScalar(fields_.p.dimensions(), Foam::Zero);
+        remember();
         return divergence;
     }
     given_ = fields_.phi;
@@ -49,7 +52,22 @@ Foam::scalar StokesProjection::project() {
     }
     fields_.U -= dt * Foam::fvc::grad(fields_.p);
     fields_.U.correctBoundaryConditions();
+    remember();
     return divergence;
+}
+
+Foam::scalar StokesProjection::kept_share() const {
+    const Foam::scalar area = fields_.mesh.V()[0] / fields_.thickness;
+    return 1.0 / (1.0 + 4.0 * fields_.nu * fields_.time.deltaTValue() / area);
+}
+
+void StokesProjection::remember() {
+    fields_.excess = fields_.phi - Foam::fvc::flux(fields_.U);
+    // Sides of the box are given by boundary conditions and have nothing to remember.
+    forAll(fields_.excess.boundaryField(), patch) {
+        auto& side = fields_.excess.boundaryFieldRef()[patch];
+        if (!side.coupled()) side = 0.0;
+    }
 }
 
 }  // namespace turbidite

@@ -7,6 +7,13 @@
 //
 // On a collocated mesh the faces carry the constraint: phi1 = phi - dt S.grad p has no divergence,
 // and cells take u1 = u - dt grad p.
+//
+// The cells' own differences are twice as wide and do not see what alternates from cell to cell.
+// What the faces know beyond them, e = phi1 - S.u1, must not be forgotten between windows: without
+// it a disc let go drags more fluid window after window (-3 % of its acceleration after 10, -6 %
+// after 20, at any dt). A window therefore starts from S.u + k e with k = 1/(1 + 4 nu dt/h2), the
+// share that viscosity leaves of a difference between neighbours: OpenFOAM's own solvers do the
+// same (Rhie and Chow; `ddtCorr`).
 #pragma once
 
 #include <memory>
@@ -28,6 +35,9 @@ class StokesProjection {
     FluidFields& fields_;
     Foam::scalar goal_;
     std::unique_ptr<PressureSolver> solver_;
+    Foam::scalar kept_share() const;  // k
+    void remember();                  // e
+
     Foam::surfaceScalarField given_;  // flux before the projection
 };
 

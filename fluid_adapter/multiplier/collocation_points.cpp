@@ -112,10 +112,9 @@ void PointPlacement::find_candidates(const FluidField& field,
     first_.assign(1, 0);
     const double h = field.grid().largest_spacing();
     for (const ImmersedGrain& grain : grains) {
-        const double ring = std::max(grain.radius - rules_.retraction * h, 0.5 * grain.radius);
         if (rules_.boundary)
             for (const SurfacePoint& point :
-                 grain.shape->surface_points(ring, rules_.spacing * h)) {
+                 grain.shape->surface_points(grain.radius, rules_.spacing * h)) {
                 Candidate candidate;
                 candidate.arm = grain.orientation * point.position;
                 candidate.normal = grain.orientation * point.normal;

