@@ -19,12 +19,7 @@ class Joint final : public Scheme {
         for (auto& share : cast.fluid->take<std::vector<FreeResponse>>(Kind::response))
             responses.insert(responses.end(), share.begin(), share.end());
         cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses));
-
-        WindowResult result;
-        cast.watch.wait_for(cast.grains, Kind::motion);
-        result.motion = cast.plan.gather(cast.grains.take<Motion>(Kind::motion));
-        play_step_five(window, before, cast, result);
-        return result;
+        return play_step_five(window, before, cast);
     }
 };
 

@@ -12,12 +12,7 @@ class Split final : public Scheme {
     WindowResult play(const Window& window, const Motion& before, Cast& cast) override {
         cast.fluid->send_all(Kind::window, window);   // steps 1-3 begin
         cast.grains.send_all(Kind::window, window);   // step 4 begins
-
-        WindowResult result;
-        cast.watch.wait_for(cast.grains, Kind::motion);
-        result.motion = cast.plan.gather(cast.grains.take<Motion>(Kind::motion));
-        play_step_five(window, before, cast, result);
-        return result;
+        return play_step_five(window, before, cast);
     }
 };
 

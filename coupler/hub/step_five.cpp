@@ -27,7 +27,11 @@ Kicks merged(const std::vector<Kicks>& shares) {
 
 }  // namespace
 
-void play_step_five(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {
+WindowResult play_step_five(const Window& window, const Motion& before, Cast& cast) {
+    WindowResult result;
+    cast.watch.wait_for(cast.grains, Kind::motion);
+    result.motion = cast.plan.gather(cast.grains.take<Motion>(Kind::motion));
+
     cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
     cast.watch.wait_for(*cast.fluid, Kind::kicks);
     result.kicks = merged(cast.fluid->take<Kicks>(Kind::kicks));
@@ -39,6 +43,7 @@ void play_step_five(const Window& window, const Motion& before, Cast& cast, Wind
     cast.grains.send_each(Kind::kick, routed);
     cast.watch.wait_for(cast.grains, Kind::state);
     result.state = cast.plan.gather(cast.grains.take<Motion>(Kind::state));
+    return result;
 }
 
 }  // namespace turbidite

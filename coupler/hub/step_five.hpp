@@ -5,7 +5,8 @@
 
 namespace turbidite {
 
-/// The part that `split` and `joint` share: contact velocities to the fluid, corrected velocities back, grains move.
-void play_step_five(const Window& window, const Motion& before, Cast& cast, WindowResult& result);
+/// The part that `split` and `joint` share: contact velocities from the grains to the fluid, corrected velocities
+/// back, grains move.
+WindowResult play_step_five(const Window& window, const Motion& before, Cast& cast);
 
 }  // namespace turbidite
