@@ -34,14 +34,20 @@ void request_stop(const RunFolder& folder, int signal) {
     fmt::print(stderr, "\nStopping after this window; once more to kill the job.\n");
 }
 
-int run_to_the_end(const RunFolder& folder, const std::vector<std::string>& line,
-                   const Programs& programs) {
+struct PreparedRun {
+    RunFolder folder;
+    std::vector<std::string> line;
+    std::vector<std::string> ranks;
+};
+
+int run_to_the_end(const PreparedRun& prepared, const Programs& programs) {
+    const RunFolder& folder = prepared.folder;
     ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
     const JobEnd end =
-        run_job({.arguments = line, .error_log = folder.log("mpirun"), .request_stop = [&](int s) {
+        run_job({.arguments = prepared.line, .error_log = folder.log("mpirun"), .request_stop = [&](int s) {
                      request_stop(folder, s);
                  }});
-    const JobOutcome outcome = settle_outcome(folder, end);
+    const JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
     const bool reported = write_report(folder, programs);
     std::fflush(stdout);
     const bool done = outcome.code == ExitCode::done;
@@ -60,7 +66,8 @@ int run(const RunOptions& options) {
     fmt::print(options.dry_run ? stderr : stdout, "{}  folder: {}\n", case_summary(resolved),
                folder.root.string());
     std::fflush(nullptr);
-    if (!options.dry_run) return run_to_the_end(folder, line, site.programs);
+    if (!options.dry_run)
+        return run_to_the_end({folder, line, rank_names(resolved.settings)}, site.programs);
     fmt::print("{}\n", shell_line(line));
     return static_cast<int>(ExitCode::done);
 }

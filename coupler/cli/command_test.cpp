@@ -14,7 +14,7 @@ namespace turbidite {
 namespace {
 
 // Tests that start MPI jobs carry one of these labels.
-constexpr auto slow_labels = "system|physics";
+constexpr auto slow_labels = "system|physics|protocol";
 
 int test(bool unit_only) {
     std::vector<std::string> line{"ctest", "--test-dir", find_programs().build(),

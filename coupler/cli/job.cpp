@@ -44,9 +44,10 @@ class BlockedSignals {
     sigset_t old_;
 };
 
-[[noreturn]] void become(const JobOrder& order, const sigset_t& mask) {
+[[noreturn]] void become(const JobOrder& order, const sigset_t& mask, pid_t parent) {
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);  // a job must not outlive a killed `turbidite`
+    if (getppid() != parent) _exit(cannot_start);
     sigprocmask(SIG_SETMASK, &mask, nullptr);
     const int log = open(order.error_log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (log >= 0) dup2(log, STDERR_FILENO);
@@ -83,20 +84,18 @@ void kill_session(pid_t session) {
     }
 }
 
-bool has_ended(pid_t child, int& status) {
-    return waitpid(child, &status, WNOHANG) == child;
+// Looks without collecting: until then the number of the session belongs to nobody else.
+bool has_ended(pid_t child) {
+    siginfo_t info{};
+    return waitid(P_PID, child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
 }
 
-void end_session(pid_t child, const BlockedSignals& signals, int& status) {
+void end_session(pid_t child, const BlockedSignals& signals) {
     kill(-child, SIGTERM);
     const std::time_t deadline = std::time(nullptr) + grace_seconds;
     const timespec tick{0, 100'000'000};
-    while (std::time(nullptr) < deadline) {
+    while (!has_ended(child) && std::time(nullptr) < deadline)
         sigtimedwait(&signals.set(), nullptr, &tick);
-        if (has_ended(child, status)) return kill_session(child);
-    }
-    kill_session(child);
-    waitpid(child, &status, 0);
 }
 
 int code_of(int status) {
@@ -105,8 +104,7 @@ int code_of(int status) {
 
 JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) {
     JobEnd end;
-    int status = 0;
-    while (!has_ended(child, status)) {
+    while (!has_ended(child)) {
         const int signal = sigwaitinfo(&signals.set(), nullptr);
         if (signal == SIGCHLD || signal < 0) continue;
         if (end.signal == 0) {
@@ -115,9 +113,12 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
             continue;
         }
         end.killed = true;
-        end_session(child, signals, status);
+        end_session(child, signals);
         break;
     }
+    kill_session(child);  // an mpirun that was killed leaves its ranks behind
+    int status = 0;
+    waitpid(child, &status, 0);
     end.status = code_of(status);
     return end;
 }
@@ -126,11 +127,12 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
 
 JobEnd run_job(const JobOrder& order) {
     const BlockedSignals signals;
+    const pid_t self = getpid();
     const pid_t child = fork();
     if (child < 0)
         throw Failure(ExitCode::participant_failed,
                       "cannot start " + order.arguments.at(0) + ": " + std::strerror(errno));
-    if (child == 0) become(order, signals.old());
+    if (child == 0) become(order, signals.old(), self);
     const JobEnd end = watch(child, order, signals);
     if (end.status == cannot_start && !end.killed)
         throw Failure(ExitCode::participant_failed,

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <deque>
 #include <fstream>
+#include <regex>
+#include <utility>
 #include <vector>
 
 #include "coupler/cli/run_json.hpp"
@@ -38,10 +40,12 @@ std::string tail(const RunFolder& folder, const std::filesystem::path& log) {
 
 std::vector<std::filesystem::path> log_files(const RunFolder& folder) {
     std::vector<std::filesystem::path> files;
-    if (!std::filesystem::exists(folder.logs())) return files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.logs()))
-        if (entry.path().extension() == ".log" && entry.path() != folder.log("mpirun"))
-            files.push_back(entry.path());
+    std::error_code gone;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.logs(), gone)) {
+        const auto& file = entry.path();
+        const bool told = file == folder.log("mpirun") || file == folder.log("blockMesh");
+        if (file.extension() == ".log" && !told) files.push_back(file);
+    }
     std::sort(files.begin(), files.end());
     files.insert(files.begin(), folder.log("mpirun"));
     return files;
@@ -59,28 +63,64 @@ ExitCode code_of_status(int status) {
     return ExitCode::participant_failed;
 }
 
-JobOutcome without_a_word(const JobEnd& end) {
+std::string rank_name(const std::string& number, const std::vector<std::string>& ranks) {
+    const auto rank = static_cast<std::size_t>(std::stoul(number));
+    return rank < ranks.size() ? ranks[rank] : "world rank " + number;
+}
+
+/// Which program ended first, as mpirun tells it; empty when it does not.
+std::string first_to_end(const std::filesystem::path& log, const std::vector<std::string>& ranks) {
+    static const std::regex by_signal(R"(process rank (\d{1,9}) .* exited on signal (.*)\.)");
+    static const std::regex process(R"(Process name: \[\[\d+,\d+\],(\d{1,9})\])");
+    static const std::regex status(R"(Exit code: +(\d+))");
+    std::ifstream input(log);
+    std::string who;
+    std::smatch match;
+    for (std::string line; std::getline(input, line);) {
+        if (std::regex_search(line, match, by_signal))
+            return fmt::format("{} was ended by signal {}", rank_name(match[1], ranks),
+                               match[2].str());
+        if (std::regex_search(line, match, process)) who = rank_name(match[1], ranks);
+        if (!who.empty() && std::regex_search(line, match, status))
+            return fmt::format("{} ended with status {}", who, match[1].str());
+    }
+    return "";
+}
+
+JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
+                          const std::vector<std::string>& ranks) {
     if (end.killed) return {signal_code(end.signal), "killed on request"};
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
-    return {
-        code_of_status(end.status),
-        fmt::format("mpirun ended with status {} and the coupler left no word: a program of the "
-                    "job failed or never started",
-                    end.status)};
+    const std::string first = first_to_end(folder.log("mpirun"), ranks);
+    if (!first.empty()) return {code_of_status(end.status), first + "; look into its log"};
+    return {code_of_status(end.status),
+            fmt::format("mpirun ended with status {} without naming a program: it was killed, or a "
+                        "program of the job never started",
+                        end.status)};
+}
+
+// A word that cannot be kept is still said.
+void keep_outcome(const RunFolder& folder, nlohmann::ordered_json record, JobOutcome& outcome) {
+    try {
+        write_run_json(folder.record(), record);
+    } catch (const std::exception& error) {
+        outcome.error += fmt::format("; {}", error.what());
+    }
 }
 
 }  // namespace
 
-JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end) {
+JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
+                          const std::vector<std::string>& ranks) {
     auto record = read_run_json(folder.record());
     if (const auto code = record.find("exit_code");
         code != record.end() && code->is_number_integer())
         return {static_cast<ExitCode>(code->get<int>()), record.value("error", std::string())};
-    const JobOutcome outcome = without_a_word(end);
+    JobOutcome outcome = without_a_word(folder, end, ranks);
     record["status"] = end.signal == 0 ? "failed" : "interrupted";
     record["exit_code"] = static_cast<int>(outcome.code);
     record["error"] = outcome.error;
-    write_run_json(folder.record(), record);
+    keep_outcome(folder, std::move(record), outcome);
     return outcome;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "coupler/case/run_folder.hpp"
 #include "coupler/cli/job.hpp"
@@ -17,13 +18,15 @@ struct JobOutcome {
     std::string error;  ///< empty when done
 };
 
-/// Completes run.json when the coupler left no word.
-JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end);
+/// Completes run.json when the coupler left no word. `ranks` names the ranks of the world, for the
+/// one that mpirun says died.
+JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
+                          const std::vector<std::string>& ranks);
 
 /// What the user reads at the end.
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome);
 
-/// The last lines of every log, those of mpirun first.
+/// The last lines of mpirun's log and of every program's.
 std::string log_tails(const RunFolder& folder);
 
 }  // namespace turbidite

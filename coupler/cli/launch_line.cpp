@@ -116,6 +116,17 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
     return line;
 }
 
+std::vector<std::string> rank_names(const Settings& settings) {
+    std::vector<std::string> names{"coupler"};
+    const auto add = [&](const std::string& role) {
+        for (std::int64_t rank = 0; rank < settings.integer(role + ".ranks"); ++rank)
+            names.push_back(role + " rank " + std::to_string(rank));
+    };
+    if (settings.flag("fluid.enabled")) add("fluid");
+    add("grains");
+    return names;
+}
+
 std::string shell_line(const std::vector<std::string>& arguments) {
     std::string line;
     for (const std::string& argument : arguments) {

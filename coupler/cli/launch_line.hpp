@@ -30,6 +30,9 @@ LaunchSite this_site();
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
                                           const LaunchSite& site);
 
+/// Who a rank of the world is, by its number: "coupler", "fluid rank 0", …
+std::vector<std::string> rank_names(const Settings& settings);
+
 /// Quoted where needed, to be pasted in a shell.
 std::string shell_line(const std::vector<std::string>& arguments);
 

@@ -20,10 +20,9 @@ Message Conversation::next(Kind kind) {
             return unframe(frame->bytes);
         }
         if (patience.seconds() > limit_)
-            throw Failure(ExitCode::stalled,
-                          "the coupler has been silent for " +
-                              std::to_string(static_cast<int>(limit_)) + " s while \"" +
-                              kind_name(order_.due()) + "\" was due");
+            throw CouplerSilent("the coupler has been silent for " +
+                                std::to_string(static_cast<int>(limit_)) + " s while \"" +
+                                kind_name(order_.due()) + "\" was due");
     }
 }
 

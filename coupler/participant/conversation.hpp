@@ -16,18 +16,26 @@ struct Dismissed {
     Verdict verdict;
 };
 
+/// The coupler has not spoken for longer than the limit: it is stopped or gone, and nobody is left to
+/// report to.
+class CouplerSilent : public Failure {
+   public:
+    explicit CouplerSilent(const std::string& what) : Failure(ExitCode::stalled, what) {}
+};
+
 class Conversation {
    public:
     Conversation(Role role, Channel& channel);
 
     void set_scheme(const std::string& scheme) { order_.set_scheme(scheme); }
 
-    /// Longest wait for the coupler [s] before `receive` gives up with Failure (stalled).
+    /// Longest wait for the coupler [s] before waiting gives up with CouplerSilent.
     void set_limit(double seconds) { limit_ = seconds; }
 
     void send(Kind kind, Bytes payload);
 
-    /// Waits for the message that is due. Throws Dismissed, OrderViolation, MalformedPayload, Failure.
+    /// Waits for the message that is due. Throws Dismissed, OrderViolation,
+    /// MalformedPayload, CouplerSilent.
     Bytes receive(Kind kind);
 
     /// Tells the coupler that this side cannot go on, and waits for its verdict on the run.

@@ -88,6 +88,16 @@ int Membership::leave(const Outcome& outcome) {
     return code;
 }
 
+// An orderly exit would wait in MPI_Finalize for programs that wait for this one.
+void Membership::abort(const std::exception& error) {
+    const auto* failure = dynamic_cast<const Failure*>(&error);
+    const auto code = static_cast<int>(failure ? failure->code() : ExitCode::participant_failed);
+    std::fprintf(stderr, "turbidite: %s: %s\n", role_name(state_->role), error.what());
+    std::fflush(nullptr);
+    PMPI_Abort(MPI_COMM_WORLD, code);
+    _exit(code);
+}
+
 namespace {
 
 template <class Adapter>
@@ -99,13 +109,7 @@ int run(Role role, Adapter& adapter, const Launch& launch) {
         }
         return membership.leave(session->outcome());
     } catch (const std::exception& error) {
-        // The coupler no longer answers: nothing but ending the job is left.
-        const auto* failure = dynamic_cast<const Failure*>(&error);
-        const auto code = failure ? failure->code() : ExitCode::participant_failed;
-        std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), error.what());
-        std::fflush(nullptr);
-        PMPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
-        return static_cast<int>(code);
+        membership.abort(error);
     }
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -47,9 +48,12 @@ class Membership {
     /// Fortran handle of the participant's own communicator (MPI_Comm_f2c gives it back).
     int communicator() const;
 
-    /// After the farewell: leaves the job. With `done` MPI is finalised; any other code aborts the job
-    /// if the coupler has not ended it by then.
+    /// After the farewell: writes the last words and returns the exit code of the program. MPI is
+    /// finalised with this object.
     int leave(const Outcome& outcome);
+
+    /// The coupler no longer answers: says why and ends the whole job, here and now.
+    [[noreturn]] void abort(const std::exception& error);
 
    private:
     struct State;

@@ -33,6 +33,8 @@ bool Session::guarded(Action action) {
         return true;
     } catch (const Dismissed& dismissed) {
         verdict = dismissed.verdict;
+    } catch (const CouplerSilent&) {
+        throw;
     } catch (const Failure& failure) {
         verdict = conversation.fail({static_cast<int>(failure.code()), failure.what()});
     } catch (const std::exception& error) {

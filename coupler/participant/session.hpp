@@ -33,7 +33,8 @@ class Session {
    public:
     virtual ~Session();
 
-    /// Handshake, settings, initial state. False when the run is over already (refused).
+    /// Handshake, settings, initial state. False when the run is over already (refused). Throws when
+    /// the coupler no longer answers, like `step`: the job must be aborted then.
     bool start();
 
     /// One window. False when the run is over; `outcome` tells why. An adapter's exception ends the run

@@ -3,9 +3,12 @@
 // Calls are PMPI_*: inside a program with world isolation the MPI_* names belong to the host code.
 #include "coupler/transport/intercomm_channel.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace turbidite {
 namespace {
@@ -30,19 +33,43 @@ void IntercommChannel::send(int peer, Bytes bytes) {
 }
 
 std::optional<Channel::Frame> IntercommChannel::try_receive() {
-    int arrived = 0;
-    MPI_Status status;
-    PMPI_Iprobe(MPI_ANY_SOURCE, frame_tag, intercomm_, &arrived, &status);
-    if (!arrived) {
-        flushed();  // keeps long frames moving
-        return std::nullopt;
+    begin_receiving();
+    std::vector<int> blocked;  // peers with an earlier frame on its way: theirs stay in order
+    for (auto at = incoming_.begin(); at != incoming_.end(); ++at) {
+        const int peer = at->frame.peer;
+        if (std::find(blocked.begin(), blocked.end(), peer) != blocked.end()) continue;
+        if (is_complete(*at)) {
+            Frame frame = std::move(at->frame);
+            incoming_.erase(at);
+            return frame;
+        }
+        blocked.push_back(peer);
     }
-    int size = 0;
-    PMPI_Get_count(&status, MPI_BYTE, &size);
-    Frame frame{status.MPI_SOURCE, Bytes(static_cast<std::size_t>(size))};
-    PMPI_Recv(frame.bytes.data(), size, MPI_BYTE, status.MPI_SOURCE, frame_tag, intercomm_,
-              MPI_STATUS_IGNORE);
-    return frame;
+    flushed();  // keeps long frames moving
+    return std::nullopt;
+}
+
+// A blocking receive of a long frame would wait for its sender, who may be stopped or dead: all of
+// it is left to MPI, and whoever waits keeps his own clock.
+void IntercommChannel::begin_receiving() {
+    for (;;) {
+        int arrived = 0;
+        MPI_Message message = MPI_MESSAGE_NULL;
+        MPI_Status status;
+        PMPI_Improbe(MPI_ANY_SOURCE, frame_tag, intercomm_, &arrived, &message, &status);
+        if (!arrived) return;
+        int size = 0;
+        PMPI_Get_count(&status, MPI_BYTE, &size);
+        Incoming& incoming = incoming_.emplace_back();
+        incoming.frame = {status.MPI_SOURCE, Bytes(static_cast<std::size_t>(size))};
+        PMPI_Imrecv(incoming.frame.bytes.data(), size, MPI_BYTE, &message, &incoming.request);
+    }
+}
+
+bool IntercommChannel::is_complete(Incoming& incoming) {
+    int complete = 0;
+    PMPI_Test(&incoming.request, &complete, MPI_STATUS_IGNORE);
+    return complete != 0;
 }
 
 bool IntercommChannel::flushed() {

@@ -26,9 +26,17 @@ class IntercommChannel final : public Channel {
         Bytes bytes;
         MPI_Request request = MPI_REQUEST_NULL;
     };
+    struct Incoming {
+        Frame frame;
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+    void begin_receiving();
+    static bool is_complete(Incoming& incoming);
+
     MPI_Comm intercomm_;
     int peers_ = 0;
-    std::list<Pending> pending_;  // frames that MPI still reads from
+    std::list<Pending> pending_;    // frames that MPI still reads from
+    std::list<Incoming> incoming_;  // frames that MPI still writes to, in the order of their sending
 };
 
 }  // namespace turbidite

@@ -60,7 +60,7 @@ void restore_fields(const SavedState& state, FluidFields& fields) {
     if (header.cells != fields.mesh.nCells())
         throw Failure(ExitCode::bad_input, "the saved fluid state does not belong to a mesh of " +
                                                std::to_string(fields.mesh.nCells()) + " cells");
-    std::memcpy(U.data(), state.data() + sizeof header, bytes_of(U));
+    std::memcpy(static_cast<void*>(U.data()), state.data() + sizeof header, bytes_of(U));
     std::memcpy(p.data(), state.data() + sizeof header + bytes_of(U), bytes_of(p));
     std::memcpy(excess.data(), state.data() + sizeof header + bytes_of(U) + bytes_of(p),
                 bytes_of(excess));

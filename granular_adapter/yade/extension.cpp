@@ -75,11 +75,25 @@ class Participant {
         session_ = make_session(guarded_, membership_->channel(), membership_->identity());
     }
 
-    bool start() { return session_->start(); }
-    bool step() { return session_->step(); }
+    bool start() {
+        return answered([this] { return session_->start(); });
+    }
+    bool step() {
+        return answered([this] { return session_->step(); });
+    }
     int leave() { return membership_->leave(session_->outcome()); }
 
    private:
+    // What a session throws is no matter for Python, whose exit would hang: it ends the job.
+    template <class Action>
+    bool answered(Action action) {
+        try {
+            return action();
+        } catch (const std::exception& error) {
+            membership_->abort(error);
+        }
+    }
+
     YadeAdapter adapter_;
     GuardedAdapter guarded_;
     std::unique_ptr<Membership> membership_;

@@ -17,12 +17,21 @@ import yade.config
 from yade import *
 from yade import utils
 
+
+def abort():
+    """Ends the whole job with the traceback of the present exception.
+
+    An orderly exit would wait in MPI_Finalize for programs that wait for this one.
+    """
+    traceback.print_exc()
+    sys.stderr.flush()
+    mpy.MPI.COMM_WORLD.Abort(4)
+
+
 try:
     import turbidite_yade
 except ImportError:
-    # An orderly exit would wait in MPI_Finalize for programs that wait for this one.
-    traceback.print_exc()
-    mpy.MPI.COMM_WORLD.Abort(4)
+    abort()
 
 
 class Scene:
@@ -70,12 +79,15 @@ def play_window():
         O.pause()
 
 
-participant = turbidite_yade.Participant(
-    sys.argv[1], mpy.MPI._handleof(mpy.comm), Scene(), yade.config.version)
-if participant.start():
-    O.engines = [PyRunner(command='play_window()', iterPeriod=1, label='turbidite')]
-    O.run(wait=True)
-code = participant.leave()
+try:
+    participant = turbidite_yade.Participant(
+        sys.argv[1], mpy.MPI._handleof(mpy.comm), Scene(), yade.config.version)
+    if participant.start():
+        O.engines = [PyRunner(command='play_window()', iterPeriod=1, label='turbidite')]
+        O.run(wait=True)
+    code = participant.leave()
+except Exception:
+    abort()
 sys.stdout.flush()
 if code != 0:
     sys.exit(code)

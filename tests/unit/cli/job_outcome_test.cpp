@@ -20,14 +20,14 @@ class Outcome : public ::testing::Test {
 
 TEST_F(Outcome, TheCouplersWordCounts) {
     scratch.write("run.json", R"({"exit_code": 6, "error": "grain 3 is through the left wall"})");
-    const JobOutcome outcome = settle_outcome(folder, {.status = 134});
+    const JobOutcome outcome = settle_outcome(folder, {.status = 134}, ranks);
     EXPECT_EQ(outcome.code, ExitCode::physics_refused);
     EXPECT_EQ(outcome.error, "grain 3 is through the left wall");
 }
 
 TEST_F(Outcome, WithoutAWordAProgramFailed) {
     scratch.write("run.json", R"({"exit_code": null, "case": "box"})");
-    const JobOutcome outcome = settle_outcome(folder, {.status = 139});
+    const JobOutcome outcome = settle_outcome(folder, {.status = 139}, ranks);
     EXPECT_EQ(outcome.code, ExitCode::participant_failed);
     EXPECT_SAYS(outcome.error, "mpirun ended with status 139");
     const auto record = read_run_json(folder.record());
@@ -37,16 +37,16 @@ TEST_F(Outcome, WithoutAWordAProgramFailed) {
 }
 
 TEST_F(Outcome, EndingWithoutAWordIsNoSuccess) {
-    EXPECT_EQ(settle_outcome(folder, {.status = 0}).code, ExitCode::participant_failed);
+    EXPECT_EQ(settle_outcome(folder, {.status = 0}, ranks).code, ExitCode::participant_failed);
 }
 
 TEST_F(Outcome, DocumentedCodesOfMpirunPass) {
-    EXPECT_EQ(settle_outcome(folder, {.status = 3}).code, ExitCode::handshake_refused);
+    EXPECT_EQ(settle_outcome(folder, {.status = 3}, ranks).code, ExitCode::handshake_refused);
 }
 
 TEST_F(Outcome, KilledOnRequest) {
     const JobEnd end{.status = 137, .signal = SIGINT, .killed = true};
-    EXPECT_EQ(settle_outcome(folder, end).code, ExitCode::interrupted);
+    EXPECT_EQ(settle_outcome(folder, end, ranks).code, ExitCode::interrupted);
     EXPECT_EQ(read_run_json(folder.record()).at("status"), "interrupted");
 }
 
