@@ -100,6 +100,7 @@ Population grains_from_file(const std::filesystem::path& file, CaseEntries& entr
     }
     PopulationFile read = read_population_csv(file);
     for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
+    if (!read.problems.empty()) return {};  // places that could not be read would be judged as 0
     return {std::move(read.grains), std::move(read.source), {}};
 }
 

@@ -49,6 +49,16 @@ Verdict at_least_one_window(const Settings& s) {
         "Make the end later or the step smaller."};
 }
 
+// More windows than any machine plays, and far below the largest whole number.
+constexpr double most_windows = 1e12;
+
+Verdict countable_windows(const Settings& s) {
+    if (s.real("time.end") / s.real("time.step") <= most_windows) return std::nullopt;
+    return Objection{fmt::format("Up to time.end = {} t_c these are more than {:.0e} windows.",
+                                 s.text("time.end"), most_windows),
+                     "Use a larger step."};
+}
+
 // Step 2 is forward Euler: what moves at u_c may cross at most one cell, D/n, in a window.
 Verdict transport_is_stable(const Settings& s) {
     const double cells = s.real("fluid.cells_per_diameter");
@@ -95,6 +105,7 @@ const std::vector<Rule>& rules() {
         {"domain.left", {"domain.right"}, left_right},
         {"domain.bottom", {"domain.top"}, bottom_top},
         {"time.end", {"time.step"}, at_least_one_window},
+        {"time.step", {"time.end"}, countable_windows},
         {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_is_stable},
         {"domain.size", {"fluid.enabled", "fluid.cells_per_diameter"}, whole_cells},
         {"fluid.reynolds", {"scales.kind"}, reynolds_follows},

@@ -51,7 +51,9 @@ Scales physical(const Settings& settings) {
 void set_run_times(Settings& settings, double time_scale) {
     const double step = settings.real("time.step");
     const auto windows = std::llround(settings.real("time.end") / step);
-    const auto every = std::max(1LL, std::llround(settings.real("output.interval") / step));
+    // An interval beyond the end means the end.
+    const double interval = std::min(settings.real("output.interval"), settings.real("time.end"));
+    const auto every = std::max(1LL, std::llround(interval / step));
     settings.set("run.step", step * time_scale);
     settings.set("run.windows", std::int64_t{windows});
     settings.set("run.output_every", std::int64_t{every});

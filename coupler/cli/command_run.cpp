@@ -30,8 +30,11 @@ struct RunOptions {
 // The coupler looks for this file before every window and ends the run with the code in it.
 void request_stop(const RunFolder& folder, int signal) {
     const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
-    std::ofstream(folder.stop()) << static_cast<int>(code) << "\n";
-    fmt::print(stderr, "\nStopping after this window; once more to kill the job.\n");
+    std::ofstream file(folder.stop());
+    file << static_cast<int>(code) << "\n";
+    file.close();
+    const char* answer = file ? "Stopping after this window" : "The wish to stop cannot be written";
+    fmt::print(stderr, "\n{}; once more to kill the job.\n", answer);
 }
 
 struct PreparedRun {

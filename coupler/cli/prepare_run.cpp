@@ -4,6 +4,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <ctime>
 #include <fstream>
 
@@ -25,16 +27,28 @@ std::string local_time(const char* form) {
     return text;
 }
 
-// Two runs started within one second get numbers.
-fs::path fresh_folder(const std::string& case_name) {
+bool is_plain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+}
+
+// Two runs started within one second, even at the same time, get numbers: whoever creates the folder
+// has it.
+fs::path fresh_folder(std::string case_name) {
+    std::replace_if(case_name.begin(), case_name.end(), [](char c) { return !is_plain(c); }, '_');
     const fs::path wanted = fs::path("runs") / (case_name + "-" + local_time("%Y%m%d-%H%M%S"));
+    fs::create_directories("runs");
     fs::path folder = wanted;
-    for (int i = 2; fs::exists(folder); ++i) folder = wanted.string() + "-" + std::to_string(i);
+    for (int i = 2; !fs::create_directory(folder); ++i)
+        folder = wanted.string() + "-" + std::to_string(i);
     return folder;
 }
 
 bool holds_something(const fs::path& folder) {
     return fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder));
+}
+
+bool is_run_folder(const RunFolder& folder) {
+    return fs::exists(folder.resolved_case()) || fs::exists(folder.record());
 }
 
 // Only what a run writes, so that a mistyped --out --force costs nothing else.
@@ -86,24 +100,36 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved,
 
 }  // namespace
 
-RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
-    const fs::path wanted = order.out.empty() ? fresh_folder(case_name) : order.out;
+namespace {
+
+RunFolder folder_for(const fs::path& wanted, bool force) {
     // The trailing slash of `--out DIR/` would become an empty last part.
     const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
     if (folder.root.string().find_first_of(" \t\n\"'") != std::string::npos)
         throw folder_refused(folder.root, "has a space or a quote in its path",
                              "OpenFOAM drops these from file names. Choose another --out.");
-    if (holds_something(folder.root) && !(order.force && fs::is_directory(folder.root)))
+    if (force && is_run_folder(folder))
+        empty_run_folder(folder);
+    else if (holds_something(folder.root))
         throw folder_refused(wanted, "already holds something",
                              "A run needs a new or empty folder. Choose another --out, or add "
                              "--force to overwrite the run that is there.");
-    if (order.force) empty_run_folder(folder);
-    std::error_code error;
-    for (const fs::path& part : {folder.grains(), folder.logs()})
-        if (fs::create_directories(part, error); error)
-            throw folder_refused(wanted, "cannot be created: " + error.message(),
-                                 "Choose a folder you may write to.");
+    for (const fs::path& part : {folder.grains(), folder.logs()}) fs::create_directories(part);
     return folder;
+}
+
+}  // namespace
+
+RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
+    fs::path wanted = order.out;
+    try {
+        if (wanted.empty()) wanted = fresh_folder(case_name);
+        return folder_for(wanted, order.force);
+    } catch (const fs::filesystem_error& error) {
+        throw folder_refused(wanted.empty() ? "runs" : wanted,
+                             "cannot be created: " + error.code().message(),
+                             "Choose a folder you may write to.");
+    }
 }
 
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,

@@ -22,7 +22,10 @@ using Text = std::string (*)(const Cell&);
 
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
-// Empty unless there was a window with contacts, with a fluid, with a clock.
+// Empty unless there are grains, was a window with contacts, with a fluid, with a clock.
+std::string mean(const Cell& c, double value) {
+    return c.row.state->grains.empty() ? "" : number(value);
+}
 std::string contact(const Cell& c, double (*value)(const Cell&)) {
     return c.row.contact ? number(value(c)) : "";
 }
@@ -41,20 +44,20 @@ struct Column {
 const std::vector<Column> columns = {
     {"step", [](const Cell& c) { return std::to_string(c.row.step); }},
     {"time", [](const Cell& c) { return number(c.row.time / c.time); }},
-    {"mean_velocity_x", [](const Cell& c) { return number(c.mean.velocity[0] / c.velocity); }},
-    {"mean_velocity_y", [](const Cell& c) { return number(c.mean.velocity[1] / c.velocity); }},
+    {"mean_velocity_x", [](const Cell& c) { return mean(c, c.mean.velocity[0] / c.velocity); }},
+    {"mean_velocity_y", [](const Cell& c) { return mean(c, c.mean.velocity[1] / c.velocity); }},
     {"mean_velocity_norm",
      [](const Cell& c) {
          const Vec3& u = c.mean.velocity;
-         return number(std::hypot(u[0], u[1], u[2]) / c.velocity);
+         return mean(c, std::hypot(u[0], u[1], u[2]) / c.velocity);
      }},
-    {"mean_speed", [](const Cell& c) { return number(c.mean.speed / c.velocity); }},
-    {"mean_position_x", [](const Cell& c) { return number(c.mean.position[0] / c.diameter); }},
-    {"mean_position_y", [](const Cell& c) { return number(c.mean.position[1] / c.diameter); }},
-    {"front_x", [](const Cell& c) { return number(c.mean.front / c.diameter); }},
+    {"mean_speed", [](const Cell& c) { return mean(c, c.mean.speed / c.velocity); }},
+    {"mean_position_x", [](const Cell& c) { return mean(c, c.mean.position[0] / c.diameter); }},
+    {"mean_position_y", [](const Cell& c) { return mean(c, c.mean.position[1] / c.diameter); }},
+    {"front_x", [](const Cell& c) { return mean(c, c.mean.front / c.diameter); }},
     {"kinetic_energy",
      [](const Cell& c) {
-         return number(c.mean.kinetic_energy / (c.mean.mass * c.velocity * c.velocity));
+         return mean(c, c.mean.kinetic_energy / (c.mean.mass * c.velocity * c.velocity));
      }},
     {"grains", [](const Cell& c) { return std::to_string(c.row.state->grains.size()); }},
     {"contacts",
@@ -145,9 +148,13 @@ History::History(const std::filesystem::path& file, const Settings& settings, co
 void History::append(const Row& row) {
     const Averages mean = averages(*row.state, rule_);
     const Cell cell{row, mean, diameter_, velocity_, time_};
+    const auto whole = out_.tellp();
     out_ << line([&](const Column& column) { return column.text(cell); }) << std::endl;
-    if (!out_)
-        throw Failure(ExitCode::participant_failed,
+    if (out_) return;
+    out_.close();
+    std::error_code ignored;  // half a row would spoil the file for its readers
+    std::filesystem::resize_file(file_, static_cast<std::uintmax_t>(whole), ignored);
+    throw Failure(ExitCode::participant_failed,
                       "cannot write " + file_.string() + ": is the disk full?");
 }
 

@@ -81,9 +81,29 @@ RunStatus Hub::run() {
         status_.reason = error.what();
     }
     status_.wall_seconds = since(begin);
-    write_run_record(files_.record, status_, links_);
-    end({static_cast<int>(status_.code), status_.reason});
+    end_and_record();
     return status_;
+}
+
+// The record comes first: should a participant not leave, the verdict is known all the same. One that
+// cannot be written must not keep the participants from leaving.
+void Hub::end_and_record() {
+    try {
+        write_run_record(files_.record, status_, links_);
+    } catch (const std::exception& error) {
+        if (status_.code == ExitCode::done) status_.code = ExitCode::participant_failed;
+        status_.reason += (status_.reason.empty() ? "" : "; ") + std::string(error.what());
+    }
+    try {
+        end({static_cast<int>(status_.code), status_.reason});
+    } catch (const Failure& failure) {
+        if (status_.code == ExitCode::done) {  // all windows are played, but the last words are lost
+            status_.code = failure.code();
+            status_.reason = failure.what();
+            write_run_record(files_.record, status_, links_);
+        }
+        throw;
+    }
 }
 
 void Hub::start() {
@@ -178,10 +198,14 @@ void Hub::account(const Window& window, WindowResult result) {
 }
 
 void Hub::look_for_stop() const {
-    std::ifstream stop(files_.stop);
-    if (!stop) return;
     int code = static_cast<int>(ExitCode::interrupted);
-    stop >> code;
+    {
+        std::ifstream stop(files_.stop);
+        if (!stop) return;
+        stop >> code;
+    }
+    std::error_code ignored;  // a request is meant once: the same line may be started again
+    std::filesystem::remove(files_.stop, ignored);
     const bool terminated = code == static_cast<int>(ExitCode::terminated);
     throw Failure(terminated ? ExitCode::terminated : ExitCode::interrupted,
                   "stopped on request after window " + std::to_string(status_.windows_done));

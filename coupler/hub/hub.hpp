@@ -42,7 +42,7 @@ class Hub {
     void start();
     void play(std::int64_t index);
     void account(const Window& window, WindowResult result);
-    void write_output(const Row& row, const WindowResult& result, double step);
+    void end_and_record();
     void look_for_stop() const;
     void end(const Verdict& verdict);
     void await_all(bool (ParticipantLink::*condition)(), double limit);

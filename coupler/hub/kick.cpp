@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
@@ -59,7 +62,11 @@ ImmersedBody KickRule::body(const GrainState& grain) const {
 void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) const {
     const auto old = by_id(before);
     for (Kick& kick : kicks) {
-        const GrainState& grain = *old.at(kick.id);
+        const auto at = old.find(kick.id);
+        if (at == old.end())
+            throw PhysicsRefused("the fluid answered for grain " + std::to_string(kick.id) +
+                                 ", which nobody owns");
+        const GrainState& grain = *at->second;
         const ImmersedBody immersed = body(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =

@@ -19,12 +19,13 @@ bool finite(const Vec3& v) {
     return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
 
-void demand_finite(const Motion& motion, const char* what, std::int64_t window) {
+void demand_finite(const Motion& motion, const std::string& when) {
     for (const GrainState& g : motion.grains)
         if (!finite(g.position) || !finite(g.velocity) || !finite(g.angular_velocity))
             throw PhysicsRefused(fmt::format(
-                "grain {} is not finite {} in window {}: position ({}, {}, {}), velocity ({}, {}, {})",
-                g.id, what, window, g.position[0], g.position[1], g.position[2], g.velocity[0],
+                "grain {} is not finite {}: position ({}, {}, {}), velocity ({}, {}, {}). Try a "
+                "smaller time.step.",
+                g.id, when, g.position[0], g.position[1], g.position[2], g.velocity[0],
                 g.velocity[1], g.velocity[2]));
 }
 
@@ -46,14 +47,14 @@ Ledger::Ledger(const Settings& settings, std::size_t population)
       penetration_limit_(settings.real("limits.penetration")) {}
 
 void Ledger::check_start(const Motion& state) const {
-    demand_finite(state, "at the start", -1);
+    demand_finite(state, "at the start");
     check_count(state);
 }
 
 void Ledger::check(const Window& window, const WindowResult& result) {
-    demand_finite(result.motion, "after the contact problem", window.index);
+    demand_finite(result.motion, fmt::format("after the contacts of window {}", window.index));
     demand_finite(result.kicks.kicks, window.index);
-    demand_finite(result.state, "after the move", window.index);
+    demand_finite(result.state, fmt::format("after the move of window {}", window.index));
     removed_ += static_cast<std::size_t>(result.state.report.removed);
     check_count(result.state);
     check_overlap(result.state);
@@ -79,7 +80,8 @@ void Ledger::check_overlap(const Motion& state) const {
 
 void Ledger::check_divergence(const FluidReport& report) {
     const double divergence = report.divergence / rate_;
-    divergent_windows_ = divergence > divergence_limit ? divergent_windows_ + 1 : 0;
+    const bool good = divergence <= divergence_limit;  // false for NaN
+    divergent_windows_ = good ? 0 : divergent_windows_ + 1;
     if (divergent_windows_ < windows_until_refused) return;
     throw PhysicsRefused(fmt::format(
         "the projection fails: max |div phi| = {:.3g} u_c/D in {} windows running, {:.0e} allowed. "

@@ -17,8 +17,6 @@ class Ledger {
     void check_start(const Motion& state) const;
     void check(const Window& window, const WindowResult& result);
 
-    std::size_t removed() const { return removed_; }
-
    private:
     void check_count(const Motion& state) const;
     void check_overlap(const Motion& state) const;

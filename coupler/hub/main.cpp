@@ -17,7 +17,7 @@ namespace {
 
 using namespace turbidite;
 
-// Starting a host code takes seconds; a minute of silence means that it never will [s].
+// Starting a host code takes seconds; two minutes of silence mean that it never will [s].
 constexpr double start_limit = 120.0;
 
 struct Meeting {
@@ -60,7 +60,11 @@ void record_failure(const std::string& directory, ExitCode code, const std::stri
     RunStatus status;
     status.code = code;
     status.reason = reason;
-    write_run_record(record, status, {});
+    try {
+        write_run_record(record, status, {});
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "turbidite-coupler: %s\n", error.what());
+    }
 }
 
 }  // namespace

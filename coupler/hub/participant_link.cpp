@@ -76,11 +76,6 @@ std::vector<Bytes> ParticipantLink::take_payloads(Kind kind) {
     return payloads;
 }
 
-bool ParticipantLink::owes() const {
-    return std::any_of(ranks_.begin(), ranks_.end(),
-                       [](const Rank& rank) { return !rank.order.due_from_coupler(); });
-}
-
 std::string ParticipantLink::state_of(int rank) const {
     const Rank& of = ranks_[rank];
     const double seconds = std::chrono::duration<double>(Clock::now() - of.since).count();

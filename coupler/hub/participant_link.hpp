@@ -52,9 +52,7 @@ class ParticipantLink {
         return records;
     }
 
-    /// True while some rank owes the coupler a message.
-    bool owes() const;
-    /// "grains rank 0 (host h, pid 12) computes towards "motion" of window 4 since 3 s".
+    /// "grains rank 0 (host h, pid 12) works towards "motion", window 4, since 3 s".
     std::string state_of(int rank) const;
 
     /// The run is over: tells the ranks; whatever they still send is thrown away until `gone`.

@@ -63,7 +63,15 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
                         {"unconverged_windows", status.maxima.unconverged_windows}};
     record["ranks"] = rank_table(links);
     const std::filesystem::path part = file.string() + ".part";
-    std::ofstream(part) << record.dump(2) << "\n";
+    std::ofstream out(part);
+    out << record.dump(2) << "\n";
+    out.close();
+    if (!out) {  // the old record stays, which is worth more than half a new one
+        std::error_code ignored;
+        std::filesystem::remove(part, ignored);
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + file.string() + ": is the disk full?");
+    }
     std::filesystem::rename(part, file);
 }
 

@@ -27,7 +27,8 @@ struct RunStatus {
     RunMaxima maxima;
 };
 
-/// Replaces run.json in one step. `links` may be empty when the start failed.
+/// Replaces run.json in one step. `links` may be empty when the start failed. Throws Failure when the
+/// disk is full.
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
                       const std::vector<ParticipantLink*>& links);
 

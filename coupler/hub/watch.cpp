@@ -37,7 +37,7 @@ std::string Watch::wait_for_table() const {
     std::string table;
     for (const ParticipantLink* link : links_)
         for (int rank = 0; rank < link->ranks(); ++rank)
-            table += "  " + link->state_of(rank) + "\n";
+            table += (table.empty() ? "  " : "\n  ") + link->state_of(rank);
     return table;
 }
 

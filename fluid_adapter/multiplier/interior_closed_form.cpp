@@ -63,14 +63,14 @@ MultiplierResult interior_closed_form(SaddlePoint& system, const MultiplierSetti
 
     std::vector<CellSums> sums(system.grains().size());
     for (int g = 0; g < points.grains(); ++g) sums[g] = sum_cells(points, system.field(), g);
-    system.sum_over_holders(sums.data()->data(), 7);
+    system.sum_over_holders(sums);
     for (int g = 0; g < points.grains(); ++g) {
         system.motions()[g] =
             common_motion(system.grains()[g], sums[g], system.field().cell_mass());
         impose_motion(points, system.field(), g, system.motions()[g], work.impulses.data());
     }
     ConstraintOperator(points).sum_by_grain(work.impulses.data(), system.impulses().data());
-    system.sum_over_holders(system.impulses().data()->data(), 3);
+    system.sum_over_holders(system.impulses());
     return {};
 }
 

@@ -38,7 +38,7 @@ void SaddlePoint::apply(const double* w, double* y) {
         cells_y_[cell] *= per_mass;
     }
     constraint.sum_by_grain(w, motions_.data());
-    sum_over_holders(motions_.data()->data(), 3);
+    sum_over_holders(motions_);
     for (std::size_t g = 0; g < grains_->size(); ++g) {
         const ImmersedGrain& grain = (*grains_)[g];
         motions_[g].head<2>() /= -grain.effective_mass;
@@ -59,7 +59,7 @@ void SaddlePoint::impose(const double* impulses) {
         field_->velocity(1)[cell] -= per_mass * cells_y_[cell];
     }
     constraint.sum_by_grain(impulses, sums_.data());
-    sum_over_holders(sums_.data()->data(), 3);
+    sum_over_holders(sums_);
     for (std::size_t g = 0; g < grains_->size(); ++g) {
         const ImmersedGrain& grain = (*grains_)[g];
         motions_[g] = grain.free_motion() + Planar(sums_[g].x() / grain.effective_mass,
@@ -78,10 +78,6 @@ double SaddlePoint::points_everywhere() const {
     double count = points_->size();
     field_->sum_over_ranks(&count, 1);
     return count;
-}
-
-void SaddlePoint::sum_over_holders(double* rows, int per_grain) const {
-    field_->sum_over_holders(ids_.data(), static_cast<int>(ids_.size()), rows, per_grain);
 }
 
 void SaddlePoint::clear_touched() {

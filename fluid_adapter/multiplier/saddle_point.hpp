@@ -54,8 +54,14 @@ class SaddlePoint {
     std::vector<Planar>& motions() { return motions_; }
     std::vector<Planar>& impulses() { return sums_; }
 
-    /// Adds up rows of grains held by several ranks: `per_grain` numbers each.
-    void sum_over_holders(double* rows, int per_grain) const;
+    /// Adds up rows of grains held by several ranks, one row (a fixed-size vector) per grain. Called
+    /// by every rank, also by one that holds no grain.
+    template <class Row>
+    void sum_over_holders(std::vector<Row>& rows) const {
+        double* first = rows.empty() ? nullptr : rows.front().data();
+        field_->sum_over_holders(ids_.data(), static_cast<int>(ids_.size()), first,
+                                 static_cast<int>(Row::SizeAtCompileTime));
+    }
 
  private:
     void clear_touched();

@@ -16,6 +16,7 @@ class Outcome : public ::testing::Test {
  protected:
     ScratchFolder scratch;
     RunFolder folder{scratch.path()};
+    const std::vector<std::string> ranks{"coupler", "fluid rank 0", "grains rank 0"};
 };
 
 TEST_F(Outcome, TheCouplersWordCounts) {
@@ -34,6 +35,25 @@ TEST_F(Outcome, WithoutAWordAProgramFailed) {
     EXPECT_EQ(record.at("exit_code"), 4);
     EXPECT_EQ(record.at("status"), "failed");
     EXPECT_EQ(record.at("case"), "box");  // what was there stays
+}
+
+// The texts are Open MPI 4.1.4's.
+TEST_F(Outcome, NamesTheProgramThatASignalEnded) {
+    scratch.write("logs/mpirun.log",
+                  "Primary job  terminated normally, but 1 process returned\n"
+                  "mpirun noticed that process rank 1 with PID 0 on node vm exited on signal 9 "
+                  "(Killed).\n");
+    const JobOutcome outcome = settle_outcome(folder, {.status = 137}, ranks);
+    EXPECT_EQ(outcome.code, ExitCode::participant_failed);
+    EXPECT_SAYS(outcome.error, "fluid rank 0 was ended by signal 9 (Killed)");
+}
+
+TEST_F(Outcome, NamesTheProgramThatLeftWithAStatus) {
+    scratch.write("logs/mpirun.log",
+                  "the job to be terminated. The first process to do so was:\n\n"
+                  "  Process name: [[21423,1],2]\n  Exit code:    1\n");
+    EXPECT_SAYS(settle_outcome(folder, {.status = 1}, ranks).error,
+                "grains rank 0 ended with status 1");
 }
 
 TEST_F(Outcome, EndingWithoutAWordIsNoSuccess) {

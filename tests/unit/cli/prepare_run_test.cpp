@@ -58,12 +58,32 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
 }
 
+// logs/ and fluid/ are common names: without a run beside them they are somebody else's.
+TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
+    const ScratchFolder scratch;
+    scratch.write("home/logs/diary.log", "mine");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "home", .force = true}), "already holds something");
+    EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
+}
+
+TEST(PrepareRun, DefaultFolderIsFreshAndPlain) {
+    const ScratchFolder scratch;
+    const fs::path before = fs::current_path();
+    fs::current_path(scratch.path());
+    const RunFolder first = make_run_folder({}, "my \"case\"");
+    const RunFolder second = make_run_folder({}, "my \"case\"");
+    fs::current_path(before);
+    EXPECT_NE(first.root, second.root);
+    EXPECT_SAYS(first.root.filename().string(), "my__case_-");
+}
+
 TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
     const ScratchFolder scratch;
     scratch.write("file", "x");
     EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}),
                 "already holds something");
     EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}), "has a space or a quote in its path");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "file/run"}), "cannot be created");
 }
 
 TEST(PrepareRun, RunFolderLoadsToTheSameCase) {
