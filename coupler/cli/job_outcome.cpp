@@ -87,10 +87,22 @@ std::string first_to_end(const std::filesystem::path& log, const std::vector<std
     return "";
 }
 
+/// What the coupler said last, for when the disk had no room for its record; empty without.
+std::string last_word(const std::filesystem::path& log) {
+    const std::string sign = "turbidite: ";
+    std::ifstream input(log);
+    std::string word;
+    for (std::string line; std::getline(input, line);)
+        if (line.rfind(sign, 0) == 0) word = line.substr(sign.size());
+    return word;
+}
+
 JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {
     if (end.killed) return {signal_code(end.signal), "killed on request"};
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
+    const std::string word = last_word(folder.log("coupler"));
+    if (!word.empty()) return {code_of_status(end.status), word};
     const std::string first = first_to_end(folder.log("mpirun"), ranks);
     if (!first.empty()) return {code_of_status(end.status), first + "; look into its log"};
     return {code_of_status(end.status),
@@ -104,7 +116,8 @@ void keep_outcome(const RunFolder& folder, nlohmann::ordered_json record, JobOut
     try {
         write_run_json(folder.record(), record);
     } catch (const std::exception& error) {
-        outcome.error += fmt::format("; {}", error.what());
+        const std::string fault = error.what();
+        if (outcome.error.find(fault) == std::string::npos) outcome.error += "; " + fault;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/ostream.h>
 
 #include <fstream>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -43,6 +44,8 @@ Vec3 divided(const Vec3& v, double by) { return {v[0] / by, v[1] / by, v[2] / by
 
 GrainSeries::GrainSeries(std::filesystem::path folder) : folder_(std::move(folder)) {
     std::filesystem::create_directories(folder_);
+    collection_.open(folder_ / "grains.pvd", std::ios::out | std::ios::trunc);
+    collection_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
 }
 
 void GrainSeries::write(double time, std::int64_t step, double window, const Motion& state,
@@ -85,13 +88,19 @@ void GrainSeries::write(double time, std::int64_t step, double window, const Mot
                    [&](const GrainState& g) { return triple(divided(g.contact_impulse, window)); });
         out << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
     });
-    files_.emplace_back(time, name);
-    write_whole(folder_ / "grains.pvd", [&](std::ostream& out) {
-        out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-        for (const auto& [t, file] : files_)
-            fmt::print(out, "<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n", t, file);
-        out << "</Collection>\n</VTKFile>\n";
-    });
+    add_to_collection(time, name);
+}
+
+// The end tags are overwritten by the next entry and its end tags, in one write.
+void GrainSeries::add_to_collection(double time, const std::string& name) {
+    constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
+    collection_ << fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n{}", time, name,
+                               end_tags)
+                << std::flush;
+    if (!collection_)
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + (folder_ / "grains.pvd").string() + ": is the disk full?");
+    collection_.seekp(-static_cast<std::streamoff>(end_tags.size()), std::ios::end);
 }
 
 }  // namespace turbidite

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,15 @@ class GrainSeries {
     explicit GrainSeries(std::filesystem::path folder);
 
     /// Points in run units with id, radius, density, velocity, angular_velocity, force, contact_force. The series
-    /// file is rewritten each time, so that it is complete at any moment. `time` is in run units.
+    /// file is complete after every call. `time` is in run units.
     void write(double time, std::int64_t step, double window, const Motion& state,
                const std::vector<Kick>& kicks);
 
    private:
+    void add_to_collection(double time, const std::string& name);
+
     std::filesystem::path folder_;
-    std::vector<std::pair<double, std::string>> files_;
+    std::ofstream collection_;
 };
 
 }  // namespace turbidite

@@ -1,68 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The program as a user meets it: exit codes, what is printed where, what a run leaves behind.
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <thread>
 
-#include "tests/unit/case/scratch_folder.hpp"
+#include "tests/system/shell_test.hpp"
 
 namespace turbidite {
 namespace {
 
 namespace fs = std::filesystem;
 
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
 const std::string program = TURBIDITE_PROGRAM;
 const std::string quickstart = TURBIDITE_SOURCE_DIR "/configs/quickstart.yaml";
 // Dry grains without YADE: the quickest whole job.
 const std::string quick = " --set fluid.enabled=false --set grains.adapter=standalone-nscd";
 
-struct Answer {
-    int code = -1;
-    std::string out, err;
-};
-
-class CommandLine : public ::testing::Test {
+class CommandLine : public ShellTest {
  protected:
-    ScratchFolder scratch;
-
-    std::string text(const fs::path& file) const {
-        std::ifstream input(file);
-        return {std::istreambuf_iterator<char>(input), {}};
-    }
-
-    Answer shell(const std::string& line) const {
-        const std::string out = scratch.path() / "out", err = scratch.path() / "err";
-        const int status = std::system(("cd " + scratch.path().string() + " && { " + line +
-                                        "; } >" + out + " 2>" + err + " </dev/null")
-                                           .c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
-    }
-
     Answer turbidite(const std::string& arguments) const {
         return shell(program + " " + arguments);
-    }
-
-    fs::path run_folder() const { return scratch.path() / "run"; }
-    std::string into_run_folder() const { return " --out " + run_folder().string(); }
-
-    nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }
-
-    long rows_of_history() const {
-        const std::string history = text(run_folder() / "history.csv");
-        return std::count(history.begin(), history.end(), '\n') - 1;
     }
 };
 

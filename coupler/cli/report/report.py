@@ -150,8 +150,14 @@ def main(arguments):
         return 2
     run = run_data.load_run(arguments[1])
     part = run.folder / 'report.html.part'
-    part.write_text(page(run), encoding='utf-8')
-    part.replace(run.folder / 'report.html')
+    text = page(run)
+    try:
+        part.write_text(text, encoding='utf-8')
+        part.replace(run.folder / 'report.html')
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        print(f'cannot write {run.folder / "report.html"}: {error.strerror}', file=sys.stderr)
+        return 4
     return 0
 
 

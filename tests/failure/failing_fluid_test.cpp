@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A fluid that answers nonsense, throws or leaves: runs of an installation whose turbidite-fluid is
+// faulty_fluid.
+#include "tests/failure/failing_run.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FailingFluid : public FailingRun {
+ protected:
+    // `turbidite` looks for the programs beside itself, links followed.
+    void SetUp() override {
+        FailingRun::SetUp();
+        const fs::path program = TURBIDITE_PROGRAM;
+        const fs::path bin = scratch.path() / "bin";
+        fs::create_directory(bin);
+        fs::copy_file(program, bin / "turbidite");
+        for (const char* name : {"turbidite-coupler", "turbidite-grains"})
+            fs::create_symlink(program.parent_path() / name, bin / name);
+        fs::create_symlink(FAULTY_FLUID, bin / "turbidite-fluid");
+    }
+
+    Answer run_with(const std::string& fault) const {
+        return shell("TURBIDITE_FAULT=" + fault + " " + run_line("", "bin/turbidite"));
+    }
+};
+
+TEST_F(FailingFluid, NanInAKick) {
+    const Answer answer = run_with("nan");
+    EXPECT_EQ(answer.code, 6);
+    EXPECT_SAYS(answer.err, "not a number, in window 5 after the kick");
+    EXPECT_SAYS(answer.err, "use a smaller time.step");
+    expect_good_output_is_kept(ExitCode::physics_refused);
+    EXPECT_EQ(rows_of_history(), 6);  // t = 0 and windows 0 to 4
+    expect_nothing_left();
+}
+
+TEST_F(FailingFluid, ProjectionThatFails) {
+    const Answer answer = run_with("divergence");
+    EXPECT_EQ(answer.code, 6);
+    EXPECT_SAYS(answer.err, "the projection fails: max |div phi| = nan u_c/D in 3 windows running");
+    expect_good_output_is_kept(ExitCode::physics_refused);
+    EXPECT_EQ(rows_of_history(), 8);  // windows 5 and 6 are still borne, 7 is not
+    expect_nothing_left();
+}
+
+TEST_F(FailingFluid, ErrorReachesTheUserWithRoleAndLog) {
+    const Answer answer = run_with("throw");
+    EXPECT_EQ(answer.code, 4);
+    EXPECT_SAYS(answer.err, "The run failed: fluid rank 0 (host ");
+    EXPECT_SAYS(answer.err, "logs/fluid.log): scripted trouble");
+    expect_good_output_is_kept(ExitCode::participant_failed);
+    expect_nothing_left();
+}
+
+TEST_F(FailingFluid, LeavingWithoutAWordIsAFailure) {
+    const Answer answer = run_with("exit");
+    EXPECT_EQ(answer.code, 4) << answer.err;
+    expect_good_output_is_kept(ExitCode::participant_failed);
+    expect_nothing_left();
+}
+
+}  // namespace
+}  // namespace turbidite

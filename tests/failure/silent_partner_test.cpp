@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A program of a run stops answering: the others do not wait for ever.
+#include "tests/failure/failing_run.hpp"
+
+namespace turbidite {
+namespace {
+
+class SilentPartner : public FailingRun, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
+    const std::string role = GetParam();
+    const pid_t run = start(4);
+    const auto partner = processes("turbidite-" + role);
+    ASSERT_EQ(partner.size(), 1u);
+    kill(partner[0], SIGSTOP);
+    const Answer answer = end_of(run);
+    EXPECT_EQ(answer.code, 5);
+    EXPECT_SAYS(answer.out, "still waiting for");  // after limits.stall_soft
+    EXPECT_SAYS(answer.err, "from " + role + " for 3 s");
+    EXPECT_SAYS(answer.err, role + " rank 0 (host ");
+    EXPECT_SAYS(answer.err, "works towards");
+    EXPECT_SAYS(answer.err, "waits for the coupler's");
+    expect_nothing_left();
+    expect_good_output_is_kept(ExitCode::stalled);
+}
+
+INSTANTIATE_TEST_SUITE_P(Roles, SilentPartner, ::testing::Values("fluid", "grains"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// The participants give up after 1.5 times limits.stall_hard; the host code must not hang at its exit.
+class SilentCoupler : public FailingRun, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(SilentCoupler, IsLeftByTheParticipants) {
+    const pid_t run = start(4, std::string("--set grains.adapter=") + GetParam());
+    const auto coupler = processes("turbidite-coupler");
+    ASSERT_EQ(coupler.size(), 1u);
+    kill(coupler[0], SIGSTOP);
+    EXPECT_EQ(end_of(run).code, 5);
+    expect_nothing_left();
+    EXPECT_SAYS(text(run_folder() / "logs/fluid.log") + text(run_folder() / "logs/grains.log"),
+                "the coupler has been silent for 4 s");
+}
+
+INSTANTIATE_TEST_SUITE_P(Adapters, SilentCoupler, ::testing::Values("standalone-nscd", "yade-nscd"),
+                         [](const auto& info) {
+                             return std::string(info.param) == "yade-nscd" ? "Yade" : "Standalone";
+                         });
+
+}  // namespace
+}  // namespace turbidite

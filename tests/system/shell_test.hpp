@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What tests of whole commands share: a scratch folder, a shell in it, what a run left behind.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+struct Answer {
+    int code = -1;
+    std::string out, err;
+};
+
+class ShellTest : public ::testing::Test {
+ protected:
+    ScratchFolder scratch;
+
+    std::string text(const std::filesystem::path& file) const {
+        std::ifstream input(file);
+        return {std::istreambuf_iterator<char>(input), {}};
+    }
+
+    Answer shell(const std::string& line) const {
+        const std::string out = scratch.path() / "out", err = scratch.path() / "err";
+        const int status = std::system(("cd " + scratch.path().string() + " && { " + line +
+                                        "; } >" + out + " 2>" + err + " </dev/null")
+                                           .c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
+    }
+
+    std::filesystem::path run_folder() const { return scratch.path() / "run"; }
+    std::string into_run_folder() const { return " --out " + run_folder().string(); }
+
+    nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }
+
+    long rows_of_history() const {
+        const std::string history = text(run_folder() / "history.csv");
+        return std::count(history.begin(), history.end(), '\n') - 1;
+    }
+};
+
+}  // namespace turbidite

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/ledger.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "coupler/protocol/failure.hpp"
+#include "tests/unit/coupler/test_case.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+// D = u_c = 1: penetrations are in D, divergences in u_c/D. Penetration limit 0.2 D.
+class LedgerTest : public ::testing::Test {
+ protected:
+    Ledger ledger{test_settings(), 3};
+    WindowResult result = good();
+
+    static WindowResult good() {
+        WindowResult result;
+        result.motion.grains = result.state.grains = test_population();
+        result.kicks.kicks.resize(3);
+        return result;
+    }
+
+    /// What the ledger says; empty when it agrees.
+    std::string complaint() {
+        Window window;
+        window.index = 7;
+        try {
+            ledger.check(window, result);
+        } catch (const PhysicsRefused& refused) {
+            return refused.what();
+        }
+        return "";
+    }
+};
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(LedgerTest, AgreesWithAGoodWindow) { EXPECT_EQ(complaint(), ""); }
+
+TEST_F(LedgerTest, NamesTheGrainThatIsNotFinite) {
+    result.motion.grains[1].velocity[0] = not_a_number;
+    EXPECT_SAYS(complaint(), "grain 101 is not finite after the contacts of window 7");
+    result = good();
+    result.kicks.kicks[2].multiplier_impulse[1] = INFINITY;
+    result.kicks.kicks[2].id = 102;
+    EXPECT_SAYS(complaint(), "kick for grain 102 is not finite in window 7");
+    result = good();
+    result.state.grains[0].position[1] = -INFINITY;
+    EXPECT_SAYS(complaint(), "grain 100 is not finite after the move of window 7");
+}
+
+TEST_F(LedgerTest, CountsThoseWhoLeft) {
+    result.state.grains.pop_back();
+    result.state.report.removed = 1;
+    EXPECT_EQ(complaint(), "");
+    result.state.report.removed = 0;  // it stays counted
+    EXPECT_EQ(complaint(), "");
+    result.state.grains.pop_back();  // this one left without a word
+    EXPECT_SAYS(complaint(), "1 grains and 1 that left through free sides do not make 3");
+}
+
+TEST_F(LedgerTest, BoundsTheOverlap) {
+    result.state.report.max_penetration = 0.2;
+    EXPECT_EQ(complaint(), "");
+    result.state.report.max_penetration = 0.21;
+    EXPECT_SAYS(complaint(), "grains overlap by 0.21 D, limits.penetration = 0.2 D");
+    result.state.report.max_penetration = not_a_number;
+    EXPECT_NE(complaint(), "");
+}
+
+TEST_F(LedgerTest, BearsTwoDivergentWindowsButNotThree) {
+    result.kicks.report.divergence = 2e-4;
+    EXPECT_EQ(complaint(), "");
+    EXPECT_EQ(complaint(), "");
+    result.kicks.report.divergence = 1e-5;  // a good one: counting starts again
+    EXPECT_EQ(complaint(), "");
+    result.kicks.report.divergence = 2e-4;
+    EXPECT_EQ(complaint(), "");
+    result.kicks.report.divergence = not_a_number;
+    EXPECT_EQ(complaint(), "");
+    EXPECT_SAYS(complaint(), "in 3 windows running");
+}
+
+TEST_F(LedgerTest, ChecksTheStart) {
+    Motion start = result.state;
+    EXPECT_NO_THROW(ledger.check_start(start));
+    start.grains.pop_back();
+    EXPECT_THROW(ledger.check_start(start), PhysicsRefused);
+    start = result.state;
+    start.grains[0].angular_velocity[2] = not_a_number;
+    EXPECT_THROW(ledger.check_start(start), PhysicsRefused);
+}
+
+}  // namespace
+}  // namespace turbidite
