@@ -35,8 +35,12 @@ Foam::tmp<Foam::surfaceScalarField> FftPressureSolver::gradient_flux() const {
     Foam::scalarField& inner = flux.ref().primitiveFieldRef();
     forAll(inner, face) inner[face] = conductance_[face] * (p_[neighbour[face]] - p_[owner[face]]);
     auto& sides = flux.ref().boundaryFieldRef();
-    forAll(sides, patch) sides[patch] =
-        p_.mesh().magSf().boundaryField()[patch] * p_.boundaryField()[patch].snGrad();
+    forAll(sides, patch) {
+        const auto& p_side = p_.boundaryField()[patch];
+        sides[patch] = p_.mesh().magSf().boundaryField()[patch] *
+                       (p_side.coupled() ? p_side.snGrad(p_side.patch().deltaCoeffs())
+                                         : p_side.snGrad());
+    }
     return flux;
 }
 

@@ -345,4 +345,8 @@ Vec3 FoamAdapter::velocity(int i, int j) const {
     return {u.x(), u.y(), u.z()};
 }
 
+double FoamAdapter::pressure(int i, int j) const {
+    return state_->fields.p[state_->field.cell(i, j, 0)];
+}
+
 }  // namespace turbidite

@@ -32,8 +32,8 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("run.size_y", setup.height);
     settings.set("run.size_z", 0.0);
     settings.set("dimension", std::int64_t{2});
-    settings.set("domain.left", setup.left_right);
-    settings.set("domain.right", setup.left_right);
+    settings.set("domain.left", setup.left);
+    settings.set("domain.right", setup.right);
     settings.set("domain.bottom", setup.bottom);
     settings.set("domain.top", setup.top);
 }

@@ -17,7 +17,7 @@ namespace turbidite {
 
 struct CoupledSetup {
     double width = 4.0, height = 4.0;  ///< [D]
-    std::string left_right = "wall", bottom = "wall", top = "wall";
+    std::string left = "wall", right = "wall", bottom = "wall", top = "wall";
     double reynolds = 100.0;
     double step = 0.01;
     int windows = 1000;
