@@ -14,8 +14,8 @@
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
 #include "fluid_adapter/foam_app/savedState.hpp"
+#include "fluid_adapter/foam_app/solverList.hpp"
 #include "fluid_adapter/foam_app/stokesProjection.hpp"
-#include "fluid_adapter/foam_app/viscousDiffusion.hpp"
 #include "fluid_adapter/multiplier/method_list.hpp"
 
 namespace turbidite {
@@ -136,7 +136,7 @@ struct FoamAdapter::State {
     FluidFields fields;
     FoamFluidField field;
     StokesProjection projection;
-    MatrixViscousSolver viscosity;
+    std::unique_ptr<ViscousSolver> viscosity;
     MomentumLedger ledger;
     const MethodEntry& method;
     MultiplierSettings solve_settings;
@@ -160,9 +160,11 @@ FoamAdapter::State::State(const std::filesystem::path& directory, const Settings
                           const ShapeTable& table)
     : fields(directory),
       field(fields, fluid_domain(settings)),
-      projection(fields, divergence_goal * settings.real("run.velocity_scale") /
-                             settings.real("run.diameter")),
-      viscosity(fields.U, fields.nu),
+      projection(fields,
+                 divergence_goal * settings.real("run.velocity_scale") /
+                     settings.real("run.diameter"),
+                 make_pressure_solver(settings.text("fluid.pressure_solver"), fields)),
+      viscosity(make_viscous_solver(settings.text("fluid.viscous_solver"), fields)),
       ledger(fields),
       method(find_method(settings.text("fluid.points"))),
       solve_settings(multiplier_settings(settings)),
@@ -269,7 +271,7 @@ void FoamAdapter::advance(const Window& window) {
     check_finite(s.fields, "steps 1-2 (projection, transport)", window);
     in_step("step 3 (viscosity)", window, [&] {
         const Stopwatch watch(s.timings.viscosity);
-        s.viscosity.solve(window.step);
+        s.viscosity->solve(window.step);
         s.ledger.add_viscosity();
     });
     check_finite(s.fields, "step 3 (viscosity)", window);
@@ -341,6 +343,10 @@ void FoamAdapter::add_velocity(double x, double y) {
 Vec3 FoamAdapter::velocity(int i, int j) const {
     const Foam::vector& u = state_->fields.U[state_->field.cell(i, j, 0)];
     return {u.x(), u.y(), u.z()};
+}
+
+double FoamAdapter::pressure(int i, int j) const {
+    return state_->fields.p[state_->field.cell(i, j, 0)];
 }
 
 }  // namespace turbidite

@@ -43,6 +43,9 @@ class FoamAdapter final : public FluidAdapter {
     /// u at a cell of the grid [m/s].
     Vec3 velocity(int i, int j) const;
 
+    /// p at a cell of the grid, over rho_f [m2/s2].
+    double pressure(int i, int j) const;
+
  private:
     struct State;
     std::filesystem::path directory_;

@@ -15,7 +15,8 @@ class PressureSolver {
     virtual ~PressureSolver() = default;
 
     /// Solves for the p the solver was made with. f: integrals over cells [m3/s2]; `tighter`, at
-    /// most one, multiplies the tolerance. Throws PhysicsRefused when there is no convergence.
+    /// most one, multiplies the tolerance of an iterative solver. Throws PhysicsRefused when there
+    /// is no convergence.
     virtual void solve(const Foam::scalarField& f, Foam::scalar tighter) = 0;
 
     /// |S_f| grad p . n through the faces, with the differences of the solve.

@@ -6,6 +6,7 @@
 #include <fvcSurfaceIntegrate.H>
 
 #include <algorithm>
+#include <utility>
 
 namespace turbidite {
 namespace {
@@ -23,10 +24,11 @@ Foam::scalar tightening(Foam::scalar goal, Foam::scalar divergence) {
 
 }  // namespace
 
-StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal)
+StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal,
+                                   std::unique_ptr<PressureSolver> solver)
     : fields_(fields),
       goal_(goal),
-      solver_(std::make_unique<MatrixPressureSolver>(fields.p)),
+      solver_(std::move(solver)),
       given_("givenPhi", fields.phi) {}
 
 Foam::scalar StokesProjection::project() {

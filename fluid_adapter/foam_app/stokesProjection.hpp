@@ -26,7 +26,8 @@ namespace turbidite {
 class StokesProjection {
  public:
     /// `goal`: the largest |div phi| asked for [1/s].
-    StokesProjection(FluidFields& fields, Foam::scalar goal);
+    StokesProjection(FluidFields& fields, Foam::scalar goal,
+                     std::unique_ptr<PressureSolver> solver);
 
     /// From phi = interpolated U to the projected phi, U and p. Returns max |div phi| [1/s].
     Foam::scalar project();

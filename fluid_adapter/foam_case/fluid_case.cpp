@@ -63,13 +63,15 @@ std::string schemes(const Settings& settings) {
         settings.text("fluid.transport_scheme"));
 }
 
+/// The entry that OpenFOAM reads. FFT is ours and needs none; OpenFOAM's programs that solve for p
+/// on this case find multigrid.
 std::string pressure_solver(const std::string& name) {
-    if (name == "GAMG")
+    if (name == "FFT" || name == "GAMG")
         return "solver GAMG; smoother GaussSeidel; nPreSweeps 1; nPostSweeps 2; "
                "nCellsInCoarsestLevel 20;";
     if (name == "PCG") return "solver PCG; preconditioner DIC;";
     throw Failure(ExitCode::bad_input,
-                  "fluid.pressure_solver = \"" + name + "\"; allowed are GAMG, PCG");
+                  "fluid.pressure_solver = \"" + name + "\"; allowed are FFT, GAMG, PCG");
 }
 
 /// Tolerances are OpenFOAM's normalised residuals, thus relative to the problem's own size; a

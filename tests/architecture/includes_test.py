@@ -28,6 +28,7 @@ RULES = [
     ("coupler/shapes/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM], "shared by fluid and grains"),
     ("granular_adapter/nscd/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
     ("fluid_adapter/multiplier/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
+    ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 

@@ -44,7 +44,7 @@ TEST(CaseFiles, FoamToVtkReadsTheCase) {
 
 TEST(CaseFiles, CheckMeshIsContentWithCyclicAndFreeSides) {
     CoupledSetup setup;
-    setup.left_right = "cyclic";
+    setup.left = setup.right = "cyclic";
     setup.top = "free";
     const TemporaryFolder folder;
     write_fluid_case(settings_of(setup), folder.path());

@@ -32,8 +32,8 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("run.size_y", setup.height);
     settings.set("run.size_z", 0.0);
     settings.set("dimension", std::int64_t{2});
-    settings.set("domain.left", setup.left_right);
-    settings.set("domain.right", setup.left_right);
+    settings.set("domain.left", setup.left);
+    settings.set("domain.right", setup.right);
     settings.set("domain.bottom", setup.bottom);
     settings.set("domain.top", setup.top);
 }
@@ -48,9 +48,10 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.multiplier_tolerance", setup.tolerance);
     settings.set("fluid.multiplier_iterations", std::int64_t{200});
     settings.set("fluid.transport_scheme", std::string("Gauss limitedLinearV 1"));
-    settings.set("fluid.pressure_solver", std::string("GAMG"));
-    settings.set("fluid.pressure_tolerance", 1e-6);
-    settings.set("fluid.viscous_tolerance", 1e-8);
+    settings.set("fluid.pressure_solver", setup.pressure_solver);
+    settings.set("fluid.pressure_tolerance", setup.pressure_tolerance);
+    settings.set("fluid.viscous_solver", setup.viscous_solver);
+    settings.set("fluid.viscous_tolerance", setup.viscous_tolerance);
 }
 
 void set_contact_values(Settings& settings) {

@@ -17,7 +17,7 @@ namespace turbidite {
 
 struct CoupledSetup {
     double width = 4.0, height = 4.0;  ///< [D]
-    std::string left_right = "wall", bottom = "wall", top = "wall";
+    std::string left = "wall", right = "wall", bottom = "wall", top = "wall";
     double reynolds = 100.0;
     double step = 0.01;
     int windows = 1000;
@@ -27,6 +27,8 @@ struct CoupledSetup {
     std::string points = "interior+boundary";
     double tolerance = 1e-4;
     double hydrodynamic_radius = 1.0;
+    std::string pressure_solver = "FFT", viscous_solver = "FFT";
+    double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative ones
 };
 
 Settings settings_of(const CoupledSetup& setup);

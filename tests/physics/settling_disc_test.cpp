@@ -84,7 +84,8 @@ TEST(SettlingDiscRefusal, NotANumberNamesStepAndWindow) {
 }
 
 TEST(SettlingDiscRefusal, AProjectionThatDoesNotConvergeNamesStepAndWindow) {
-    const CoupledSetup setup = settling("interior+boundary");
+    CoupledSetup setup = settling("interior+boundary");
+    setup.pressure_solver = "GAMG";
     const TemporaryFolder folder;
     write_fluid_case(settings_of(setup), folder.path());
     build_fluid_mesh(folder.path(), folder.path() / "blockMesh.log");

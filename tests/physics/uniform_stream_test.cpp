@@ -8,7 +8,7 @@ namespace {
 
 CoupledSetup cyclic_box(const std::string& points) {
     CoupledSetup setup;
-    setup.left_right = setup.bottom = setup.top = "cyclic";
+    setup.left = setup.right = setup.bottom = setup.top = "cyclic";
     setup.points = points;
     return setup;
 }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The pressure problem on a uniform box, solved directly (linear_solvers/separable_solve.hpp): no
+// matrix, no iterations, divergence left at rounding. Where no side fixes p, it is zero in the
+// first cell, as with the matrix.
+#pragma once
+
+#include "fluid_adapter/foam_app/pressureSolver.hpp"
+#include "fluid_adapter/linear_solvers/separable_solve.hpp"
+
+namespace turbidite {
+
+class FftPressureSolver final : public PressureSolver {
+ public:
+    /// Throws NotSeparable.
+    explicit FftPressureSolver(Foam::volScalarField& p);
+
+    void solve(const Foam::scalarField& f, Foam::scalar tighter) override;
+    Foam::tmp<Foam::surfaceScalarField> gradient_flux() const override;
+
+ private:
+    Foam::volScalarField& p_;
+    bool floating_;                         // no side fixes p
+    Foam::scalar cell_volume_;              // [m3]
+    Foam::surfaceScalarField conductance_;  // |S_f| over the distance of the centres [m]
+    SeparableSolve separable_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fluid_adapter/linear_solvers/separable_operator.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace turbidite {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// What the mirror image beyond an end adds to the diagonal, in units of 1/h2.
+double end_share(End end) {
+    return end == End::neumann ? -1.0 : end == End::dirichlet ? 1.0 : 0.0;
+}
+
+/// Phase of mode k over a whole turn of the doubled (mirrored) or single (periodic) axis.
+double phase(const AxisOperator& axis, int k) {
+    if (axis.periodic()) return pi * k / axis.cells;
+    const double shift =
+        0.5 * (axis.lower == End::dirichlet) + 0.5 * (axis.upper == End::dirichlet);
+    return pi * (k + shift) / (2.0 * axis.cells);
+}
+
+}  // namespace
+
+double AxisOperator::diagonal(int j) const {
+    double share = 2.0;
+    if (j == 0) share += end_share(lower);
+    if (j == cells - 1) share += end_share(upper);
+    return share * coupling();
+}
+
+double AxisOperator::eigenvalue(int k) const {
+    const double sine = std::sin(phase(*this, k));
+    return 4.0 * sine * sine * coupling();
+}
+
+void check(const AxisOperator& axis) {
+    if (axis.cells < 3)
+        throw std::invalid_argument("an axis of " + std::to_string(axis.cells) +
+                                    " cells; a separable solve needs 3 or more");
+    if (!(axis.spacing > 0.0) || !std::isfinite(axis.spacing))
+        throw std::invalid_argument("cells of length " + std::to_string(axis.spacing));
+    if ((axis.lower == End::periodic) != (axis.upper == End::periodic))
+        throw std::invalid_argument("one end of an axis is periodic and the other is not");
+}
+
+}  // namespace turbidite

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The direct solvers of pressure and viscosity against OpenFOAM's iterative ones: the same windows
+// with discs that fall, turn and meet, in boxes with every kind of side.
+//
+// The iterative solvers stop at 1e-11 of their residual norms and the multipliers, in both runs, at
+// 1e-9 u_c: what 20 windows make of that is below 1e-8 u_c, and a wrong row of the operator next to
+// any side is worth 1e-2.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "tests/physics/coupled_run.hpp"
+
+namespace turbidite {
+namespace {
+
+struct Sides {
+    const char* name;
+    const char *left, *right, *bottom, *top;
+};
+
+constexpr Sides all_sides[] = {
+    {"closed", "wall", "wall", "wall", "wall"},
+    {"freeRightAndTop", "wall", "free", "wall", "free"},
+    {"freeLeft", "free", "wall", "wall", "wall"},
+    {"channel", "cyclic", "cyclic", "wall", "wall"},
+    {"chimney", "wall", "wall", "cyclic", "cyclic"},
+    {"cyclic", "cyclic", "cyclic", "cyclic", "cyclic"},
+};
+
+CoupledSetup box_with(const Sides& sides) {
+    CoupledSetup setup;
+    setup.left = sides.left;
+    setup.right = sides.right;
+    setup.bottom = sides.bottom;
+    setup.top = sides.top;
+    setup.width = 5.0;  // 80 x 64 cells
+    setup.reynolds = 36.0;
+    setup.gravity = 11.86;
+    setup.tolerance = 1e-9;
+    return setup;
+}
+
+CoupledSetup iterative(CoupledSetup setup) {
+    setup.pressure_solver = "GAMG";
+    setup.viscous_solver = "PCG";
+    setup.pressure_tolerance = setup.viscous_tolerance = 1e-11;
+    return setup;
+}
+
+std::vector<GrainState> some_discs(const CoupledSetup& setup) {
+    return {disc_at(setup, 1.13, 1.02, 0.3, -0.2), disc_at(setup, 2.47, 2.2, -0.4, 0.1),
+            disc_at(setup, 3.61, 1.33), disc_at(setup, 1.39, 3.27, 0.2, -0.5)};
+}
+
+/// max |difference| of a quantity over all cells of two runs.
+double largest_difference(CoupledRun& a, CoupledRun& b,
+                          const std::function<double(const FoamAdapter&, int, int)>& value) {
+    double largest = 0.0;
+    for (int j = 0; j < 64; ++j)
+        for (int i = 0; i < 80; ++i)
+            largest = std::max(largest, std::abs(value(a.fluid(), i, j) - value(b.fluid(), i, j)));
+    return largest;
+}
+
+double speed_x(const FoamAdapter& fluid, int i, int j) {
+    return fluid.velocity(i, j)[0];
+}
+double speed_y(const FoamAdapter& fluid, int i, int j) {
+    return fluid.velocity(i, j)[1];
+}
+double pressure(const FoamAdapter& fluid, int i, int j) {
+    return fluid.pressure(i, j);
+}
+
+class DirectSolvers : public testing::TestWithParam<Sides> {};
+
+TEST_P(DirectSolvers, AgreeWithTheIterativeOnes) {
+    const CoupledSetup setup = box_with(GetParam());
+    CoupledRun direct(setup, some_discs(setup));
+    CoupledRun reference(iterative(setup), some_discs(setup));
+    double fastest = 0.0;
+    for (int n = 0; n < 20; ++n) {
+        direct.advance();
+        reference.advance();
+        // Rounding: eps u_c/h is 4e-15 u_c/D, of terms that cancel in a cell.
+        EXPECT_LT(direct.answer().report.divergence, 1e-12);
+        EXPECT_LT(direct.answer().report.momentum_defect, 1e-9);
+    }
+    EXPECT_LT(largest_difference(direct, reference, speed_x), 1e-8);
+    EXPECT_LT(largest_difference(direct, reference, speed_y), 1e-8);
+    // p dt is a velocity times a length: an error of 1e-8 in u over the box is 1e-8 5/dt in p.
+    EXPECT_LT(largest_difference(direct, reference, pressure), 1e-8 * 5.0 / setup.step);
+    for (std::size_t g = 0; g < direct.grains().size(); ++g) {
+        const Vec3& one = direct.grains()[g].velocity;
+        const Vec3& other = reference.grains()[g].velocity;
+        for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(one[axis], other[axis], 1e-8);
+        fastest = std::max(fastest, std::abs(one[1]));
+    }
+    EXPECT_GT(fastest, 0.1);  // something did move
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, DirectSolvers, testing::ValuesIn(all_sides),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// What a case with these words replaced is refused with.
+std::string refusal(const CoupledSetup& setup, const char* file, const std::string& from,
+                    const std::string& to) {
+    const TemporaryFolder folder;
+    write_fluid_case(settings_of(setup), folder.path());
+    build_fluid_mesh(folder.path(), folder.path() / "blockMesh.log");
+    std::ifstream in(folder.path() / file);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from << " not in\n" << text;
+    std::ofstream(folder.path() / file) << text.replace(at, from.size(), to);
+    FoamAdapter fluid(folder.path());
+    try {
+        fluid.initialise(settings_of(setup), {ShapeRecord{"disc", {}}});
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::bad_input);
+        return failure.what();
+    }
+    return "accepted";
+}
+
+TEST(DirectSolversRefusal, ConditionsThatSwitchPerFaceAreNamed) {
+    CoupledSetup setup = box_with(all_sides[1]);
+    const std::string said = refusal(setup, "0/U", "type zeroGradient;",
+                                     "type inletOutlet; inletValue uniform (0 0 0);");
+    for (const char* expected : {"fluid.viscous_solver", "inletOutlet", "right", "PCG"})
+        EXPECT_NE(said.find(expected), std::string::npos) << said;
+    setup.viscous_solver = "PCG";
+    EXPECT_EQ(refusal(setup, "0/U", "type zeroGradient;",
+                      "type inletOutlet; inletValue uniform (0 0 0);"),
+              "accepted");
+}
+
+TEST(DirectSolversRefusal, AFixedValueOtherThanZeroIsNamed) {
+    const std::string said =
+        refusal(box_with(all_sides[1]), "0/p", "value uniform 0;", "value uniform 1.5;");
+    for (const char* expected : {"fluid.pressure_solver", "right", "not zero", "GAMG"})
+        EXPECT_NE(said.find(expected), std::string::npos) << said;
+}
+
+TEST(DirectSolversRefusal, AnUnknownNameIsAnsweredWithTheList) {
+    CoupledSetup setup = box_with(all_sides[0]);
+    setup.viscous_solver = "magic";
+    const std::string said = refusal(setup, "0/U", "noSlip", "noSlip");
+    for (const char* expected : {"fluid.viscous_solver", "magic", "FFT", "PCG"})
+        EXPECT_NE(said.find(expected), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace turbidite

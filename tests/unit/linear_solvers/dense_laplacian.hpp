@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Minus the Laplacian of a small grid as a dense matrix, assembled face by face as a finite-volume
+// code does it: what passes through a face is the difference of the two values beside it over their
+// distance; a face of the boundary has one value beside it, at half the distance.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "fluid_adapter/linear_solvers/separable_solve.hpp"
+
+namespace turbidite {
+
+using Ends = std::array<End, 2>;
+
+inline const std::vector<Ends>& all_ends() {
+    static const std::vector<Ends> list = {{End::neumann, End::neumann},
+                                           {End::dirichlet, End::dirichlet},
+                                           {End::neumann, End::dirichlet},
+                                           {End::dirichlet, End::neumann},
+                                           {End::periodic, End::periodic}};
+    return list;
+}
+
+inline AxisOperator axis_of(int cells, double spacing, const Ends& ends) {
+    return {cells, spacing, ends[0], ends[1]};
+}
+
+inline Eigen::MatrixXd dense_axis(const AxisOperator& axis) {
+    const int n = axis.cells;
+    const double h = axis.spacing;
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+    const auto face_between = [&](int a, int b) {
+        for (const auto& [row, other] : {std::array{a, b}, std::array{b, a}}) {
+            L(row, row) += 1.0 / h / h;  // difference / h, per length h of the cell
+            L(row, other) -= 1.0 / h / h;
+        }
+    };
+    for (int j = 0; j + 1 < n; ++j) face_between(j, j + 1);
+    if (axis.lower == End::periodic) face_between(n - 1, 0);
+    if (axis.lower == End::dirichlet) L(0, 0) += 1.0 / (h / 2.0) / h;
+    if (axis.upper == End::dirichlet) L(n - 1, n - 1) += 1.0 / (h / 2.0) / h;
+    return L;
+}
+
+/// Values numbered i + nx j.
+inline Eigen::MatrixXd dense_plane(const PlaneOperator& plane) {
+    const int nx = plane.x.cells, ny = plane.y.cells;
+    const Eigen::MatrixXd Lx = dense_axis(plane.x), Ly = dense_axis(plane.y);
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(nx * ny, nx * ny);
+    for (int j = 0; j < ny; ++j) L.block(nx * j, nx * j, nx, nx) += Lx;
+    for (int j = 0; j < ny; ++j)
+        for (int m = 0; m < ny; ++m)
+            for (int i = 0; i < nx; ++i) L(i + nx * j, i + nx * m) += Ly(j, m);
+    return L;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Every pair of pairs of ends against a dense solve of the same problem, on grids with even and odd
+// counts and cells that are not square.
+#include "fluid_adapter/linear_solvers/separable_solve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/unit/linear_solvers/dense_laplacian.hpp"
+
+namespace turbidite {
+namespace {
+
+std::vector<PlaneOperator> all_planes() {
+    std::vector<PlaneOperator> planes;
+    for (const Ends& x : all_ends())
+        for (const Ends& y : all_ends())
+            for (const auto& [nx, ny] : {std::array{6, 8}, {7, 5}, {3, 3}, {12, 9}})
+                planes.push_back({axis_of(nx, 0.25, x), axis_of(ny, 0.4, y)});
+    return planes;
+}
+
+/// Without order, scale or symmetry.
+Eigen::VectorXd some_values(const PlaneOperator& plane) {
+    Eigen::VectorXd f(plane.x.cells * plane.y.cells);
+    for (int i = 0; i < f.size(); ++i) f[i] = std::sin(3.7 * i * i + 1.0) + 0.3;
+    return f;
+}
+
+Eigen::VectorXd solved(SeparableSolve& solve, const Eigen::VectorXd& f) {
+    Eigen::Map<Eigen::VectorXd> values(solve.values(), f.size());
+    values = f;
+    solve.solve();
+    return values;
+}
+
+bool singular(const PlaneOperator& plane) {
+    return plane.x.has_zero_mode() && plane.y.has_zero_mode();
+}
+
+TEST(SeparableSolve, EqualsADenseSolveForEveryPairOfEnds) {
+    for (const PlaneOperator& plane : all_planes()) {
+        SeparableSolve solve(plane);
+        const Eigen::MatrixXd L = dense_plane(plane);
+        const Eigen::VectorXd f = some_values(plane);
+        for (const Helmholtz& problem : {Helmholtz{1.0, 0.02}, {3.0, 50.0}, {0.0, 0.7}}) {
+            if (problem.alpha == 0.0 && singular(plane)) continue;
+            solve.factorise(problem);
+            const Eigen::MatrixXd A =
+                problem.alpha * Eigen::MatrixXd::Identity(f.size(), f.size()) + problem.beta * L;
+            const Eigen::VectorXd expected = A.ldlt().solve(f);
+            EXPECT_LT((solved(solve, f) - expected).norm(), 1e-12 * expected.norm());
+        }
+    }
+}
+
+/// f = g + 5 with g of zero mean: 5 comes back as what was taken off, and x is the solution for g
+/// that has zero mean, which is the one of least norm.
+TEST(SeparableSolve, FreeConstantsTakeTheMeanOffAndGiveZeroMean) {
+    int seen = 0;
+    for (const PlaneOperator& plane : all_planes()) {
+        if (!singular(plane)) continue;
+        ++seen;
+        SeparableSolve solve(plane);
+        solve.factorise({0.0, 0.7});
+        Eigen::VectorXd g = some_values(plane);
+        g.array() -= g.mean();
+        Eigen::Map<Eigen::VectorXd> x(solve.values(), g.size());
+        x = g.array() + 5.0;
+        EXPECT_NEAR(solve.solve(), 5.0, 1e-13);
+        const Eigen::VectorXd expected =
+            (0.7 * dense_plane(plane)).completeOrthogonalDecomposition().solve(g);
+        EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
+        EXPECT_NEAR(x.mean(), 0.0, 1e-14);
+    }
+    EXPECT_EQ(seen, 4 * 4);  // neumann or periodic along x and along y, four grids each
+}
+
+/// In a large grid the residual stays at rounding: eps |A| |x|, with a margin of 100.
+TEST(SeparableSolve, LeavesARoundingResidualOnALargeGrid) {
+    for (const Ends& x_ends : all_ends())
+        for (const Ends& y_ends : all_ends()) {
+            const PlaneOperator plane{axis_of(100, 0.25, x_ends), axis_of(200, 0.25, y_ends)};
+            SeparableSolve solve(plane);
+            solve.factorise({0.0, 1.0});
+            Eigen::VectorXd f = some_values(plane);
+            if (singular(plane)) f.array() -= f.mean();
+            const Eigen::VectorXd solution = solved(solve, f);
+            const auto x = Eigen::Map<const Eigen::MatrixXd>(solution.data(), 100, 200);
+            const Eigen::MatrixXd image =
+                dense_axis(plane.x) * x + x * dense_axis(plane.y).transpose();
+            const double residual = (Eigen::Map<const Eigen::VectorXd>(image.data(), f.size()) - f)
+                                        .lpNorm<Eigen::Infinity>();
+            const double scale = 8.0 / 0.0625 * solution.lpNorm<Eigen::Infinity>();
+            EXPECT_LT(residual, 100.0 * std::numeric_limits<double>::epsilon() * scale);
+        }
+}
+
+/// A second problem on the same plans, and the first again, bit for bit.
+TEST(SeparableSolve, CanBeFactorisedAgain) {
+    const PlaneOperator plane{axis_of(7, 0.25, {End::neumann, End::neumann}),
+                              axis_of(6, 0.4, {End::periodic, End::periodic})};
+    SeparableSolve solve(plane);
+    const Eigen::VectorXd f = some_values(plane);
+    solve.factorise({0.0, 1.0});
+    const Eigen::VectorXd first = solved(solve, f);
+    solve.factorise({1.0, 1.0});
+    EXPECT_GT((solved(solve, f) - first).norm(), 1e-3 * first.norm());
+    solve.factorise({0.0, 1.0});
+    EXPECT_EQ(solved(solve, f), first);
+}
+
+TEST(SeparableSolve, RefusesWhatIsNotPositive) {
+    SeparableSolve solve({axis_of(7, 0.25, {End::neumann, End::neumann}),
+                          axis_of(6, 0.4, {End::neumann, End::neumann})});
+    EXPECT_THROW(solve.factorise({-1.0, 1.0}), std::invalid_argument);
+    EXPECT_THROW(solve.factorise({1.0, 0.0}), std::invalid_argument);
+    EXPECT_THROW(solve.factorise({1.0, std::nan("")}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace turbidite
