@@ -46,10 +46,9 @@ struct PreparedRun {
 int run_to_the_end(const PreparedRun& prepared, const Programs& programs) {
     const RunFolder& folder = prepared.folder;
     ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
-    const JobEnd end =
-        run_job({.arguments = prepared.line, .error_log = folder.log("mpirun"), .request_stop = [&](int s) {
-                     request_stop(folder, s);
-                 }});
+    const JobEnd end = run_job({.arguments = prepared.line,
+                                .error_log = folder.log("mpirun"),
+                                .request_stop = [&](int s) { request_stop(folder, s); }});
     const JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
     const bool reported = write_report(folder, programs);
     std::fflush(stdout);

@@ -31,10 +31,11 @@ bool is_plain(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
-// Two runs started within one second, even at the same time, get numbers: whoever creates the folder
-// has it.
+// Two runs started within one second, even at the same time, get numbers: whoever creates the
+// folder has it.
 fs::path fresh_folder(std::string case_name) {
-    std::replace_if(case_name.begin(), case_name.end(), [](char c) { return !is_plain(c); }, '_');
+    std::replace_if(
+        case_name.begin(), case_name.end(), [](char c) { return !is_plain(c); }, '_');
     const fs::path wanted = fs::path("runs") / (case_name + "-" + local_time("%Y%m%d-%H%M%S"));
     fs::create_directories("runs");
     fs::path folder = wanted;

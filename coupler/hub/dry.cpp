@@ -7,7 +7,7 @@ namespace turbidite {
 namespace {
 
 class Dry final : public Scheme {
-   public:
+ public:
     WindowResult play(const Window& window, const Motion&, Cast& cast) override {
         cast.grains.send_all(Kind::window, window);
         cast.grains.send_all(Kind::kick, Kicks{});
@@ -22,6 +22,8 @@ class Dry final : public Scheme {
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_dry() { return std::make_unique<Dry>(); }
+std::unique_ptr<Scheme> make_dry() {
+    return std::make_unique<Dry>();
+}
 
 }  // namespace turbidite

@@ -14,10 +14,13 @@
 namespace turbidite {
 namespace {
 
-std::string triple(const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]); }
+std::string triple(const Vec3& v) {
+    return fmt::format("{:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]);
+}
 
 template <class Value>
-void data_array(std::ostream& out, const char* head, const std::vector<GrainState>& grains, Value value) {
+void data_array(std::ostream& out, const char* head, const std::vector<GrainState>& grains,
+                Value value) {
     fmt::print(out, "<DataArray {} format=\"ascii\">\n", head);
     for (const GrainState& grain : grains) out << value(grain);
     out << "</DataArray>\n";
@@ -38,14 +41,17 @@ void write_whole(const std::filesystem::path& file, Content content) {
     std::filesystem::rename(part, file);
 }
 
-Vec3 divided(const Vec3& v, double by) { return {v[0] / by, v[1] / by, v[2] / by}; }
+Vec3 divided(const Vec3& v, double by) {
+    return {v[0] / by, v[1] / by, v[2] / by};
+}
 
 }  // namespace
 
 GrainSeries::GrainSeries(std::filesystem::path folder) : folder_(std::move(folder)) {
     std::filesystem::create_directories(folder_);
     collection_.open(folder_ / "grains.pvd", std::ios::out | std::ios::trunc);
-    collection_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    collection_
+        << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
 }
 
 void GrainSeries::write(double time, std::int64_t step, double window, const Motion& state,
@@ -81,8 +87,8 @@ void GrainSeries::write(double time, std::int64_t step, double window, const Mot
                    [](const GrainState& g) { return fmt::format("{:.9g}\n", g.density); });
         data_array(out, "type=\"Float64\" Name=\"velocity\" NumberOfComponents=\"3\"", grains,
                    [](const GrainState& g) { return triple(g.velocity); });
-        data_array(out, "type=\"Float64\" Name=\"angular_velocity\" NumberOfComponents=\"3\"", grains,
-                   [](const GrainState& g) { return triple(g.angular_velocity); });
+        data_array(out, "type=\"Float64\" Name=\"angular_velocity\" NumberOfComponents=\"3\"",
+                   grains, [](const GrainState& g) { return triple(g.angular_velocity); });
         data_array(out, "type=\"Float64\" Name=\"force\" NumberOfComponents=\"3\"", grains, force);
         data_array(out, "type=\"Float64\" Name=\"contact_force\" NumberOfComponents=\"3\"", grains,
                    [&](const GrainState& g) { return triple(divided(g.contact_impulse, window)); });
@@ -94,8 +100,8 @@ void GrainSeries::write(double time, std::int64_t step, double window, const Mot
 // The end tags are overwritten by the next entry and its end tags, in one write.
 void GrainSeries::add_to_collection(double time, const std::string& name) {
     constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
-    collection_ << fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n{}", time, name,
-                               end_tags)
+    collection_ << fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n{}", time,
+                               name, end_tags)
                 << std::flush;
     if (!collection_)
         throw Failure(ExitCode::participant_failed,

@@ -11,7 +11,8 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
     expected.role = role;
     expected.adapter = grains ? settings.text("grains.adapter") : "";
     expected.dimension = static_cast<std::int32_t>(settings.integer("dimension"));
-    expected.ranks = static_cast<std::int32_t>(settings.integer(grains ? "grains.ranks" : "fluid.ranks"));
+    expected.ranks =
+        static_cast<std::int32_t>(settings.integer(grains ? "grains.ranks" : "fluid.ranks"));
     expected.case_hash = settings.text("run.hash");
     expected.scheme = settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
     for (const ShapeRecord& shape : shapes) expected.shapes.push_back(shape.kind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Before anything else: every rank says who it is; all mismatches with the case are reported together.
+// Before anything else: every rank says who it is; all mismatches with the case are reported
+// together.
 #pragma once
 
 #include <vector>
@@ -13,7 +14,8 @@ namespace turbidite {
 /// What the case expects of the participant in this role.
 Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes);
 
-/// Collects the hellos of all ranks of all links. Throws Failure (handshake refused) with every mismatch.
+/// Collects the hellos of all ranks of all links. Throws Failure (handshake refused) with every
+/// mismatch.
 void shake_hands(const std::vector<ParticipantLink*>& links, const Settings& settings,
                  const ShapeTable& shapes, Watch& watch);
 

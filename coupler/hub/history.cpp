@@ -20,7 +20,9 @@ struct Cell {
 
 using Text = std::string (*)(const Cell&);
 
-std::string number(double value) { return fmt::format("{:.10g}", value); }
+std::string number(double value) {
+    return fmt::format("{:.10g}", value);
+}
 
 // Empty unless there are grains, was a window with contacts, with a fluid, with a clock.
 std::string mean(const Cell& c, double value) {
@@ -71,20 +73,22 @@ const std::vector<Column> columns = {
          return contact(c, [](const Cell& r) { return double(r.row.contact->iterations); });
      }},
     {"contact_residual",
-     [](const Cell& c) { return contact(c, [](const Cell& r) { return r.row.contact->residual; }); }},
+     [](const Cell& c) {
+         return contact(c, [](const Cell& r) { return r.row.contact->residual; });
+     }},
     {"multiplier_iterations",
      [](const Cell& c) {
          return fluid(c, [](const Cell& r) { return double(r.row.fluid->multiplier_iterations); });
      }},
     {"multiplier_residual",
      [](const Cell& c) {
-         return fluid(c, [](const Cell& r) { return r.row.fluid->multiplier_residual / r.velocity; });
+         return fluid(c,
+                      [](const Cell& r) { return r.row.fluid->multiplier_residual / r.velocity; });
      }},
     {"divergence",
      [](const Cell& c) {
-         return fluid(c, [](const Cell& r) {
-             return r.row.fluid->divergence * r.diameter / r.velocity;
-         });
+         return fluid(
+             c, [](const Cell& r) { return r.row.fluid->divergence * r.diameter / r.velocity; });
      }},
     {"pore_volume", [](const Cell&) { return std::string(); }},
     {"wall_step", [](const Cell& c) { return wall(c, &WallTimes::step); }},
@@ -97,13 +101,16 @@ const std::vector<Column> columns = {
          return c.row.grain_balance ? number(*c.row.grain_balance) : std::string();
      }},
     {"fluid_balance",
-     [](const Cell& c) { return fluid(c, [](const Cell& r) { return r.row.fluid->momentum_defect; }); }},
+     [](const Cell& c) {
+         return fluid(c, [](const Cell& r) { return r.row.fluid->momentum_defect; });
+     }},
 };
 
 template <class Part>
 std::string line(Part part) {
     std::string text;
-    for (const Column& column : columns) text += (&column == columns.data() ? "" : ",") + part(column);
+    for (const Column& column : columns)
+        text += (&column == columns.data() ? "" : ",") + part(column);
     return text;
 }
 
@@ -124,7 +131,8 @@ Averages averages(const Motion& state, const KickRule& rule) {
             mean.velocity[i] += grain.velocity[i] / n;
             mean.position[i] += grain.position[i] / n;
             speed2 += grain.velocity[i] * grain.velocity[i];
-            spin_energy += body.inertia(i, i) * grain.angular_velocity[i] * grain.angular_velocity[i];
+            spin_energy +=
+                body.inertia(i, i) * grain.angular_velocity[i] * grain.angular_velocity[i];
         }
         mean.speed += std::sqrt(speed2) / n;
         mean.front = std::max(mean.front, grain.position[0] + grain.radius);
@@ -155,7 +163,7 @@ void History::append(const Row& row) {
     std::error_code ignored;  // half a row would spoil the file for its readers
     std::filesystem::resize_file(file_, static_cast<std::uintmax_t>(whole), ignored);
     throw Failure(ExitCode::participant_failed,
-                      "cannot write " + file_.string() + ": is the disk full?");
+                  "cannot write " + file_.string() + ": is the disk full?");
 }
 
 }  // namespace turbidite

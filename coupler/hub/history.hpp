@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// history.csv: one row per output interval, dimensionless with D, u_c, t_c. The columns are one table; their names and
-// order are a contract with outside tools. Quantities that do not apply are empty.
+// history.csv: one row per output interval, dimensionless with D, u_c, t_c. The columns are one
+// table; their names and order are a contract with outside tools. Quantities that do not apply are
+// empty.
 #pragma once
 
 #include <filesystem>
@@ -44,14 +45,14 @@ struct Averages {
 Averages averages(const Motion& state, const KickRule& rule);
 
 class History {
-   public:
+ public:
     /// Creates the file with its header. Throws Failure when it cannot be written.
     History(const std::filesystem::path& file, const Settings& settings, const KickRule& rule);
 
     /// Throws Failure when the disk is full.
     void append(const Row& row);
 
-   private:
+ private:
     std::filesystem::path file_;
     std::ofstream out_;
     const KickRule& rule_;

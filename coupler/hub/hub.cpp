@@ -14,8 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long dismissed participants may take to write their last words [s]; one that is silent already gets
-// no second chance.
+// How long dismissed participants may take to write their last words [s]; one that is silent
+// already gets no second chance.
 constexpr double farewell_limit = 30.0;
 constexpr double farewell_limit_after_stall = 2.0;
 
@@ -43,7 +43,8 @@ Vec3 periods(const Settings& settings) {
 }
 
 double routing_margin(const Settings& settings) {
-    return stencil_cells * settings.real("run.diameter") / settings.real("fluid.cells_per_diameter");
+    return stencil_cells * settings.real("run.diameter") /
+           settings.real("fluid.cells_per_diameter");
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid)
       files_(std::move(files)),
       progress_(files_.log, on_terminal(), case_.settings.integer("run.windows")),
       grains_(Role::grains, grains),
-      fluid_(fluid ? std::optional<ParticipantLink>(std::in_place, Role::fluid, *fluid) : std::nullopt),
+      fluid_(fluid ? std::optional<ParticipantLink>(std::in_place, Role::fluid, *fluid)
+                   : std::nullopt),
       links_(fluid_ ? std::vector<ParticipantLink*>{&*fluid_, &grains_}
                     : std::vector<ParticipantLink*>{&grains_}),
       watch_(links_, case_.settings.real("limits.stall_soft"),
@@ -85,8 +87,8 @@ RunStatus Hub::run() {
     return status_;
 }
 
-// The record comes first: should a participant not leave, the verdict is known all the same. One that
-// cannot be written must not keep the participants from leaving.
+// The record comes first: should a participant not leave, the verdict is known all the same. One
+// that cannot be written must not keep the participants from leaving.
 void Hub::end_and_record() {
     try {
         write_run_record(files_.record, status_, links_);
@@ -97,7 +99,8 @@ void Hub::end_and_record() {
     try {
         end({static_cast<int>(status_.code), status_.reason});
     } catch (const Failure& failure) {
-        if (status_.code == ExitCode::done) {  // all windows are played, but the last words are lost
+        if (status_.code ==
+            ExitCode::done) {  // all windows are played, but the last words are lost
             status_.code = failure.code();
             status_.reason = failure.what();
             write_run_record(files_.record, status_, links_);
@@ -165,8 +168,8 @@ void Hub::account(const Window& window, WindowResult result) {
     maxima.penetration = std::max(maxima.penetration, result.state.report.max_penetration / length);
     maxima.grain_balance = std::max(maxima.grain_balance, balance);
     maxima.fluid_balance = std::max(maxima.fluid_balance, fluid.momentum_defect);
-    maxima.divergence = std::max(maxima.divergence, fluid.divergence * length /
-                                                        case_.settings.real("run.velocity_scale"));
+    maxima.divergence = std::max(
+        maxima.divergence, fluid.divergence * length / case_.settings.real("run.velocity_scale"));
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
 
     state_ = std::move(result.state);
@@ -178,7 +181,8 @@ void Hub::account(const Window& window, WindowResult result) {
     row.contact = &result.motion.report;
     row.fluid = fluid_ ? &fluid : nullptr;
     if (fluid_) row.grain_balance = balance;
-    if (window.write_output) series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);
+    if (window.write_output)
+        series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);
 
     ++windows_since_row_;
     const double step = since(window_start_);
@@ -227,8 +231,9 @@ void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {
         waiting = false;
         for (ParticipantLink* link : links_) waiting = !(link->*condition)() || waiting;
         if (waiting && patience.seconds() > limit)
-            throw Failure(status_.code == ExitCode::done ? ExitCode::stalled : status_.code,
-                          "a participant does not say farewell; ending the job\n" + wait_for_table());
+            throw Failure(
+                status_.code == ExitCode::done ? ExitCode::stalled : status_.code,
+                "a participant does not say farewell; ending the job\n" + wait_for_table());
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The coupler's run: handshake, windows, end. Knows no host code and no MPI; tests give it loopback channels.
+// The coupler's run: handshake, windows, end. Knows no host code and no MPI; tests give it loopback
+// channels.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +28,7 @@ struct HubFiles {
 };
 
 class Hub {
-   public:
+ public:
     /// `fluid` is null in dry runs. Channels outlive the hub.
     Hub(HubCase settings, HubFiles files, Channel& grains, Channel* fluid);
     ~Hub();
@@ -38,7 +39,7 @@ class Hub {
     /// Who works and who waits, one line per rank.
     std::string wait_for_table() const { return watch_.wait_for_table(); }
 
-   private:
+ private:
     void start();
     void play(std::int64_t index);
     void account(const Window& window, WindowResult result);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `joint`: the fluid answers for free grains with velocities and effective inertia, one contact solve
-// uses them, the fluid imposes the result.
+// `joint`: the fluid answers for free grains with velocities and effective inertia, one contact
+// solve uses them, the fluid imposes the result.
 #include "coupler/hub/step_five.hpp"
 
 namespace turbidite {
 namespace {
 
 class Joint final : public Scheme {
-   public:
+ public:
     WindowResult play(const Window& window, const Motion& before, Cast& cast) override {
         cast.fluid->send_all(Kind::window, window);
         cast.grains.send_all(Kind::window, window);
@@ -25,6 +25,8 @@ class Joint final : public Scheme {
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_joint() { return std::make_unique<Joint>(); }
+std::unique_ptr<Scheme> make_joint() {
+    return std::make_unique<Joint>();
+}
 
 }  // namespace turbidite

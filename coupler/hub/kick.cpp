@@ -10,16 +10,20 @@
 namespace turbidite {
 namespace {
 
-Eigen::Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
-Vec3 array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Eigen::Vector3d vector(const Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
+Vec3 array(const Eigen::Vector3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
 
 // Inertia tensors are given in the body frame.
 Eigen::Matrix3d in_space(const Eigen::Matrix3d& inertia, const Quaternion& q) {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
     Eigen::Matrix3d rotation;
     rotation << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-        2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
+        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 2 * (x * z - w * y),
+        2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
     return rotation * inertia * rotation.transpose();
 }
 
@@ -71,11 +75,12 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);
-        kick.force = array((vector(kick.multiplier_impulse) +
-                            immersed.displaced_mass * velocity_change) / step);
-        kick.torque = array((vector(kick.multiplier_angular_impulse) +
-                             in_space(immersed.displaced_inertia, grain.orientation) * spin_change) /
-                            step);
+        kick.force = array(
+            (vector(kick.multiplier_impulse) + immersed.displaced_mass * velocity_change) / step);
+        kick.torque =
+            array((vector(kick.multiplier_angular_impulse) +
+                   in_space(immersed.displaced_inertia, grain.orientation) * spin_change) /
+                  step);
     }
 }
 

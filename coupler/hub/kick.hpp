@@ -20,21 +20,21 @@
 namespace turbidite {
 
 class KickRule {
-   public:
+ public:
     KickRule(const Settings& settings, const ShapeTable& shapes);
 
     /// Fills force and torque. `before` is the state at t^n.
     void complete(std::vector<Kick>& kicks, const Motion& before, double step) const;
 
-    /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and the angular twin over R) over all grains, relative to the
-    /// largest term that occurs. Empty windows give zero.
+    /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and the angular twin over R) over all grains,
+    /// relative to the largest term that occurs. Empty windows give zero.
     double defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
                   double step) const;
 
     /// M, I and their wet parts.
     ImmersedBody body(const GrainState& grain) const;
 
-   private:
+ private:
     double fluid_density_;
     double hydrodynamic_radius_;
     double gravity_;

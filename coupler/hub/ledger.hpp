@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The coupler's books on the grains: how many there must be, that every number is finite, that nothing overlaps beyond
-// tolerance, that the fluid stays divergence-free. Each violation ends the run with exit code 6.
+// The coupler's books on the grains: how many there must be, that every number is finite, that
+// nothing overlaps beyond tolerance, that the fluid stays divergence-free. Each violation ends the
+// run with exit code 6.
 #pragma once
 
 #include "coupler/hub/scheme.hpp"
@@ -10,14 +11,14 @@
 namespace turbidite {
 
 class Ledger {
-   public:
+ public:
     Ledger(const Settings& settings, std::size_t population);
 
     /// Throws PhysicsRefused.
     void check_start(const Motion& state) const;
     void check(const Window& window, const WindowResult& result);
 
-   private:
+ private:
     void check_count(const Motion& state) const;
     void check_overlap(const Motion& state) const;
     void check_divergence(const FluidReport& report);
@@ -25,8 +26,8 @@ class Ledger {
     std::size_t population_;
     std::size_t removed_ = 0;
     double diameter_;
-    double rate_;                 ///< u_c / D [1/s]
-    double penetration_limit_;    ///< [D]
+    double rate_;               ///< u_c / D [1/s]
+    double penetration_limit_;  ///< [D]
     int divergent_windows_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-coupler RUN: the coupler of a job, world rank 0. RUN is a folder prepared by `turbidite run`.
+// turbidite-coupler RUN: the coupler of a job, world rank 0. RUN is a folder prepared by `turbidite
+// run`.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -30,8 +31,9 @@ Meeting meet_participants(MPI_Comm local, bool with_fluid) {
         const JoinedParticipant joined = accept_participant(local, start_limit);
         auto& place = joined.role == Role::fluid ? meeting.fluid : meeting.grains;
         if (place || (joined.role == Role::fluid && !with_fluid))
-            throw Failure(ExitCode::handshake_refused,
-                          fmt::format("one {} participant too many in the job", role_name(joined.role)));
+            throw Failure(
+                ExitCode::handshake_refused,
+                fmt::format("one {} participant too many in the job", role_name(joined.role)));
         place = std::make_unique<IntercommChannel>(joined.intercomm);
     }
     return meeting;

@@ -16,7 +16,8 @@ constexpr bool from_coupler = true;
 
 ParticipantLink::ParticipantLink(Role role, Channel& channel) : role_(role), channel_(channel) {
     for (int rank = 0; rank < channel.peers(); ++rank)
-        ranks_.push_back({CallOrder(role, fmt::format("{} rank {}", role_name(role), rank)), {}, {}});
+        ranks_.push_back(
+            {CallOrder(role, fmt::format("{} rank {}", role_name(role), rank)), {}, {}});
 }
 
 std::string ParticipantLink::rank_name(int rank) const {

@@ -13,7 +13,7 @@
 namespace turbidite {
 
 class ParticipantLink {
-   public:
+ public:
     using Clock = std::chrono::steady_clock;
 
     ParticipantLink(Role role, Channel& channel);
@@ -37,8 +37,8 @@ class ParticipantLink {
         for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, encode(records[rank]));
     }
 
-    /// Takes in what has arrived, checked against the call order. Throws Failure when a rank reports
-    /// one. Returns whether anything arrived.
+    /// Takes in what has arrived, checked against the call order. Throws Failure when a rank
+    /// reports one. Returns whether anything arrived.
     bool pump();
 
     /// True when every rank has delivered a message of this kind.
@@ -63,7 +63,7 @@ class ParticipantLink {
     void release();
     bool flushed() { return channel_.flushed(); }
 
-   private:
+ private:
     struct Rank {
         CallOrder order;
         Hello hello;

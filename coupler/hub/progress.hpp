@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the user sees while a run goes on: one line, rewritten in place on a terminal, printed at every output interval
-// otherwise. Everything also goes to logs/coupler.log.
+// What the user sees while a run goes on: one line, rewritten in place on a terminal, printed at
+// every output interval otherwise. Everything also goes to logs/coupler.log.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 namespace turbidite {
 
 class Progress {
-   public:
+ public:
     /// `terminal`: standard output ends at a person (TURBIDITE_PROGRESS=terminal).
     Progress(const std::filesystem::path& log, bool terminal, std::int64_t windows);
 
@@ -24,7 +24,7 @@ class Progress {
     /// The state of the run after a window. `due`: an output interval ended here.
     void show(const Row& row, const Settings& settings, bool due);
 
-   private:
+ private:
     using Clock = std::chrono::steady_clock;
     void clear_line();
 

@@ -9,13 +9,19 @@ namespace {
 
 const char* status_word(ExitCode code) {
     switch (code) {
-        case ExitCode::done: return "done";
-        case ExitCode::handshake_refused: return "handshake refused";
-        case ExitCode::stalled: return "stalled";
-        case ExitCode::physics_refused: return "physics refused";
+        case ExitCode::done:
+            return "done";
+        case ExitCode::handshake_refused:
+            return "handshake refused";
+        case ExitCode::stalled:
+            return "stalled";
+        case ExitCode::physics_refused:
+            return "physics refused";
         case ExitCode::interrupted:
-        case ExitCode::terminated: return "interrupted";
-        default: return "failed";
+        case ExitCode::terminated:
+            return "interrupted";
+        default:
+            return "failed";
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The coupler's part of run.json: who took part, how far the run got, how it ended. What `turbidite run` wrote before is kept.
+// The coupler's part of run.json: who took part, how far the run got, how it ended. What `turbidite
+// run` wrote before is kept.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +13,10 @@
 namespace turbidite {
 
 struct RunMaxima {
-    double penetration = 0.0;    ///< [D]
-    double grain_balance = 0.0;  ///< KickRule::defect
-    double fluid_balance = 0.0;  ///< FluidReport::momentum_defect
-    double divergence = 0.0;     ///< after step 1 [u_c/D]
+    double penetration = 0.0;              ///< [D]
+    double grain_balance = 0.0;            ///< KickRule::defect
+    double fluid_balance = 0.0;            ///< FluidReport::momentum_defect
+    double divergence = 0.0;               ///< after step 1 [u_c/D]
     std::int64_t unconverged_windows = 0;  ///< contact solves that did not reach their tolerance
 };
 
@@ -27,8 +28,8 @@ struct RunStatus {
     RunMaxima maxima;
 };
 
-/// Replaces run.json in one step. `links` may be empty when the start failed. Throws Failure when the
-/// disk is full.
+/// Replaces run.json in one step. `links` may be empty when the start failed. Throws Failure when
+/// the disk is full.
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
                       const std::vector<ParticipantLink*>& links);
 

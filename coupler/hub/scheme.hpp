@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The order in which one window is played, by the names of `coupling.scheme`. A scheme only moves messages; what the
-// numbers mean is the participants' business.
+// The order in which one window is played, by the names of `coupling.scheme`. A scheme only moves
+// messages; what the numbers mean is the participants' business.
 #pragma once
 
 #include <memory>
@@ -25,13 +25,13 @@ struct Cast {
 
 /// What a window leaves behind.
 struct WindowResult {
-    Motion motion;       ///< after step 4
-    Kicks kicks;         ///< after step 5; empty in dry runs
-    Motion state;        ///< at t^{n+1}
+    Motion motion;  ///< after step 4
+    Kicks kicks;    ///< after step 5; empty in dry runs
+    Motion state;   ///< at t^{n+1}
 };
 
 class Scheme {
-   public:
+ public:
     virtual ~Scheme() = default;
     /// `before` is the state at t^n.
     virtual WindowResult play(const Window& window, const Motion& before, Cast& cast) = 0;

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `split`: the paper's Marchuk-Yanenko splitting (Topin 2011, §2.1.2). Steps 1-3 and step 4 run at the same
-// time in their own programs; step 5 corrects both.
+// `split`: the paper's Marchuk-Yanenko splitting (Topin 2011, §2.1.2). Steps 1-3 and step 4 run at
+// the same time in their own programs; step 5 corrects both.
 #include "coupler/hub/step_five.hpp"
 
 namespace turbidite {
 namespace {
 
 class Split final : public Scheme {
-   public:
+ public:
     WindowResult play(const Window& window, const Motion& before, Cast& cast) override {
-        cast.fluid->send_all(Kind::window, window);   // steps 1-3 begin
-        cast.grains.send_all(Kind::window, window);   // step 4 begins
+        cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
+        cast.grains.send_all(Kind::window, window);  // step 4 begins
         return play_step_five(window, before, cast);
     }
 };
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_split() { return std::make_unique<Split>(); }
+std::unique_ptr<Scheme> make_split() {
+    return std::make_unique<Split>();
+}
 
 }  // namespace turbidite

@@ -3,16 +3,19 @@
 
 #include <algorithm>
 
+#include "coupler/protocol/largest.hpp"
+
 namespace turbidite {
 namespace {
 
 void add(FluidReport& total, const FluidReport& share) {
-    total.multiplier_iterations = std::max(total.multiplier_iterations, share.multiplier_iterations);
-    total.multiplier_residual = std::max(total.multiplier_residual, share.multiplier_residual);
-    total.divergence = std::max(total.divergence, share.divergence);
-    total.final_divergence = std::max(total.final_divergence, share.final_divergence);
-    total.momentum_defect = std::max(total.momentum_defect, share.momentum_defect);
-    total.courant = std::max(total.courant, share.courant);
+    total.multiplier_iterations =
+        std::max(total.multiplier_iterations, share.multiplier_iterations);
+    total.multiplier_residual = largest(total.multiplier_residual, share.multiplier_residual);
+    total.divergence = largest(total.divergence, share.divergence);
+    total.final_divergence = largest(total.final_divergence, share.final_divergence);
+    total.momentum_defect = largest(total.momentum_defect, share.momentum_defect);
+    total.courant = largest(total.courant, share.courant);
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
 }
 

@@ -5,8 +5,8 @@
 
 namespace turbidite {
 
-/// The part that `split` and `joint` share: contact velocities from the grains to the fluid, corrected velocities
-/// back, grains move.
+/// The part that `split` and `joint` share: contact velocities from the grains to the fluid,
+/// corrected velocities back, grains move.
 WindowResult play_step_five(const Window& window, const Motion& before, Cast& cast);
 
 }  // namespace turbidite

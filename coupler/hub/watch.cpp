@@ -20,12 +20,14 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
         for (ParticipantLink* other : links_) other->pump();
         if (link.ready(kind)) break;
         if (patience.seconds() > hard_)
-            throw Failure(ExitCode::stalled,
-                          fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}", kind_name(kind),
-                                      role_name(link.role()), hard_, wait_for_table()));
+            throw Failure(
+                ExitCode::stalled,
+                fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}", kind_name(kind),
+                            role_name(link.role()), hard_, wait_for_table()));
         if (patience.seconds() > next_notice) {
-            print_(fmt::format("still waiting for \"{}\" from {} after {:.0f} s\n{}", kind_name(kind),
-                               role_name(link.role()), patience.seconds(), wait_for_table()));
+            print_(fmt::format("still waiting for \"{}\" from {} after {:.0f} s\n{}",
+                               kind_name(kind), role_name(link.role()), patience.seconds(),
+                               wait_for_table()));
             next_notice *= 2.0;
         }
     }
@@ -41,6 +43,8 @@ std::string Watch::wait_for_table() const {
     return table;
 }
 
-double Watch::take_waited() { return std::exchange(waited_, 0.0); }
+double Watch::take_waited() {
+    return std::exchange(waited_, 0.0);
+}
 
 }  // namespace turbidite

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Waiting for participants with eyes open: failures of any of them surface at once, a soft limit prints who
-// waits for whom, a hard limit ends the run.
+// Waiting for participants with eyes open: failures of any of them surface at once, a soft limit
+// prints who waits for whom, a hard limit ends the run.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,14 @@
 namespace turbidite {
 
 class Watch {
-   public:
+ public:
     using Print = std::function<void(const std::string&)>;
 
     /// Limits in seconds.
     Watch(std::vector<ParticipantLink*> links, double soft, double hard, Print print);
 
-    /// Returns when every rank of `link` has delivered `kind`. Throws Failure: a participant's own, or
-    /// `stalled` naming who is silent.
+    /// Returns when every rank of `link` has delivered `kind`. Throws Failure: a participant's own,
+    /// or `stalled` naming who is silent.
     void wait_for(ParticipantLink& link, Kind kind);
 
     /// One line per rank: who works, who waits, since when.
@@ -30,7 +30,7 @@ class Watch {
     /// Seconds spent in `wait_for` since the last call of this function.
     double take_waited();
 
-   private:
+ private:
     std::vector<ParticipantLink*> links_;
     double soft_, hard_;
     Print print_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The five functions that plug a code into the job: describe, initialise, advance, apply kick (fluid:
-// impose), save/restore. The participant library calls them in the order of the scheme; an adapter
-// never sees a message, a rank of another program, or MPI.
+// The five functions that plug a code into the job: describe, initialise, advance, apply kick
+// (fluid: impose), save/restore. The participant library calls them in the order of the scheme; an
+// adapter never sees a message, a rank of another program, or MPI.
 //
 // Errors: throw PhysicsRefused (exit code 6) when the physics cannot go on, any other exception for
 // a failure of the program (exit code 4). The text reaches the user with role, rank, host and log.
@@ -24,7 +24,7 @@ namespace turbidite {
 using SavedState = std::vector<char>;
 
 class GrainsAdapter {
-   public:
+ public:
     virtual ~GrainsAdapter() = default;
 
     /// Adapter, host code, capabilities. Role, rank and place are filled in by the library.
@@ -34,12 +34,13 @@ class GrainsAdapter {
     virtual Motion initialise(const Settings& settings, const ShapeTable& shapes,
                               const std::vector<GrainState>& grains) = 0;
 
-    /// Step 4: the contact problem without fluid, inertia cM and weight cMg (Topin 2011, Eqs. 16-19).
-    /// Returns configuration q^n and velocities U^{n+4/5}. Under `joint` the responses hold free velocities
-    /// and effective inertia and replace free motion; under `split` they are empty.
+    /// Step 4: the contact problem without fluid, inertia cM and weight cMg (Topin 2011, Eqs.
+    /// 16-19). Returns configuration q^n and velocities U^{n+4/5}. Under `joint` the responses hold
+    /// free velocities and effective inertia and replace free motion; under `split` they are empty.
     virtual Motion advance(const Window& window, const std::vector<FreeResponse>& responses) = 0;
 
-    /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. Returns the state at t^{n+1}.
+    /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. Returns the state at
+    /// t^{n+1}.
     virtual Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) = 0;
 
     virtual SavedState save() const = 0;
@@ -47,7 +48,7 @@ class GrainsAdapter {
 };
 
 class FluidAdapter {
-   public:
+ public:
     virtual ~FluidAdapter() = default;
 
     virtual Hello describe() const = 0;
@@ -62,8 +63,8 @@ class FluidAdapter {
     virtual std::vector<FreeResponse> respond(const Window& window,
                                               const std::vector<GrainState>& grains) = 0;
 
-    /// Step 5, Eqs. 9-10, for every grain that touches this rank's box. Under `joint` the velocities
-    /// given are imposed. Writes fields when the window says so.
+    /// Step 5, Eqs. 9-10, for every grain that touches this rank's box. Under `joint` the
+    /// velocities given are imposed. Writes fields when the window says so.
     virtual Kicks impose(const Window& window, const std::vector<GrainState>& grains) = 0;
 
     virtual SavedState save() const = 0;

@@ -35,8 +35,8 @@ Bytes Conversation::receive(Kind kind) {
     order_.received(message.envelope, from_coupler);
     if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload)};
     if (message.envelope.kind != kind)
-        throw OrderViolation("the adapter waits for \"" + kind_name(kind) + "\", the coupler sent \"" +
-                             kind_name(message.envelope.kind) + "\"");
+        throw OrderViolation("the adapter waits for \"" + kind_name(kind) +
+                             "\", the coupler sent \"" + kind_name(message.envelope.kind) + "\"");
     return std::move(message.payload);
 }
 

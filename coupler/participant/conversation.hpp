@@ -16,15 +16,15 @@ struct Dismissed {
     Verdict verdict;
 };
 
-/// The coupler has not spoken for longer than the limit: it is stopped or gone, and nobody is left to
-/// report to.
+/// The coupler has not spoken for longer than the limit: it is stopped or gone, and nobody is left
+/// to report to.
 class CouplerSilent : public Failure {
-   public:
+ public:
     explicit CouplerSilent(const std::string& what) : Failure(ExitCode::stalled, what) {}
 };
 
 class Conversation {
-   public:
+ public:
     Conversation(Role role, Channel& channel);
 
     void set_scheme(const std::string& scheme) { order_.set_scheme(scheme); }
@@ -41,11 +41,12 @@ class Conversation {
     /// Tells the coupler that this side cannot go on, and waits for its verdict on the run.
     Verdict fail(const Verdict& verdict);
 
-    /// The last word: everything is written. Returns when the coupler has heard it from everybody, so that
-    /// nobody is inside MPI_Finalize while somebody else still has to be waited for, or ended.
+    /// The last word: everything is written. Returns when the coupler has heard it from everybody,
+    /// so that nobody is inside MPI_Finalize while somebody else still has to be waited for, or
+    /// ended.
     void say_farewell();
 
-   private:
+ private:
     Message next(Kind kind);
 
     Channel& channel_;

@@ -18,10 +18,12 @@ namespace {
 
 std::string log_path(Role role, const std::string& run_folder, int rank, int ranks) {
     const std::string name = role_name(role);
-    return run_folder + "/logs/" + name + (ranks > 1 ? ".rank" + std::to_string(rank) : "") + ".log";
+    return run_folder + "/logs/" + name + (ranks > 1 ? ".rank" + std::to_string(rank) : "") +
+           ".log";
 }
 
-// Both streams into one file, at the level of descriptors, so that the host code's output and Python's follow.
+// Both streams into one file, at the level of descriptors, so that the host code's output and
+// Python's follow.
 void redirect_output(const std::string& file) {
     std::filesystem::create_directories(std::filesystem::path(file).parent_path());
     const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -47,7 +49,9 @@ MPI_Comm own_communicator(Role role, std::uintptr_t given) {
 
 struct Membership::State {
     State(Role role_, const Launch& launch)
-        : role(role_), mpi(launch.argc, launch.argv), local(own_communicator(role_, launch.communicator)) {
+        : role(role_),
+          mpi(launch.argc, launch.argv),
+          local(own_communicator(role_, launch.communicator)) {
         PMPI_Comm_rank(local, &rank);
         PMPI_Comm_size(local, &ranks);
         log = log_path(role, launch.run_folder, rank, ranks);
@@ -72,18 +76,23 @@ Membership::Membership(Role role, const Launch& launch)
 
 Membership::~Membership() = default;
 
-Channel& Membership::channel() { return *state_->channel; }
+Channel& Membership::channel() {
+    return *state_->channel;
+}
 
 Identity Membership::identity() const {
     return {state_->rank, state_->ranks, state_->log, state_->hash};
 }
 
-int Membership::communicator() const { return MPI_Comm_c2f(state_->local); }
+int Membership::communicator() const {
+    return MPI_Comm_c2f(state_->local);
+}
 
 int Membership::leave(const Outcome& outcome) {
     const int code = static_cast<int>(outcome.code);
     if (outcome.code != ExitCode::done)
-        std::fprintf(stderr, "turbidite: the run ended with code %d: %s\n", code, outcome.reason.c_str());
+        std::fprintf(stderr, "turbidite: the run ended with code %d: %s\n", code,
+                     outcome.reason.c_str());
     std::fflush(nullptr);
     return code;
 }

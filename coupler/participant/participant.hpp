@@ -26,19 +26,19 @@ struct Launch {
     int* argc = nullptr;
     char*** argv = nullptr;
     std::string run_folder;
-    /// A communicator that the host code split off the world already (YADE's mpy does), as the number
-    /// mpi4py calls its handle; 0: the library makes the split.
+    /// A communicator that the host code split off the world already (YADE's mpy does), as the
+    /// number mpi4py calls its handle; 0: the library makes the split.
     std::uintptr_t communicator = 0;
-    /// Called once with the Fortran handle of the participant's own communicator, before the adapter is: the
-    /// moment to isolate a host code's world.
+    /// Called once with the Fortran handle of the participant's own communicator, before the
+    /// adapter is: the moment to isolate a host code's world.
     std::function<void(int)> joined = {};
 };
 
 /// One rank's place in the job: its communicator, its channel to the coupler, its log.
 class Membership {
-   public:
-    /// Joins the job: the one split of the world, then the intercommunicator. Blocks until the coupler
-    /// has accepted.
+ public:
+    /// Joins the job: the one split of the world, then the intercommunicator. Blocks until the
+    /// coupler has accepted.
     Membership(Role role, const Launch& launch);
     ~Membership();
 
@@ -55,7 +55,7 @@ class Membership {
     /// The coupler no longer answers: says why and ends the whole job, here and now.
     [[noreturn]] void abort(const std::exception& error);
 
-   private:
+ private:
     struct State;
     std::unique_ptr<State> state_;
 };

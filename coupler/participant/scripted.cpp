@@ -13,7 +13,9 @@ namespace {
 constexpr double everywhere = std::numeric_limits<double>::max();
 
 // Upper triangle by rows of a 6 x 6 matrix: index of the diagonal entry of row i.
-constexpr std::size_t diagonal(std::size_t i) { return i * 6 - i * (i - 1) / 2; }
+constexpr std::size_t diagonal(std::size_t i) {
+    return i * 6 - i * (i - 1) / 2;
+}
 
 }  // namespace
 
@@ -62,7 +64,8 @@ Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeRespo
     for (const FreeResponse& response : responses) by_id[response.id] = &response;
     for (GrainState& grain : motion_.grains) {
         const ImmersedBody body = bodies_.body(grain);
-        grain.velocity[1] -= body.submerged_mass / body.effective_mass * bodies_.gravity() * window.step;
+        grain.velocity[1] -=
+            body.submerged_mass / body.effective_mass * bodies_.gravity() * window.step;
         if (!responses.empty()) grain.velocity = by_id.at(grain.id)->velocity;
     }
     return motion_;
@@ -82,8 +85,12 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
     return motion_;
 }
 
-SavedState ScriptedGrains::save() const { return encode(motion_); }
-void ScriptedGrains::restore(const SavedState& state) { motion_ = decode<Motion>(state); }
+SavedState ScriptedGrains::save() const {
+    return encode(motion_);
+}
+void ScriptedGrains::restore(const SavedState& state) {
+    motion_ = decode<Motion>(state);
+}
 
 ScriptedFluid::ScriptedFluid(double drag, int rank, int ranks, Fault fault)
     : drag_(drag), rank_(rank), ranks_(ranks), fault_(std::move(fault)) {}
@@ -109,7 +116,8 @@ Box ScriptedFluid::initialise(const Settings& settings, const ShapeTable& shapes
     bodies_.initialise(settings, shapes);
     joint_ = settings.text("coupling.scheme") == "joint";
     const double slice = settings.real("run.size_x") / ranks_;
-    box_ = {{rank_ * slice, -everywhere, -everywhere}, {(rank_ + 1) * slice, everywhere, everywhere}};
+    box_ = {{rank_ * slice, -everywhere, -everywhere},
+            {(rank_ + 1) * slice, everywhere, everywhere}};
     if (rank_ == 0) box_.lower[0] = -everywhere;
     if (rank_ + 1 == ranks_) box_.upper[0] = everywhere;
     return box_;
@@ -119,7 +127,9 @@ bool ScriptedFluid::owns(const GrainState& grain) const {
     return grain.position[0] >= box_.lower[0] && grain.position[0] < box_.upper[0];
 }
 
-void ScriptedFluid::advance(const Window& window) { reach("advance", window.index); }
+void ScriptedFluid::advance(const Window& window) {
+    reach("advance", window.index);
+}
 
 std::vector<FreeResponse> ScriptedFluid::respond(const Window& window,
                                                  const std::vector<GrainState>& grains) {
@@ -147,7 +157,8 @@ Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>&
     for (const GrainState& grain : grains) {
         if (!owns(grain)) continue;
         const ImmersedBody body = bodies_.body(grain);
-        const double damping = joint_ ? 1.0 : 1.0 / (1.0 + drag_ * window.step / body.effective_mass);
+        const double damping =
+            joint_ ? 1.0 : 1.0 / (1.0 + drag_ * window.step / body.effective_mass);
         Kick kick;
         kick.id = grain.id;
         kick.angular_velocity = grain.angular_velocity;
@@ -160,7 +171,9 @@ Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>&
     return answer;
 }
 
-SavedState ScriptedFluid::save() const { return {}; }
+SavedState ScriptedFluid::save() const {
+    return {};
+}
 void ScriptedFluid::restore(const SavedState&) {}
 
 }  // namespace turbidite

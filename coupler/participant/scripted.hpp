@@ -5,7 +5,8 @@
 // Scripted grains fall freely and never touch:      U^{4/5} = U^n - (M_sub/M_eff) g dt,   q += dt U
 // The scripted fluid is a linear drag, implicit:    M_eff (U^{n+1} - U^{4/5}) = -gamma dt U^{n+1}
 //
-// so that after n windows U_y = -sum over k = 1..n of a dt b^k, a = (M_sub/M_eff) g, b = 1/(1 + gamma dt/M_eff).
+// so that after n windows U_y = -sum over k = 1..n of a dt b^k, a = (M_sub/M_eff) g, b = 1/(1 +
+// gamma dt/M_eff).
 #pragma once
 
 #include <functional>
@@ -15,23 +16,24 @@
 
 namespace turbidite {
 
-/// A hook called at the start of every function with its name and the window: tests throw, sleep or exit there.
+/// A hook called at the start of every function with its name and the window: tests throw, sleep or
+/// exit there.
 using Fault = std::function<void(const std::string& function, std::int64_t window)>;
 
 /// Bodies as a scripted side needs them: inertia from the settings' densities.
 class ScriptedBodies {
-   public:
+ public:
     void initialise(const Settings& settings, const ShapeTable& shapes);
     ImmersedBody body(const GrainState& grain) const;
     double gravity() const { return gravity_; }
 
-   private:
+ private:
     std::vector<std::shared_ptr<const Shape>> shapes_;
     double fluid_density_ = 0.0, hydrodynamic_radius_ = 1.0, gravity_ = 0.0;
 };
 
 class ScriptedGrains : public GrainsAdapter {
-   public:
+ public:
     explicit ScriptedGrains(std::string adapter_name, Fault fault = {});
 
     Hello describe() const override;
@@ -41,18 +43,18 @@ class ScriptedGrains : public GrainsAdapter {
     SavedState save() const override;
     void restore(const SavedState&) override;
 
-   protected:
+ protected:
     Motion motion_;
     Hello hello_;
 
-   private:
+ private:
     void reach(const char* function, std::int64_t window) const;
     ScriptedBodies bodies_;
     Fault fault_;
 };
 
 class ScriptedFluid : public FluidAdapter {
-   public:
+ public:
     /// Rank `rank` of `ranks` owns an equal slice of the domain in x. `drag` is gamma [kg/s].
     ScriptedFluid(double drag, int rank = 0, int ranks = 1, Fault fault = {});
 
@@ -64,7 +66,7 @@ class ScriptedFluid : public FluidAdapter {
     SavedState save() const override;
     void restore(const SavedState&) override;
 
-   private:
+ private:
     void reach(const char* function, std::int64_t window) const;
     bool owns(const GrainState& grain) const;
     double drag_;

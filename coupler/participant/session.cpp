@@ -22,7 +22,9 @@ struct Session::Talk {
 Session::Session() = default;
 Session::~Session() = default;
 
-const Outcome& Session::outcome() const { return talk_->outcome; }
+const Outcome& Session::outcome() const {
+    return talk_->outcome;
+}
 
 template <class Action>
 bool Session::guarded(Action action) {
@@ -78,7 +80,7 @@ constexpr double margin_over_coupler = 1.5;
 
 template <class Adapter>
 class RoleSession : public Session {
-   protected:
+ protected:
     RoleSession(Role role, Adapter& adapter, Channel& channel, const Identity& identity)
         : adapter_(adapter), role_(role) {
         talk_ = std::make_unique<Talk>(role, channel, identity);
@@ -106,16 +108,16 @@ class RoleSession : public Session {
 
     Adapter& adapter_;
 
-   private:
+ private:
     Role role_;
 };
 
 class GrainsSession final : public RoleSession<GrainsAdapter> {
-   public:
+ public:
     GrainsSession(GrainsAdapter& adapter, Channel& channel, const Identity& identity)
         : RoleSession(Role::grains, adapter, channel, identity) {}
 
-   private:
+ private:
     void begin() override {
         const Settings settings = shake_hands();
         const auto shapes = receive<ShapeTable>(Kind::shapes);
@@ -139,11 +141,11 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
 };
 
 class FluidSession final : public RoleSession<FluidAdapter> {
-   public:
+ public:
     FluidSession(FluidAdapter& adapter, Channel& channel, const Identity& identity)
         : RoleSession(Role::fluid, adapter, channel, identity) {}
 
-   private:
+ private:
     void begin() override {
         const Settings settings = shake_hands();
         const auto shapes = receive<ShapeTable>(Kind::shapes);

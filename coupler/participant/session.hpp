@@ -30,32 +30,34 @@ struct Outcome {
 };
 
 class Session {
-   public:
+ public:
     virtual ~Session();
 
-    /// Handshake, settings, initial state. False when the run is over already (refused). Throws when
-    /// the coupler no longer answers, like `step`: the job must be aborted then.
+    /// Handshake, settings, initial state. False when the run is over already (refused). Throws
+    /// when the coupler no longer answers, like `step`: the job must be aborted then.
     bool start();
 
-    /// One window. False when the run is over; `outcome` tells why. An adapter's exception ends the run
-    /// for everybody, with its text.
+    /// One window. False when the run is over; `outcome` tells why. An adapter's exception ends the
+    /// run for everybody, with its text.
     bool step();
 
     const Outcome& outcome() const;
 
-   protected:
+ protected:
     Session();
     struct Talk;
     std::unique_ptr<Talk> talk_;
 
-   private:
+ private:
     virtual void begin() = 0;
     virtual void play_window() = 0;
     template <class Action>
     bool guarded(Action action);
 };
 
-std::unique_ptr<Session> make_session(GrainsAdapter& adapter, Channel& channel, const Identity& identity);
-std::unique_ptr<Session> make_session(FluidAdapter& adapter, Channel& channel, const Identity& identity);
+std::unique_ptr<Session> make_session(GrainsAdapter& adapter, Channel& channel,
+                                      const Identity& identity);
+std::unique_ptr<Session> make_session(FluidAdapter& adapter, Channel& channel,
+                                      const Identity& identity);
 
 }  // namespace turbidite

@@ -16,26 +16,31 @@ constexpr bool from_coupler = true;
 constexpr bool to_coupler = false;
 
 const std::vector<SchemeOrder> windows = {
-    {"split", Role::fluid,
+    {"split",
+     Role::fluid,
      {{Kind::window, from_coupler}, {Kind::constraint, from_coupler}, {Kind::kicks, to_coupler}}},
-    {"split", Role::grains,
+    {"split",
+     Role::grains,
      {{Kind::window, from_coupler},
       {Kind::motion, to_coupler},
       {Kind::kick, from_coupler},
       {Kind::state, to_coupler}}},
-    {"joint", Role::fluid,
+    {"joint",
+     Role::fluid,
      {{Kind::window, from_coupler},
       {Kind::bodies, from_coupler},
       {Kind::response, to_coupler},
       {Kind::constraint, from_coupler},
       {Kind::kicks, to_coupler}}},
-    {"joint", Role::grains,
+    {"joint",
+     Role::grains,
      {{Kind::window, from_coupler},
       {Kind::contact_input, from_coupler},
       {Kind::motion, to_coupler},
       {Kind::kick, from_coupler},
       {Kind::state, to_coupler}}},
-    {"dry", Role::grains,
+    {"dry",
+     Role::grains,
      {{Kind::window, from_coupler}, {Kind::kick, from_coupler}, {Kind::state, to_coupler}}},
 };
 
@@ -73,8 +78,12 @@ void CallOrder::set_scheme(const std::string& scheme) {
     scheme_ = scheme;
 }
 
-Kind CallOrder::due() const { return due_step().kind; }
-bool CallOrder::due_from_coupler() const { return due_step().from_coupler; }
+Kind CallOrder::due() const {
+    return due_step().kind;
+}
+bool CallOrder::due_from_coupler() const {
+    return due_step().from_coupler;
+}
 
 const Step& CallOrder::due_step() const {
     static const Order end = {{Kind::farewell, to_coupler}, {Kind::release, from_coupler}};
@@ -91,8 +100,8 @@ void CallOrder::demand(Kind kind, bool sent_by_coupler, const char* verb) const 
     const Step& step = due_step();
     if (may_interrupt(kind, sent_by_coupler)) return;
     if (step.kind == kind && step.from_coupler == sent_by_coupler) return;
-    throw OrderViolation(peer_ + ": " + verb + " " + step_text(kind, sent_by_coupler) + " in window " +
-                         std::to_string(window_) + ", but " +
+    throw OrderViolation(peer_ + ": " + verb + " " + step_text(kind, sent_by_coupler) +
+                         " in window " + std::to_string(window_) + ", but " +
                          step_text(step.kind, step.from_coupler) + " is due");
 }
 

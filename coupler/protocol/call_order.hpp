@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The legal order of messages, as data. One table per scheme says which message follows which, seen by
-// one participant; both ends check against the same table, so an out-of-order call is an error with
-// a sentence, never a deadlock. Valid C++17.
+// The legal order of messages, as data. One table per scheme says which message follows which, seen
+// by one participant; both ends check against the same table, so an out-of-order call is an error
+// with a sentence, never a deadlock. Valid C++17.
 //
 //     split   window → motion ⇒ constraint → kicks ⇒ kick → state
-//     joint   window → bodies → response ⇒ contact_input → motion ⇒ constraint → kicks ⇒ kick → state
-//     dry     window → kick → state            (no fluid; kick is empty and says "move")
+//     joint   window → bodies → response ⇒ contact_input → motion ⇒ constraint → kicks ⇒ kick →
+//     state dry     window → kick → state            (no fluid; kick is empty and says "move")
 //
 // and for everybody, at any time: dismiss → farewell → release, or failure before them.
 //
 // (→ to or from the coupler, ⇒ through the coupler to the other side.) Under `split` the fluid does
-// steps 1-3 between `window` and `constraint` while the grains do step 4 between `window` and `motion`.
+// steps 1-3 between `window` and `constraint` while the grains do step 4 between `window` and
+// `motion`.
 #pragma once
 
 #include <stdexcept>
@@ -35,14 +36,14 @@ Order start_order(Role role);
 Order window_order(Role role, const std::string& scheme);
 
 class OrderViolation : public std::runtime_error {
-   public:
+ public:
     using std::runtime_error::runtime_error;
 };
 
 /// Follows one conversation between the coupler and one rank of a participant. Either end
 /// keeps one and passes every message through it.
 class CallOrder {
-   public:
+ public:
     CallOrder(Role role, std::string peer_name);
 
     /// After the start the scheme is known.
@@ -51,14 +52,15 @@ class CallOrder {
     /// The envelope for the next message of this kind; throws OrderViolation when it is not due.
     Envelope next_sent(Kind kind, bool from_coupler);
 
-    /// Throws OrderViolation unless the envelope is the one that is due: kind, window, iteration, sequence.
+    /// Throws OrderViolation unless the envelope is the one that is due: kind, window, iteration,
+    /// sequence.
     void received(const Envelope& envelope, bool from_coupler);
 
     Kind due() const;
     bool due_from_coupler() const;
     std::int64_t window() const { return window_; }
 
-   private:
+ private:
     const Step& due_step() const;
     bool may_interrupt(Kind kind, bool from_coupler) const;
     void demand(Kind kind, bool from_coupler, const char* verb) const;

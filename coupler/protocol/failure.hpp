@@ -23,17 +23,17 @@ enum class ExitCode : int {
 
 /// An error that ends the run, with the exit code it ends with.
 class Failure : public std::runtime_error {
-   public:
+ public:
     Failure(ExitCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
     ExitCode code() const { return code_; }
 
-   private:
+ private:
     ExitCode code_;
 };
 
 /// NaN, a grain through a wall, a projection that fails: exit code 6.
 class PhysicsRefused : public Failure {
-   public:
+ public:
     explicit PhysicsRefused(const std::string& what) : Failure(ExitCode::physics_refused, what) {}
 };
 

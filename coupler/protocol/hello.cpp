@@ -7,18 +7,19 @@ namespace turbidite {
 namespace {
 
 class Report {
-   public:
+ public:
     explicit Report(const Hello& hello)
         : who_(std::string(role_name(hello.role)) + " rank " + std::to_string(hello.rank)) {}
 
-    void demand(bool holds, const std::string& what, const std::string& theirs, const std::string& ours) {
+    void demand(bool holds, const std::string& what, const std::string& theirs,
+                const std::string& ours) {
         if (!holds)
             sentences_.push_back(who_ + ": " + what + " is " + (theirs.empty() ? "none" : theirs) +
                                  ", the case needs " + ours);
     }
     std::vector<std::string> sentences_;
 
-   private:
+ private:
     std::string who_;
 };
 
@@ -36,9 +37,12 @@ std::string joined(const std::vector<std::string>& list) {
 
 const char* role_name(Role role) {
     switch (role) {
-        case Role::coupler: return "coupler";
-        case Role::fluid: return "fluid";
-        case Role::grains: return "grains";
+        case Role::coupler:
+            return "coupler";
+        case Role::fluid:
+            return "fluid";
+        case Role::grains:
+            return "grains";
     }
     return "unknown role";
 }

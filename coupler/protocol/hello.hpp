@@ -21,12 +21,12 @@ const char* role_name(Role role);
 
 /// What an adapter can do. Names that may be missing are checked only when the case needs them.
 struct Capabilities {
-    bool saves_state = false;              ///< can write and read a checkpoint
-    bool restores_within_window = false;   ///< can repeat a window (sub-iterated schemes)
-    bool serialises_state = false;         ///< hands its state over as bytes
-    bool native_substeps = false;          ///< moves grains by its own smaller steps
-    bool effective_inertia = false;        ///< knows the `joint` scheme
-    std::vector<std::string> shapes;       ///< kinds of shapes/shape_list
+    bool saves_state = false;             ///< can write and read a checkpoint
+    bool restores_within_window = false;  ///< can repeat a window (sub-iterated schemes)
+    bool serialises_state = false;        ///< hands its state over as bytes
+    bool native_substeps = false;         ///< moves grains by its own smaller steps
+    bool effective_inertia = false;       ///< knows the `joint` scheme
+    std::vector<std::string> shapes;      ///< kinds of shapes/shape_list
     std::vector<std::string> contact_laws;
 };
 
@@ -40,10 +40,10 @@ struct Hello {
     std::int32_t dimension = 2;
     std::int32_t rank = 0;
     std::int32_t ranks = 1;
-    std::string host;             ///< machine name
+    std::string host;  ///< machine name
     std::int64_t pid = 0;
     std::string log_file;
-    std::string case_hash;        ///< of the run folder it was started on; empty: takes any
+    std::string case_hash;  ///< of the run folder it was started on; empty: takes any
     Capabilities capabilities;
 };
 

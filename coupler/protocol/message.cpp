@@ -10,14 +10,23 @@ namespace {
 constexpr std::int64_t magic = 0x7469646962727574;
 
 const std::vector<std::pair<Kind, const char*>> kinds = {
-    {Kind::hello, "hello"},           {Kind::settings, "settings"},
-    {Kind::shapes, "shapes"},         {Kind::population, "population"},
-    {Kind::domain, "domain"},         {Kind::window, "window"},
-    {Kind::bodies, "bodies"},         {Kind::response, "response"},     {Kind::contact_input, "contact_input"},
-    {Kind::motion, "motion"},         {Kind::constraint, "constraint"},
-    {Kind::kicks, "kicks"},           {Kind::kick, "kick"},
-    {Kind::state, "state"},           {Kind::failure, "failure"},
-    {Kind::dismiss, "dismiss"},       {Kind::farewell, "farewell"},
+    {Kind::hello, "hello"},
+    {Kind::settings, "settings"},
+    {Kind::shapes, "shapes"},
+    {Kind::population, "population"},
+    {Kind::domain, "domain"},
+    {Kind::window, "window"},
+    {Kind::bodies, "bodies"},
+    {Kind::response, "response"},
+    {Kind::contact_input, "contact_input"},
+    {Kind::motion, "motion"},
+    {Kind::constraint, "constraint"},
+    {Kind::kicks, "kicks"},
+    {Kind::kick, "kick"},
+    {Kind::state, "state"},
+    {Kind::failure, "failure"},
+    {Kind::dismiss, "dismiss"},
+    {Kind::farewell, "farewell"},
     {Kind::release, "release"},
 };
 

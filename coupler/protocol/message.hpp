@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every kind of message there is: its fixed number, its name, who sends it to whom. One table, linked by
-// all programs. Numbers are part of the protocol: never reuse one. Valid C++17.
+// Every kind of message there is: its fixed number, its name, who sends it to whom. One table,
+// linked by all programs. Numbers are part of the protocol: never reuse one. Valid C++17.
 #pragma once
 
 #include <cstdint>

@@ -65,25 +65,25 @@ struct FreeResponse {
 
 /// A shape known to both sides by its index. `kind` is a name of shapes/shape_list.
 struct ShapeRecord {
-    std::string kind;                 ///< "disc"
-    std::vector<double> vertices;     ///< x,y[,z] of unit circumradius; empty for round shapes
+    std::string kind;              ///< "disc"
+    std::vector<double> vertices;  ///< x,y[,z] of unit circumradius; empty for round shapes
 };
 using ShapeTable = std::vector<ShapeRecord>;
 
 /// The order that opens a window.
 struct Window {
-    std::int64_t index = 0;  ///< 0-based
-    double time = 0.0;       ///< t^n at its start [s]
-    double step = 0.0;       ///< dt [s]
+    std::int64_t index = 0;         ///< 0-based
+    double time = 0.0;              ///< t^n at its start [s]
+    double step = 0.0;              ///< dt [s]
     bool write_output = false;      ///< fields and series are due at its end
     bool write_checkpoint = false;  ///< states are due at its end
 };
 
 /// How the contact side fared.
 struct ContactReport {
-    std::int64_t contacts = 0;     ///< with an impulse
-    std::int64_t iterations = 0;   ///< sweeps of the contact solver
-    double residual = 0.0;         ///< scaled natural map
+    std::int64_t contacts = 0;    ///< with an impulse
+    std::int64_t iterations = 0;  ///< sweeps of the contact solver
+    double residual = 0.0;        ///< scaled natural map
     bool converged = true;
     double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
     std::int64_t removed = 0;      ///< grains that left through a free side in this window

@@ -10,8 +10,9 @@ namespace {
 
 template <class Entries>
 auto position(Entries& entries, const std::string& key) {
-    return std::lower_bound(entries.begin(), entries.end(), key,
-                            [](const Settings::Entry& e, const std::string& k) { return e.first < k; });
+    return std::lower_bound(
+        entries.begin(), entries.end(), key,
+        [](const Settings::Entry& e, const std::string& k) { return e.first < k; });
 }
 
 template <class T>
@@ -40,7 +41,9 @@ void Settings::set(const std::string& key, double value) {
     set(key, std::string(buffer, end));
 }
 
-void Settings::set(const std::string& key, std::int64_t value) { set(key, std::to_string(value)); }
+void Settings::set(const std::string& key, std::int64_t value) {
+    set(key, std::to_string(value));
+}
 
 void Settings::set(const std::string& key, bool value) {
     set(key, std::string(value ? "true" : "false"));

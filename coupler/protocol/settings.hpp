@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The resolved case as a flat list `key = value`: what the coupler tells every participant in its
-// welcome, so that no adapter reads YAML. Keys are those of the case file (`contact.friction`), plus
-// the run's physical values, already in the run's units:
+// welcome, so that no adapter reads YAML. Keys are those of the case file (`contact.friction`),
+// plus the run's physical values, already in the run's units:
 //
 //     run.diameter  run.velocity_scale  run.time_scale        D, u_c, t_c
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
@@ -21,7 +21,7 @@
 namespace turbidite {
 
 class Settings {
-   public:
+ public:
     using Entry = std::pair<std::string, std::string>;
 
     /// Adds or replaces.
@@ -41,7 +41,7 @@ class Settings {
 
     const std::vector<Entry>& entries() const { return entries_; }
 
-   private:
+ private:
     std::vector<Entry> entries_;  // sorted by key
 };
 

@@ -145,13 +145,27 @@ Record decoded(const Bytes& in, Visit visit) {
 
 }  // namespace
 
-Bytes encode(const Motion& m) { return encoded(m, visit_motion); }
-Bytes encode(const Kicks& k) { return encoded(k, visit_kicks); }
-Bytes encode(const std::vector<FreeResponse>& r) { return encoded(r, visit_responses); }
-Bytes encode(const ShapeTable& s) { return encoded(s, visit_shapes); }
-Bytes encode(const Window& w) { return encoded(w, visit_window); }
-Bytes encode(const Box& b) { return encoded(b, visit_box); }
-Bytes encode(const std::string& text) { return encoded(text, plain); }
+Bytes encode(const Motion& m) {
+    return encoded(m, visit_motion);
+}
+Bytes encode(const Kicks& k) {
+    return encoded(k, visit_kicks);
+}
+Bytes encode(const std::vector<FreeResponse>& r) {
+    return encoded(r, visit_responses);
+}
+Bytes encode(const ShapeTable& s) {
+    return encoded(s, visit_shapes);
+}
+Bytes encode(const Window& w) {
+    return encoded(w, visit_window);
+}
+Bytes encode(const Box& b) {
+    return encoded(b, visit_box);
+}
+Bytes encode(const std::string& text) {
+    return encoded(text, plain);
+}
 
 Bytes encode(const Hello& hello) {
     Bytes out;
@@ -164,28 +178,39 @@ Bytes encode(const Hello& hello) {
 Bytes encode(const Settings& settings) {
     Bytes out;
     Writer code(out);
-    list(code, settings.entries(), [](Writer& c, const Settings::Entry& entry) {
-        c(entry.first), c(entry.second);
-    });
+    list(code, settings.entries(),
+         [](Writer& c, const Settings::Entry& entry) { c(entry.first), c(entry.second); });
     return out;
 }
 
 template <>
-Motion decode(const Bytes& in) { return decoded<Motion>(in, visit_motion); }
+Motion decode(const Bytes& in) {
+    return decoded<Motion>(in, visit_motion);
+}
 template <>
-Kicks decode(const Bytes& in) { return decoded<Kicks>(in, visit_kicks); }
+Kicks decode(const Bytes& in) {
+    return decoded<Kicks>(in, visit_kicks);
+}
 template <>
 std::vector<FreeResponse> decode(const Bytes& in) {
     return decoded<std::vector<FreeResponse>>(in, visit_responses);
 }
 template <>
-ShapeTable decode(const Bytes& in) { return decoded<ShapeTable>(in, visit_shapes); }
+ShapeTable decode(const Bytes& in) {
+    return decoded<ShapeTable>(in, visit_shapes);
+}
 template <>
-Window decode(const Bytes& in) { return decoded<Window>(in, visit_window); }
+Window decode(const Bytes& in) {
+    return decoded<Window>(in, visit_window);
+}
 template <>
-Box decode(const Bytes& in) { return decoded<Box>(in, visit_box); }
+Box decode(const Bytes& in) {
+    return decoded<Box>(in, visit_box);
+}
 template <>
-std::string decode(const Bytes& in) { return decoded<std::string>(in, plain); }
+std::string decode(const Bytes& in) {
+    return decoded<std::string>(in, plain);
+}
 
 template <>
 Hello decode(const Bytes& in) {

@@ -21,12 +21,12 @@ using Bytes = std::vector<char>;
 
 /// A payload that is shorter, longer, or other than its message kind says.
 class MalformedPayload : public std::runtime_error {
-   public:
+ public:
     using std::runtime_error::runtime_error;
 };
 
 class Writer {
-   public:
+ public:
     explicit Writer(Bytes& out) : out_(out) {}
 
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
@@ -39,12 +39,12 @@ class Writer {
     }
     void operator()(const std::string& text);
 
-   private:
+ private:
     Bytes& out_;
 };
 
 class Reader {
-   public:
+ public:
     explicit Reader(const Bytes& in) : in_(in) {}
 
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
@@ -62,7 +62,7 @@ class Reader {
     /// Throws MalformedPayload unless everything was read.
     void finish() const;
 
-   private:
+ private:
     const char* take(std::size_t size);
     const Bytes& in_;
     std::size_t at_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How frames travel between the coupler and the ranks of one participant. A channel never blocks: sending
-// queues, receiving probes; who waits, waits in `Patience` below. Valid C++17.
+// How frames travel between the coupler and the ranks of one participant. A channel never blocks:
+// sending queues, receiving probes; who waits, waits in `Patience` below. Valid C++17.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 namespace turbidite {
 
 class Channel {
-   public:
+ public:
     struct Frame {
         int peer = 0;
         Bytes bytes;
@@ -34,10 +34,10 @@ class Channel {
 };
 
 /// Waiting that does not spin: hot for 50 us, then sleeps that grow to 400 us, so that a process
-/// that waits leaves its core to one that computes. Near the expected arrival (the duration of the last wait
-/// at the same point) sleeps are short again.
+/// that waits leaves its core to one that computes. Near the expected arrival (the duration of the
+/// last wait at the same point) sleeps are short again.
 class Patience {
-   public:
+ public:
     using Clock = std::chrono::steady_clock;
 
     /// `expected` seconds from now; 0 when nothing is known.
@@ -48,7 +48,7 @@ class Patience {
 
     double seconds() const;
 
-   private:
+ private:
     Clock::time_point start_;
     double expected_;
     int sleeps_ = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 // Does [centre - reach, centre + reach] meet [lower, upper], directly or as a periodic image?
 bool meets(double centre, double reach, double lower, double upper, double period) {
     const auto overlaps = [&](double c) { return c + reach >= lower && c - reach <= upper; };
-    return overlaps(centre) || (period > 0.0 && (overlaps(centre - period) || overlaps(centre + period)));
+    return overlaps(centre) ||
+           (period > 0.0 && (overlaps(centre - period) || overlaps(centre + period)));
 }
 
 bool touches(const GrainState& grain, const Box& box, double margin, const Vec3& period) {
@@ -28,9 +30,9 @@ bool touches(const GrainState& grain, const Box& box, double margin, const Vec3&
 void add(ContactReport& total, const ContactReport& share) {
     total.contacts += share.contacts;
     total.iterations = std::max(total.iterations, share.iterations);
-    total.residual = std::max(total.residual, share.residual);
+    total.residual = largest(total.residual, share.residual);
     total.converged = total.converged && share.converged;
-    total.max_penetration = std::max(total.max_penetration, share.max_penetration);
+    total.max_penetration = largest(total.max_penetration, share.max_penetration);
     total.removed += share.removed;
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
 }
@@ -91,9 +93,9 @@ template std::vector<std::vector<FreeResponse>> ExchangePlan::by_owner(
 std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks) {
     std::vector<GrainState> sorted = population;
     if (ranks > 1)
-        std::stable_sort(sorted.begin(), sorted.end(), [](const GrainState& a, const GrainState& b) {
-            return a.position[0] < b.position[0];
-        });
+        std::stable_sort(
+            sorted.begin(), sorted.end(),
+            [](const GrainState& a, const GrainState& b) { return a.position[0] < b.position[0]; });
     std::vector<Motion> shares(ranks);
     for (std::size_t i = 0; i < sorted.size(); ++i)
         shares[i * ranks / sorted.size()].grains.push_back(sorted[i]);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Which rank needs which grains. Grains ranks own grains by id; a fluid rank needs every grain whose bounding
-// sphere plus a margin touches its box. Sized by count, never by the largest id; grains may appear, vanish and
-// migrate between windows. No MPI here: the plan sorts records, channels carry them.
+// Which rank needs which grains. Grains ranks own grains by id; a fluid rank needs every grain
+// whose bounding sphere plus a margin touches its box. Sized by count, never by the largest id;
+// grains may appear, vanish and migrate between windows. No MPI here: the plan sorts records,
+// channels carry them.
 #pragma once
 
 #include <unordered_map>
@@ -13,13 +14,13 @@
 namespace turbidite {
 
 class ExchangePlan {
-   public:
-    /// `margin` [m]: how far beyond its surface a grain is felt by the fluid (stencils of its points).
-    /// `period` [m] per axis: 0 where the domain is not cyclic.
+ public:
+    /// `margin` [m]: how far beyond its surface a grain is felt by the fluid (stencils of its
+    /// points). `period` [m] per axis: 0 where the domain is not cyclic.
     ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period);
 
-    /// One list from what the grains ranks sent; remembers who owns what. Throws PhysicsRefused when an
-    /// id comes twice.
+    /// One list from what the grains ranks sent; remembers who owns what. Throws PhysicsRefused
+    /// when an id comes twice.
     Motion gather(const std::vector<Motion>& shares);
 
     /// For every fluid rank the grains that touch its box.
@@ -30,7 +31,7 @@ class ExchangePlan {
     template <class Record>
     std::vector<std::vector<Record>> by_owner(const std::vector<Record>& records) const;
 
-   private:
+ private:
     std::vector<Box> boxes_;
     double margin_;
     Vec3 period_;
@@ -38,7 +39,8 @@ class ExchangePlan {
     std::size_t owners_ = 0;
 };
 
-/// The population split into `ranks` shares of nearly equal count, in the order of x: neighbours stay together.
+/// The population split into `ranks` shares of nearly equal count, in the order of x: neighbours
+/// stay together.
 std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks);
 
 }  // namespace turbidite

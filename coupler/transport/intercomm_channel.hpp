@@ -12,7 +12,7 @@
 namespace turbidite {
 
 class IntercommChannel final : public Channel {
-   public:
+ public:
     /// Does not own the communicator.
     explicit IntercommChannel(MPI_Comm intercomm);
 
@@ -21,7 +21,7 @@ class IntercommChannel final : public Channel {
     std::optional<Frame> try_receive() override;
     bool flushed() override;
 
-   private:
+ private:
     struct Pending {
         Bytes bytes;
         MPI_Request request = MPI_REQUEST_NULL;
@@ -35,8 +35,9 @@ class IntercommChannel final : public Channel {
 
     MPI_Comm intercomm_;
     int peers_ = 0;
-    std::list<Pending> pending_;    // frames that MPI still reads from
-    std::list<Incoming> incoming_;  // frames that MPI still writes to, in the order of their sending
+    std::list<Pending> pending_;  // frames that MPI still reads from
+    std::list<Incoming>
+        incoming_;  // frames that MPI still writes to, in the order of their sending
 };
 
 }  // namespace turbidite

@@ -9,8 +9,7 @@ LoopbackChannel::connect(int ranks) {
     wires->to_rank.resize(ranks);
     std::unique_ptr<LoopbackChannel> hub(new LoopbackChannel(wires, -1, ranks));
     std::vector<std::unique_ptr<LoopbackChannel>> ends;
-    for (int rank = 0; rank < ranks; ++rank)
-        ends.emplace_back(new LoopbackChannel(wires, rank, 1));
+    for (int rank = 0; rank < ranks; ++rank) ends.emplace_back(new LoopbackChannel(wires, rank, 1));
     return {std::move(hub), std::move(ends)};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A channel inside one process, for tests: two ends, hooks to drop, change or hold frames. Both ends may be
-// used from different threads.
+// A channel inside one process, for tests: two ends, hooks to drop, change or hold frames. Both
+// ends may be used from different threads.
 #pragma once
 
 #include <deque>
@@ -16,12 +16,13 @@
 namespace turbidite {
 
 class LoopbackChannel final : public Channel {
-   public:
+ public:
     /// What a hook may do with a frame on its way: change it, or return false to drop it.
     using Hook = std::function<bool(Bytes&)>;
 
     /// The coupler's end (with `ranks` peers) and one end per rank (with one peer each).
-    static std::pair<std::unique_ptr<LoopbackChannel>, std::vector<std::unique_ptr<LoopbackChannel>>>
+    static std::pair<std::unique_ptr<LoopbackChannel>,
+                     std::vector<std::unique_ptr<LoopbackChannel>>>
     connect(int ranks);
 
     int peers() const override { return peers_; }
@@ -31,7 +32,7 @@ class LoopbackChannel final : public Channel {
 
     void set_hook(Hook hook) { hook_ = std::move(hook); }
 
-   private:
+ private:
     struct Wires {
         std::mutex mutex;
         std::deque<Frame> to_coupler;

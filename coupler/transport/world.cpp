@@ -93,7 +93,11 @@ StartWatch::StartWatch(double limit, const char* text) : state_(std::make_shared
     }).detach();
 }
 
-StartWatch::~StartWatch() { disarm(); }
-void StartWatch::disarm() { state_->armed = false; }
+StartWatch::~StartWatch() {
+    disarm();
+}
+void StartWatch::disarm() {
+    state_->armed = false;
+}
 
 }  // namespace turbidite

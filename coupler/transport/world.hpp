@@ -2,8 +2,8 @@
 //
 // How the programs of one MPMD job find each other.
 //
-// Every process takes part in exactly one MPI_Comm_split of the world (colour 1000 + role, or the split
-// that yade.mpy makes by itself); it is the only collective ever made on the world. Then each
+// Every process takes part in exactly one MPI_Comm_split of the world (colour 1000 + role, or the
+// split that yade.mpy makes by itself); it is the only collective ever made on the world. Then each
 // participant's leader announces itself to the coupler, world rank 0, and both create an
 // intercommunicator.
 #pragma once
@@ -19,13 +19,13 @@ namespace turbidite {
 /// MPI for the length of a program: initialises (thread level serialized) unless somebody else did,
 /// finalises unless somebody else will.
 class MpiEnvironment {
-   public:
+ public:
     MpiEnvironment(int* argc, char*** argv);
     ~MpiEnvironment();
     MpiEnvironment(const MpiEnvironment&) = delete;
     MpiEnvironment& operator=(const MpiEnvironment&) = delete;
 
-   private:
+ private:
     bool ours_ = false;
 };
 
@@ -49,12 +49,12 @@ JoinedParticipant accept_participant(MPI_Comm local, double limit);
 /// process prints `text` and leaves with code `stalled`, which makes mpirun end the job. For the
 /// one moment when waiting cannot be polled: the split of the world.
 class StartWatch {
-   public:
+ public:
     StartWatch(double limit, const char* text);
     ~StartWatch();
     void disarm();
 
-   private:
+ private:
     struct State;
     std::shared_ptr<State> state_;
 };

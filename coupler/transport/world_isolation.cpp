@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // PMPI wrappers for the calls that OpenFOAM's libPstream makes (a test compares this list with the
-// installed library). Each replaces MPI_COMM_WORLD by the program's own communicator; MPI_Abort keeps
-// the real world, since a failure must end the whole job.
+// installed library). Each replaces MPI_COMM_WORLD by the program's own communicator; MPI_Abort
+// keeps the real world, since a failure must end the whole job.
 #include "coupler/transport/world_isolation.hpp"
 
 #include <cstdlib>
@@ -26,7 +26,9 @@ void split_if_told() {
 
 namespace turbidite {
 
-void isolate_world(MPI_Comm local) { own_world = local; }
+void isolate_world(MPI_Comm local) {
+    own_world = local;
+}
 
 }  // namespace turbidite
 
@@ -44,21 +46,32 @@ int MPI_Init_thread(int* argc, char*** argv, int required, int* provided) {
     return status;
 }
 
-int MPI_Finalize() { return PMPI_Finalize(); }
+int MPI_Finalize() {
+    return PMPI_Finalize();
+}
 
-int MPI_Abort(MPI_Comm comm, int code) { return PMPI_Abort(comm, code); }
+int MPI_Abort(MPI_Comm comm, int code) {
+    return PMPI_Abort(comm, code);
+}
 
-int MPI_Comm_size(MPI_Comm comm, int* size) { return PMPI_Comm_size(isolated(comm), size); }
+int MPI_Comm_size(MPI_Comm comm, int* size) {
+    return PMPI_Comm_size(isolated(comm), size);
+}
 
-int MPI_Comm_rank(MPI_Comm comm, int* rank) { return PMPI_Comm_rank(isolated(comm), rank); }
+int MPI_Comm_rank(MPI_Comm comm, int* rank) {
+    return PMPI_Comm_rank(isolated(comm), rank);
+}
 
-int MPI_Comm_group(MPI_Comm comm, MPI_Group* group) { return PMPI_Comm_group(isolated(comm), group); }
+int MPI_Comm_group(MPI_Comm comm, MPI_Group* group) {
+    return PMPI_Comm_group(isolated(comm), group);
+}
 
 int MPI_Comm_create(MPI_Comm comm, MPI_Group group, MPI_Comm* created) {
     return PMPI_Comm_create(isolated(comm), group, created);
 }
 
-int MPI_Allreduce(const void* in, void* out, int count, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
+int MPI_Allreduce(const void* in, void* out, int count, MPI_Datatype type, MPI_Op op,
+                  MPI_Comm comm) {
     return PMPI_Allreduce(in, out, count, type, op, isolated(comm));
 }
 
@@ -67,9 +80,9 @@ int MPI_Alltoall(const void* in, int in_count, MPI_Datatype in_type, void* out, 
     return PMPI_Alltoall(in, in_count, in_type, out, out_count, out_type, isolated(comm));
 }
 
-int MPI_Alltoallv(const void* in, const int in_counts[], const int in_starts[], MPI_Datatype in_type,
-                  void* out, const int out_counts[], const int out_starts[], MPI_Datatype out_type,
-                  MPI_Comm comm) {
+int MPI_Alltoallv(const void* in, const int in_counts[], const int in_starts[],
+                  MPI_Datatype in_type, void* out, const int out_counts[], const int out_starts[],
+                  MPI_Datatype out_type, MPI_Comm comm) {
     return PMPI_Alltoallv(in, in_counts, in_starts, in_type, out, out_counts, out_starts, out_type,
                           isolated(comm));
 }
@@ -81,7 +94,8 @@ int MPI_Gatherv(const void* in, int in_count, MPI_Datatype in_type, void* out, c
 
 int MPI_Scatterv(const void* in, const int counts[], const int starts[], MPI_Datatype in_type,
                  void* out, int out_count, MPI_Datatype out_type, int root, MPI_Comm comm) {
-    return PMPI_Scatterv(in, counts, starts, in_type, out, out_count, out_type, root, isolated(comm));
+    return PMPI_Scatterv(in, counts, starts, in_type, out, out_count, out_type, root,
+                         isolated(comm));
 }
 
 int MPI_Send(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm) {

@@ -24,7 +24,9 @@ python::dict settings_dict(const Settings& settings) {
     return dict;
 }
 
-python::tuple triple(const Vec3& v) { return python::make_tuple(v[0], v[1], v[2]); }
+python::tuple triple(const Vec3& v) {
+    return python::make_tuple(v[0], v[1], v[2]);
+}
 
 // What the Python side needs to build one YADE body.
 python::dict grain_dict(const nscd::Bodies& bodies, std::size_t i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The contact engine with its bodies in YADE: before each contact problem positions and velocities are read from
-// YADE's bodies, after the move they are written back. Whatever a user's script does to a body in
-// between counts.
+// The contact engine with its bodies in YADE: before each contact problem positions and velocities
+// are read from YADE's bodies, after the move they are written back. Whatever a user's script does
+// to a body in between counts.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -15,9 +15,9 @@
 namespace turbidite::yade {
 
 class YadeAdapter final : public GrainsAdapter {
-   public:
-    /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains) returns their
-    /// states, erase(ids) removes bodies by grain id.
+ public:
+    /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains)
+    /// returns their states, erase(ids) removes bodies by grain id.
     YadeAdapter(boost::python::object scene, std::string yade_version);
 
     Hello describe() const override { return engine_.describe(); }
@@ -28,7 +28,7 @@ class YadeAdapter final : public GrainsAdapter {
     SavedState save() const override { return engine_.save(); }
     void restore(const SavedState& state) override;
 
-   private:
+ private:
     void read_bodies();
     void write_bodies();
     void erase_leavers(const std::vector<GrainId>& before);

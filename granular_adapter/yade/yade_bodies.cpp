@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE registers converters for its Eigen types with Boost.Python; the registry is shared by the whole process.
+// YADE registers converters for its Eigen types with Boost.Python; the registry is shared by the
+// whole process.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <boost/python.hpp>

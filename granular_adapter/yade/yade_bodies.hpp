@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE's bodies seen from C++ as plain numbers. Eigen types of YADE's build stay behind this border: a header
-// shared by code with other Eigen settings would read shifted members without any error.
+// YADE's bodies seen from C++ as plain numbers. Eigen types of YADE's build stay behind this
+// border: a header shared by code with other Eigen settings would read shifted members without any
+// error.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ struct BodyMotion {
 
 /// `states` are YADE's `Body.state` objects, in the engine's order.
 class BodyStates {
-   public:
+ public:
     BodyStates() = default;
     explicit BodyStates(const boost::python::object& list);
 
@@ -33,7 +34,7 @@ class BodyStates {
     /// Forgets the states whose entry is zero.
     void keep(const std::vector<std::uint8_t>& mask);
 
-   private:
+ private:
     std::vector<boost::python::object> states_;
 };
 

@@ -22,7 +22,7 @@ class FailingRun : public ShellTest {
         "domain: {size: [6, 6]}\n"
         "grains: {adapter: standalone-nscd, count: 6}\n"
         "fluid: {reynolds: 30, cells_per_diameter: 4}\n"
-        "time: {step: 0.05, end: 5000}\n"
+        "time: {step: 0.05, end: 500}\n"
         "output: {interval: 0.05}\n"
         "limits: {stall_soft: 1, stall_hard: 3}\n";
 
@@ -30,7 +30,7 @@ class FailingRun : public ShellTest {
 
     std::string run_line(const std::string& options = "",
                          const std::string& program = TURBIDITE_PROGRAM) const {
-        return program + " run small.yaml" + into_run_folder() + " " + options;
+        return "timeout 60 " + program + " run small.yaml" + into_run_folder() + " " + options;
     }
 
     /// Starts the run and returns its process once it has `rows` rows of history.
@@ -38,7 +38,8 @@ class FailingRun : public ShellTest {
         const pid_t child = fork();
         if (child == 0) {
             const std::string line = "cd " + scratch.path().string() + " && exec " +
-                                     run_line(options) + " >out 2>err </dev/null";
+                                     TURBIDITE_PROGRAM + " run small.yaml" + into_run_folder() +
+                                     " " + options + " >out 2>err </dev/null";
             execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
             _exit(127);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The disk fills up during a run: a 1 MB file system in a mount namespace of its own, which ends with
-// the shell that made it.
+// The disk fills up during a run: a 1 MB file system in a mount namespace of its own, which ends
+// with the shell that made it.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {
@@ -17,18 +17,20 @@ class FullDisk : public FailingRun {
 
     Answer on_small_disk(const std::string& line) const {
         const std::string unshare = geteuid() == 0 ? "unshare -m" : "unshare -rm";
-        return shell(unshare + " sh -c 'mount -t tmpfs -o size=1m tmpfs disk && { " + line + "; }'");
+        return shell(unshare + " sh -c 'mount -t tmpfs -o size=1m tmpfs disk && { " + line +
+                     "; }'");
     }
 };
 
 TEST_F(FullDisk, IsToldAndWhatWasGoodIsKept) {
-    const Answer answer = on_small_disk(
-        "timeout 100 " TURBIDITE_PROGRAM " run small.yaml --out disk/run; echo code $?; "
-        "cp -r disk/run/run.json disk/run/history.csv .");
+    const Answer answer = on_small_disk("timeout 100 " TURBIDITE_PROGRAM
+                                        " run small.yaml --out disk/run; echo code $?; "
+                                        "cp -r disk/run/run.json disk/run/history.csv .");
     EXPECT_SAYS(answer.out, "code 4\n");
     EXPECT_SAYS(answer.err, "The run failed: ");
     EXPECT_SAYS(answer.err, "is the disk full?");
-    // Neither half a record nor half a row: the header, t = 0 and at least one window, all of 25 columns.
+    // Neither half a record nor half a row: the header, t = 0 and at least one window, all of 25
+    // columns.
     EXPECT_TRUE(nlohmann::json::parse(text(scratch.path() / "run.json")).contains("case"));
     const std::string history = text(scratch.path() / "history.csv");
     ASSERT_FALSE(history.empty());

@@ -28,7 +28,8 @@ TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
 INSTANTIATE_TEST_SUITE_P(Roles, SilentPartner, ::testing::Values("fluid", "grains"),
                          [](const auto& info) { return std::string(info.param); });
 
-// The participants give up after 1.5 times limits.stall_hard; the host code must not hang at its exit.
+// The participants give up after 1.5 times limits.stall_hard; the host code must not hang at its
+// exit.
 class SilentCoupler : public FailingRun, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(SilentCoupler, IsLeftByTheParticipants) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "coupler/protocol/failure.hpp"
 #include "coupler/transport/exchange_plan.hpp"
 
@@ -46,6 +48,15 @@ TEST(ExchangePlan, KicksGoHomeWhateverTheIds) {
     ASSERT_EQ(routed.size(), 2u);
     EXPECT_EQ(routed[0][0].id, huge);
     EXPECT_EQ(routed[1].size(), 2u);
+}
+
+// std::max(0, nan) is 0: the ledger would never hear of it.
+TEST(ExchangePlan, AReportThatIsNotANumberStaysOne) {
+    ExchangePlan plan({}, 0.0, {});
+    std::vector<Motion> shares(2);
+    shares[0].report.max_penetration = std::nan("");
+    shares[1].report.max_penetration = 0.1;
+    EXPECT_TRUE(std::isnan(plan.gather(shares).report.max_penetration));
 }
 
 TEST(ExchangePlan, AMissingADoubleAndAForeignAnswerAreRefused) {

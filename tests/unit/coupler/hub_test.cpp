@@ -189,7 +189,7 @@ TEST(Hub, NaNIsRefusedBeforeItTravels) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
-    EXPECT_NE(job.status.reason.find("is not finite after the move in window 2"), std::string::npos)
+    EXPECT_NE(job.status.reason.find("is not finite after the move of window 2"), std::string::npos)
         << job.status.reason;
 }
 

@@ -42,7 +42,9 @@ class LedgerTest : public ::testing::Test {
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-TEST_F(LedgerTest, AgreesWithAGoodWindow) { EXPECT_EQ(complaint(), ""); }
+TEST_F(LedgerTest, AgreesWithAGoodWindow) {
+    EXPECT_EQ(complaint(), "");
+}
 
 TEST_F(LedgerTest, NamesTheGrainThatIsNotFinite) {
     result.motion.grains[1].velocity[0] = not_a_number;
