@@ -37,9 +37,9 @@ Foam::tmp<Foam::surfaceScalarField> FftPressureSolver::gradient_flux() const {
     auto& sides = flux.ref().boundaryFieldRef();
     forAll(sides, patch) {
         const auto& p_side = p_.boundaryField()[patch];
-        sides[patch] = p_.mesh().magSf().boundaryField()[patch] *
-                       (p_side.coupled() ? p_side.snGrad(p_side.patch().deltaCoeffs())
-                                         : p_side.snGrad());
+        sides[patch] =
+            p_.mesh().magSf().boundaryField()[patch] *
+            (p_side.coupled() ? p_side.snGrad(p_side.patch().deltaCoeffs()) : p_side.snGrad());
     }
     return flux;
 }
