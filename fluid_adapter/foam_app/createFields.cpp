@@ -55,10 +55,16 @@ void FluidFields::interpolate_flux() {
     phi = Foam::fvc::flux(U);
 }
 
+void FluidFields::divergence(Foam::scalarField& result) const {
+    result.setSize(mesh.nCells());
+    result = 0.0;
+    Foam::fvc::surfaceIntegrate(result, phi);
+}
+
 Foam::scalar FluidFields::largest_divergence() const {
-    Foam::scalarField sum(mesh.nCells(), 0.0);
-    Foam::fvc::surfaceIntegrate(sum, phi);
-    return Foam::gMax(Foam::mag(sum)());
+    Foam::scalarField each;
+    divergence(each);
+    return Foam::gMax(Foam::mag(each)());
 }
 
 Foam::scalar FluidFields::courant() const {
@@ -67,7 +73,11 @@ Foam::scalar FluidFields::courant() const {
 }
 
 Foam::vector FluidFields::momentum() const {
-    return rho / thickness * Foam::gSum((mesh.V().field() * U.primitiveField())());
+    const Foam::scalarField& volume = mesh.V().field();
+    Foam::vector sum = Foam::Zero;
+    forAll(volume, c) sum += volume[c] * U[c];
+    Foam::reduce(sum, Foam::sumOp<Foam::vector>());
+    return rho / thickness * sum;
 }
 
 }  // namespace turbidite

@@ -38,6 +38,9 @@ struct FluidFields {
     /// phi from U by interpolation: what a projection starts from.
     void interpolate_flux();
 
+    /// div phi, mean of every cell [1/s].
+    void divergence(Foam::scalarField& result) const;
+
     /// max |div phi| over all cells [1/s].
     Foam::scalar largest_divergence() const;
 

@@ -8,12 +8,14 @@
 namespace turbidite {
 
 FftPressureSolver::FftPressureSolver(Foam::volScalarField& p)
+    : FftPressureSolver(p, plane_operator(p)) {}
+
+FftPressureSolver::FftPressureSolver(Foam::volScalarField& p, const PlaneOperator& plane)
     : p_(p),
+      floating_(plane.x.has_zero_mode() && plane.y.has_zero_mode()),
       cell_volume_(p.mesh().V()[0]),
       conductance_("conductance", p.mesh().magSf() * p.mesh().deltaCoeffs()),
-      separable_(plane_operator(p)) {
-    const PlaneOperator plane = plane_operator(p);
-    floating_ = plane.x.has_zero_mode() && plane.y.has_zero_mode();
+      separable_(plane) {
     separable_.factorise({0.0, 1.0});
 }
 
@@ -37,9 +39,9 @@ Foam::tmp<Foam::surfaceScalarField> FftPressureSolver::gradient_flux() const {
     auto& sides = flux.ref().boundaryFieldRef();
     forAll(sides, patch) {
         const auto& p_side = p_.boundaryField()[patch];
-        sides[patch] = p_.mesh().magSf().boundaryField()[patch] *
-                       (p_side.coupled() ? p_side.snGrad(p_side.patch().deltaCoeffs())
-                                         : p_side.snGrad());
+        sides[patch] =
+            p_.mesh().magSf().boundaryField()[patch] *
+            (p_side.coupled() ? p_side.snGrad(p_side.patch().deltaCoeffs()) : p_side.snGrad());
     }
     return flux;
 }

@@ -19,6 +19,8 @@ class FftPressureSolver final : public PressureSolver {
     Foam::tmp<Foam::surfaceScalarField> gradient_flux() const override;
 
  private:
+    FftPressureSolver(Foam::volScalarField& p, const PlaneOperator& plane);
+
     Foam::volScalarField& p_;
     bool floating_;                         // no side fixes p
     Foam::scalar cell_volume_;              // [m3]

@@ -2,6 +2,7 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 
 #include <OSspecific.H>
+#include <malloc.h>
 #include <sigFpe.H>
 
 #include <Eigen/Geometry>
@@ -112,7 +113,9 @@ auto in_step(const std::string& step, const Window& window, Work work) {
 }
 
 void check_finite(const FluidFields& fields, const std::string& step, const Window& window) {
-    const Foam::scalar sum = Foam::gSum(Foam::magSqr(fields.U.primitiveField())());
+    Foam::scalar sum = 0.0;
+    for (const Foam::vector& u : fields.U) sum += Foam::magSqr(u);
+    Foam::reduce(sum, Foam::sumOp<Foam::scalar>());
     if (!std::isfinite(sum)) refuse(step, window, "the fluid velocity is not finite");
 }
 
@@ -125,6 +128,14 @@ void check_finite(const std::vector<Kick>& kicks, const Window& window) {
             refuse("step 5 (multipliers)", window,
                    "the kick of grain " + std::to_string(kick.id) + " is not finite");
     }
+}
+
+/// OpenFOAM's operators make fields and drop them, several per window. Freed memory stays with the
+/// process, or the system would clear the same pages again each time: a quarter of a window.
+void keep_freed_memory() {
+    constexpr int most = 1 << 30;
+    ::mallopt(M_MMAP_THRESHOLD, most);
+    ::mallopt(M_TRIM_THRESHOLD, most);
 }
 
 }  // namespace
@@ -160,10 +171,10 @@ FoamAdapter::State::State(const std::filesystem::path& directory, const Settings
                           const ShapeTable& table)
     : fields(directory),
       field(fields, fluid_domain(settings)),
-      projection(fields,
-                 divergence_goal * settings.real("run.velocity_scale") /
-                     settings.real("run.diameter"),
-                 make_pressure_solver(settings.text("fluid.pressure_solver"), fields)),
+      projection(
+          fields,
+          divergence_goal * settings.real("run.velocity_scale") / settings.real("run.diameter"),
+          make_pressure_solver(settings.text("fluid.pressure_solver"), fields)),
       viscosity(make_viscous_solver(settings.text("fluid.viscous_solver"), fields)),
       ledger(fields),
       method(find_method(settings.text("fluid.points"))),
@@ -227,6 +238,7 @@ FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move
     // Debian's controlDict asks for the floating-point trap, which kills the job without a word;
     // finiteness is checked instead. Who sets FOAM_SIGFPE gets it back.
     if (!Foam::getEnv("FOAM_SIGFPE").empty()) Foam::sigFpe::set(false);
+    keep_freed_memory();
 }
 
 FoamAdapter::~FoamAdapter() = default;

@@ -3,7 +3,6 @@
 
 #include <fvcFlux.H>
 #include <fvcGrad.H>
-#include <fvcSurfaceIntegrate.H>
 
 #include <algorithm>
 #include <utility>
@@ -26,14 +25,12 @@ Foam::scalar tightening(Foam::scalar goal, Foam::scalar divergence) {
 
 StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal,
                                    std::unique_ptr<PressureSolver> solver)
-    : fields_(fields),
-      goal_(goal),
-      solver_(std::move(solver)),
-      given_("givenPhi", fields.phi) {}
+    : fields_(fields), goal_(goal), solver_(std::move(solver)), given_("givenPhi", fields.phi) {}
 
 Foam::scalar StokesProjection::project() {
     fields_.phi += kept_share() * fields_.excess;
-    Foam::scalar divergence = fields_.largest_divergence();
+    fields_.divergence(rate_);
+    Foam::scalar divergence = Foam::gMax(Foam::mag(rate_)());
     if (divergence <= rounding * goal_) {
         fields_.p = Foam::dimensionedScalar(fields_.p.dimensions(), Foam::Zero);
         remember();
@@ -41,12 +38,10 @@ Foam::scalar StokesProjection::project() {
     }
     given_ = fields_.phi;
     const Foam::dimensionedScalar dt = fields_.time.deltaT();
-    Foam::scalarField f(fields_.mesh.nCells(), 0.0);
-    Foam::fvc::surfaceIntegrate(f, given_);
-    f *= fields_.mesh.V().field() / dt.value();
+    rate_ *= fields_.mesh.V().field() / dt.value();
     Foam::scalar tighter = 1.0;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-        solver_->solve(f, tighter);
+        solver_->solve(rate_, tighter);
         fields_.phi = given_ - dt * solver_->gradient_flux();
         divergence = fields_.largest_divergence();
         if (divergence <= goal_) break;

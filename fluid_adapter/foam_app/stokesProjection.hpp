@@ -40,6 +40,7 @@ class StokesProjection {
     void remember();                  // e
 
     Foam::surfaceScalarField given_;  // flux before the projection
+    Foam::scalarField rate_;          // its divergence [1/s], then the right-hand side f
 };
 
 }  // namespace turbidite

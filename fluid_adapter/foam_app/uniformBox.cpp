@@ -6,14 +6,14 @@
 #include <cmath>
 #include <string>
 
+#include "fluid_adapter/foam_case/fluid_domain.hpp"
+
 namespace turbidite {
 namespace {
 
 /// Places may be off by this share of a cell. Differences of the solve and of the mesh then differ
 /// by as much, and so does what is left of the divergence.
 constexpr double placement_tolerance = 1e-6;
-
-constexpr std::array<const char*, 4> side_names = {"left", "right", "bottom", "top"};
 
 /// Cells of the first row: those level with the first one.
 int first_row(const Foam::fvMesh& mesh) {

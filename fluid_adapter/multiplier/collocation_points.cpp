@@ -279,13 +279,10 @@ void PointPlacement::count_dropped(CollocationPoints& points) const {
 
 void PointPlacement::list_touched(int local_cells, CollocationPoints& points) {
     std::fill(stencilled_.begin(), stencilled_.begin() + local_cells, 0);
+    for (int cell : points.cell) stencilled_[cell] = 1;
     points.touched.clear();
-    for (int cell : points.cell)
-        if (!stencilled_[cell]) {
-            stencilled_[cell] = 1;
-            points.touched.push_back(cell);
-        }
-    std::sort(points.touched.begin(), points.touched.end());  // memory order
+    for (int cell = 0; cell < local_cells; ++cell)  // memory order, cheaper than sorting
+        if (stencilled_[cell]) points.touched.push_back(cell);
 }
 
 }  // namespace turbidite
