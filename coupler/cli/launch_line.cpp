@@ -63,11 +63,16 @@ Arguments mpirun_options(const LaunchSite& site) {
     return options;
 }
 
+std::string python_path(const LaunchSite& site) {
+    const std::string ours = site.programs.yade_folder().string();
+    return site.python.empty() ? ours : ours + ":" + site.python;
+}
+
 // mpirun exports -x to the program of the same part only, so every part repeats it.
 Arguments part(std::int64_t ranks, const LaunchSite& site, const Arguments& command) {
     Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam,
                    "-x", "OMP_NUM_THREADS=1",
-                   "-x", "PYTHONPATH=" + site.programs.yade_folder().string(),
+                   "-x", "PYTHONPATH=" + python_path(site),
                    "-n", std::to_string(ranks)};
     append(part, command);
     return part;
@@ -94,9 +99,11 @@ std::string shell_quoted(const std::string& text) {
 
 LaunchSite this_site() {
     const char* openfoam = std::getenv("WM_PROJECT_DIR");
+    const char* python = std::getenv("PYTHONPATH");
     return {.programs = find_programs(),
             .as_root = geteuid() == 0,
-            .openfoam = openfoam ? openfoam : "/usr/share/openfoam"};
+            .openfoam = openfoam ? openfoam : "/usr/share/openfoam",
+            .python = python ? python : ""};
 }
 
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,

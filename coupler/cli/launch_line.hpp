@@ -22,6 +22,7 @@ struct LaunchSite {
     Programs programs;
     bool as_root = false;       ///< mpirun refuses root unless told
     std::string openfoam = {};  ///< WM_PROJECT_DIR
+    std::string python = {};    ///< the user's own PYTHONPATH, kept behind ours
 };
 
 /// Of this machine and user.

@@ -11,7 +11,8 @@ namespace {
 LaunchSite site(bool as_root) {
     return {.programs = {.folder = "/b/bin", .library = "/b/lib", .source = "/s"},
             .as_root = as_root,
-            .openfoam = "/usr/share/openfoam"};
+            .openfoam = "/usr/share/openfoam",
+            .python = {}};
 }
 
 Settings settings(const std::string& adapter, bool wet) {
@@ -35,6 +36,13 @@ TEST(LaunchLine, WetWithYade) {
               front + exported + "-n 1 /b/bin/turbidite-coupler /r : " + exported +
                   "-n 1 /b/bin/turbidite-fluid -case /r/fluid : " + exported +
                   "-n 1 /usr/bin/yade -n -x /b/lib/yade/turbidite_yade_nscd.py /r");
+}
+
+TEST(LaunchLine, TheUsersPythonPathIsKept) {
+    LaunchSite with_path = site(true);
+    with_path.python = "/u/py";
+    const std::string line = shell_line(launch_arguments(settings("yade-nscd", true), {"/r"}, with_path));
+    EXPECT_NE(line.find("PYTHONPATH=/b/lib/yade:/u/py "), std::string::npos) << line;
 }
 
 TEST(LaunchLine, DryWithoutYade) {
