@@ -28,19 +28,31 @@ std::vector<std::string> split(const std::string& line) {
     return fields;
 }
 
+/// A line of a grains file; 0 when there is none.
+struct Place {
+    std::string source;
+    int line;
+};
+
+CaseProblem problem_at(const Place& place, const std::string& fault, const std::string& allowed,
+                       const std::string& remedy) {
+    return {.source = place.source,
+            .line = place.line,
+            .key = {},
+            .value = {},
+            .fault = fault,
+            .allowed = allowed,
+            .remedy = remedy};
+}
+
 struct Reader {
     PopulationFile result;
     std::vector<std::string> columns;
     int line = 0;
 
     void refuse(const std::string& fault, const std::string& allowed, const std::string& remedy) {
-        result.problems.push_back({.source = result.source.name,
-                                   .line = line,
-                                   .key = {},
-                                   .value = {},
-                                   .fault = fault,
-                                   .allowed = allowed,
-                                   .remedy = remedy});
+        result.problems.push_back(
+            problem_at({result.source.name, line}, fault, allowed, remedy));
     }
 };
 
@@ -117,13 +129,7 @@ class Collector {
              const std::string& remedy) {
         if (++count_ > most_problems_of_a_kind) return;
         const int line = index < source_.lines.size() ? source_.lines[index] : 0;
-        problems_.push_back({.source = source_.name,
-                             .line = line,
-                             .key = {},
-                             .value = {},
-                             .fault = fault,
-                             .allowed = allowed,
-                             .remedy = remedy});
+        problems_.push_back(problem_at({source_.name, line}, fault, allowed, remedy));
     }
 
     void finish(const std::string& kind) {

@@ -84,10 +84,6 @@ Identity Membership::identity() const {
     return {state_->rank, state_->ranks, state_->log, state_->hash};
 }
 
-int Membership::communicator() const {
-    return MPI_Comm_c2f(state_->local);
-}
-
 int Membership::leave(const Outcome& outcome) {
     const int code = static_cast<int>(outcome.code);
     if (outcome.code != ExitCode::done)

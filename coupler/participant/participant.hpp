@@ -45,9 +45,6 @@ class Membership {
     Channel& channel();
     Identity identity() const;
 
-    /// Fortran handle of the participant's own communicator (MPI_Comm_f2c gives it back).
-    int communicator() const;
-
     /// After the farewell: writes the last words and returns the exit code of the program. MPI is
     /// finalised with this object.
     int leave(const Outcome& outcome);
