@@ -42,10 +42,10 @@ class BoundaryBlocks {
 
     const CollocationPoints* points_ = nullptr;
     ProfileCholesky factors_;
-    std::vector<int> order_;        // rows of the present grain's matrix -> points
-    std::vector<double> on_cells_;  // weights of one point by cell; zero between uses
-    std::vector<double> row_;       // of the matrix that is being assembled
-    std::vector<double> columns_;   // right-hand sides of one grain
+    std::vector<int> order_;               // rows of the present grain's matrix -> points
+    std::vector<double> on_cells_;         // weights of one point by cell; zero between uses
+    std::vector<double> row_;              // of the matrix that is being assembled
+    std::vector<double> columns_;          // right-hand sides of one grain
     std::vector<Eigen::Vector3d> images_;  // G^-1 of (1, r_x, r_y), by point
     std::vector<Eigen::Matrix3d> tied_;
 };

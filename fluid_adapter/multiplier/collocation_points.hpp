@@ -58,10 +58,10 @@ struct InteriorCell {
     double arm_x, arm_y;  ///< r = x - X [m]
 };
 
-/// Interior points of grain g are interior_begin[g] .. interior_begin[g+1]-1 of `interior`, boundary
-/// points boundary_begin[g] .. boundary_begin[g+1]-1 of `arm`. The cells of boundary point p are
-/// stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last one's
-/// memory.
+/// Interior points of grain g are interior_begin[g] .. interior_begin[g+1]-1 of `interior`,
+/// boundary points boundary_begin[g] .. boundary_begin[g+1]-1 of `arm`. The cells of boundary point
+/// p are stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last
+/// one's memory.
 struct CollocationPoints {
     std::vector<int> interior_begin;
     std::vector<InteriorCell> interior;

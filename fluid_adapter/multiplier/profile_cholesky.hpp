@@ -31,11 +31,11 @@ class ProfileCholesky {
     int size(int matrix) const { return begin_[matrix + 1] - begin_[matrix]; }
 
  private:
-    std::vector<int> begin_{0};           // first row of each matrix
-    std::vector<int> first_;              // of each row: column of its first entry
-    std::vector<std::ptrdiff_t> place_;   // of each row: where its column 0 is or would be
+    std::vector<int> begin_{0};          // first row of each matrix
+    std::vector<int> first_;             // of each row: column of its first entry
+    std::vector<std::ptrdiff_t> place_;  // of each row: where its column 0 is or would be
     std::vector<double> values_;
-    std::vector<double> inverse_;         // of each row: 1/L_ii
+    std::vector<double> inverse_;  // of each row: 1/L_ii
 };
 
 }  // namespace turbidite

@@ -32,8 +32,8 @@ class SaddlePoint {
     void assemble(FluidField& field, const std::vector<ImmersedGrain>& grains,
                   const CollocationPoints& points);
 
-    /// Adds impulses to the grains: (x, y, moment) [N s/m, N s]. Every rank that holds a grain gives
-    /// the same.
+    /// Adds impulses to the grains: (x, y, moment) [N s/m, N s]. Every rank that holds a grain
+    /// gives the same.
     void push(const std::vector<Planar>& impulses);
 
     /// Velocities and impulses of the present L. Writes u into the field; to be called once, last.
@@ -76,8 +76,8 @@ class SaddlePoint {
     void move_grains();
     void spread(const double* values);
 
-    /// Adds up rows of grains held by several ranks, one row (a fixed-size vector) per grain. Called
-    /// by every rank, also by one that holds no grain.
+    /// Adds up rows of grains held by several ranks, one row (a fixed-size vector) per grain.
+    /// Called by every rank, also by one that holds no grain.
     template <class Row>
     void sum_over_holders(std::vector<Row>& rows) const {
         double* first = rows.empty() ? nullptr : rows.front().data();

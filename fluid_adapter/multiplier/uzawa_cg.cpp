@@ -57,6 +57,7 @@ MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& setting
     }
     system.add(work.impulses);
     result.residual = std::sqrt(rr / points);
+    result.goal = goal;
     result.converged = result.residual <= goal;
     return result;
 }

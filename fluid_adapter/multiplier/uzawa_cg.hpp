@@ -29,6 +29,7 @@ struct MultiplierSettings {
 struct MultiplierResult {
     std::int64_t iterations = 0;
     double residual = 0.0;  ///< rms slip [m/s]
+    double goal = 0.0;      ///< what it had to fall below
     bool converged = true;
 };
 

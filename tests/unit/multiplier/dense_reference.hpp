@@ -60,8 +60,7 @@ class DenseReference {
         const Eigen::VectorXd moved =
             free + inverse.cwiseProduct(T.transpose() * S.partialPivLu().solve(slip));
         std::vector<Planar> result;
-        for (std::size_t g = 0; g < grains_.size(); ++g)
-            result.push_back(moved.segment<3>(3 * g));
+        for (std::size_t g = 0; g < grains_.size(); ++g) result.push_back(moved.segment<3>(3 * g));
         return result;
     }
 

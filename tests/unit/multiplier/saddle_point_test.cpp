@@ -237,15 +237,15 @@ TEST_P(Against, TheConstraintItself) {
     for (const double value : slip) EXPECT_NEAR(value, 0.0, 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, Against,
-    testing::Values(Case{"apart_interior", three_discs, false, 1.0},
-                    Case{"apart", three_discs, true, 1.0}, Case{"loose", loose_heap, true, 1.0},
-                    Case{"dense", dense_packing, true, 1.0},
-                    Case{"dense_interior", dense_packing, false, 1.0},
-                    Case{"light", loose_heap, true, -0.4},
-                    Case{"light_interior", loose_heap, false, -0.4}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Against,
+                         testing::Values(Case{"apart_interior", three_discs, false, 1.0},
+                                         Case{"apart", three_discs, true, 1.0},
+                                         Case{"loose", loose_heap, true, 1.0},
+                                         Case{"dense", dense_packing, true, 1.0},
+                                         Case{"dense_interior", dense_packing, false, 1.0},
+                                         Case{"light", loose_heap, true, -0.4},
+                                         Case{"light_interior", loose_heap, false, -0.4}),
+                         [](const auto& info) { return info.param.name; });
 
 class WithOrWithoutBoundary : public testing::TestWithParam<bool> {};
 
