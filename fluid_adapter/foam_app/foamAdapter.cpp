@@ -82,7 +82,7 @@ void keep_freed_memory() {
 }  // namespace
 
 struct FoamAdapter::State {
-    State(const std::filesystem::path& directory, const Settings& settings,
+    State(const std::filesystem::path& directory, const RankGroup& ranks, const Settings& settings,
           const ShapeTable& table);
 
     FluidFields fields;
@@ -101,9 +101,9 @@ struct FoamAdapter::State {
     Kicks finish(const Window& window);
 };
 
-FoamAdapter::State::State(const std::filesystem::path& directory, const Settings& settings,
-                          const ShapeTable& table)
-    : fields(directory),
+FoamAdapter::State::State(const std::filesystem::path& directory, const RankGroup& ranks,
+                          const Settings& settings, const ShapeTable& table)
+    : fields(directory, ranks),
       field(fields, fluid_domain(settings)),
       projection(
           fields,
@@ -163,6 +163,15 @@ FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move
 
 FoamAdapter::~FoamAdapter() = default;
 
+void FoamAdapter::share(int communicator) {
+    ranks_ = RankGroup(MPI_Comm_f2c(communicator));
+    if (!ranks_.parallel()) return;
+    int no_arguments = 0;
+    char** none = nullptr;
+    with_foam_errors("starting in parallel",
+                     [&] { Foam::Pstream::init(no_arguments, none, false); });
+}
+
 Hello FoamAdapter::describe() const {
     Hello hello;
     hello.role = Role::fluid;
@@ -179,7 +188,7 @@ Hello FoamAdapter::describe() const {
 
 Box FoamAdapter::initialise(const Settings& settings, const ShapeTable& shapes) {
     state_ = with_foam_errors("opening the case " + directory_.string(), [&] {
-        return std::make_unique<State>(directory_, settings, shapes);
+        return std::make_unique<State>(directory_, ranks_, settings, shapes);
     });
     const Foam::boundBox bounds(state_->fields.mesh.points(), false);
     return {{bounds.min().x(), bounds.min().y(), bounds.min().z()},

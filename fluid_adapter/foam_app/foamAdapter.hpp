@@ -9,6 +9,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
 
@@ -23,6 +24,11 @@ class FoamAdapter final : public FluidAdapter {
     /// `directory`: the OpenFOAM case.
     explicit FoamAdapter(std::filesystem::path directory);
     ~FoamAdapter() override;
+
+    /// The fluid's own communicator, as the number of a Fortran handle; before the other calls, and
+    /// not at all where there is one process. With several ranks OpenFOAM is put into parallel
+    /// mode: for it, the world must be this communicator (coupler/transport/world_isolation.hpp).
+    void share(int communicator);
 
     Hello describe() const override;
     Box initialise(const Settings& settings, const ShapeTable& shapes) override;
@@ -51,6 +57,7 @@ class FoamAdapter final : public FluidAdapter {
  private:
     struct State;
     std::filesystem::path directory_;
+    RankGroup ranks_;
     std::unique_ptr<State> state_;
 };
 

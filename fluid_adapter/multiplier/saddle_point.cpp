@@ -27,6 +27,7 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
     points_ = &points;
     ids_.clear();
     for (const ImmersedGrain& grain : grains) ids_.push_back(grain.id);
+    field.hold_grains(ids_.data(), static_cast<int>(ids_.size()));
     cells_x_.resize(field.local_cells(), 0.0);
     cells_y_.resize(field.local_cells(), 0.0);
     multipliers_.assign(rows(), 0.0);
@@ -34,8 +35,7 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
     sum_interiors();
     factorise();
     move_grains();
-    field.import_halo(field.velocity(0));
-    field.import_halo(field.velocity(1));
+    field.import_halo(field.velocity(0), field.velocity(1));
     BoundaryOperator(points).apply(field.velocity(0), field.velocity(1), motions_.data(),
                                    slip_.data());
 }
@@ -86,8 +86,7 @@ void SaddlePoint::push(const std::vector<Planar>& impulses) {
 void SaddlePoint::apply(const double* w, double* y) {
     const BoundaryOperator boundary(*points_);
     spread(w);
-    field_->import_halo(cells_x_.data());
-    field_->import_halo(cells_y_.data());
+    field_->import_halo(cells_x_.data(), cells_y_.data());
     rows_.resize(grains_->size());
     boundary.sum_by_grain(w, rows_.data());
     sum_over_holders(rows_);
@@ -129,8 +128,7 @@ void SaddlePoint::impose() {
 void SaddlePoint::spread(const double* values) {
     for (const int cell : points_->stencilled) cells_x_[cell] = cells_y_[cell] = 0.0;
     BoundaryOperator(*points_).spread(values, cells_x_.data(), cells_y_.data());
-    field_->export_halo(cells_x_.data());
-    field_->export_halo(cells_y_.data());
+    field_->export_halo(cells_x_.data(), cells_y_.data());
     const double per_mass = 1.0 / field_->cell_mass();
     for (const int cell : points_->stencilled) {
         cells_x_[cell] *= per_mass;
