@@ -104,7 +104,7 @@ class Reference : public StockApplication {
         write_box(scratch, box, 1.0, 1.0);
         write_field(scratch, box, "p", "[0 2 -2 0 0 0 0]", {flat, flat, flat, flat});
         write_vector_field(scratch, box, "U",
-                           {held("(1 0 0)"), held("(0 0 0)"), held("(0 0 0)"), held("(0 0.5 0)")});
+                           {held("(1 0 0)"), held("(1 0 0)"), held("(0 0.5 0)"), held("(0 0.5 0)")});
         make_mesh();
         run("potentialFoam -writePhi -initialiseUBCs");
         return field("0/Phi");
