@@ -2,7 +2,8 @@
 //
 // Column i and row j of every cell of a matrix, found from which cells its coefficients join, for
 // any numbering of the cells: a corner is a cell with two neighbours, the first row follows the
-// boundary from there, and every further row is what lies across the one before. Faces that cyclic
+// boundary from there, and every further row is what lies across the one before. The corner and the
+// way are the ones with the smallest cell numbers, so that x is blockMesh's x. Faces that cyclic
 // patches close are not part of it.
 #pragma once
 

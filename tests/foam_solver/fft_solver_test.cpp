@@ -27,6 +27,10 @@ struct Conditions {
     bool steady;  // has a solution without a time derivative
 };
 
+void PrintTo(const Conditions& conditions, std::ostream* out) {
+    *out << conditions.name;
+}
+
 const Conditions all_conditions[] = {
     {"closed", {flat, flat, flat, flat}, false, false, false},
     {"held", {held("1"), held("-0.5"), held("0"), held("2")}, false, false, true},
@@ -103,8 +107,9 @@ class Reference : public StockApplication {
             solver_of("Phi", solver) + "potentialFlow { PhiRefCell 77; PhiRefValue 3.25; }\n";
         write_box(scratch, box, 1.0, 1.0);
         write_field(scratch, box, "p", "[0 2 -2 0 0 0 0]", {flat, flat, flat, flat});
-        write_vector_field(scratch, box, "U",
-                           {held("(1 0 0)"), held("(1 0 0)"), held("(0 0.5 0)"), held("(0 0.5 0)")});
+        write_vector_field(
+            scratch, box, "U",
+            {held("(1 0 0)"), held("(1 0 0)"), held("(0 0.5 0)"), held("(0 0.5 0)")});
         make_mesh();
         run("potentialFoam -writePhi -initialiseUBCs");
         return field("0/Phi");
@@ -126,6 +131,14 @@ TEST_F(FftSolver, CoefficientsThatDifferByTheMeshsDigitsAreCorrected) {
     const Outcome direct = diffused(box, sides, "solver FFT; tolerance 1e-12; relTol 0;");
     EXPECT_EQ(iterations(direct.log, "T"), std::vector<int>(3, 2));
     EXPECT_LT(largest_difference(direct.T, diffused(box, sides, pcg).T), agreement);
+}
+
+TEST_F(FftSolver, TheSmallestBoxIsSolved) {
+    FoamBox box;
+    box.cells = {1, 1};
+    const Sides& sides = all_conditions[2].sides;
+    EXPECT_LT(largest_difference(diffused(box, sides, fft).T, diffused(box, sides, pcg).T),
+              agreement);
 }
 
 /// Stops with a reason instead of returning something.
