@@ -22,6 +22,9 @@ class Pencils {
 
     virtual void to_columns() = 0;
     virtual void to_rows() = 0;
+
+    /// Rows and columns are one array and nothing moves.
+    virtual bool in_place() const { return false; }
 };
 
 /// The whole grid on one rank: rows and columns are one array and nothing moves.
@@ -36,6 +39,7 @@ class WholeGrid final : public Pencils {
     double* columns() override { return values_.get(); }
     void to_columns() override {}
     void to_rows() override {}
+    bool in_place() const override { return true; }
 
  private:
     struct Release {
