@@ -53,8 +53,8 @@ std::vector<double> by_definition(const std::vector<double>& row, const Weight& 
     return modes;
 }
 
-// Sums of n terms up to 2: 64 times rounding for rows of 13 and less.
-constexpr double rounding = 64 * 2.2e-16;
+// Sums of up to 13 terms up to 2, with angles up to 40 that are rounded as well: 26 x 40 roundings.
+constexpr double rounding = 26 * 40 * 2.2e-16;
 
 void expect_equal(const std::vector<double>& row, const std::vector<double>& expected) {
     for (std::size_t j = 0; j < row.size(); ++j) EXPECT_NEAR(row[j], expected[j], rounding);
