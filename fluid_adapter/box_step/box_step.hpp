@@ -42,7 +42,7 @@ class BoxStep {
     double* velocity(int axis) { return viscous_[axis].values(); }
 
     /// p over rho_f [m2/s2], known up to a constant where no side fixes it; after `project`.
-    const double* pressure() { return pressure_.values(); }
+    double* pressure() { return pressure_.values(); }
 
     /// e on the faces across an axis [m/s]: x, rows of x.cells + 1; y, rows of x.cells, one more
     /// than y.cells. On the sides of the box, where nothing is remembered, what the flux has beyond

@@ -28,7 +28,7 @@ void advance_row(int count, const double* __restrict in, double x, const double*
 
 TURBIDITE_ROW_WORK
 void correct(int count, double step, const double* __restrict low, const double* __restrict high,
-             const double* __restrict in, double* __restrict out) {
+             const double* in, double* out) {
     for (int i = 0; i < count; ++i) out[i] = in[i] - step * (high[i] - low[i]);
 }
 

@@ -21,7 +21,7 @@ void mean_flux(int count, const double* low, const double* high, double kept, co
 void divergence_row(int count, double x, const double* left, const double* right, double y,
                     const double* below, const double* above, double* out);
 
-/// out[i] = in[i] - step (high[i] - low[i])
+/// out[i] = in[i] - step (high[i] - low[i]); out may be in
 void correct(int count, double step, const double* low, const double* high, const double* in,
              double* out);
 
