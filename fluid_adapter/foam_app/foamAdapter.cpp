@@ -9,20 +9,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fluid_adapter/foam_app/advection.hpp"
+#include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
 #include "fluid_adapter/foam_app/savedState.hpp"
-#include "fluid_adapter/foam_app/solverList.hpp"
-#include "fluid_adapter/foam_app/stokesProjection.hpp"
 #include "fluid_adapter/multiplier/immersed_step.hpp"
 
 namespace turbidite {
 namespace {
-
-/// |div phi| D / u_c asked of the projection: half of what the run accepts.
-constexpr double divergence_goal = 5e-5;
 
 /// Adds the time until it goes out of scope.
 class Stopwatch {
@@ -53,11 +48,8 @@ auto in_step(const std::string& step, const Window& window, Work work) {
     }
 }
 
-void check_finite(const FluidFields& fields, const std::string& step, const Window& window) {
-    Foam::scalar sum = 0.0;
-    for (const Foam::vector& u : fields.U) sum += Foam::magSqr(u);
-    Foam::reduce(sum, Foam::sumOp<Foam::scalar>());
-    if (!std::isfinite(sum)) refuse(step, window, "the fluid velocity is not finite");
+void check_finite(bool finite, const std::string& step, const Window& window) {
+    if (!finite) refuse(step, window, "the fluid velocity is not finite");
 }
 
 void check_finite(const std::vector<Kick>& kicks, const Window& window) {
@@ -87,8 +79,8 @@ struct FoamAdapter::State {
 
     FluidFields fields;
     FoamFluidField field;
-    StokesProjection projection;
-    std::unique_ptr<ViscousSolver> viscosity;
+    std::unique_ptr<FluidStep> step;
+    bool fields_follow = true;  // p, phi and excess hold what the step knows
     MomentumLedger ledger;
     ImmersedStep step_five;
     bool joint;
@@ -96,6 +88,7 @@ struct FoamAdapter::State {
     FluidTimings timings;
 
     void begin(const Window& window);
+    void put_fields();
     void take_grains(const Window& window, const std::vector<GrainState>& grains);
     void note(const Window& window, const MultiplierResult& result);
     Kicks finish(const Window& window);
@@ -105,18 +98,23 @@ FoamAdapter::State::State(const std::filesystem::path& directory, const RankGrou
                           const Settings& settings, const ShapeTable& table)
     : fields(directory, ranks),
       field(fields, fluid_domain(settings)),
-      projection(
-          fields,
-          divergence_goal * settings.real("run.velocity_scale") / settings.real("run.diameter"),
-          make_pressure_solver(settings.text("fluid.pressure_solver"), fields)),
-      viscosity(make_viscous_solver(settings.text("fluid.viscous_solver"), fields)),
+      step(make_fluid_step(settings, fields)),
       ledger(fields),
       step_five(field, settings, table),
       joint(settings.text("coupling.scheme") == "joint") {}
 
+/// For whoever reads fields: output, function objects, a saved state.
+void FoamAdapter::State::put_fields() {
+    if (fields_follow) return;
+    step->put_fields();
+    fields.interpolate_flux();
+    fields_follow = true;
+}
+
 void FoamAdapter::State::begin(const Window& window) {
     timings = {};
     report = {};
+    if (!fields.time.functionObjects().empty()) put_fields();
     fields.time.setDeltaT(window.step);
     if (!fields.time.loop())
         throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
@@ -147,8 +145,10 @@ Kicks FoamAdapter::State::finish(const Window& window) {
     Planar to_grains = step_five.impulse_to_grains();
     field.sum_over_ranks(to_grains.data(), 2);
     report.momentum_defect = ledger.close({to_grains.x(), to_grains.y(), 0.0});
-    fields.interpolate_flux();
-    report.final_divergence = fields.largest_divergence();
+    if (window.write_output) {
+        put_fields();
+        report.final_divergence = fields.largest_divergence();
+    }
     return {step_five.kicks(), {}};
 }
 
@@ -199,24 +199,22 @@ void FoamAdapter::advance(const Window& window) {
     State& s = *state_;
     s.begin(window);
     s.ledger.open();
+    s.fields_follow = false;
     in_step("step 1 (projection)", window, [&] {
         const Stopwatch watch(s.timings.projection);
-        s.report.divergence = s.projection.project();
-        s.report.courant = s.fields.courant();
-        s.ledger.add_pressure();
+        const FluxReport flux = s.step->project(s.ledger);
+        s.report.divergence = flux.divergence;
+        s.report.courant = flux.courant;
     });
     in_step("step 2 (transport)", window, [&] {
         const Stopwatch watch(s.timings.transport);
-        s.ledger.add_convection();
-        advect(s.fields);
+        s.step->transport(s.ledger);
     });
-    check_finite(s.fields, "steps 1-2 (projection, transport)", window);
     in_step("step 3 (viscosity)", window, [&] {
         const Stopwatch watch(s.timings.viscosity);
-        s.viscosity->solve(window.step);
-        s.ledger.add_viscosity();
+        s.step->diffuse(s.ledger);
     });
-    check_finite(s.fields, "step 3 (viscosity)", window);
+    check_finite(s.step->finite(), "steps 1-3 (projection, transport, viscosity)", window);
 }
 
 std::vector<FreeResponse> FoamAdapter::respond(const Window& window,
@@ -250,7 +248,7 @@ Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& g
         }
         return s.finish(window);
     });
-    check_finite(s.fields, "step 5 (multipliers)", window);
+    check_finite(s.ledger.finite(), "step 5 (multipliers)", window);
     check_finite(answer.kicks, window);
     if (window.write_output)
         with_foam_errors("writing fields", [&] {
@@ -268,11 +266,17 @@ Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& g
 }
 
 SavedState FoamAdapter::save() const {
+    state_->put_fields();
     return save_fields(state_->fields);
 }
 
 void FoamAdapter::restore(const SavedState& state) {
-    with_foam_errors("restoring the fluid", [&] { restore_fields(state, state_->fields); });
+    with_foam_errors("restoring the fluid", [&] {
+        restore_fields(state, state_->fields);
+        state_->step->take_fields();
+        state_->ledger.forget();
+        state_->fields_follow = true;
+    });
 }
 
 const FluidTimings& FoamAdapter::timings() const {
@@ -286,7 +290,7 @@ const CollocationPoints& FoamAdapter::points() const {
 void FoamAdapter::add_velocity(double x, double y) {
     state_->fields.U.primitiveFieldRef() += Foam::vector(x, y, 0.0);
     state_->fields.U.correctBoundaryConditions();
-    state_->fields.interpolate_flux();
+    state_->ledger.forget();
 }
 
 Vec3 FoamAdapter::velocity(int i, int j) const {
@@ -295,6 +299,7 @@ Vec3 FoamAdapter::velocity(int i, int j) const {
 }
 
 double FoamAdapter::pressure(int i, int j) const {
+    state_->put_fields();
     return state_->fields.p[state_->field.cell(i, j, 0)];
 }
 

@@ -2,11 +2,13 @@
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace turbidite {
 
 void MomentumLedger::open() {
-    before_ = fields_.momentum();
+    before_ = current_ ? *current_ : fields_.momentum();
+    current_.reset();
     impulses_ = Foam::Zero;
     largest_ = 0.0;
 }
@@ -14,7 +16,7 @@ void MomentumLedger::open() {
 /// Sums `per_face(patch)`, a tmp<vectorField> of impulse over rho_f, over the true boundary: faces
 /// shared by ranks or joined by a cyclic side have two sides that cancel.
 template <class PerFace>
-void MomentumLedger::add(PerFace per_face) {
+void MomentumLedger::add_faces(PerFace per_face) {
     Foam::vector sum = Foam::Zero;
     forAll(fields_.mesh.boundary(), patch) {
         const Foam::fvPatch& side = fields_.mesh.boundary()[patch];
@@ -22,31 +24,45 @@ void MomentumLedger::add(PerFace per_face) {
     }
     fields_.ranks.sum(sum.v_, Foam::vector::nComponents);
     sum *= fields_.rho * fields_.time.deltaTValue() / fields_.thickness;
-    impulses_ += sum;
-    largest_ = std::max(largest_, Foam::mag(sum));
+    add_impulse(sum);
+}
+
+void MomentumLedger::add(const std::array<double, 2>& force) {
+    const Foam::scalar density_and_time = fields_.rho * fields_.time.deltaTValue();
+    add_impulse(density_and_time * Foam::vector(force[0], force[1], 0.0));
+}
+
+void MomentumLedger::add_impulse(const Foam::vector& impulse) {
+    impulses_ += impulse;
+    largest_ = std::max(largest_, Foam::mag(impulse));
 }
 
 void MomentumLedger::add_pressure() {
-    add([this](Foam::label patch) {
+    add_faces([this](Foam::label patch) {
         return -fields_.p.boundaryField()[patch] * fields_.mesh.Sf().boundaryField()[patch];
     });
 }
 
 void MomentumLedger::add_convection() {
-    add([this](Foam::label patch) {
+    add_faces([this](Foam::label patch) {
         return -fields_.phi.boundaryField()[patch] * fields_.U.boundaryField()[patch];
     });
 }
 
 void MomentumLedger::add_viscosity() {
-    add([this](Foam::label patch) {
+    add_faces([this](Foam::label patch) {
         return fields_.nu * fields_.mesh.magSf().boundaryField()[patch] *
                fields_.U.boundaryField()[patch].snGrad();
     });
 }
 
-double MomentumLedger::close(const Foam::vector& to_grains) const {
-    const Foam::vector change = fields_.momentum() - before_;
+bool MomentumLedger::finite() const {
+    return current_ && std::isfinite(current_->x()) && std::isfinite(current_->y());
+}
+
+double MomentumLedger::close(const Foam::vector& to_grains) {
+    current_ = fields_.momentum();
+    const Foam::vector change = *current_ - before_;
     const Foam::scalar defect = Foam::mag(change + to_grains - impulses_);
     const Foam::scalar scale = std::max({largest_, Foam::mag(change), Foam::mag(to_grains)});
     return scale > 0.0 ? defect / scale : 0.0;

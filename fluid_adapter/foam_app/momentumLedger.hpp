@@ -9,6 +9,9 @@
 // boundary values alone, so that the sum over cells is checked and not repeated. [N s/m]
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "fluid_adapter/foam_app/createFields.hpp"
 
 namespace turbidite {
@@ -22,15 +25,26 @@ class MomentumLedger {
     void add_convection();  ///< before step 2 changes U, with phi
     void add_viscosity();   ///< after step 3, with U
 
+    /// The same for boundary forces over rho_f, per unit length [m3/s2].
+    void add(const std::array<double, 2>& force);
+
+    /// U was changed from outside between windows.
+    void forget() { current_.reset(); }
+
+    /// P^{n+1} is a number.
+    bool finite() const;
+
     /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the
     /// largest of the terms; zero if all are.
-    double close(const Foam::vector& to_grains) const;
+    double close(const Foam::vector& to_grains);
 
  private:
     template <class PerFace>
-    void add(PerFace per_face);
+    void add_faces(PerFace per_face);
+    void add_impulse(const Foam::vector& impulse);
 
     const FluidFields& fields_;
+    std::optional<Foam::vector> current_;  // P of U as it is
     Foam::vector before_{Foam::Zero};
     Foam::vector impulses_{Foam::Zero};
     Foam::scalar largest_ = 0.0;

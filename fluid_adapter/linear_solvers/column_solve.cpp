@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluid_adapter/linear_solvers/column_solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -21,104 +22,125 @@ void check(const Helmholtz& problem) {
 ColumnSolve::ColumnSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes)
     : across_(across), along_(along), modes_(modes) {
     for (int k = 0; k < modes.count; ++k) mu_.push_back(across.eigenvalue(modes.first + k));
-    e_.resize(at(open_length()));
     if (!along_.periodic()) return;
-    w_.resize(e_.size());
+    w_.resize(at(open_length()));
     closing_.resize(modes.count);
+    closed_.resize(modes.count);
 }
 
 void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
     check(problem);
     singular_ = problem.alpha == 0.0 && modes_.first == 0 && modes_.count > 0 &&
                 across_.has_zero_mode() && along_.has_zero_mode();
+    constants_.assign(singular_ ? along_.cells : 0, 0.0);
     normalisation_ = normalisation;
-    scale_ = 1.0 / (problem.beta * along_.coupling() * normalisation);
-    eliminate(problem);
-    if (along_.periodic()) close_the_ring(problem);
-}
-
-void ColumnSolve::eliminate(const Helmholtz& problem) {
     const double per_r = 1.0 / along_.coupling();
-    const double shift = problem.alpha / problem.beta;
-    for (int j = 0; j < open_length(); ++j) {
-        // The last pivot of the mode of constants is zero, and hosts may trap a division by it:
-        // its unknown is free.
-        const bool free_unknown = singular_ && j == along_.cells - 1;
-        if (free_unknown) e_[at(j)] = 0.0;
-        for (int k = free_unknown ? 1 : 0; k < modes_.count; ++k) {
-            const double d = (shift + mu_[k] + along_.diagonal(j)) * per_r;
-            e_[at(j) + k] = 1.0 / (d - (j > 0 ? e_[at(j - 1) + k] : 0.0));
-        }
-    }
+    scale_ = per_r / (problem.beta * normalisation);
+    std::vector<double> shift;
+    for (const double mu : mu_) shift.push_back((problem.alpha / problem.beta + mu) * per_r);
+    if (singular_) shift[0] = 1.0;  // what comes of it is replaced
+    const int last = open_length() - 1;
+    e_.compute(shift, along_.diagonal(0) * per_r, along_.diagonal(1) * per_r,
+               along_.diagonal(last) * per_r, open_length());
+    if (!along_.periodic()) return;
+    for (double& d : shift) d += along_.diagonal(along_.cells - 1) * per_r;
+    close_the_ring(shift);
 }
 
-void ColumnSolve::close_the_ring(const Helmholtz& problem) {
-    const int last = along_.cells - 2;  // of the open part
-    const double per_r = 1.0 / along_.coupling();
-    const double shift = problem.alpha / problem.beta;
-    for (int k = 0; k < modes_.count; ++k) {
-        w_[k] = e_[k];
-        for (int j = 1; j <= last; ++j)
-            w_[at(j) + k] = (w_[at(j - 1) + k] + (j == last ? 1.0 : 0.0)) * e_[at(j) + k];
-        for (int j = last - 1; j >= 0; --j) w_[at(j) + k] += e_[at(j) + k] * w_[at(j + 1) + k];
-        const double d = (shift + mu_[k] + along_.diagonal(along_.cells - 1)) * per_r;
-        const bool free_unknown = singular_ && k == 0;
-        closing_[k] = free_unknown ? 0.0 : 1.0 / (d - w_[k] - w_[at(last) + k]);
-    }
+/// w, by the recurrences with 1 at both ends, and what closes the ring.
+void ColumnSolve::close_the_ring(const std::vector<double>& diagonal) {
+    const int last = open_length() - 1;
+    for (int j = 0; j <= last; ++j)
+        e_.for_row(j, [&](int begin, int end, const double* e) {
+            const double given = j == 0 || j == last ? 1.0 : 0.0;
+            for (int k = begin; k < end; ++k)
+                w_[at(j) + k] = ((j > 0 ? w_[at(j - 1) + k] : 0.0) + given) * e[k - begin];
+        });
+    for (int j = last - 1; j >= 0; --j) substitute(j, w_.data());
+    for (int k = 0; k < modes_.count; ++k)
+        closing_[k] = 1.0 / (diagonal[k] - w_[k] - w_[at(last) + k]);
 }
 
-double ColumnSolve::solve(double* values) const {
-    const double taken = singular_ ? make_compatible(values) : 0.0;
-    forward(values);
-    backward(values);
-    if (along_.periodic()) spread_last(values);
-    if (singular_) remove_mean(values);
+double ColumnSolve::solve(double* values) {
+    for (int j = 0; j < along_.cells; ++j) up(j, values);
+    const double taken = turn(values);
+    for (int j = along_.cells - 1; j >= 0; --j) down(j, values);
     return taken;
 }
 
-void ColumnSolve::forward(double* values) const {
-    for (int k = 0; k < modes_.count; ++k) values[k] *= scale_ * e_[k];
-    for (int j = 1; j < open_length(); ++j) {
-        const double* e = e_.data() + at(j);
-        const double* below = values + at(j - 1);
-        double* row = values + at(j);
-        for (int k = 0; k < modes_.count; ++k) row[k] = (scale_ * row[k] + below[k]) * e[k];
-    }
+void ColumnSolve::up(int j, double* values) {
+    if (singular_) constants_[j] = values[at(j)];
+    if (j >= open_length()) return;
+    double* row = values + at(j);
+    const double* below = j > 0 ? values + at(j - 1) : nullptr;
+    e_.for_row(j, [&](int begin, int end, const double* e) {
+        if (below)
+            for (int k = begin; k < end; ++k) row[k] = (scale_ * row[k] + below[k]) * e[k - begin];
+        else
+            for (int k = begin; k < end; ++k) row[k] *= scale_ * e[k - begin];
+    });
 }
 
-void ColumnSolve::backward(double* values) const {
-    for (int j = open_length() - 2; j >= 0; --j) {
-        const double* e = e_.data() + at(j);
-        const double* above = values + at(j + 1);
-        double* row = values + at(j);
-        for (int k = 0; k < modes_.count; ++k) row[k] += e[k] * above[k];
-    }
+/// x_j = z_j + e_j x_{j+1}.
+void ColumnSolve::substitute(int j, double* values) const {
+    double* row = values + at(j);
+    const double* above = values + at(j + 1);
+    e_.for_row(j, [&](int begin, int end, const double* e) {
+        for (int k = begin; k < end; ++k) row[k] += e[k - begin] * above[k];
+    });
 }
 
-void ColumnSolve::spread_last(double* values) const {
+double ColumnSolve::turn(double* values) {
+    if (along_.periodic()) close_last(values);
+    return singular_ ? solve_constants() : 0.0;
+}
+
+/// The last unknown of the ring needs the whole of z.
+void ColumnSolve::close_last(double* values) {
     const int n = along_.cells;
+    for (int j = n - 3; j >= 0; --j) substitute(j, values);
     double* last = values + at(n - 1);
     for (int k = 0; k < modes_.count; ++k)
         last[k] = (scale_ * last[k] + values[k] + values[at(n - 2) + k]) * closing_[k];
-    for (int j = 0; j < n - 1; ++j) {
+    std::copy_n(last, modes_.count, closed_.begin());
+}
+
+void ColumnSolve::down(int j, double* values) {
+    const int last = along_.cells - 1;
+    if (along_.periodic() && j < last) {
         const double* w = w_.data() + at(j);
         double* row = values + at(j);
-        for (int k = 0; k < modes_.count; ++k) row[k] += w[k] * last[k];
+        for (int k = 0; k < modes_.count; ++k) row[k] += w[k] * closed_[k];
+    } else if (j < last) {
+        substitute(j, values);
     }
+    if (!singular_) return;
+    if (j < last) values[at(j + 1)] = constants_[j + 1];
+    if (j == 0) values[0] = constants_[0];
 }
 
-double ColumnSolve::make_compatible(double* values) const {
-    double sum = 0.0;
-    for (int j = 0; j < along_.cells; ++j) sum += values[at(j)];
-    const double mean = sum / along_.cells;
-    for (int j = 0; j < along_.cells; ++j) values[at(j)] -= mean;
+/// D_j = x_{j+1} - x_j = D_{j-1} - s f_j, summed twice from one end; no D_{-1} beyond a neumann
+/// end, and around a ring the D sum to zero.
+double ColumnSolve::solve_constants() {
+    const int n = along_.cells;
+    double mean = 0.0;
+    for (const double f : constants_) mean += f / n;
+    double slope = 0.0, total = 0.0;
+    for (double& f : constants_) {
+        slope -= scale_ * (f - mean);
+        f = slope;
+        total += slope;
+    }
+    const double first = along_.periodic() ? -total / n : 0.0;
+    double x = 0.0, sum = 0.0;
+    for (double& d : constants_) {
+        const double next = x + d + first;
+        d = x;
+        sum += x;
+        x = next;
+    }
+    for (double& value : constants_) value -= sum / n;
     return mean / normalisation_;  // mode 0 of a row is its mean times this
-}
-
-void ColumnSolve::remove_mean(double* values) const {
-    double sum = 0.0;
-    for (int j = 0; j < along_.cells; ++j) sum += values[at(j)];
-    for (int j = 0; j < along_.cells; ++j) values[at(j)] -= sum / along_.cells;
 }
 
 }  // namespace turbidite

@@ -33,6 +33,9 @@ class Pencils {
 
     /// The value given on the rank that holds mode 0, on every rank.
     virtual double from_mode_zero(double value) const = 0;
+
+    /// Rows and columns are one array and nothing moves.
+    virtual bool in_place() const { return false; }
 };
 
 /// The whole grid on one rank: rows and columns are one array and nothing moves.
@@ -48,6 +51,7 @@ class WholeGrid final : public Pencils {
     void to_columns() override {}
     void to_rows() override {}
     double from_mode_zero(double value) const override { return value; }
+    bool in_place() const override { return true; }
 
  private:
     int columns_, rows_;

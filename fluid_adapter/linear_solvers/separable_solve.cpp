@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace turbidite {
@@ -23,7 +24,8 @@ SeparableSolve::SeparableSolve(const PlaneOperator& plane)
 
 SeparableSolve::SeparableSolve(const PlaneOperator& plane, std::unique_ptr<Pencils> pencils)
     : pencils_(std::move(pencils)),
-      transform_(checked(plane).x, pencils_->row_count(), pencils_->rows()),
+      columns_of_grid_(plane.x.cells),
+      transform_(checked(plane).x),
       columns_(plane.x, plane.y, {pencils_->first_mode(), pencils_->mode_count()}),
       zero_mode_(plane.x.has_zero_mode() && plane.y.has_zero_mode()) {}
 
@@ -32,13 +34,56 @@ void SeparableSolve::factorise(const Helmholtz& problem) {
     free_constants_ = zero_mode_ && problem.alpha == 0.0;
 }
 
+/// Fills and transforms rows in pairs; done(j) follows the transform of row j.
+template <class Done>
+void SeparableSolve::forward(const RowWork& fill, Done done) {
+    const int rows = pencils_->row_count();
+    for (int j = 0; j < rows; j += 2) {
+        const bool pair = j + 1 < rows;
+        fill(j);
+        if (pair) fill(j + 1);
+        transform_.forward(row(j), pair ? row(j + 1) : nullptr);
+        done(j);
+        if (pair) done(j + 1);
+    }
+}
+
+/// The way back, from the last row down; ready(j) makes the modes of rows j and above complete.
+template <class Ready>
+void SeparableSolve::backward(Ready ready, const RowWork& take) {
+    for (int j = pencils_->row_count() - 1; j >= 0; j -= 2) {
+        const bool pair = j > 0;
+        ready(pair ? j - 1 : j);
+        transform_.backward(row(j), pair ? row(j - 1) : nullptr);
+        take(j);
+        if (pair) take(j - 1);
+    }
+}
+
 double SeparableSolve::solve() {
-    transform_.forward();
-    pencils_->to_columns();
-    const double taken = columns_.solve(pencils_->columns());
-    pencils_->to_rows();
-    transform_.backward();
-    return free_constants_ ? pencils_->from_mode_zero(taken) : 0.0;
+    const RowWork nothing = [](int) {};
+    return solve(nothing, nothing);
+}
+
+double SeparableSolve::solve(const RowWork& fill, const RowWork& take) {
+    const auto none = [](int) {};
+    if (!pencils_->in_place()) {
+        forward(fill, none);
+        pencils_->to_columns();
+        const double taken = columns_.solve(pencils_->columns());
+        pencils_->to_rows();
+        backward(none, take);
+        return free_constants_ ? pencils_->from_mode_zero(taken) : 0.0;
+    }
+    double* values = pencils_->columns();
+    forward(fill, [&](int j) { columns_.up(j, values); });
+    const double taken = columns_.turn(values);
+    int next = pencils_->row_count() - 1;  // to go down
+    const auto complete = [&](int j) {
+        for (; next >= std::max(j - 1, 0); --next) columns_.down(next, values);
+    };
+    backward(complete, take);
+    return taken;
 }
 
 }  // namespace turbidite

@@ -9,6 +9,8 @@
 // Valid C++17.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "fluid_adapter/linear_solvers/column_solve.hpp"
@@ -38,8 +40,21 @@ class SeparableSolve {
     /// Returns the mean that was taken off f, zero where constants are not free; on every rank.
     double solve();
 
+    /// The same for a caller that makes f and uses x row by row: `fill(j)` is called before row j
+    /// is read, upwards; `take(j)` once it is complete, downwards. On one rank a row is filled,
+    /// transformed and eliminated while it is in cache.
+    using RowWork = std::function<void(int)>;
+    double solve(const RowWork& fill, const RowWork& take);
+
  private:
+    double* row(int j) { return values() + static_cast<std::size_t>(j) * columns_of_grid_; }
+    template <class Done>
+    void forward(const RowWork& fill, Done done);
+    template <class Ready>
+    void backward(Ready ready, const RowWork& take);
+
     std::unique_ptr<Pencils> pencils_;
+    int columns_of_grid_;
     RowTransform transform_;
     ColumnSolve columns_;
     bool zero_mode_;               // no end is dirichlet

@@ -48,7 +48,7 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.hydrodynamic_radius", setup.hydrodynamic_radius);
     settings.set("fluid.multiplier_tolerance", setup.tolerance);
     settings.set("fluid.multiplier_iterations", std::int64_t{200});
-    settings.set("fluid.transport_scheme", std::string("Gauss limitedLinearV 1"));
+    settings.set("fluid.transport_scheme", setup.transport_scheme);
     settings.set("fluid.pressure_solver", setup.pressure_solver);
     settings.set("fluid.pressure_tolerance", setup.pressure_tolerance);
     settings.set("fluid.viscous_solver", setup.viscous_solver);

@@ -27,6 +27,7 @@ struct CoupledSetup {
     std::string points = "interior+boundary";
     double tolerance = 1e-4;
     double hydrodynamic_radius = 1.0;
+    std::string transport_scheme = "Gauss limitedLinearV 1";
     std::string pressure_solver = "FFT", viscous_solver = "FFT";
     double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative ones
 };

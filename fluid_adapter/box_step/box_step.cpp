@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fluid_adapter/box_step/box_step.hpp"
+
+#include <algorithm>
+
+#include "fluid_adapter/box_step/convective_flux.hpp"
+#include "fluid_adapter/box_step/row_work.hpp"
+
+namespace turbidite {
+namespace {
+
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
+
+AcrossFaces along_row(const double* u) {
+    return {u - 2, u - 1, u, u + 1};
+}
+
+}  // namespace
+
+BoxStep::BoxStep(const BoxFluid& fluid)
+    : fluid_(fluid),
+      nx_(fluid.pressure.x.cells),
+      ny_(fluid.pressure.y.cells),
+      hx_(fluid.pressure.x.spacing),
+      hy_(fluid.pressure.y.spacing),
+      pressure_(fluid.pressure),
+      viscous_{SeparableSolve(fluid.velocity), SeparableSolve(fluid.velocity)},
+      u_(fluid.velocity),
+      v_(fluid.velocity),
+      p_(fluid.pressure) {
+    pressure_.factorise({0.0, 1.0});
+    excess_[0].assign(static_cast<std::size_t>(nx_ + 1) * ny_, 0.0);
+    excess_[1].assign(static_cast<std::size_t>(nx_) * (ny_ + 1), 0.0);
+    flux_x_.resize(nx_ + 1);
+    corrected_u_.resize(nx_ + RowReader::padding);
+    for (Row* row : {&flux_below_, &flux_above_, &corrected_below_, &corrected_here_,
+                     &largest_divergence_, &largest_outflow_, &divergence_})
+        row->resize(nx_);
+    for (int axis = 0; axis < 2; ++axis) {
+        carried_x_[axis].resize(nx_ + 1);
+        carried_below_[axis].resize(nx_);
+        carried_above_[axis].resize(nx_);
+    }
+}
+
+/// k on the faces below row j: sides of the box have nothing to remember.
+double BoxStep::kept_on_row(int j) const {
+    return (j == 0 || j == ny_) && !fluid_.velocity.y.periodic() ? 0.0 : kept_;
+}
+
+/// S.u + k e on the faces of row j across x.
+void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
+    mean_flux(nx_ + 1, u - 1, u, kept, excess_x(j), flux);
+    if (fluid_.velocity.x.periodic()) return;
+    flux[0] = 0.5 * (u[-1] + u[0]);
+    flux[nx_] = 0.5 * (u[nx_ - 1] + u[nx_]);
+}
+
+FluxReport BoxStep::project(double dt) {
+    kept_ = 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / (hx_ * hy_));
+    u_.begin(velocity(0));
+    v_.begin(velocity(1));
+    mean_flux(nx_, v_.row(-1), v_.row(0), kept_on_row(0), excess_y(0), flux_below_.data());
+    pressure_.solve([&](int j) { right_hand_side(j, dt); }, [](int) {});
+    u_.begin(velocity(0));
+    v_.begin(velocity(1));
+    p_.begin(pressure_.values());
+    std::fill(largest_divergence_.begin(), largest_divergence_.end(), 0.0);
+    std::fill(largest_outflow_.begin(), largest_outflow_.end(), 0.0);
+    for (int j = -1; j <= ny_; ++j) correct_row(j, dt);
+    return {largest(largest_divergence_), 0.5 * dt * largest(largest_outflow_)};
+}
+
+/// -div(S.u + k e)/dt of row j, where the solve finds it.
+void BoxStep::right_hand_side(int j, double dt) {
+    flux_along(j, u_.row(j), kept_, flux_x_.data());
+    mean_flux(nx_, v_.row(j), v_.row(j + 1), kept_on_row(j + 1), excess_y(j + 1),
+              flux_above_.data());
+    divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1, -1.0 / (hy_ * dt),
+                   flux_below_.data(), flux_above_.data(),
+                   pressure_.values() + static_cast<std::size_t>(j) * nx_);
+    flux_below_.swap(flux_above_);
+}
+
+/// u1 of row j, phi1 and e on the faces below it and across x; then row j - 1 has all its fluxes.
+void BoxStep::correct_row(int j, double dt) {
+    const double* below = p_.row(j - 1);
+    const double* here = p_.row(j);
+    const double* above = p_.row(j + 1);
+    const double* v = v_.row(j);
+    correct(nx_, 0.5 * dt / hy_, below, above, v, corrected_here_.data());
+    if (j >= 0) {
+        const double* v_below = v_.row(j - 1);
+        projected_flux(nx_, v_below, v, kept_on_row(j), excess_y(j), dt / hy_, below, here,
+                       flux_above_.data());
+        excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
+                  excess_y(j));
+    }
+    if (j >= 1) check_row();
+    if (j >= 0 && j < ny_) correct_across(j, dt, here);
+    flux_below_.swap(flux_above_);
+    corrected_below_.swap(corrected_here_);
+}
+
+/// The same across x, and the row into u.
+void BoxStep::correct_across(int j, double dt, const double* p) {
+    const double* u = u_.row(j);
+    double* corrected = corrected_u_.data() + RowReader::beyond;
+    correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, u, corrected);
+    u_.extend(corrected);
+    flux_along(j, u, kept_, flux_x_.data());
+    correct(nx_ + 1, dt / hx_, p - 1, p, flux_x_.data(), flux_x_.data());
+    excess_of(nx_ + 1, flux_x_.data(), corrected - 1, corrected, excess_x(j));
+    std::copy_n(corrected, nx_, row_of(0, j));
+    std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
+}
+
+/// Of the row before: its fluxes across x, and along y those below and above it.
+void BoxStep::check_row() {
+    const double *left = flux_x_.data(), *right = left + 1;
+    divergence_row(nx_, 1.0 / hx_, left, right, 1.0 / hy_, flux_below_.data(), flux_above_.data(),
+                   divergence_.data());
+    keep_largest(nx_, divergence_.data(), largest_divergence_.data());
+    keep_largest_outflow(nx_, 1.0 / hx_, left, right, 1.0 / hy_, flux_below_.data(),
+                         flux_above_.data(), largest_outflow_.data());
+}
+
+void BoxStep::transport(double dt) {
+    u_.begin(velocity(0));
+    v_.begin(velocity(1));
+    for (int j = -1; j < ny_; ++j) {
+        carry_above(j);
+        if (j >= 0) transport_row(j, dt);
+        carried_below_.swap(carried_above_);
+    }
+}
+
+/// Momentum through the faces above row j.
+void BoxStep::carry_above(int j) {
+    const double two_by_k = 2.0 / fluid_.limiter;
+    const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
+    const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
+    mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
+    convective_flux(nx_, two_by_k, flux_above_.data(), u, v, carried_above_[0].data(),
+                    carried_above_[1].data());
+}
+
+void BoxStep::transport_row(int j, double dt) {
+    const double *u = u_.row(j), *v = v_.row(j);
+    mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
+    convective_flux(nx_ + 1, 2.0 / fluid_.limiter, flux_x_.data(), along_row(u), along_row(v),
+                    carried_x_[0].data(), carried_x_[1].data());
+    for (int axis = 0; axis < 2; ++axis) {
+        const double* across = carried_x_[axis].data();
+        advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / hy_,
+                    carried_below_[axis].data(), carried_above_[axis].data(), row_of(axis, j));
+    }
+}
+
+void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
+    if (factorised_for_ != dt)
+        for (SeparableSolve& solve : viscous_) solve.factorise({1.0, fluid_.viscosity * dt});
+    factorised_for_ = dt;
+    viscous_[0].solve();
+    viscous_[1].solve([](int) {}, take);
+}
+
+/// Sums per_cell(side, cell, face) |S| over the cells along sides that are not cyclic: side 0 to 3
+/// left, right, bottom, top; face: index of the side's face in excess(side/2).
+template <class PerCell>
+BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
+    Force sum{};
+    const auto add = [&](int side, std::size_t cell, std::size_t face, double length) {
+        const Force one = per_cell(side, cell, face);
+        for (int axis = 0; axis < 2; ++axis) sum[axis] += length * one[axis];
+    };
+    const std::size_t nx = nx_, ny = ny_;
+    if (!fluid_.velocity.x.periodic())
+        for (std::size_t j = 0; j < ny; ++j) {
+            add(0, j * nx, j * (nx + 1), hy_);
+            add(1, j * nx + nx - 1, j * (nx + 1) + nx, hy_);
+        }
+    if (!fluid_.velocity.y.periodic())
+        for (std::size_t i = 0; i < nx; ++i) {
+            add(2, i, i, hx_);
+            add(3, (ny - 1) * nx + i, ny * nx + i, hx_);
+        }
+    return sum;
+}
+
+namespace {
+
+End end_at(const PlaneOperator& plane, int side) {
+    const AxisOperator& axis = side < 2 ? plane.x : plane.y;
+    return side % 2 == 0 ? axis.lower : axis.upper;
+}
+
+/// Value at the side's face over that in the cell.
+double at_face(const PlaneOperator& plane, int side) {
+    return 0.5 * (1.0 + mirrored(end_at(plane, side)));
+}
+
+}  // namespace
+
+BoxStep::Force BoxStep::pressure_force() {
+    return over_sides([&](int side, std::size_t cell, std::size_t) {
+        Force force{};
+        force[side / 2] =
+            (side % 2 == 0 ? 1.0 : -1.0) * at_face(fluid_.pressure, side) * pressure()[cell];
+        return force;
+    });
+}
+
+BoxStep::Force BoxStep::convective_force() {
+    return over_sides([&](int side, std::size_t cell, std::size_t face) {
+        const double share = at_face(fluid_.velocity, side);
+        const Force u{share * velocity(0)[cell], share * velocity(1)[cell]};
+        const int axis = side / 2;
+        const double inward = (side % 2 == 0 ? 1.0 : -1.0) * (u[axis] + excess_[axis][face]);
+        return Force{inward * u[0], inward * u[1]};
+    });
+}
+
+BoxStep::Force BoxStep::viscous_force() {
+    return over_sides([&](int side, std::size_t cell, std::size_t) {
+        const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
+        const double rate = fluid_.viscosity * difference / (side < 2 ? hx_ : hy_);
+        return Force{rate * velocity(0)[cell], rate * velocity(1)[cell]};
+    });
+}
+
+}  // namespace turbidite

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fluid_adapter/box_step/row_work.hpp"
+
+#include <cmath>
+
+namespace turbidite {
+
+TURBIDITE_ROW_WORK
+void mean_flux(int count, const double* __restrict low, const double* __restrict high, double kept,
+               const double* __restrict extra, double* __restrict face) {
+    for (int i = 0; i < count; ++i) face[i] = 0.5 * (low[i] + high[i]) + kept * extra[i];
+}
+
+TURBIDITE_ROW_WORK
+void divergence_row(int count, double x, const double* __restrict left,
+                    const double* __restrict right, double y, const double* __restrict below,
+                    const double* __restrict above, double* __restrict out) {
+    for (int i = 0; i < count; ++i) out[i] = x * (right[i] - left[i]) + y * (above[i] - below[i]);
+}
+
+TURBIDITE_ROW_WORK
+void advance_row(int count, const double* __restrict in, double x, const double* __restrict left,
+                 const double* __restrict right, double y, const double* __restrict below,
+                 const double* __restrict above, double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] = in[i] + (x * (right[i] - left[i]) + y * (above[i] - below[i]));
+}
+
+TURBIDITE_ROW_WORK
+void correct(int count, double step, const double* __restrict low, const double* __restrict high,
+             const double* in, double* out) {
+    for (int i = 0; i < count; ++i) out[i] = in[i] - step * (high[i] - low[i]);
+}
+
+TURBIDITE_ROW_WORK
+void projected_flux(int count, const double* __restrict low, const double* __restrict high,
+                    double kept, const double* __restrict extra, double step,
+                    const double* __restrict p_low, const double* __restrict p_high,
+                    double* __restrict face) {
+    for (int i = 0; i < count; ++i)
+        face[i] = 0.5 * (low[i] + high[i]) + kept * extra[i] - step * (p_high[i] - p_low[i]);
+}
+
+TURBIDITE_ROW_WORK
+void excess_of(int count, const double* __restrict face, const double* __restrict low,
+               const double* __restrict high, double* __restrict extra) {
+    for (int i = 0; i < count; ++i) extra[i] = face[i] - 0.5 * (low[i] + high[i]);
+}
+
+TURBIDITE_ROW_WORK
+void keep_largest(int count, const double* __restrict value, double* __restrict largest) {
+    for (int i = 0; i < count; ++i) {
+        const double size = std::abs(value[i]);
+        largest[i] = largest[i] < size ? size : largest[i];
+    }
+}
+
+TURBIDITE_ROW_WORK
+void keep_largest_outflow(int count, double x, const double* __restrict left,
+                          const double* __restrict right, double y, const double* __restrict below,
+                          const double* __restrict above, double* __restrict largest) {
+    for (int i = 0; i < count; ++i) {
+        const double sum = x * (std::abs(left[i]) + std::abs(right[i])) +
+                           y * (std::abs(below[i]) + std::abs(above[i]));
+        largest[i] = largest[i] < sum ? sum : largest[i];
+    }
+}
+
+}  // namespace turbidite

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// The inner loops of box_step.cpp: one row each, no sides, no branches, so that the compiler can
+// use the vector unit. Compiled for AVX2 as well; the machine chooses when the program starts. Face
+// i of a row lies between cells i - 1 and i. Valid C++17.
+#pragma once
+
+namespace turbidite {
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define TURBIDITE_ROW_WORK __attribute__((target_clones("arch=haswell", "default")))
+#else
+#define TURBIDITE_ROW_WORK
+#endif
+
+/// face[i] = (low[i] + high[i])/2 + kept extra[i]
+void mean_flux(int count, const double* low, const double* high, double kept, const double* extra,
+               double* face);
+
+/// out[i] = x (right[i] - left[i]) + y (above[i] - below[i])
+void divergence_row(int count, double x, const double* left, const double* right, double y,
+                    const double* below, const double* above, double* out);
+
+/// out[i] = in[i] - step (high[i] - low[i]); out may be in
+void correct(int count, double step, const double* low, const double* high, const double* in,
+             double* out);
+
+/// out[i] = in[i] + x (right[i] - left[i]) + y (above[i] - below[i])
+void advance_row(int count, const double* in, double x, const double* left, const double* right,
+                 double y, const double* below, const double* above, double* out);
+
+/// face[i] = (low[i] + high[i])/2 + kept extra[i] - step (p_high[i] - p_low[i])
+void projected_flux(int count, const double* low, const double* high, double kept,
+                    const double* extra, double step, const double* p_low, const double* p_high,
+                    double* face);
+
+/// extra[i] = face[i] - (low[i] + high[i])/2
+void excess_of(int count, const double* face, const double* low, const double* high, double* extra);
+
+/// largest[i] = max(largest[i], |value[i]|)
+void keep_largest(int count, const double* value, double* largest);
+
+/// largest[i] = max(largest[i], x (|left| + |right|) + y (|below| + |above|))
+void keep_largest_outflow(int count, double x, const double* left, const double* right, double y,
+                          const double* below, const double* above, double* largest);
+
+}  // namespace turbidite

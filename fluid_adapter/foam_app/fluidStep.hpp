@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Steps 1 to 3 of a window behind one door. Two kinds do the same to rounding:
+//
+//     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; with both direct solvers
+//                    and the default transport scheme
+//     OperatorStep   OpenFOAM's operators and tables, for everything else
+//
+// U holds the velocity before `project` and after `diffuse`, and nothing in between.
+#pragma once
+
+#include <memory>
+
+#include "coupler/protocol/settings.hpp"
+#include "fluid_adapter/box_step/box_step.hpp"
+#include "fluid_adapter/foam_app/createFields.hpp"
+#include "fluid_adapter/foam_app/momentumLedger.hpp"
+
+namespace turbidite {
+
+class FluidStep {
+ public:
+    virtual ~FluidStep() = default;
+
+    // Each adds to the ledger what crosses the boundaries.
+    virtual FluxReport project(MomentumLedger& ledger) = 0;
+    virtual void transport(MomentumLedger& ledger) = 0;
+    virtual void diffuse(MomentumLedger& ledger) = 0;
+
+    /// After `diffuse`: no velocity is infinite or no number.
+    virtual bool finite() const = 0;
+
+    /// What the step keeps for itself, p and excess, into the fields, and back.
+    virtual void put_fields() {}
+    virtual void take_fields() {}
+};
+
+/// The kind that fits the settings and the mesh. Throws Failure as solverList.hpp does.
+std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields);
+
+}  // namespace turbidite

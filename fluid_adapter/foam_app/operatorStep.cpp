@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/operatorStep.hpp"
+
+#include <cmath>
+
+#include "fluid_adapter/foam_app/advection.hpp"
+
+namespace turbidite {
+
+OperatorStep::OperatorStep(FluidFields& fields, StokesProjection projection,
+                           std::unique_ptr<ViscousSolver> viscosity)
+    : fields_(fields), projection_(std::move(projection)), viscosity_(std::move(viscosity)) {}
+
+FluxReport OperatorStep::project(MomentumLedger& ledger) {
+    fields_.interpolate_flux();
+    const Foam::scalar divergence = projection_.project();
+    ledger.add_pressure();
+    return {divergence, fields_.courant()};
+}
+
+void OperatorStep::transport(MomentumLedger& ledger) {
+    ledger.add_convection();
+    advect(fields_);
+}
+
+void OperatorStep::diffuse(MomentumLedger& ledger) {
+    viscosity_->solve(fields_.time.deltaTValue());
+    ledger.add_viscosity();
+}
+
+bool OperatorStep::finite() const {
+    Foam::scalar sum = 0.0;
+    for (const Foam::vector& u : fields_.U) sum += Foam::magSqr(u);
+    Foam::reduce(sum, Foam::sumOp<Foam::scalar>());
+    return std::isfinite(sum);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fluid_adapter/linear_solvers/elimination_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace turbidite {
+
+/// Within the rounding of the recurrence itself.
+bool EliminationFactors::is_settled(double factor, int mode) const {
+    return std::abs(factor - settled_[mode]) <= std::numeric_limits<double>::epsilon() * factor;
+}
+
+void EliminationFactors::store(const std::vector<double>& factors, int begin, int end) {
+    rows_.push_back({begin, end, stored_.size()});
+    stored_.insert(stored_.end(), factors.begin(), factors.begin() + begin);
+    stored_.insert(stored_.end(), factors.begin() + end, factors.end());
+}
+
+void EliminationFactors::compute(const std::vector<double>& shift, double first, double inner,
+                                 double last, int rows) {
+    modes_ = static_cast<int>(shift.size());
+    rows_.clear();
+    stored_.clear();
+    settled_.resize(shift.size());
+    for (int k = 0; k < modes_; ++k) {
+        const double excess = std::max(shift[k] + (inner - 2.0), 0.0);  // d - 2, no cancellation
+        settled_[k] = 2.0 / (2.0 + excess + std::sqrt(excess * (excess + 4.0)));
+    }
+    const int stiffest =
+        static_cast<int>(std::max_element(shift.begin(), shift.end()) - shift.begin());
+    std::vector<double> factors(shift.size());
+    int begin = stiffest, end = stiffest;  // settled so far, which stay so
+    for (int j = 0; j < rows; ++j) {
+        const double diagonal = j == 0 ? first : j == rows - 1 ? last : inner;
+        const bool within = j > 0 && j < rows - 1;
+        for (int k = 0; k < modes_; ++k)
+            if (!within || k < begin || k >= end)
+                factors[k] = 1.0 / (shift[k] + diagonal - (j > 0 ? factors[k] : 0.0));
+        if (!within) {
+            store(factors, modes_, modes_);
+            continue;
+        }
+        while (begin > 0 && is_settled(factors[begin - 1], begin - 1)) --begin;
+        while (end < modes_ && is_settled(factors[end], end)) ++end;
+        store(factors, begin, end);
+    }
+}
+
+}  // namespace turbidite

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// The factors of the eliminations of column_solve.hpp,
+//
+//     e_0 = 1/d_first,   e_j = 1/(d - e_{j-1}),   e_last = 1/(d_last - e_{last-1})
+//
+// one per mode and row. With j they go to the fixed point e = (d - sqrt(d2 - 4))/2 as e^2j does:
+// for all but the smoothest modes within a few rows. Only what has not settled is stored; a settled
+// row costs no memory traffic. Modes settle from the one of largest d outwards, which is the last
+// mode, or the middle one of a periodic axis. Valid C++17.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace turbidite {
+
+class EliminationFactors {
+ public:
+    /// Diagonals over r: of the first row, of rows within and of the last row are
+    /// shift[k] + first, inner, last.
+    void compute(const std::vector<double>& shift, double first, double inner, double last,
+                 int rows);
+
+    /// Calls range(begin, end, factors) for neighbouring ranges of modes that together are all:
+    /// factors[k - begin] belongs to mode k.
+    template <class Range>
+    void for_row(int j, Range range) const {
+        const Row& row = rows_[j];
+        const double* stored = stored_.data() + row.stored;
+        range(0, row.begin, stored);
+        range(row.begin, row.end, settled_.data() + row.begin);
+        range(row.end, modes_, stored + row.begin);
+    }
+
+    std::size_t stored() const { return stored_.size(); }
+
+ private:
+    struct Row {
+        int begin, end;      // settled modes
+        std::size_t stored;  // where the others begin
+    };
+
+    void store(const std::vector<double>& factors, int begin, int end);
+    bool is_settled(double factor, int mode) const;
+
+    int modes_ = 0;
+    std::vector<double> settled_, stored_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace turbidite
