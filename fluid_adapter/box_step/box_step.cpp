@@ -2,6 +2,7 @@
 #include "fluid_adapter/box_step/box_step.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/box_step/row_work.hpp"
@@ -20,16 +21,21 @@ AcrossFaces along_row(const double* u) {
 }  // namespace
 
 BoxStep::BoxStep(const BoxFluid& fluid)
+    : BoxStep(fluid, std::make_unique<AllRows>(fluid.pressure)) {}
+
+BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
     : fluid_(fluid),
+      rows_(std::move(rows)),
       nx_(fluid.pressure.x.cells),
-      ny_(fluid.pressure.y.cells),
+      ny_(rows_->count()),
       hx_(fluid.pressure.x.spacing),
       hy_(fluid.pressure.y.spacing),
-      pressure_(fluid.pressure),
-      viscous_{SeparableSolve(fluid.velocity), SeparableSolve(fluid.velocity)},
-      u_(fluid.velocity),
-      v_(fluid.velocity),
-      p_(fluid.pressure) {
+      pressure_(fluid.pressure, rows_->pencils()),
+      viscous_{SeparableSolve(fluid.velocity, rows_->pencils()),
+               SeparableSolve(fluid.velocity, rows_->pencils())},
+      u_(fluid.velocity, *rows_),
+      v_(fluid.velocity, *rows_),
+      p_(fluid.pressure, *rows_) {
     pressure_.factorise({0.0, 1.0});
     excess_[0].assign(static_cast<std::size_t>(nx_ + 1) * ny_, 0.0);
     excess_[1].assign(static_cast<std::size_t>(nx_) * (ny_ + 1), 0.0);
@@ -47,7 +53,8 @@ BoxStep::BoxStep(const BoxFluid& fluid)
 
 /// k on the faces below row j: sides of the box have nothing to remember.
 double BoxStep::kept_on_row(int j) const {
-    return (j == 0 || j == ny_) && !fluid_.velocity.y.periodic() ? 0.0 : kept_;
+    const bool side = (j == 0 && !rows_->open_below()) || (j == ny_ && !rows_->open_above());
+    return side ? 0.0 : kept_;
 }
 
 /// S.u + k e on the faces of row j across x.
@@ -182,11 +189,9 @@ BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
             add(0, j * nx, j * (nx + 1), hy_);
             add(1, j * nx + nx - 1, j * (nx + 1) + nx, hy_);
         }
-    if (!fluid_.velocity.y.periodic())
-        for (std::size_t i = 0; i < nx; ++i) {
-            add(2, i, i, hx_);
-            add(3, (ny - 1) * nx + i, ny * nx + i, hx_);
-        }
+    for (std::size_t i = 0; i < nx && !rows_->open_below(); ++i) add(2, i, i, hx_);
+    for (std::size_t i = 0; i < nx && !rows_->open_above(); ++i)
+        add(3, (ny - 1) * nx + i, ny * nx + i, hx_);
     return sum;
 }
 

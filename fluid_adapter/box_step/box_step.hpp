@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "fluid_adapter/box_step/row_reader.hpp"
@@ -27,7 +28,7 @@ struct BoxFluid {
     double limiter = 1.0;              ///< k of limitedLinearV
 };
 
-/// Of the projected flux.
+/// Of the projected flux, over this rank's cells.
 struct FluxReport {
     double divergence = 0.0;  ///< max |div phi1| [1/s]
     double courant = 0.0;     ///< largest, as OpenFOAM defines it
@@ -35,6 +36,10 @@ struct FluxReport {
 
 class BoxStep {
  public:
+    /// On this rank's rows of the box.
+    BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows);
+
+    /// The whole box on one rank.
     explicit BoxStep(const BoxFluid& fluid);
 
     /// One component of u, rows of x.cells values [m/s]: given before `project`, result after
@@ -45,8 +50,8 @@ class BoxStep {
     double* pressure() { return pressure_.values(); }
 
     /// e on the faces across an axis [m/s]: x, rows of x.cells + 1; y, rows of x.cells, one more
-    /// than y.cells. On the sides of the box, where nothing is remembered, what the flux has beyond
-    /// the boundary value of u1.
+    /// than this rank has rows of cells. On the sides of the box, where nothing is remembered, what
+    /// the flux has beyond the boundary value of u1.
     std::vector<double>& excess(int axis) { return excess_[axis]; }
 
     FluxReport project(double dt);
@@ -55,8 +60,8 @@ class BoxStep {
     /// `take(j)` is called once row j is complete.
     void diffuse(double dt, const SeparableSolve::RowWork& take);
 
-    // What crosses the sides of the box, over rho_f and per unit length out of the plane [m3/s2]:
-    // the rate at which the fluid's momentum changes by it.
+    // What crosses the sides of the box that this rank has, over rho_f and per unit length out of
+    // the plane [m3/s2]: the rate at which the fluid's momentum changes by it.
     using Force = std::array<double, 2>;
     Force pressure_force();    ///< after `project`
     Force convective_force();  ///< after `project`, before `transport`
@@ -81,7 +86,8 @@ class BoxStep {
     double* row_of(int axis, int j) { return velocity(axis) + static_cast<std::size_t>(j) * nx_; }
 
     BoxFluid fluid_;
-    int nx_, ny_;
+    std::unique_ptr<BoxRows> rows_;
+    int nx_, ny_;  // of this rank
     double hx_, hy_;
     SeparableSolve pressure_;
     std::array<SeparableSolve, 2> viscous_;

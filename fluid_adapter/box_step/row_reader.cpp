@@ -9,45 +9,51 @@ double mirrored(End end) {
     return end == End::dirichlet ? -1.0 : 1.0;
 }
 
-RowReader::RowReader(const PlaneOperator& plane)
+RowReader::RowReader(const PlaneOperator& plane, BoxRows& rows)
     : plane_(plane),
-      borders_(static_cast<std::size_t>(2 * beyond) * plane.x.cells),
+      rows_(rows),
+      edges_(static_cast<std::size_t>(2 * beyond) * plane.x.cells),
+      outside_(edges_.size()),
       slots_(static_cast<std::size_t>(kept) * (plane.x.cells + padding)) {}
 
 void RowReader::begin(const double* values) {
     values_ = values;
     loaded_ = -beyond - 1;
-    const std::size_t nx = plane_.x.cells;
-    std::copy_n(values, beyond * nx, borders_.begin());
-    std::copy_n(values + (plane_.y.cells - beyond) * nx, beyond * nx,
-                borders_.begin() + beyond * nx);
+    look_outside(values);
 }
 
-/// Where row j of the field, or what stands for it, is.
-const double* RowReader::source(int j, double& factor) const {
-    const int nx = plane_.x.cells, ny = plane_.y.cells;
-    factor = 1.0;
-    if (j >= 0 && j < ny) return values_ + static_cast<std::size_t>(j) * nx;
-    int border;  // of the rows kept: first, second, last but one, last
-    if (plane_.y.periodic()) {
-        border = j < 0 ? 2 * beyond + j : j - ny;
-    } else {
-        factor = mirrored(j < 0 ? plane_.y.lower : plane_.y.upper);
-        border = j < 0 ? -1 - j : 2 * beyond - 1 - (j - ny);
+void RowReader::look_outside(const double* values) {
+    const std::size_t nx = plane_.x.cells;
+    std::copy_n(values, beyond * nx, edges_.begin());
+    std::copy_n(values + (rows_.count() - beyond) * nx, beyond * nx, edges_.begin() + beyond * nx);
+    rows_.exchange(edges_.data(), outside_.data());
+    // Rows of both arrays, upwards: first, second, last but one, last; -2, -1, n, n + 1.
+    if (!rows_.open_below()) {
+        mirror(0, 1, plane_.y.lower);
+        mirror(1, 0, plane_.y.lower);
     }
-    return borders_.data() + static_cast<std::size_t>(border) * nx;
+    if (!rows_.open_above()) {
+        mirror(3, 2, plane_.y.upper);
+        mirror(2, 3, plane_.y.upper);
+    }
+}
+
+/// A row of edges into a row of outside.
+void RowReader::mirror(int from, int to, End end) {
+    const std::size_t nx = plane_.x.cells;
+    const double factor = mirrored(end);
+    for (std::size_t i = 0; i < nx; ++i) outside_[to * nx + i] = factor * edges_[from * nx + i];
 }
 
 void RowReader::load(int j) {
-    const int nx = plane_.x.cells;
+    const int nx = plane_.x.cells, ny = rows_.count();
+    const double* from = j < 0 ? outside_.data() + static_cast<std::size_t>(beyond + j) * nx
+                         : j >= ny
+                             ? outside_.data() + static_cast<std::size_t>(beyond + j - ny) * nx
+                             : values_ + static_cast<std::size_t>(j) * nx;
     double* row =
         slots_.data() + static_cast<std::size_t>((j + beyond) % kept) * (nx + padding) + beyond;
-    double factor;
-    const double* from = source(j, factor);
-    if (factor == 1.0)
-        std::copy_n(from, nx, row);
-    else
-        for (int i = 0; i < nx; ++i) row[i] = factor * from[i];
+    std::copy_n(from, nx, row);
     extend(row);
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The rows of a field one after the other, with two values beyond each end and two rows beyond the
-// first and the last, so that no stencil knows about sides. Beyond a side half a cell away lies the
-// mirror image of the inside (separable_operator.hpp), or the other end.
+// A rank's rows of a field one after the other, with two values beyond each end and two rows beyond
+// the first and the last, so that no stencil knows about sides or ranks. Beyond a side half a cell
+// away lies the mirror image of the inside (separable_operator.hpp); elsewhere what box_rows.hpp
+// says.
 //
 // Rows are copies: the caller may change the field behind the reader. Valid C++17.
 #pragma once
@@ -10,20 +11,22 @@
 #include <array>
 #include <vector>
 
-#include "fluid_adapter/linear_solvers/separable_solve.hpp"
+#include "fluid_adapter/box_step/box_rows.hpp"
 
 namespace turbidite {
 
 class RowReader {
  public:
-    static constexpr int beyond = 2;
+    static constexpr int beyond = BoxRows::beyond;
 
-    explicit RowReader(const PlaneOperator& plane);
+    /// `rows` must outlive it.
+    RowReader(const PlaneOperator& plane, BoxRows& rows);
 
-    /// From the first row again; `values`: rows of x.cells values, one after the other.
+    /// From the first row again; `values`: the rank's rows of x.cells values, one after the other.
+    /// Every rank calls it.
     void begin(const double* values);
 
-    /// Row j, -beyond <= j < y.cells + beyond: values [-beyond, x.cells + beyond). Rows are asked
+    /// Row j, -beyond <= j < rows + beyond: values [-beyond, x.cells + beyond). Rows are asked
     /// for in ascending order; the last `kept` remain valid.
     const double* row(int j);
 
@@ -35,12 +38,14 @@ class RowReader {
 
  private:
     void load(int j);
-    const double* source(int j, double& factor) const;
+    void look_outside(const double* values);
+    void mirror(int from, int to, End end);
 
     PlaneOperator plane_;
+    BoxRows& rows_;
     const double* values_ = nullptr;
-    int loaded_ = 0;               // the last row
-    std::vector<double> borders_;  // the first two and the last two rows
+    int loaded_ = 0;                       // the last row
+    std::vector<double> edges_, outside_;  // as in box_rows.hpp
     std::vector<double> slots_;
 };
 

@@ -4,102 +4,99 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_adapter/ranks/rank_rows.hpp"
+
 namespace turbidite {
+namespace {
 
-BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter)
-    : fields_(fields),
-      box_(uniform_box(fields.mesh)),
-      step_({plane_operator(fields.U), plane_operator(fields.p), fields.nu, limiter}),
-      floating_(plane_operator(fields.p).x.has_zero_mode() &&
-                plane_operator(fields.p).y.has_zero_mode()) {}
-
-void BoxFluidStep::load() {
-    double *x = step_.velocity(0), *y = step_.velocity(1);
-    const Foam::vectorField& U = fields_.U.primitiveField();
-    const Foam::label cells = U.size();
-    for (Foam::label c = 0; c < cells; ++c) {
-        x[c] = U[c].x();
-        y[c] = U[c].y();
+std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& plane,
+                                  const CellRows& cells) {
+    if (!ranks.parallel()) return std::make_unique<AllRows>(plane);
+    try {
+        return std::make_unique<RankRows>(ranks, plane, cells);
+    } catch (const std::invalid_argument& why) {
+        throw NotSeparable(why.what());
     }
 }
 
-void BoxFluidStep::store_row(int j) {
-    const Foam::label first = j * box_.cells[0], end = first + box_.cells[0];
-    const double *x = step_.velocity(0), *y = step_.velocity(1);
+}  // namespace
+
+BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter)
+    : BoxFluidStep(fields, limiter, uniform_box(fields.mesh)) {}
+
+BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter, const UniformBox& box)
+    : fields_(fields),
+      rows_(cell_rows(fields.ranks, box)),
+      step_({plane_operator(fields.U, box), plane_operator(fields.p, box), fields.nu, limiter},
+            box_rows(fields.ranks, plane_operator(fields.p, box), rows_)),
+      floating_(plane_operator(fields.p, box).x.has_zero_mode() &&
+                plane_operator(fields.p, box).y.has_zero_mode()) {}
+
+void BoxFluidStep::load() {
+    const Foam::vectorField& U = fields_.U.primitiveField();
+    rows_.gather([&](int c) { return U[c].x(); }, step_.velocity(0));
+    rows_.gather([&](int c) { return U[c].y(); }, step_.velocity(1));
+}
+
+void BoxFluidStep::store() {
     Foam::vectorField& U = fields_.U.primitiveFieldRef();
-    for (Foam::label c = first; c < end; ++c) U[c] = Foam::vector(x[c], y[c], 0.0);
+    rows_.scatter(step_.velocity(0), [&](int c, double x) { U[c].x() = x; });
+    rows_.scatter(step_.velocity(1), [&](int c, double y) { U[c].y() = y; });
+    fields_.U.correctBoundaryConditions();
+}
+
+BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
+    fields_.ranks.sum(force.data(), static_cast<int>(force.size()));
+    return force;
 }
 
 FluxReport BoxFluidStep::project(MomentumLedger& ledger) {
     load();
-    const FluxReport report = step_.project(fields_.time.deltaTValue());
-    ledger.add(step_.pressure_force());
-    return report;
+    FluxReport report = step_.project(fields_.time.deltaTValue());
+    double largest[] = {report.divergence, report.courant};
+    fields_.ranks.max(largest, 2);
+    ledger.add(on_all_ranks(step_.pressure_force()));
+    return {largest[0], largest[1]};
 }
 
 void BoxFluidStep::transport(MomentumLedger& ledger) {
-    ledger.add(step_.convective_force());
+    ledger.add(on_all_ranks(step_.convective_force()));
     step_.transport(fields_.time.deltaTValue());
 }
 
 void BoxFluidStep::diffuse(MomentumLedger& ledger) {
-    step_.diffuse(fields_.time.deltaTValue(), [this](int j) { store_row(j); });
-    fields_.U.correctBoundaryConditions();
-    ledger.add(step_.viscous_force());
+    step_.diffuse(fields_.time.deltaTValue(), [](int) {});
+    store();
+    ledger.add(on_all_ranks(step_.viscous_force()));
 }
 
-/// A direct solve spreads one bad value over all rows.
+/// A direct solve spreads one bad value over all rows of all ranks.
 bool BoxFluidStep::finite() const {
     Foam::scalar sum = 0.0;
-    for (int i = 0; i < box_.cells[0]; ++i) sum += Foam::magSqr(fields_.U[i]);
-    return std::isfinite(sum);
-}
-
-/// Calls visit(value, e, area, remembered) for every face of excess: its value there, in the step,
-/// the area with the sign that turns one into the other, and false on the sides of the box.
-template <class Visit>
-void BoxFluidStep::for_faces(Visit visit) {
-    const int nx = box_.cells[0];
-    const double area[2] = {box_.spacing[1] * fields_.thickness,
-                            box_.spacing[0] * fields_.thickness};
-    const auto place = [&](Foam::label cell, int axis, int beyond) -> double& {
-        const std::size_t i = cell % nx, j = cell / nx;
-        return axis == 0 ? step_.excess(0)[j * (nx + 1) + i + beyond]
-                         : step_.excess(1)[(j + beyond) * nx + i];
-    };
-    const Foam::labelUList& owner = fields_.mesh.owner();
-    const Foam::labelUList& neighbour = fields_.mesh.neighbour();
-    Foam::scalarField& inner = fields_.excess.primitiveFieldRef();
-    forAll(inner, face) {
-        const int axis = neighbour[face] == owner[face] + 1 ? 0 : 1;
-        visit(inner[face], place(owner[face], axis, 1), area[axis], true);
-    }
-    for (int side = 0; side < 4; ++side) {
-        auto& values = fields_.excess.boundaryFieldRef()[box_.patches[side]];
-        const Foam::labelUList& cells = values.patch().faceCells();
-        const int axis = side / 2, upper = side % 2;
-        forAll(values, face) visit(values[face], place(cells[face], axis, upper),
-                                   upper ? area[axis] : -area[axis], values.coupled());
-    }
+    const Foam::label some = std::min(fields_.U.size(), 100);
+    for (Foam::label c = 0; c < some; ++c) sum += Foam::magSqr(fields_.U[c]);
+    return fields_.ranks.all(std::isfinite(sum));
 }
 
 void BoxFluidStep::put_fields() {
     Foam::scalarField& p = fields_.p.primitiveFieldRef();
-    const double* values = step_.pressure();
-    const double level = floating_ ? values[0] : 0.0;
-    forAll(p, c) p[c] = values[c] - level;
+    const double level = floating_ ? rows_.first(step_.pressure()) : 0.0;
+    rows_.scatter(step_.pressure(), [&](int c, double value) { p[c] = value - level; });
     fields_.p.correctBoundaryConditions();
-    for_faces([](double& value, double& e, double area, bool remembered) {
-        value = remembered ? area * e : 0.0;
-    });
 }
 
-void BoxFluidStep::take_fields() {
-    for_faces([](double& value, double& e, double area, bool remembered) {
-        e = remembered ? value / area : 0.0;
-    });
-    double* p = step_.pressure();
-    std::copy(fields_.p.begin(), fields_.p.end(), p);
+std::vector<double> BoxFluidStep::memory() {
+    std::vector<double> values = step_.excess(0);
+    values.insert(values.end(), step_.excess(1).begin(), step_.excess(1).end());
+    return values;
+}
+
+void BoxFluidStep::set_memory(const std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(step_.excess(0).size());
+    std::copy(values.begin(), middle, step_.excess(0).begin());
+    std::copy(middle, values.end(), step_.excess(1).begin());
+    const Foam::scalarField& p = fields_.p.primitiveField();
+    rows_.gather([&](int c) { return p[c]; }, step_.pressure());
 }
 
 }  // namespace turbidite

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields: U is copied to
-// contiguous components before them and back after them; p and excess when somebody asks.
+// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields: U is copied to rows
+// of contiguous components before them and back after them, p when somebody asks. A rank works on
+// complete rows, its own where OpenFOAM's decomposition gave it such (ranks/cell_rows.hpp).
 #pragma once
 
 #include "fluid_adapter/foam_app/fluidStep.hpp"
@@ -19,16 +20,18 @@ class BoxFluidStep final : public FluidStep {
     void diffuse(MomentumLedger& ledger) override;
     bool finite() const override;
     void put_fields() override;
-    void take_fields() override;
+    std::vector<double> memory() override;
+    void set_memory(const std::vector<double>& values) override;
 
  private:
+    BoxFluidStep(FluidFields& fields, double limiter, const UniformBox& box);
+
     void load();
-    void store_row(int j);
-    template <class Visit>
-    void for_faces(Visit visit);
+    void store();
+    BoxStep::Force on_all_ranks(BoxStep::Force force) const;
 
     FluidFields& fields_;
-    UniformBox box_;
+    CellRows rows_;
     BoxStep step_;
     bool floating_;  // no side fixes p
 };

@@ -39,7 +39,7 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
     const bool direct = settings.text("fluid.pressure_solver") == "FFT" &&
                         settings.text("fluid.viscous_solver") == "FFT";
     const std::optional<double> limiter = limiter_of(fields);
-    if (!direct || !limiter || Foam::Pstream::parRun()) return operator_step(settings, fields);
+    if (!direct || !limiter) return operator_step(settings, fields);
     try {
         return std::make_unique<BoxFluidStep>(fields, *limiter);
     } catch (const NotSeparable&) {

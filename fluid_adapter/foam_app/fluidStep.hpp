@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "coupler/protocol/settings.hpp"
 #include "fluid_adapter/box_step/box_step.hpp"
@@ -30,9 +31,12 @@ class FluidStep {
     /// After `diffuse`: no velocity is infinite or no number.
     virtual bool finite() const = 0;
 
-    /// What the step keeps for itself, p and excess, into the fields, and back.
+    /// What the step keeps for itself and fields have as well: p.
     virtual void put_fields() {}
-    virtual void take_fields() {}
+
+    /// What it knows beyond u and p: the excess flux, in an order of its own, and back.
+    virtual std::vector<double> memory() = 0;
+    virtual void set_memory(const std::vector<double>& values) = 0;
 };
 
 /// The kind that fits the settings and the mesh. Throws Failure as solverList.hpp does.

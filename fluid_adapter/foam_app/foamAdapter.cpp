@@ -80,7 +80,7 @@ struct FoamAdapter::State {
     FluidFields fields;
     FoamFluidField field;
     std::unique_ptr<FluidStep> step;
-    bool fields_follow = true;  // p, phi and excess hold what the step knows
+    bool fields_follow = true;  // p and phi hold what the step knows
     MomentumLedger ledger;
     ImmersedStep step_five;
     bool joint;
@@ -267,13 +267,12 @@ Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& g
 
 SavedState FoamAdapter::save() const {
     state_->put_fields();
-    return save_fields(state_->fields);
+    return save_fields(state_->fields, *state_->step);
 }
 
 void FoamAdapter::restore(const SavedState& state) {
     with_foam_errors("restoring the fluid", [&] {
-        restore_fields(state, state_->fields);
-        state_->step->take_fields();
+        restore_fields(state, state_->fields, *state_->step);
         state_->ledger.forget();
         state_->fields_follow = true;
     });

@@ -35,4 +35,20 @@ bool OperatorStep::finite() const {
     return std::isfinite(sum);
 }
 
+/// All faces, inner ones first, then patch by patch.
+std::vector<double> OperatorStep::memory() {
+    const Foam::surfaceScalarField& excess = fields_.excess;
+    std::vector<double> values(excess.primitiveField().begin(), excess.primitiveField().end());
+    for (const auto& side : excess.boundaryField())
+        values.insert(values.end(), side.begin(), side.end());
+    return values;
+}
+
+void OperatorStep::set_memory(const std::vector<double>& values) {
+    auto next = values.begin();
+    for (double& value : fields_.excess.primitiveFieldRef()) value = *next++;
+    for (auto& side : fields_.excess.boundaryFieldRef())
+        for (double& value : side) value = *next++;
+}
+
 }  // namespace turbidite

@@ -18,6 +18,8 @@ class OperatorStep final : public FluidStep {
     void transport(MomentumLedger& ledger) override;
     void diffuse(MomentumLedger& ledger) override;
     bool finite() const override;
+    std::vector<double> memory() override;
+    void set_memory(const std::vector<double>& values) override;
 
  private:
     FluidFields& fields_;

@@ -19,52 +19,48 @@ std::size_t bytes_of(const Field& field) {
     return field.size() * sizeof(field[0]);
 }
 
-/// All faces, inner ones first, then patch by patch.
-std::vector<double> excess_values(const Foam::surfaceScalarField& excess) {
-    std::vector<double> values(excess.primitiveField().begin(), excess.primitiveField().end());
-    for (const auto& side : excess.boundaryField())
-        values.insert(values.end(), side.begin(), side.end());
-    return values;
+/// Appends an array's bytes.
+template <class Field>
+void append(SavedState& state, const Field& field) {
+    const std::size_t old = state.size();
+    state.resize(old + bytes_of(field));
+    std::memcpy(state.data() + old, &field[0], bytes_of(field));
 }
 
-void set_excess(const std::vector<double>& values, Foam::surfaceScalarField& excess) {
-    auto next = values.begin();
-    for (double& value : excess.primitiveFieldRef()) value = *next++;
-    for (auto& side : excess.boundaryFieldRef())
-        for (double& value : side) value = *next++;
+/// Fills an array from the bytes at `from`, and moves on.
+template <class Field>
+void take(const char*& from, Field& field) {
+    std::memcpy(static_cast<void*>(&field[0]), from, bytes_of(field));
+    from += bytes_of(field);
 }
 
 }  // namespace
 
-SavedState save_fields(const FluidFields& fields) {
+SavedState save_fields(FluidFields& fields, FluidStep& step) {
     const Header header{fields.mesh.nCells(), fields.time.timeIndex(), fields.time.value()};
-    const auto& U = fields.U.primitiveField();
-    const auto& p = fields.p.primitiveField();
-    const std::vector<double> excess = excess_values(fields.excess);
-    SavedState state(sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(excess));
+    SavedState state(sizeof header);
     std::memcpy(state.data(), &header, sizeof header);
-    std::memcpy(state.data() + sizeof header, U.cdata(), bytes_of(U));
-    std::memcpy(state.data() + sizeof header + bytes_of(U), p.cdata(), bytes_of(p));
-    std::memcpy(state.data() + sizeof header + bytes_of(U) + bytes_of(p), excess.data(),
-                bytes_of(excess));
+    append(state, fields.U.primitiveField());
+    append(state, fields.p.primitiveField());
+    append(state, step.memory());
     return state;
 }
 
-void restore_fields(const SavedState& state, FluidFields& fields) {
+void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& step) {
     auto& U = fields.U.primitiveFieldRef();
     auto& p = fields.p.primitiveFieldRef();
-    std::vector<double> excess = excess_values(fields.excess);
+    std::vector<double> memory = step.memory();
     Header header;
-    if (state.size() == sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(excess))
+    if (state.size() == sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(memory))
         std::memcpy(&header, state.data(), sizeof header);
     if (header.cells != fields.mesh.nCells())
         throw Failure(ExitCode::bad_input, "the saved fluid state does not belong to a mesh of " +
                                                std::to_string(fields.mesh.nCells()) + " cells");
-    std::memcpy(static_cast<void*>(U.data()), state.data() + sizeof header, bytes_of(U));
-    std::memcpy(p.data(), state.data() + sizeof header + bytes_of(U), bytes_of(p));
-    std::memcpy(excess.data(), state.data() + sizeof header + bytes_of(U) + bytes_of(p),
-                bytes_of(excess));
-    set_excess(excess, fields.excess);
+    const char* from = state.data() + sizeof header;
+    take(from, U);
+    take(from, p);
+    take(from, memory);
+    step.set_memory(memory);
     fields.U.correctBoundaryConditions();
     fields.p.correctBoundaryConditions();
     fields.time.setTime(header.time, static_cast<Foam::label>(header.time_index));

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What a restart needs of the fluid: time, u, p (the first guess of the next projection) and what
-// the faces know beyond u. phi follows from these, and the multipliers start from zero in every
+// the step knows beyond them. phi follows from these, and the multipliers start from zero in every
 // window.
 #pragma once
 
 #include "coupler/participant/adapter.hpp"
-#include "fluid_adapter/foam_app/createFields.hpp"
+#include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
 
-SavedState save_fields(const FluidFields& fields);
+SavedState save_fields(FluidFields& fields, FluidStep& step);
 
-/// Throws Failure when the bytes belong to a mesh of another size.
-void restore_fields(const SavedState& state, FluidFields& fields);
+/// Throws Failure when the bytes belong to another mesh or decomposition.
+void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& step);
 
 }  // namespace turbidite

@@ -23,6 +23,9 @@ class CellRows {
     /// Arrays for a solve on these rows.
     std::unique_ptr<Pencils> pencils() const;
 
+    /// Spans of y, one per rank.
+    const std::vector<Span>& rows_of_rank() const { return rows_of_rank_; }
+
     /// rows[...] = value_of(c) for every cell c of this rank's order, wherever its row is.
     template <class ValueOf>
     void gather(ValueOf value_of, double* rows);
