@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "coupler/shapes/immersed_body.hpp"
 #include "fluid_adapter/foam_app/advection.hpp"
@@ -294,6 +295,10 @@ std::vector<FreeResponse> FoamAdapter::respond(const Window&, const std::vector<
         ExitCode::bad_input,
         "coupling.scheme = joint: the OpenFOAM adapter does not know effective inertia yet; "
         "use split");
+}
+
+std::vector<FreeResponse> FoamAdapter::correct(const Window&, const std::vector<GrainState>&) {
+    throw std::logic_error("correct() needs a respond() of the same window before it");
 }
 
 Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& grains) {
