@@ -43,6 +43,7 @@ int couple(const std::string& folder, int fluid_ranks, int grains_ranks, const s
     Settings settings = test_settings(scheme);
     settings.set("fluid.ranks", std::int64_t{fluid_ranks});
     settings.set("grains.ranks", std::int64_t{grains_ranks});
+    settings.set("coupling.iterations", std::int64_t{15});  // 0.02 u_c * 0.2^n < 1e-9 u_c takes 11
     settings.set("limits.stall_soft", 1.0);
     settings.set("limits.stall_hard", 3.0);
     const MPI_Comm local = split_world(Role::coupler);

@@ -238,6 +238,21 @@ TEST_F(CaseFile, VariantsOfLaterVersions) {
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
 }
 
+TEST_F(CaseFile, JointTellsWhichKeysHaveNoEffect) {
+    const ResolvedCase joint = load("coupling: {scheme: joint}\n");
+    EXPECT_TRUE(joint.notes.empty()) << joint.notes.front();
+    EXPECT_EQ(joint.settings.real("coupling.tolerance"), 1e-5);
+    EXPECT_EQ(joint.settings.integer("coupling.iterations"), 10);
+    const ResolvedCase contact = load("coupling: {scheme: joint, positions: contact}\n");
+    ASSERT_EQ(contact.notes.size(), 1u);
+    EXPECT_SAYS(contact.notes[0], "coupling.positions has no effect with coupling.scheme: joint");
+    const ResolvedCase dry = load("coupling: {scheme: joint}\n", {"fluid.enabled=false"});
+    ASSERT_EQ(dry.notes.size(), 1u);
+    EXPECT_SAYS(dry.notes[0], "coupling.scheme has no effect without a fluid");
+    EXPECT_SAYS(refusal("", {"coupling.iterations=0"}), "coupling.iterations = 0");
+    EXPECT_SAYS(refusal("", {"coupling.tolerance=0"}), "coupling.tolerance = 0");
+}
+
 TEST_F(CaseFile, CyclicSidesComeInPairs) {
     const std::string text = refusal("", {"domain.left=cyclic"});
     EXPECT_SAYS(text, "--set: domain.left = cyclic");
