@@ -309,7 +309,7 @@ std::vector<KeySpec> scheme_keys() {
          .fallback = "corrected",
          .choices = {{"corrected", "grains move with the fluid-corrected velocity"},
                      {"contact", "grains move with the velocity the contacts allow"}},
-         .help = "velocity that moves the grains (split; under joint both are one)"},
+         .help = "velocity that moves the grains (split; under joint always contact)"},
         {.name = "coupling.tolerance",
          .type = KeyType::real,
          .unit = "u_c",
