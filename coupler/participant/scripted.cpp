@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -227,12 +226,6 @@ std::vector<FreeResponse> ScriptedFluid::correct(const Window& window,
         responses.push_back(answer);
     }
     return responses;
-}
-
-std::vector<FreeResponse> ScriptedFluid::correct(const Window& window,
-                                                 const std::vector<GrainState>&) {
-    reach("correct", window.index);
-    throw std::logic_error("the scripted fluid does not correct yet");
 }
 
 Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>& grains) {

@@ -231,10 +231,6 @@ std::vector<FreeResponse> FoamAdapter::correct(const Window& window,
     });
 }
 
-std::vector<FreeResponse> FoamAdapter::correct(const Window&, const std::vector<GrainState>&) {
-    throw std::logic_error("correct() needs a respond() of the same window before it");
-}
-
 Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& grains) {
     State& s = *state_;
     Kicks answer = in_step("step 5 (multipliers)", window, [&] {
