@@ -240,15 +240,16 @@ TEST_F(CaseFile, VariantsOfLaterVersions) {
 
 TEST_F(CaseFile, JointTellsWhichKeysHaveNoEffect) {
     const ResolvedCase joint = load("coupling: {scheme: joint}\n");
-    EXPECT_TRUE(joint.notes.empty()) << joint.notes.front();
+    for (const std::string& note : joint.notes)
+        EXPECT_EQ(note.find("has no effect"), std::string::npos) << note;
     EXPECT_EQ(joint.settings.real("coupling.tolerance"), 1e-5);
     EXPECT_EQ(joint.settings.integer("coupling.iterations"), 10);
     const ResolvedCase contact = load("coupling: {scheme: joint, positions: contact}\n");
-    ASSERT_EQ(contact.notes.size(), 1u);
-    EXPECT_SAYS(contact.notes[0], "coupling.positions has no effect with coupling.scheme: joint");
+    ASSERT_FALSE(contact.notes.empty());
+    EXPECT_SAYS(contact.notes.back(), "coupling.positions has no effect with coupling.scheme: joint");
     const ResolvedCase dry = load("coupling: {scheme: joint}\n", {"fluid.enabled=false"});
-    ASSERT_EQ(dry.notes.size(), 1u);
-    EXPECT_SAYS(dry.notes[0], "coupling.scheme has no effect without a fluid");
+    ASSERT_FALSE(dry.notes.empty());
+    EXPECT_SAYS(dry.notes.back(), "coupling.scheme has no effect without a fluid");
     EXPECT_SAYS(refusal("", {"coupling.iterations=0"}), "coupling.iterations = 0");
     EXPECT_SAYS(refusal("", {"coupling.tolerance=0"}), "coupling.tolerance = 0");
 }
