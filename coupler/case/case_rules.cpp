@@ -152,6 +152,16 @@ CaseProblem blame(const Rule& rule, const Objection& objection, const Settings& 
             .remedy = objection.remedy};
 }
 
+void add_scheme_notes(const Settings& settings, std::vector<std::string>& notes) {
+    if (settings.text("coupling.scheme") != "joint") return;
+    if (!settings.flag("fluid.enabled"))
+        notes.push_back("coupling.scheme has no effect without a fluid");
+    else if (settings.text("coupling.positions") == "contact")
+        notes.push_back(
+            "coupling.positions has no effect with coupling.scheme: joint; grains move with the "
+            "contact velocity, with which the fluid agrees to coupling.tolerance");
+}
+
 }  // namespace
 
 void check_rules(const Settings& settings, CaseEntries& entries) {
@@ -174,6 +184,7 @@ std::vector<std::string> rule_notes(const Settings& settings) {
                         end, windows, windows * step));
     if (settings.real("output.interval") < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
+    add_scheme_notes(settings, notes);
     return notes;
 }
 

@@ -22,7 +22,7 @@ class Dry final : public Scheme {
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_dry() {
+std::unique_ptr<Scheme> make_dry(const Settings&) {
     return std::make_unique<Dry>();
 }
 

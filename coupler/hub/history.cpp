@@ -104,6 +104,10 @@ const std::vector<Column> columns = {
      [](const Cell& c) {
          return fluid(c, [](const Cell& r) { return r.row.fluid->momentum_defect; });
      }},
+    {"joint_rounds",
+     [](const Cell& c) { return c.row.joint ? std::to_string(c.row.joint->rounds) : ""; }},
+    {"joint_mismatch",
+     [](const Cell& c) { return c.row.joint ? number(c.row.joint->mismatch / c.velocity) : ""; }},
 };
 
 template <class Part>

@@ -29,6 +29,7 @@ struct Row {
     const Motion* state = nullptr;
     const ContactReport* contact = nullptr;  ///< null before the first window
     const FluidReport* fluid = nullptr;      ///< null in dry runs and before the first window
+    const JointReport* joint = nullptr;      ///< null under other schemes
     std::optional<WallTimes> wall;
     std::optional<double> grain_balance;  ///< KickRule::defect
 };

@@ -65,7 +65,7 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid)
              case_.settings.real("limits.stall_hard"),
              [this](const std::string& text) { progress_.say(text); }),
       kick_rule_(case_.settings, case_.shapes),
-      scheme_(make_scheme(scheme_name(case_.settings))),
+      scheme_(make_scheme(scheme_name(case_.settings), case_.settings)),
       ledger_(case_.settings, case_.population.size()),
       history_(files_.history, case_.settings, kick_rule_),
       series_(files_.series) {}
@@ -86,8 +86,19 @@ RunStatus Hub::run() {
         status_.reason = error.what();
     }
     status_.wall_seconds = since(begin);
+    tell_disagreement();
     end_and_record();
     return status_;
+}
+
+void Hub::tell_disagreement() {
+    const auto& joint = status_.maxima.joint;
+    if (!joint || joint->unconverged_windows == 0) return;
+    progress_.say(fmt::format(
+        "turbidite: in {} of {} windows contacts and fluid differ by more than coupling.tolerance "
+        "= {} u_c after coupling.iterations = {} rounds, at most by {:.1e} u_c. Allow more rounds.",
+        joint->unconverged_windows, status_.windows_done, case_.settings.text("coupling.tolerance"),
+        case_.settings.text("coupling.iterations"), joint->mismatch));
 }
 
 // The record comes first: should a participant not leave, the verdict is known all the same. One
@@ -174,6 +185,7 @@ void Hub::account(const Window& window, WindowResult result) {
     maxima.divergence = std::max(
         maxima.divergence, fluid.divergence * length / case_.settings.real("run.velocity_scale"));
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
+    if (result.joint) maxima.take_in(*result.joint, case_.settings.real("run.velocity_scale"));
 
     state_ = std::move(result.state);
     status_.windows_done = window.index + 1;
@@ -183,6 +195,7 @@ void Hub::account(const Window& window, WindowResult result) {
     row.state = &state_;
     row.contact = &result.motion.report;
     row.fluid = fluid_ ? &fluid : nullptr;
+    row.joint = result.joint ? &*result.joint : nullptr;
     if (fluid_) row.grain_balance = balance;
     if (window.write_output)
         series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);

@@ -43,6 +43,7 @@ class Hub {
     void start();
     void play(std::int64_t index);
     void account(const Window& window, WindowResult result);
+    void tell_disagreement();
     void end_and_record();
     void look_for_stop() const;
     void end(const Verdict& verdict);

@@ -1,32 +1,103 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `joint`: the fluid answers for free grains with velocities and effective inertia, one contact
-// solve uses them, the fluid imposes the result.
+// `joint`, beyond the paper: contacts are solved with the inertia that grains have together with
+// the fluid that the multipliers tie to them.
+//
+//     fluid    step 5 for free grains: U^F and effective inertia A of each
+//     grains   contact problem with U = U^F + A^-1 J
+//     fluid    applies J to grains and fluid together: U', momentum exact
+//
+// U' is U where A is exact. Where it is not (grains that share fluid cells) the largest |U' - U| +
+// R |omega' - omega| decides: above coupling.tolerance the contacts are solved again from U^F = U'
+// - A^-1 J, a fixed-point iteration whose error shrinks by |1 - A_true^-1 A| per round. At the end
+// grains take the velocities U' and move with U, which no contact forbids.
+#include <cmath>
+
 #include "coupler/hub/step_five.hpp"
+#include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
 namespace {
 
+using Responses = std::vector<FreeResponse>;
+
+void demand_finite(const Responses& responses, const Window& window) {
+    for (const FreeResponse& response : responses) {
+        double sum = response.mismatch;
+        for (const double x : response.velocity) sum += x;
+        for (const double x : response.angular_velocity) sum += x;
+        for (const double x : response.inertia) sum += x;
+        if (!std::isfinite(sum))
+            throw PhysicsRefused("the fluid's response for grain " + std::to_string(response.id) +
+                                 " is not finite in window " + std::to_string(window.index) +
+                                 ". Try a smaller time.step.");
+    }
+}
+
+double largest_mismatch(const Responses& responses) {
+    double result = 0.0;
+    for (const FreeResponse& response : responses) result = largest(result, response.mismatch);
+    return result;
+}
+
 class Joint final : public Scheme {
  public:
+    explicit Joint(const Settings& settings)
+        : tolerance_(settings.real("coupling.tolerance") * settings.real("run.velocity_scale")),
+          most_rounds_(settings.integer("coupling.iterations")) {}
+
     WindowResult play(const Window& window, const Motion& before, Cast& cast) override {
-        cast.fluid->send_all(Kind::window, window);
+        cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
         cast.grains.send_all(Kind::window, window);
         cast.fluid->send_each(Kind::bodies, cast.plan.by_place(before));
-        cast.watch.wait_for(*cast.fluid, Kind::response);
-
-        std::vector<FreeResponse> responses;
-        for (auto& share : cast.fluid->take<std::vector<FreeResponse>>(Kind::response))
-            responses.insert(responses.end(), share.begin(), share.end());
-        cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses));
-        return play_step_five(window, before, cast);
+        WindowResult result;
+        result.joint = JointReport{};
+        Responses responses = receive_responses(window, cast);
+        do responses = play_round(window, responses, cast, result);
+        while (!result.joint->converged && result.joint->rounds < most_rounds_);
+        for (int rank = 0; rank < cast.fluid->ranks(); ++rank)
+            cast.fluid->send(rank, Kind::accept, {});
+        finish_window(window, before, cast, result);
+        return result;
     }
+
+ private:
+    static Responses receive_responses(const Window& window, Cast& cast) {
+        cast.watch.wait_for(*cast.fluid, Kind::response);
+        Responses responses;
+        for (const Responses& share : cast.fluid->take<Responses>(Kind::response))
+            responses.insert(responses.end(), share.begin(), share.end());
+        demand_finite(responses, window);
+        return responses;
+    }
+
+    /// One contact solve and what the fluid says to it.
+    Responses play_round(const Window& window, const Responses& responses, Cast& cast,
+                         WindowResult& result) const {
+        cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses));
+        const ContactReport so_far = result.motion.report;
+        result.motion = receive_motion(cast);
+        result.motion.report.iterations += so_far.iterations;
+        result.motion.report.wall_seconds += so_far.wall_seconds;
+
+        cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
+        Responses corrected = receive_responses(window, cast);
+        JointReport& report = *result.joint;
+        ++report.rounds;
+        report.mismatch = largest_mismatch(corrected);
+        report.converged = report.mismatch <= tolerance_;
+        return corrected;
+    }
+
+    double tolerance_;  ///< [m/s]
+    std::int64_t most_rounds_;
 };
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_joint() {
-    return std::make_unique<Joint>();
+std::unique_ptr<Scheme> make_joint(const Settings& settings) {
+    return std::make_unique<Joint>(settings);
 }
 
 }  // namespace turbidite

@@ -80,10 +80,13 @@ std::vector<Bytes> ParticipantLink::take_payloads(Kind kind) {
 std::string ParticipantLink::state_of(int rank) const {
     const Rank& of = ranks_[rank];
     const double seconds = std::chrono::duration<double>(Clock::now() - of.since).count();
-    return fmt::format("{} (host {}, pid {}) {} \"{}\", window {}, since {:.0f} s", rank_name(rank),
+    const bool waits = of.order.due().front().from_coupler;
+    const std::string round =
+        of.order.iteration() > 0 ? fmt::format(", round {}", of.order.iteration()) : "";
+    return fmt::format("{} (host {}, pid {}) {} {}, window {}{}, since {:.0f} s", rank_name(rank),
                        of.hello.host.empty() ? "unknown" : of.hello.host, of.hello.pid,
-                       of.order.due_from_coupler() ? "waits for the coupler's" : "works towards",
-                       kind_name(of.order.due()), of.order.window(), seconds);
+                       waits ? "waits for the coupler's" : "works towards", of.order.due_text(),
+                       of.order.window(), round, seconds);
 }
 
 void ParticipantLink::dismiss(const Verdict& verdict) {
@@ -96,8 +99,9 @@ bool ParticipantLink::gone() {
         if (envelope.kind == Kind::farewell)
             ranks_.at(frame->peer).order.received(envelope, !from_coupler);
     }
-    return std::all_of(ranks_.begin(), ranks_.end(),
-                       [](const Rank& rank) { return rank.order.due() == Kind::release; });
+    return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) {
+        return rank.order.due().front().kind == Kind::release;
+    });
 }
 
 void ParticipantLink::release() {

@@ -41,6 +41,9 @@ class ParticipantLink {
     /// reports one. Returns whether anything arrived.
     bool pump();
 
+    /// Rounds begun in the present window, as the coupler's order counts them.
+    std::int64_t iteration() const { return ranks_.front().order.iteration(); }
+
     /// True when every rank has delivered a message of this kind.
     bool ready(Kind kind) const;
 

@@ -29,6 +29,11 @@ std::string residuals(const Row& row, double velocity) {
     if (row.fluid)
         text += fmt::format("  multipliers {} its, {:.0e}", row.fluid->multiplier_iterations,
                             row.fluid->multiplier_residual / velocity);
+    if (row.joint)
+        text += fmt::format("  rounds {}{}", row.joint->rounds,
+                            row.joint->converged ? ""
+                                                 : fmt::format(" NOT CONVERGED: {:.0e} u_c",
+                                                               row.joint->mismatch / velocity));
     return text;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/run_record.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
 namespace {
@@ -42,7 +45,28 @@ nlohmann::ordered_json rank_table(const std::vector<ParticipantLink*>& links) {
     return table;
 }
 
+nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
+    nlohmann::ordered_json table = {{"penetration", maxima.penetration},
+                                    {"grain_balance", maxima.grain_balance},
+                                    {"fluid_balance", maxima.fluid_balance},
+                                    {"divergence", maxima.divergence},
+                                    {"unconverged_windows", maxima.unconverged_windows}};
+    if (maxima.joint) {
+        table["joint_rounds"] = maxima.joint->rounds;
+        table["joint_mismatch"] = maxima.joint->mismatch;
+        table["unconverged_joint_windows"] = maxima.joint->unconverged_windows;
+    }
+    return table;
+}
+
 }  // namespace
+
+void RunMaxima::take_in(const JointReport& report, double velocity) {
+    if (!joint) joint.emplace();
+    joint->rounds = std::max(joint->rounds, report.rounds);
+    joint->mismatch = largest(joint->mismatch, report.mismatch / velocity);
+    joint->unconverged_windows += report.converged ? 0 : 1;
+}
 
 bool has_verdict(const std::filesystem::path& file) {
     std::ifstream in(file);
@@ -62,11 +86,7 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["error"] = status.reason;
     record["windows_done"] = status.windows_done;
     record["wall_seconds"] = status.wall_seconds;
-    record["maxima"] = {{"penetration", status.maxima.penetration},
-                        {"grain_balance", status.maxima.grain_balance},
-                        {"fluid_balance", status.maxima.fluid_balance},
-                        {"divergence", status.maxima.divergence},
-                        {"unconverged_windows", status.maxima.unconverged_windows}};
+    record["maxima"] = maxima_table(status.maxima);
     record["ranks"] = rank_table(links);
     const std::filesystem::path part = file.string() + ".part";
     std::ofstream out(part);

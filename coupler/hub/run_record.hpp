@@ -5,12 +5,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "coupler/hub/participant_link.hpp"
+#include "coupler/hub/scheme.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
+
+/// Over the windows of a `joint` run.
+struct JointMaxima {
+    std::int64_t rounds = 0;
+    double mismatch = 0.0;                 ///< where a window ended [u_c]
+    std::int64_t unconverged_windows = 0;  ///< ended by coupling.iterations
+};
 
 struct RunMaxima {
     double penetration = 0.0;              ///< [D]
@@ -18,6 +27,10 @@ struct RunMaxima {
     double fluid_balance = 0.0;            ///< FluidReport::momentum_defect
     double divergence = 0.0;               ///< after step 1 [u_c/D]
     std::int64_t unconverged_windows = 0;  ///< contact solves that did not reach their tolerance
+    std::optional<JointMaxima> joint;      ///< empty under other schemes
+
+    /// `velocity` is u_c [m/s].
+    void take_in(const JointReport& report, double velocity);
 };
 
 struct RunStatus {

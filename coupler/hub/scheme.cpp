@@ -14,9 +14,9 @@ const std::vector<SchemeEntry>& scheme_list() {
     return schemes;
 }
 
-std::unique_ptr<Scheme> make_scheme(const std::string& name) {
+std::unique_ptr<Scheme> make_scheme(const std::string& name, const Settings& settings) {
     for (const SchemeEntry& entry : scheme_list())
-        if (name == entry.name) return entry.make();
+        if (name == entry.name) return entry.make(settings);
     throw std::invalid_argument("unknown scheme \"" + name + "\"");
 }
 

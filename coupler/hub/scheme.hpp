@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,19 @@ struct Cast {
     const KickRule& kick_rule;
 };
 
+/// How contacts and fluid came to agree (`joint`).
+struct JointReport {
+    std::int64_t rounds = 0;  ///< contact solves
+    double mismatch = 0.0;    ///< largest FreeResponse::mismatch after the last one [m/s]
+    bool converged = true;    ///< mismatch within coupling.tolerance
+};
+
 /// What a window leaves behind.
 struct WindowResult {
     Motion motion;  ///< after step 4
     Kicks kicks;    ///< after step 5; empty in dry runs
     Motion state;   ///< at t^{n+1}
+    std::optional<JointReport> joint = {};
 };
 
 class Scheme {
@@ -39,13 +48,15 @@ class Scheme {
 
 struct SchemeEntry {
     const char* name;
-    std::unique_ptr<Scheme> (*make)();
+    std::unique_ptr<Scheme> (*make)(const Settings&);
 };
 const std::vector<SchemeEntry>& scheme_list();
-std::unique_ptr<Scheme> make_scheme(const std::string& name);
 
-std::unique_ptr<Scheme> make_split();
-std::unique_ptr<Scheme> make_joint();
-std::unique_ptr<Scheme> make_dry();
+/// Throws std::invalid_argument for an unknown name.
+std::unique_ptr<Scheme> make_scheme(const std::string& name, const Settings& settings);
+
+std::unique_ptr<Scheme> make_split(const Settings&);
+std::unique_ptr<Scheme> make_joint(const Settings&);
+std::unique_ptr<Scheme> make_dry(const Settings&);
 
 }  // namespace turbidite

@@ -12,13 +12,17 @@ class Split final : public Scheme {
     WindowResult play(const Window& window, const Motion& before, Cast& cast) override {
         cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
         cast.grains.send_all(Kind::window, window);  // step 4 begins
-        return play_step_five(window, before, cast);
+        WindowResult result;
+        result.motion = receive_motion(cast);
+        cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
+        finish_window(window, before, cast, result);
+        return result;
     }
 };
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_split() {
+std::unique_ptr<Scheme> make_split(const Settings&) {
     return std::make_unique<Split>();
 }
 

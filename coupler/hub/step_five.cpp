@@ -30,12 +30,12 @@ Kicks merged(const std::vector<Kicks>& shares) {
 
 }  // namespace
 
-WindowResult play_step_five(const Window& window, const Motion& before, Cast& cast) {
-    WindowResult result;
+Motion receive_motion(Cast& cast) {
     cast.watch.wait_for(cast.grains, Kind::motion);
-    result.motion = cast.plan.gather(cast.grains.take<Motion>(Kind::motion));
+    return cast.plan.gather(cast.grains.take<Motion>(Kind::motion));
+}
 
-    cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
+void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {
     cast.watch.wait_for(*cast.fluid, Kind::kicks);
     result.kicks = merged(cast.fluid->take<Kicks>(Kind::kicks));
     cast.kick_rule.complete(result.kicks.kicks, before, window.step);
@@ -46,7 +46,6 @@ WindowResult play_step_five(const Window& window, const Motion& before, Cast& ca
     cast.grains.send_each(Kind::kick, routed);
     cast.watch.wait_for(cast.grains, Kind::state);
     result.state = cast.plan.gather(cast.grains.take<Motion>(Kind::state));
-    return result;
 }
 
 }  // namespace turbidite

@@ -14,7 +14,7 @@ Watch::Watch(std::vector<ParticipantLink*> links, double soft, double hard, Prin
 
 void Watch::wait_for(ParticipantLink& link, Kind kind) {
     double next_notice = soft_;
-    double& usual = usual_wait_[kind];
+    double& usual = usual_wait_[{kind, link.iteration()}];
     Patience patience(usual);
     for (;; patience.wait()) {
         for (ParticipantLink* other : links_) other->pump();

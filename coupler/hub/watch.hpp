@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/hub/participant_link.hpp"
@@ -35,7 +36,8 @@ class Watch {
     double soft_, hard_;
     Print print_;
     double waited_ = 0.0;
-    std::map<Kind, double> usual_wait_;  ///< seconds, as it was the last time
+    /// Seconds, as it was the last time, by kind and round.
+    std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;
 };
 
 }  // namespace turbidite

@@ -13,16 +13,17 @@ constexpr bool from_coupler = true;
 Conversation::Conversation(Role role, Channel& channel)
     : channel_(channel), order_(role, "coupler") {}
 
-Message Conversation::next(Kind kind) {
-    for (Patience patience(usual_wait_[kind]);; patience.wait()) {
+Message Conversation::next() {
+    double& usual = usual_wait_[{order_.due().front().kind, order_.iteration()}];
+    for (Patience patience(usual);; patience.wait()) {
         if (auto frame = channel_.try_receive()) {
-            usual_wait_[kind] = patience.seconds();
+            usual = patience.seconds();
             return unframe(frame->bytes);
         }
         if (patience.seconds() > limit_)
             throw CouplerSilent("the coupler has been silent for " +
-                                std::to_string(static_cast<int>(limit_)) + " s while \"" +
-                                kind_name(order_.due()) + "\" was due");
+                                std::to_string(static_cast<int>(limit_)) + " s while " +
+                                order_.due_text() + " was due");
     }
 }
 
@@ -30,10 +31,15 @@ void Conversation::send(Kind kind, Bytes payload) {
     channel_.send(0, frame({order_.next_sent(kind, !from_coupler), std::move(payload)}));
 }
 
-Bytes Conversation::receive(Kind kind) {
-    Message message = next(kind);
+Message Conversation::receive() {
+    Message message = next();
     order_.received(message.envelope, from_coupler);
     if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload)};
+    return message;
+}
+
+Bytes Conversation::receive(Kind kind) {
+    Message message = receive();
     if (message.envelope.kind != kind)
         throw OrderViolation("the adapter waits for \"" + kind_name(kind) +
                              "\", the coupler sent \"" + kind_name(message.envelope.kind) + "\"");
@@ -43,7 +49,7 @@ Bytes Conversation::receive(Kind kind) {
 Verdict Conversation::fail(const Verdict& verdict) {
     send(Kind::failure, encode(verdict));
     for (;;) {  // whatever was on its way is no longer of interest
-        const Message message = next(Kind::dismiss);
+        const Message message = next();
         if (message.envelope.kind != Kind::dismiss) continue;
         order_.received(message.envelope, from_coupler);
         return decode<Verdict>(message.payload);
@@ -52,7 +58,7 @@ Verdict Conversation::fail(const Verdict& verdict) {
 
 void Conversation::say_farewell() {
     send(Kind::farewell, {});
-    order_.received(next(Kind::release).envelope, from_coupler);
+    order_.received(next().envelope, from_coupler);
 }
 
 }  // namespace turbidite

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 
 #include "coupler/protocol/call_order.hpp"
 #include "coupler/protocol/failure.hpp"
@@ -34,8 +35,11 @@ class Conversation {
 
     void send(Kind kind, Bytes payload);
 
-    /// Waits for the message that is due. Throws Dismissed, OrderViolation,
-    /// MalformedPayload, CouplerSilent.
+    /// Waits for the message that is due; after a round the coupler decides which of two it is.
+    /// Throws Dismissed, OrderViolation, MalformedPayload, CouplerSilent.
+    Message receive();
+
+    /// The same where only this kind can come.
     Bytes receive(Kind kind);
 
     /// Tells the coupler that this side cannot go on, and waits for its verdict on the run.
@@ -47,12 +51,13 @@ class Conversation {
     void say_farewell();
 
  private:
-    Message next(Kind kind);
+    Message next();
 
     Channel& channel_;
     CallOrder order_;
     double limit_ = 600.0;
-    std::map<Kind, double> usual_wait_;  ///< seconds, as it was the last time
+    /// Seconds, as it was the last time, by kind and round.
+    std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;
 };
 
 }  // namespace turbidite

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/participant/scripted.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -16,6 +17,14 @@ constexpr double everywhere = std::numeric_limits<double>::max();
 // Upper triangle by rows of a 6 x 6 matrix: index of the diagonal entry of row i.
 constexpr std::size_t diagonal(std::size_t i) {
     return i * 6 - i * (i - 1) / 2;
+}
+
+Vec3 plus(const Vec3& a, double s, const Vec3& b) {
+    return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+
+double distance(const Vec3& a, const Vec3& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 }  // namespace
@@ -33,7 +42,8 @@ ImmersedBody ScriptedBodies::body(const GrainState& grain) const {
                          hydrodynamic_radius_);
 }
 
-ScriptedGrains::ScriptedGrains(std::string adapter_name, Fault fault) : fault_(std::move(fault)) {
+ScriptedGrains::ScriptedGrains(std::string adapter_name, Fault fault)
+    : floor_(-everywhere), fault_(std::move(fault)) {
     hello_.adapter = std::move(adapter_name);
     hello_.adapter_version = "scripted";
     hello_.host_code = "script";
@@ -55,19 +65,39 @@ Motion ScriptedGrains::initialise(const Settings& settings, const ShapeTable& sh
                                   const std::vector<GrainState>& grains) {
     reach("initialise", -1);
     bodies_.initialise(settings, shapes);
+    joint_ = settings.flag("fluid.enabled") && settings.text("coupling.scheme") == "joint";
     motion_.grains = grains;
     return motion_;
+}
+
+void ScriptedGrains::touch_floor(GrainState& grain, double mass, double step) {
+    const double gap = grain.position[1] - grain.radius - floor_;
+    const double impulse = std::max(0.0, -mass * (grain.velocity[1] + gap / step));
+    grain.velocity[1] += impulse / mass;
+    grain.contact_impulse = {0.0, impulse, 0.0};
+    if (impulse > 0.0) ++motion_.report.contacts;
 }
 
 Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     reach("advance", window.index);
     std::unordered_map<GrainId, const FreeResponse*> by_id;
     for (const FreeResponse& response : responses) by_id[response.id] = &response;
+    motion_.report = {};
+    motion_.report.iterations = 1;
+    contact_velocities_.clear();
     for (GrainState& grain : motion_.grains) {
         const ImmersedBody body = bodies_.body(grain);
-        grain.velocity[1] -=
-            body.submerged_mass / body.effective_mass * bodies_.gravity() * window.step;
-        if (!responses.empty()) grain.velocity = by_id.at(grain.id)->velocity;
+        double mass = body.effective_mass;
+        if (joint_) {
+            const FreeResponse& response = *by_id.at(grain.id);
+            grain.velocity = response.velocity;
+            grain.angular_velocity = response.angular_velocity;
+            mass = response.inertia[diagonal(1)];
+        } else {
+            grain.velocity[1] -= body.submerged_mass / mass * bodies_.gravity() * window.step;
+        }
+        touch_floor(grain, mass, window.step);
+        contact_velocities_.push_back(grain.velocity);
     }
     return motion_;
 }
@@ -76,12 +106,16 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
     reach("apply_kick", window.index);
     std::unordered_map<GrainId, const Kick*> by_id;
     for (const Kick& kick : kicks) by_id[kick.id] = &kick;
-    for (GrainState& grain : motion_.grains) {
+    for (std::size_t i = 0; i < motion_.grains.size(); ++i) {
+        GrainState& grain = motion_.grains[i];
         if (!kicks.empty()) {
             grain.velocity = by_id.at(grain.id)->velocity;
             grain.angular_velocity = by_id.at(grain.id)->angular_velocity;
         }
-        for (int i = 0; i < 3; ++i) grain.position[i] += window.step * grain.velocity[i];
+        const Vec3& carrier = joint_ ? contact_velocities_[i] : grain.velocity;
+        grain.position = plus(grain.position, window.step, carrier);
+        const double overlap = floor_ - (grain.position[1] - grain.radius);
+        motion_.report.max_penetration = std::max(motion_.report.max_penetration, overlap);
     }
     return motion_;
 }
@@ -132,30 +166,66 @@ void ScriptedFluid::advance(const Window& window) {
     reach("advance", window.index);
 }
 
+ScriptedFluid::FreeGrain ScriptedFluid::fall(const GrainState& grain, double step) const {
+    const ImmersedBody body = bodies_.body(grain);
+    FreeGrain motion;
+    motion.mass = body.effective_mass + drag_ * step;
+    motion.inertia = body.effective_inertia(2, 2);
+    const Vec3 weight{0.0, -body.submerged_mass * bodies_.gravity(), 0.0};
+    const Vec3 coasting = plus({}, body.effective_mass / motion.mass, grain.velocity);
+    motion.velocity = plus(coasting, step / motion.mass, weight);
+    motion.angular_velocity = grain.angular_velocity;
+    return motion;
+}
+
+FreeResponse ScriptedFluid::response(GrainId id, const FreeGrain& motion) const {
+    FreeResponse response;
+    response.id = id;
+    response.velocity = motion.velocity;
+    response.angular_velocity = motion.angular_velocity;
+    for (int i = 0; i < 3; ++i) response.inertia[diagonal(i)] = told_ * motion.mass;
+    for (int i = 3; i < 6; ++i) response.inertia[diagonal(i)] = told_ * motion.inertia;
+    return response;
+}
+
 std::vector<FreeResponse> ScriptedFluid::respond(const Window& window,
                                                  const std::vector<GrainState>& grains) {
     reach("respond", window.index);
+    free_.clear();
     std::vector<FreeResponse> responses;
     for (const GrainState& grain : grains) {
         if (!owns(grain)) continue;
-        const ImmersedBody body = bodies_.body(grain);
-        const double damped = body.effective_mass + drag_ * window.step;
-        FreeResponse response;
-        response.id = grain.id;
-        for (int i = 0; i < 3; ++i)
-            response.velocity[i] = body.effective_mass * grain.velocity[i] / damped;
-        response.velocity[1] -= body.submerged_mass * bodies_.gravity() * window.step / damped;
-        for (int i = 0; i < 3; ++i) response.inertia[diagonal(i)] = damped;
-        for (int i = 3; i < 6; ++i) response.inertia[diagonal(i)] = body.effective_inertia(2, 2);
-        responses.push_back(response);
+        const FreeGrain& motion = free_[grain.id] = fall(grain, window.step);
+        responses.push_back(response(grain.id, motion));
     }
     return responses;
 }
 
+ScriptedFluid::FreeGrain ScriptedFluid::pushed(const GrainState& grain) const {
+    FreeGrain motion = free_.at(grain.id);
+    motion.velocity = plus(motion.velocity, 1.0 / motion.mass, grain.contact_impulse);
+    motion.angular_velocity =
+        plus(motion.angular_velocity, 1.0 / motion.inertia, grain.contact_angular_impulse);
+    return motion;
+}
+
 std::vector<FreeResponse> ScriptedFluid::correct(const Window& window,
-                                                 const std::vector<GrainState>&) {
+                                                 const std::vector<GrainState>& grains) {
     reach("correct", window.index);
-    throw std::logic_error("the scripted fluid does not correct yet");
+    std::vector<FreeResponse> responses;
+    for (const GrainState& grain : grains) {
+        if (!owns(grain)) continue;
+        const FreeGrain motion = pushed(grain);
+        FreeResponse answer = response(grain.id, motion);
+        answer.velocity =
+            plus(answer.velocity, -1.0 / (told_ * motion.mass), grain.contact_impulse);
+        answer.angular_velocity = plus(answer.angular_velocity, -1.0 / (told_ * motion.inertia),
+                                       grain.contact_angular_impulse);
+        answer.mismatch = distance(motion.velocity, grain.velocity) +
+                          grain.radius * distance(motion.angular_velocity, grain.angular_velocity);
+        responses.push_back(answer);
+    }
+    return responses;
 }
 
 Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>& grains) {
@@ -163,16 +233,18 @@ Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>&
     Kicks answer;
     for (const GrainState& grain : grains) {
         if (!owns(grain)) continue;
-        const ImmersedBody body = bodies_.body(grain);
-        const double damping =
-            joint_ ? 1.0 : 1.0 / (1.0 + drag_ * window.step / body.effective_mass);
         Kick kick;
         kick.id = grain.id;
-        kick.angular_velocity = grain.angular_velocity;
-        for (int i = 0; i < 3; ++i) {
-            kick.velocity[i] = damping * grain.velocity[i];
-            kick.multiplier_impulse[i] = -drag_ * window.step * kick.velocity[i];
+        if (joint_) {
+            const FreeGrain motion = pushed(grain);
+            kick.velocity = motion.velocity;
+            kick.angular_velocity = motion.angular_velocity;
+        } else {
+            const double mass = bodies_.body(grain).effective_mass;
+            kick.velocity = plus({}, 1.0 / (1.0 + drag_ * window.step / mass), grain.velocity);
+            kick.angular_velocity = grain.angular_velocity;
         }
+        kick.multiplier_impulse = plus({}, -drag_ * window.step, kick.velocity);
         answer.kicks.push_back(kick);
     }
     return answer;

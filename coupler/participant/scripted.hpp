@@ -6,10 +6,15 @@
 // The scripted fluid is a linear drag, implicit:    M_eff (U^{n+1} - U^{4/5}) = -gamma dt U^{n+1}
 //
 // so that after n windows U_y = -sum over k = 1..n of a dt b^k, a = (M_sub/M_eff) g, b = 1/(1 +
-// gamma dt/M_eff).
+// gamma dt/M_eff). Under `joint` drag and contact impulse J act at once:
+//
+//     M_eff (U^{n+1} - U^n) = -M_sub g dt + J - gamma dt U^{n+1}
+//
+// that is effective inertia A = M_eff + gamma dt.
 #pragma once
 
 #include <functional>
+#include <unordered_map>
 
 #include "coupler/participant/adapter.hpp"
 #include "coupler/shapes/immersed_body.hpp"
@@ -36,6 +41,10 @@ class ScriptedGrains : public GrainsAdapter {
  public:
     explicit ScriptedGrains(std::string adapter_name, Fault fault = {});
 
+    /// A floor without friction: no grain's lowest point may pass y = `height`. Uses the diagonal
+    /// of the inertia that the fluid tells.
+    void lay_floor(double height) { floor_ = height; }
+
     Hello describe() const override;
     Motion initialise(const Settings&, const ShapeTable&, const std::vector<GrainState>&) override;
     Motion advance(const Window&, const std::vector<FreeResponse>&) override;
@@ -49,7 +58,12 @@ class ScriptedGrains : public GrainsAdapter {
 
  private:
     void reach(const char* function, std::int64_t window) const;
+    void touch_floor(GrainState& grain, double mass, double step);
+
     ScriptedBodies bodies_;
+    double floor_;
+    bool joint_ = false;
+    std::vector<Vec3> contact_velocities_;
     Fault fault_;
 };
 
@@ -57,6 +71,10 @@ class ScriptedFluid : public FluidAdapter {
  public:
     /// Rank `rank` of `ranks` owns an equal slice of the domain in x. `drag` is gamma [kg/s].
     ScriptedFluid(double drag, int rank = 0, int ranks = 1, Fault fault = {});
+
+    /// Under `joint` the inertia it tells is (1 + share) times the true one; `correct` then has
+    /// something to correct: each round leaves `share` of the error.
+    void misjudge_inertia(double share) { told_ = 1.0 + share; }
 
     Hello describe() const override;
     Box initialise(const Settings&, const ShapeTable&) override;
@@ -68,10 +86,23 @@ class ScriptedFluid : public FluidAdapter {
     void restore(const SavedState&) override;
 
  private:
+    /// A grain without contacts under `joint`, and its true effective inertia.
+    struct FreeGrain {
+        Vec3 velocity{}, angular_velocity{};
+        double mass = 0.0, inertia = 0.0;
+    };
+
     void reach(const char* function, std::int64_t window) const;
     bool owns(const GrainState& grain) const;
+    FreeGrain fall(const GrainState& grain, double step) const;
+    /// The same with the grain's contact impulses.
+    FreeGrain pushed(const GrainState& grain) const;
+    FreeResponse response(GrainId id, const FreeGrain& motion) const;
+
     double drag_;
     int rank_, ranks_;
+    double told_ = 1.0;
+    std::unordered_map<GrainId, FreeGrain> free_;  ///< of this window
     ScriptedBodies bodies_;
     Box box_;
     bool joint_ = false;

@@ -127,16 +127,25 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
 
     void play_window() override {
         const auto window = receive<Window>(Kind::window);
-        std::vector<FreeResponse> responses;
-        if (talk_->scheme == "joint")
-            responses = receive<std::vector<FreeResponse>>(Kind::contact_input);
-        const Motion motion = adapter_.advance(window, responses);
+        if (talk_->scheme == "joint") return play_rounds(window);
+        const Motion motion = adapter_.advance(window, {});
         if (talk_->scheme != "dry") send(Kind::motion, motion);
         const auto kicks = receive<Kicks>(Kind::kick);
         Motion state = adapter_.apply_kick(window, kicks.kicks);
         if (talk_->scheme == "dry")  // the window's only report
             state.report.wall_seconds += motion.report.wall_seconds;
         send(Kind::state, state);
+    }
+
+    void play_rounds(const Window& window) {
+        Message message = talk_->conversation.receive();
+        for (; message.envelope.kind == Kind::contact_input;
+             message = talk_->conversation.receive()) {
+            const auto responses = decode<std::vector<FreeResponse>>(message.payload);
+            send(Kind::motion, adapter_.advance(window, responses));
+        }
+        const auto kicks = decode<Kicks>(message.payload);
+        send(Kind::state, adapter_.apply_kick(window, kicks.kicks));
     }
 };
 
@@ -155,14 +164,22 @@ class FluidSession final : public RoleSession<FluidAdapter> {
     void play_window() override {
         const auto window = receive<Window>(Kind::window);
         adapter_.advance(window);
-        if (talk_->scheme == "joint") answer_free_grains(window);
-        const auto motion = receive<Motion>(Kind::constraint);
+        const Motion motion =
+            talk_->scheme == "joint" ? play_rounds(window) : receive<Motion>(Kind::constraint);
         send(Kind::kicks, adapter_.impose(window, motion.grains));
     }
 
-    void answer_free_grains(const Window& window) {
+    /// Returns the constraint that the coupler accepted.
+    Motion play_rounds(const Window& window) {
         const auto bodies = receive<Motion>(Kind::bodies);
         send(Kind::response, adapter_.respond(window, bodies.grains));
+        Motion motion;
+        for (Message message = talk_->conversation.receive();
+             message.envelope.kind == Kind::constraint; message = talk_->conversation.receive()) {
+            motion = decode<Motion>(message.payload);
+            send(Kind::response, adapter_.correct(window, motion.grains));
+        }
+        return motion;
     }
 };
 

@@ -30,13 +30,15 @@ const std::vector<SchemeOrder> windows = {
      {{Kind::window, from_coupler},
       {Kind::bodies, from_coupler},
       {Kind::response, to_coupler},
-      {Kind::constraint, from_coupler},
+      {Kind::constraint, from_coupler, Times::per_round},
+      {Kind::response, to_coupler, Times::per_round},
+      {Kind::accept, from_coupler},
       {Kind::kicks, to_coupler}}},
     {"joint",
      Role::grains,
      {{Kind::window, from_coupler},
-      {Kind::contact_input, from_coupler},
-      {Kind::motion, to_coupler},
+      {Kind::contact_input, from_coupler, Times::per_round},
+      {Kind::motion, to_coupler, Times::per_round},
       {Kind::kick, from_coupler},
       {Kind::state, to_coupler}}},
     {"dry",
@@ -44,8 +46,17 @@ const std::vector<SchemeOrder> windows = {
      {{Kind::window, from_coupler}, {Kind::kick, from_coupler}, {Kind::state, to_coupler}}},
 };
 
-std::string step_text(Kind kind, bool sent_by_coupler) {
-    return "\"" + kind_name(kind) + "\" from the " + (sent_by_coupler ? "coupler" : "participant");
+std::string sender_text(bool sent_by_coupler) {
+    return std::string(" from the ") + (sent_by_coupler ? "coupler" : "participant");
+}
+
+std::string message_text(Kind kind, bool sent_by_coupler) {
+    return "\"" + kind_name(kind) + "\"" + sender_text(sent_by_coupler);
+}
+
+std::string place_text(std::int64_t window, std::int64_t iteration) {
+    return "window " + std::to_string(window) +
+           (iteration > 0 ? ", round " + std::to_string(iteration) : "");
 }
 
 }  // namespace
@@ -78,16 +89,34 @@ void CallOrder::set_scheme(const std::string& scheme) {
     scheme_ = scheme;
 }
 
-Kind CallOrder::due() const {
-    return due_step().kind;
-}
-bool CallOrder::due_from_coupler() const {
-    return due_step().from_coupler;
+bool CallOrder::begins_round(std::size_t place) const {
+    return order_[place].times == Times::per_round &&
+           (place == 0 || order_[place - 1].times == Times::once);
 }
 
-const Step& CallOrder::due_step() const {
-    static const Order end = {{Kind::farewell, to_coupler}, {Kind::release, from_coupler}};
-    return dismissed_ ? end[said_farewell_ ? 1 : 0] : order_[at_];
+// Behind a round its first step is due as well as what follows.
+std::vector<std::size_t> CallOrder::due_places() const {
+    const bool behind_round =
+        at_ > 0 && order_[at_].times == Times::once && order_[at_ - 1].times == Times::per_round;
+    if (!behind_round) return {at_};
+    std::size_t start = at_ - 1;
+    while (!begins_round(start)) --start;
+    return {at_, start};
+}
+
+std::vector<Step> CallOrder::due() const {
+    if (said_farewell_) return {{Kind::release, from_coupler}};
+    if (dismissed_) return {{Kind::farewell, to_coupler}};
+    std::vector<Step> steps;
+    for (const std::size_t place : due_places()) steps.push_back(order_[place]);
+    return steps;
+}
+
+std::string CallOrder::due_text() const {
+    std::string text;
+    for (const Step& step : due())
+        text += (text.empty() ? "\"" : " or \"") + kind_name(step.kind) + "\"";
+    return text;
 }
 
 // Bad news may come at any time; nothing follows a dismissal but the farewell.
@@ -97,56 +126,55 @@ bool CallOrder::may_interrupt(Kind kind, bool sent_by_coupler) const {
 }
 
 void CallOrder::demand(Kind kind, bool sent_by_coupler, const char* verb) const {
-    const Step& step = due_step();
     if (may_interrupt(kind, sent_by_coupler)) return;
-    if (step.kind == kind && step.from_coupler == sent_by_coupler) return;
-    throw OrderViolation(peer_ + ": " + verb + " " + step_text(kind, sent_by_coupler) +
-                         " in window " + std::to_string(window_) + ", but " +
-                         step_text(step.kind, step.from_coupler) + " is due");
+    const std::vector<Step> steps = due();
+    for (const Step& step : steps)
+        if (step.kind == kind && step.from_coupler == sent_by_coupler) return;
+    throw OrderViolation(peer_ + ": " + verb + " " + message_text(kind, sent_by_coupler) + " in " +
+                         place_text(window_, iteration_) + ", but " + due_text() +
+                         sender_text(steps.front().from_coupler) + " is due");
 }
 
+// The message has been found due: the conversation moves behind it.
 void CallOrder::advance(Kind kind) {
     if (kind == Kind::dismiss) dismissed_ = true;
     if (kind == Kind::farewell) said_farewell_ = true;
     if (dismissed_ || kind == Kind::failure) return;
-    if (kind == Kind::window) ++window_;
-    if (++at_ < order_.size()) return;
-    if (!started_) {
-        if (scheme_.empty())
-            throw OrderViolation(peer_ + ": the start is over but no scheme was agreed");
-        order_ = window_order(role_, scheme_);
-        started_ = true;
-    }
+    for (const std::size_t place : due_places())
+        if (order_[place].kind == kind) at_ = place;
+    if (kind == Kind::window) ++window_, iteration_ = 0;
+    if (begins_round(at_)) ++iteration_;
+    if (++at_ == order_.size()) begin_window_order();
+}
+
+void CallOrder::begin_window_order() {
     at_ = 0;
+    if (started_) return;
+    if (scheme_.empty())
+        throw OrderViolation(peer_ + ": the start is over but no scheme was agreed");
+    order_ = window_order(role_, scheme_);
+    started_ = true;
 }
 
 Envelope CallOrder::next_sent(Kind kind, bool sent_by_coupler) {
     demand(kind, sent_by_coupler, "about to send");
-    Envelope envelope;
-    envelope.kind = kind;
-    envelope.window = kind == Kind::window ? window_ + 1 : window_;
-    envelope.sequence = counter(sent_by_coupler)++;
     advance(kind);
-    return envelope;
+    return {kind, window_, iteration_, counter(sent_by_coupler)++};
 }
 
 void CallOrder::received(const Envelope& envelope, bool sent_by_coupler) {
     demand(envelope.kind, sent_by_coupler, "received");
-    const std::int64_t window = envelope.kind == Kind::window ? window_ + 1 : window_;
-    const std::int64_t sequence = counter(sent_by_coupler)++;
-    const bool interrupts = may_interrupt(envelope.kind, sent_by_coupler);
     // Bad news and last words are heard even after a message was lost.
-    if (interrupts || dismissed_) return advance(envelope.kind);
-    if (envelope.window != window || envelope.sequence != sequence)
-        throw OrderViolation(peer_ + ": received " + step_text(envelope.kind, sent_by_coupler) +
-                             " number " + std::to_string(envelope.sequence) + " of window " +
-                             std::to_string(envelope.window) + ", expected number " +
-                             std::to_string(sequence) + " of window " + std::to_string(window));
-    if (envelope.iteration != 0)
-        throw OrderViolation(peer_ + ": received " + step_text(envelope.kind, sent_by_coupler) +
-                             " of iteration " + std::to_string(envelope.iteration) +
-                             ", but the scheme does not iterate");
+    const bool heard = may_interrupt(envelope.kind, sent_by_coupler) || dismissed_;
     advance(envelope.kind);
+    const std::int64_t sequence = counter(sent_by_coupler)++;
+    const bool expected = envelope.window == window_ && envelope.iteration == iteration_ &&
+                          envelope.sequence == sequence;
+    if (heard || expected) return;
+    throw OrderViolation(peer_ + ": received " + message_text(envelope.kind, sent_by_coupler) +
+                         " number " + std::to_string(envelope.sequence) + " of " +
+                         place_text(envelope.window, envelope.iteration) + ", expected number " +
+                         std::to_string(sequence) + " of " + place_text(window_, iteration_));
 }
 
 }  // namespace turbidite

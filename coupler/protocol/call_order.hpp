@@ -5,8 +5,13 @@
 // with a sentence, never a deadlock. Valid C++17.
 //
 //     split   window → motion ⇒ constraint → kicks ⇒ kick → state
-//     joint   window → bodies → response ⇒ contact_input → motion ⇒ constraint → kicks ⇒ kick →
-//     state dry     window → kick → state            (no fluid; kick is empty and says "move")
+//     joint   window → bodies → response { ⇒ contact_input → motion ⇒ constraint → response }
+//             → accept → kicks ⇒ kick → state
+//     dry     window → kick → state            (no fluid; kick is empty and says "move")
+//
+// What stands in braces is a round. It is played once or more; after each the coupler, and nobody
+// else, decides between another round and what follows, so a participant sees which of two kinds
+// comes. The envelope's `iteration` counts the rounds begun in the window.
 //
 // and for everybody, at any time: dismiss → farewell → release, or failure before them.
 //
@@ -23,15 +28,20 @@
 
 namespace turbidite {
 
-/// The scheme's window as seen by one role: the kinds it sends or receives, in order.
+/// How often a step is played in one window.
+enum class Times { once, per_round };
+
+/// The scheme's window as seen by one role: the kinds it sends or receives, in order. Neighbouring
+/// `per_round` steps are one round, which begins with a message of the coupler.
 struct Step {
     Kind kind;
     bool from_coupler;
+    Times times = Times::once;
 };
 using Order = std::vector<Step>;
 
-/// `scheme` is "split", "joint" or "dry". Throws std::invalid_argument for another name, or for a
-/// fluid in a dry run.
+/// `scheme` is "split", "joint" or "dry". window_order throws std::invalid_argument for another
+/// name, or for a fluid in a dry run.
 Order start_order(Role role);
 Order window_order(Role role, const std::string& scheme);
 
@@ -56,15 +66,23 @@ class CallOrder {
     /// sequence.
     void received(const Envelope& envelope, bool from_coupler);
 
-    Kind due() const;
-    bool due_from_coupler() const;
+    /// Every message that may come next: one, or after a round two, of the same sender. The first
+    /// is the one that goes on.
+    std::vector<Step> due() const;
+
+    /// "\"motion\"", or after a round "\"accept\" or \"constraint\"".
+    std::string due_text() const;
+
     std::int64_t window() const { return window_; }
+    std::int64_t iteration() const { return iteration_; }
 
  private:
-    const Step& due_step() const;
+    std::vector<std::size_t> due_places() const;
+    bool begins_round(std::size_t place) const;
     bool may_interrupt(Kind kind, bool from_coupler) const;
     void demand(Kind kind, bool from_coupler, const char* verb) const;
     void advance(Kind kind);
+    void begin_window_order();
     std::int64_t& counter(bool from_coupler) { return from_coupler ? from_coupler_ : to_coupler_; }
 
     Role role_;
@@ -76,6 +94,7 @@ class CallOrder {
     bool dismissed_ = false;
     bool said_farewell_ = false;
     std::int64_t window_ = -1;
+    std::int64_t iteration_ = 0;
     std::int64_t from_coupler_ = 0;
     std::int64_t to_coupler_ = 0;
 };

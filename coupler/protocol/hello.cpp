@@ -23,6 +23,10 @@ class Report {
     std::string who_;
 };
 
+std::string version(std::int32_t minor, std::int32_t major = protocol_major) {
+    return std::to_string(major) + "." + std::to_string(minor);
+}
+
 bool contains(const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
@@ -50,7 +54,7 @@ const char* role_name(Role role) {
 std::vector<std::string> mismatches(const Hello& hello, const Expectation& expected) {
     Report report(hello);
     report.demand(hello.protocol_major == protocol_major, "protocol version",
-                  std::to_string(hello.protocol_major) + "." + std::to_string(hello.protocol_minor),
+                  version(hello.protocol_minor, hello.protocol_major),
                   std::to_string(protocol_major) + ".x");
     report.demand(hello.role == expected.role, "role", role_name(hello.role),
                   role_name(expected.role));
@@ -63,8 +67,11 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
     report.demand(hello.case_hash.empty() || hello.case_hash == expected.case_hash,
                   "hash of the resolved case", hello.case_hash,
                   expected.case_hash + " (was it started on another run folder?)");
-    report.demand(expected.scheme != "joint" || hello.capabilities.effective_inertia,
-                  "knowledge of scheme joint", "absent", "it for coupling.scheme: joint");
+    const bool joint = expected.scheme == "joint";
+    report.demand(!joint || hello.capabilities.effective_inertia, "knowledge of scheme joint",
+                  "absent", "it for coupling.scheme: joint (or use split)");
+    report.demand(!joint || hello.protocol_minor >= joint_since_minor, "protocol version",
+                  version(hello.protocol_minor), version(joint_since_minor) + " for joint");
     for (const std::string& shape : expected.shapes)
         report.demand(contains(hello.capabilities.shapes, shape), "list of shapes",
                       joined(hello.capabilities.shapes), shape);

@@ -12,7 +12,10 @@ namespace turbidite {
 
 /// Major versions must be equal; of the minor ones the smaller rules.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 0;
+inline constexpr std::int32_t protocol_minor = 1;
+
+/// The first minor version whose `joint` has rounds.
+inline constexpr std::int32_t joint_since_minor = 1;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 

@@ -21,6 +21,7 @@ const std::vector<std::pair<Kind, const char*>> kinds = {
     {Kind::contact_input, "contact_input"},
     {Kind::motion, "motion"},
     {Kind::constraint, "constraint"},
+    {Kind::accept, "accept"},
     {Kind::kicks, "kicks"},
     {Kind::kick, "kick"},
     {Kind::state, "state"},

@@ -23,10 +23,11 @@ enum class Kind : std::int32_t {
     // window
     window = 10,         // coupler → all       Window
     bodies = 18,         // coupler → fluid     Motion at t^n, routed by place (joint)
-    response = 11,       // fluid → coupler     free responses (joint)
+    response = 11,       // fluid → coupler     how grains respond to impulses (joint)
     contact_input = 12,  // coupler → grains    the same, routed by id (joint)
     motion = 13,         // grains → coupler    Motion after step 4
     constraint = 14,     // coupler → fluid     the same, routed by place
+    accept = 19,         // coupler → fluid     the last constraint holds, no payload (joint)
     kicks = 15,          // fluid → coupler     Kicks after step 5
     kick = 16,           // coupler → grains    the same, routed by id
     state = 17,          // grains → coupler    Motion at t^{n+1} (and once at t = 0)
@@ -43,9 +44,9 @@ std::string kind_name(Kind kind);
 /// Where a message stands in the run; compared with what was expected before its payload is used.
 struct Envelope {
     Kind kind = Kind::hello;
-    std::int64_t window = -1;  ///< -1 outside the window loop
-    std::int64_t iteration = 0;
-    std::int64_t sequence = 0;  ///< counts the messages of one sender to one receiver
+    std::int64_t window = -1;    ///< -1 outside the window loop
+    std::int64_t iteration = 0;  ///< rounds begun in this window (joint); else 0
+    std::int64_t sequence = 0;   ///< counts the messages of one sender to one receiver
 };
 
 struct Message {

@@ -12,8 +12,10 @@ Vec3 point_velocity(const Twist& twist, const Vec3& arm) {
 
 /// Impulse p at the end of `arm`.
 void push(Twist& twist, const BodyMobility& body, const Vec3& arm, const Vec3& p) {
-    twist.velocity = twist.velocity + body.inverse_mass * p;
-    twist.spin = twist.spin + body.inverse_inertia * cross(arm, p);
+    const PlanarVector change = body * PlanarVector{p[0], p[1], cross(arm, p)[2]};
+    twist.velocity[0] += change.x;
+    twist.velocity[1] += change.y;
+    twist.spin[2] += change.spin;
 }
 
 }  // namespace

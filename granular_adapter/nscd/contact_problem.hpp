@@ -17,16 +17,12 @@
 #include <vector>
 
 #include "granular_adapter/nscd/bodies.hpp"
+#include "granular_adapter/nscd/mobility.hpp"
 
 namespace turbidite::nscd {
 
 /// In the contact frame (n, t, s).
 using Impulses = std::vector<Vec3>;
-
-struct BodyMobility {
-    double inverse_mass = 0.0;     ///< zero: the body does not move [1/kg]
-    double inverse_inertia = 0.0;  ///< about z [1/(kg m2)]
-};
 
 struct Contact {
     std::int32_t a = -1;  ///< -1: at rest, immovable

@@ -8,12 +8,22 @@
 namespace turbidite::nscd {
 namespace {
 
-/// One body's share of W_kk: I/m + (arm x d_i)(arm x d_j)/J.
+/// One body's share of W_kk: (d_i, arm x d_i) . M^-1 (d_j, arm x d_j) for d = n, t. Isotropic
+/// bodies need no product of directions, which would not be exactly orthonormal.
 void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
     const double n = cross(arm, contact.normal)[2], t = cross(arm, contact.tangent)[2];
-    w.nn += body.inverse_mass + body.inverse_inertia * n * n;
-    w.nt += body.inverse_inertia * n * t;
-    w.tt += body.inverse_mass + body.inverse_inertia * t * t;
+    if (body.isotropic()) {
+        w.nn += body.xx + body.ss * n * n;
+        w.nt += body.ss * n * t;
+        w.tt += body.xx + body.ss * t * t;
+        return;
+    }
+    const PlanarVector along_n{contact.normal[0], contact.normal[1], n};
+    const PlanarVector along_t{contact.tangent[0], contact.tangent[1], t};
+    const PlanarVector answer = body * along_t;
+    w.nn += dot(along_n, body * along_n);
+    w.nt += dot(along_n, answer);
+    w.tt += dot(along_t, answer);
 }
 
 /// n and t rounded leave about 1e-17 of an exact zero.
@@ -44,7 +54,10 @@ Impulses Delassus::apply(const Impulses& r) const {
 }
 
 bool Delassus::diagonal() const {
-    return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& w) { return w.nt == 0.0; });
+    return std::all_of(blocks_.begin(), blocks_.end(),
+                       [](const Block& w) { return w.nt == 0.0; }) &&
+           std::all_of(problem_.bodies.begin(), problem_.bodies.end(),
+                       [](const BodyMobility& body) { return body.isotropic(); });
 }
 
 }  // namespace turbidite::nscd

@@ -5,7 +5,7 @@
 //
 // Differs from the paper: r is an impulse, not a force, so W carries no dt. W is applied, never
 // assembled; only its diagonal blocks are stored. For discs the arms are parallel to n, hence
-// W_nt = 0 in every block.
+// W_nt = 0 in every block, unless a body's mobility prefers a direction or couples it to spin.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ class Delassus {
     /// W r.
     Impulses apply(const Impulses& r) const;
 
-    /// True when no block couples normal and tangent.
+    /// True when no block couples normal and tangent, and every mobility is isotropic.
     bool diagonal() const;
 
  private:

@@ -111,10 +111,19 @@ StepReport Engine::step(double dt) {
 }
 
 StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
+    return step_from(free, mobilities(bodies_), dt);
+}
+
+StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
+                             double dt) {
     check_step(dt);
+    if (free.size() != bodies_.size() || mobilities.size() != bodies_.size())
+        throw std::invalid_argument(
+            "a contact step needs one free velocity and one mobility per "
+            "body");
     check_periods(bodies_.radius, settings_.box);
     points_ = detect(alert_distance(bodies_, free, dt));
-    problem_ = build(free, dt);
+    problem_ = build(free, std::move(mobilities), dt);
     const std::vector<ContactKey> names = keys();
     Impulses guess;
     guess.reserve(names.size());
@@ -217,8 +226,9 @@ void Engine::order_top_down(std::vector<ContactPoint>& points) const {
     points = std::move(sorted);
 }
 
-ContactProblem Engine::build(const std::vector<Twist>& free, double dt) const {
-    ContactProblem problem{mobilities(bodies_), free, {}};
+ContactProblem Engine::build(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
+                             double dt) const {
+    ContactProblem problem{std::move(mobilities), free, {}};
     problem.contacts.reserve(points_.size());
     for (const ContactPoint& p : points_) {
         const double friction =

@@ -66,6 +66,12 @@ class Engine {
     /// The same from free velocities that somebody else computed.
     StepReport step_from(const std::vector<Twist>& free, double dt);
 
+    /// The same with mobilities that somebody else knows, taken as they are: masses, moments and
+    /// flags of the bodies do not enter. May be repeated before the move; each time the solver
+    /// starts from the last impulses.
+    StepReport step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
+                         double dt);
+
     /// Moves with the bodies' present velocities.
     void move(double dt);
 
@@ -96,7 +102,8 @@ class Engine {
  private:
     std::vector<ContactPoint> detect(double alert) const;
     void order_top_down(std::vector<ContactPoint>& points) const;
-    ContactProblem build(const std::vector<Twist>& free, double dt) const;
+    ContactProblem build(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
+                         double dt) const;
     ContactKey key(const ContactPoint& point) const;
     std::vector<ContactKey> keys() const;
     void hand_out(const SolverResult& result);

@@ -15,7 +15,7 @@ namespace {
 // beside the two bodies. Static partners are the body after the last one, which nothing moves.
 struct PlaneBody {
     double x = 0.0, y = 0.0, spin = 0.0;
-    double inverse_mass = 0.0;
+    double inverse_mass = 0.0;  ///< read where mobilities are isotropic
 };
 
 /// What rows of both kinds share. Moment arms are (arm x d)_z for d = n, t [m].
@@ -27,18 +27,19 @@ struct RowBase {
     double rn, rt;
 };
 
-/// W_nt = 0: discs, and whatever touches with arms along the normal.
+/// W_nt = 0 and isotropic bodies: discs, and whatever touches with arms along the normal.
 struct DiagonalRow : RowBase {
     double arm_a, arm_b;    ///< tangential
     double turn_a, turn_b;  ///< the same over the moment of inertia
     double inverse_nn, inverse_tt;
 
-    DiagonalRow(const RowBase& base, const Contact& contact, const Block& w, double ia, double ib)
+    DiagonalRow(const RowBase& base, const Contact& contact, const Block& w, const BodyMobility& a,
+                const BodyMobility& b)
         : RowBase(base),
           arm_a(cross(contact.arm_a, contact.tangent)[2]),
           arm_b(cross(contact.arm_b, contact.tangent)[2]),
-          turn_a(ia * arm_a),
-          turn_b(ib * arm_b),
+          turn_a(a.ss * arm_a),
+          turn_b(b.ss * arm_b),
           inverse_nn(1.0 / w.nn),
           inverse_tt(1.0 / w.tt) {}
 
@@ -57,24 +58,34 @@ struct DiagonalRow : RowBase {
         return {n, std::min(limit, std::max(-limit, rt - u[1] * inverse_tt))};
     }
 
-    void turn(PlaneBody& va, PlaneBody& vb, const Plane& d) const {
+    /// v += M^-1 H d.
+    void push(PlaneBody& va, PlaneBody& vb, const Plane& d) const {
+        const double px = nx * d[0] - ny * d[1], py = ny * d[0] + nx * d[1];
+        va.x -= va.inverse_mass * px;
+        va.y -= va.inverse_mass * py;
+        vb.x += vb.inverse_mass * px;
+        vb.y += vb.inverse_mass * py;
         va.spin -= turn_a * d[1];
         vb.spin += turn_b * d[1];
     }
 };
 
-/// Any W.
+/// Any W, any mobility. What a unit impulse along n or t does to each body is known before the
+/// sweeps, so that a push is one multiplication and addition per component and direction.
 struct FullRow : RowBase {
     Plane arm_a, arm_b;
-    double inverse_a, inverse_b;  ///< of the moments of inertia
+    PlanarVector a_n, a_t, b_n, b_t;  ///< M^-1 (d, arm x d), d = n, t
     Block w;
 
-    FullRow(const RowBase& base, const Contact& contact, const Block& block, double ia, double ib)
+    FullRow(const RowBase& base, const Contact& contact, const Block& block, const BodyMobility& a,
+            const BodyMobility& b)
         : RowBase(base),
           arm_a{cross(contact.arm_a, contact.normal)[2], cross(contact.arm_a, contact.tangent)[2]},
           arm_b{cross(contact.arm_b, contact.normal)[2], cross(contact.arm_b, contact.tangent)[2]},
-          inverse_a(ia),
-          inverse_b(ib),
+          a_n(a * PlanarVector{nx, ny, arm_a[0]}),
+          a_t(a * PlanarVector{-ny, nx, arm_a[1]}),
+          b_n(b * PlanarVector{nx, ny, arm_b[0]}),
+          b_t(b * PlanarVector{-ny, nx, arm_b[1]}),
           w(block) {}
 
     double rho() const { return 1.0 / w.nn; }
@@ -90,9 +101,14 @@ struct FullRow : RowBase {
                              friction);
     }
 
-    void turn(PlaneBody& va, PlaneBody& vb, const Plane& d) const {
-        va.spin -= inverse_a * (arm_a[0] * d[0] + arm_a[1] * d[1]);
-        vb.spin += inverse_b * (arm_b[0] * d[0] + arm_b[1] * d[1]);
+    /// v += M^-1 H d.
+    void push(PlaneBody& va, PlaneBody& vb, const Plane& d) const {
+        va.x -= a_n.x * d[0] + a_t.x * d[1];
+        va.y -= a_n.y * d[0] + a_t.y * d[1];
+        va.spin -= a_n.spin * d[0] + a_t.spin * d[1];
+        vb.x += b_n.x * d[0] + b_t.x * d[1];
+        vb.y += b_n.y * d[0] + b_t.y * d[1];
+        vb.spin += b_n.spin * d[0] + b_t.spin * d[1];
     }
 };
 
@@ -109,17 +125,6 @@ struct PassSums {
     }
 };
 
-/// v += M^-1 H d.
-template <class Row>
-inline void push(const Row& row, PlaneBody& va, PlaneBody& vb, const Plane& d) {
-    const double px = row.nx * d[0] - row.ny * d[1], py = row.ny * d[0] + row.nx * d[1];
-    va.x -= va.inverse_mass * px;
-    va.y -= va.inverse_mass * py;
-    vb.x += vb.inverse_mass * px;
-    vb.y += vb.inverse_mass * py;
-    row.turn(va, vb, d);
-}
-
 template <bool measure, class Row>
 PassSums sweep(std::vector<Row>& rows, std::vector<PlaneBody>& bodies) {
     PassSums sums;
@@ -129,7 +134,7 @@ PassSums sweep(std::vector<Row>& rows, std::vector<PlaneBody>& bodies) {
         const Plane u = row.velocity(va, vb);
         if constexpr (measure) sums.add(row, u);
         const Plane r = row.solve(u);
-        push(row, va, vb, {r[0] - row.rn, r[1] - row.rt});
+        row.push(va, vb, {r[0] - row.rn, r[1] - row.rt});
         row.rn = r[0];
         row.rt = r[1];
     }
@@ -159,7 +164,7 @@ std::vector<PlaneBody> pack_bodies(const ContactProblem& problem, const Slots& s
     for (std::size_t i = 0; i < start.size(); ++i)
         if (slots.of_body[i] >= 0)
             bodies[slots.of_body[i]] = {start[i].velocity[0], start[i].velocity[1],
-                                        start[i].spin[2], problem.bodies[i].inverse_mass};
+                                        start[i].spin[2], problem.bodies[i].xx};
     return bodies;
 }
 
@@ -172,8 +177,8 @@ std::vector<Row> pack_rows(const ContactProblem& problem, const Delassus& w, con
         const Contact& c = problem.contacts[k];
         const RowBase base{slots(c.a), slots(c.b), c.normal[0], c.normal[1], c.bias[0],
                            c.bias[1],  c.friction, guess[k][0], guess[k][1]};
-        const double ia = c.a < 0 ? 0.0 : problem.bodies[c.a].inverse_inertia;
-        rows.emplace_back(base, c, w.block(k), ia, problem.bodies[c.b].inverse_inertia);
+        const BodyMobility a = c.a < 0 ? BodyMobility() : problem.bodies[c.a];
+        rows.emplace_back(base, c, w.block(k), a, problem.bodies[c.b]);
     }
     return rows;
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -14,6 +13,8 @@
 #include "granular_adapter/nscd/broad_phase.hpp"
 #include "granular_adapter/nscd/law_list.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/standalone/by_grain.hpp"
+#include "granular_adapter/standalone/free_motion.hpp"
 
 namespace turbidite {
 namespace {
@@ -101,6 +102,7 @@ Hello NscdAdapter::describe() const {
     hello.capabilities.saves_state = true;
     hello.capabilities.restores_within_window = true;
     hello.capabilities.serialises_state = true;
+    hello.capabilities.effective_inertia = true;
     for (const auto& entry : nscd::wall_detector_list())
         hello.capabilities.shapes.push_back(entry.kind);
     for (const auto& entry : nscd::law_list())
@@ -112,6 +114,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
                                const std::vector<GrainState>& grains) {
     const StopWatch watch;
     fluid_ = settings.flag("fluid.enabled");
+    joint_ = fluid_ && settings.text("coupling.scheme") == "joint";
     positions_ = parse_positions(settings.text("coupling.positions"));
     lay_borders(settings);
     std::vector<nscd::Wall> walls;
@@ -129,13 +132,11 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
 
 Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const StopWatch watch;
-    if (!responses.empty())
-        throw std::runtime_error("the adapter \"" + adapter_name_ +
-                                 "\" does not know coupling.scheme joint; use split");
+    begin_round();
     check_grains(in_window(window) + " before contacts");
     report_ = {};
     report_.max_penetration = engine().max_penetration();
-    const nscd::StepReport step = engine().step(window.step);
+    const nscd::StepReport step = solve_contacts(window, responses);
     check_grains(in_window(window) + " after contacts");
     contact_twists_ = bodies().twist;
     report_.contacts = step.contacts;
@@ -146,13 +147,34 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     return motion();
 }
 
+// An advance that is repeated before the kick begins at t^n again; contact impulses are kept.
+void NscdAdapter::begin_round() {
+    const bool again = !contact_twists_.empty() && contact_twists_.size() == bodies().size();
+    if (again)
+        bodies().twist = start_twists_;
+    else
+        start_twists_ = bodies().twist;
+}
+
+nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
+                                             const std::vector<FreeResponse>& responses) {
+    if (joint_) {
+        FreeMotion free = free_motion(bodies(), responses, in_window(window));
+        return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
+    }
+    if (!responses.empty())
+        throw std::runtime_error("responses of the fluid came " + in_window(window) +
+                                 ", but coupling.scheme is not joint");
+    return engine().step(window.step);
+}
+
 Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
     const StopWatch watch;
     if (contact_twists_.size() != bodies().size())
         throw std::logic_error("apply_kick needs an advance of the same window before it");
     if (fluid_ || !kicks.empty()) take_velocities(window, kicks);
     check_grains(in_window(window) + " after the kick");
-    const bool with_contact = positions_ == Positions::contact;
+    const bool with_contact = joint_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     contact_twists_.clear();
     remove_leavers();
@@ -265,25 +287,8 @@ void NscdAdapter::check_grains(const std::string& when) const {
 
 /// Every grain gets exactly one kick; grains keep the order they have.
 void NscdAdapter::take_velocities(const Window& window, const std::vector<Kick>& kicks) {
-    struct Slot {
-        std::size_t index;
-        bool kicked = false;
-    };
-    std::unordered_map<GrainId, Slot> slots;
-    for (std::size_t i = 0; i < bodies().size(); ++i) slots[bodies().id[i]] = {i};
-    for (const Kick& kick : kicks) {
-        const auto slot = slots.find(kick.id);
-        if (slot == slots.end())
-            throw std::runtime_error("a kick came for " + grain(kick.id) + ", which is not here, " +
-                                     in_window(window));
-        if (std::exchange(slot->second.kicked, true))
-            throw std::runtime_error("two kicks came for " + grain(kick.id) + " " +
-                                     in_window(window));
-        bodies().twist[slot->second.index] = twist_of(kick);
-    }
-    for (const GrainId id : bodies().id)
-        if (!slots[id].kicked)
-            throw std::runtime_error("no kick came for " + grain(id) + " " + in_window(window));
+    const auto ordered = by_grain(bodies().id, kicks, "kick", in_window(window));
+    for (std::size_t i = 0; i < bodies().size(); ++i) bodies().twist[i] = twist_of(*ordered[i]);
 }
 
 void NscdAdapter::remove_leavers() {

@@ -2,12 +2,13 @@
 //
 // The contact engine as a grains adapter: step 4 of the splitting (Topin 2011, Eqs. 16-19) with the
 // immersed inertia of shapes/immersed_body, then motion with the velocities that
-// `coupling.positions` asks for. Hosts such as YADE wrap it: they overwrite bodies() before a call
-// and read them after.
+// `coupling.positions` asks for. Under `coupling.scheme: joint` free velocities and inertia are the
+// fluid's, advance may be repeated within a window, and grains move with the contact velocities.
+// Hosts such as YADE wrap it: they overwrite bodies() before a call and read them after.
 //
-// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top}, fluid.enabled,
-// fluid.hydrodynamic_radius, run.*. The domain is [0, run.size_x] x [0, run.size_y], gravity along
-// -y.
+// Reads: contact.*, coupling.scheme, coupling.positions, domain.{left,right,bottom,top},
+// fluid.enabled, fluid.hydrodynamic_radius, run.*. The domain is [0, run.size_x] x [0, run.size_y],
+// gravity along -y.
 //
 //     wall     a straight wall with the grains' friction; a centre beyond it ends the run
 //     free     grains whose centre is more than R past the side are removed and counted
@@ -32,6 +33,9 @@ class NscdAdapter final : public GrainsAdapter {
     Hello describe() const override;
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
+    /// Under `joint` one response per grain, otherwise none. Throws std::runtime_error naming a
+    /// grain that has none or two, PhysicsRefused when an effective inertia is not positive
+    /// definite. Repeated before the kick it starts from t^n again, with the impulses found.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
     /// One kick per grain, or none at all when the case has no fluid. Throws std::runtime_error
@@ -78,6 +82,9 @@ class NscdAdapter final : public GrainsAdapter {
     void add_grains(const Settings& settings, const ShapeTable& shapes,
                     const std::vector<GrainState>& grains);
     void check_grains(const std::string& when) const;
+    void begin_round();
+    nscd::StepReport solve_contacts(const Window& window,
+                                    const std::vector<FreeResponse>& responses);
     void take_velocities(const Window& window, const std::vector<Kick>& kicks);
     void remove_leavers();
     Motion motion() const;
@@ -85,9 +92,11 @@ class NscdAdapter final : public GrainsAdapter {
     std::string adapter_name_;
     std::string host_code_;
     bool fluid_ = true;
+    bool joint_ = false;
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;
     std::unique_ptr<nscd::Engine> engine_;
+    std::vector<nscd::Twist> start_twists_;    ///< U^n of this window
     std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window
     std::vector<GrainId> removed_;
     ContactReport report_;  ///< of this window

@@ -36,14 +36,15 @@ class Job : public testing::Test {
     ~Job() override { fs::remove_all(folder_); }
 
     Result run(int fluid_ranks, int grains_ranks, const std::string& fluid_fault,
-               const std::string& grains_fault) {
+               const std::string& grains_fault, const std::string& scheme = "split") {
         const std::string f = std::to_string(fluid_ranks), g = std::to_string(grains_ranks);
         const std::string program = std::string(" ") + SCRIPTED_JOB + " ";
         const std::string line =
             "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 SCRIPTED_FLUID_RANKS=" + f +
+            (scheme == "joint" ? " SCRIPTED_JOINT=1" : "") +
             " timeout -k 5 60 " MPIRUN
             " --oversubscribe --bind-to none --mca btl_vader_single_copy_mechanism none -n 1" +
-            program + "coupler " + folder_.string() + " " + f + " " + g + " : -n " + f + program +
+            program + "coupler " + folder_.string() + " " + f + " " + g + " " + scheme + " : -n " + f + program +
             "fluid " + folder_.string() + " " + fluid_fault + " : -n " + g + program + "grains " +
             folder_.string() + " " + grains_fault + " > " + (folder_ / "output").string() + " 2>&1";
         const int status = std::system(line.c_str());
@@ -77,6 +78,32 @@ TEST_F(Job, ManyRanksOnBothSidesGiveTheSameHistory) {
     ASSERT_EQ(result.code, 0) << result.output;
     EXPECT_EQ(without_clock(slurp(folder_ / "history.csv")), one);
     EXPECT_NE(slurp(folder_ / "logs/coupler.log").find("fluid rank 2"), std::string::npos);
+}
+
+// Grains land in window 2 (from 0); from then on a window takes several rounds, on two fluid and two grains ranks. The
+// answer is that of one rank each.
+TEST_F(Job, JointPlaysItsRoundsOnManyRanks) {
+    ASSERT_EQ(run(1, 1, "", "", "joint").code, 0);
+    const auto physics = [](const std::string& history) {
+        std::string kept;
+        std::istringstream lines(history);
+        for (std::string line; std::getline(lines, line);)
+            kept += line.substr(0, line.find(",,")) + "\n";  // pore_volume is empty: clocks follow
+        return kept;
+    };
+    const std::string one = physics(slurp(folder_ / "history.csv"));
+    const Result result = run(2, 2, "", "", "joint");
+    ASSERT_EQ(result.code, 0) << result.output;
+    EXPECT_EQ(physics(slurp(folder_ / "history.csv")), one);
+    EXPECT_NE(record().find("\"windows_done\": 6"), std::string::npos) << record();
+    EXPECT_NE(record().find("\"unconverged_joint_windows\": 0"), std::string::npos) << record();
+    EXPECT_EQ(record().find("\"joint_rounds\": 1,"), std::string::npos) << "rounds were needed";
+}
+
+TEST_F(Job, ASilentParticipantIsNamedUnderJoint) {
+    const Result result = run(2, 1, "silence", "", "joint");
+    EXPECT_EQ(result.code, 5) << result.output;
+    EXPECT_NE(record().find("no \\\"response\\\" from fluid"), std::string::npos) << record();
 }
 
 TEST_F(Job, AnExceptionEndsAllWithItsCodeAndWords) {

@@ -230,12 +230,28 @@ TEST_F(CaseFile, AdaptersOfLaterVersions) {
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {
-    for (const char* set : {"coupling.scheme=joint", "fluid.splitting=explicit-multiplier",
+    for (const char* set : {"coupling.scheme=sub-iterated", "fluid.splitting=explicit-multiplier",
                             "dimension=3", "grains.shape=triangle"})
         EXPECT_SAYS(refusal("", {set}), "is not available in this version.");
     EXPECT_SAYS(refusal("", {"checkpoint.interval=1"}), "not available in this version");
     EXPECT_SAYS(refusal("", {"fluid.ranks=2"}), "one rank in this version");
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
+}
+
+TEST_F(CaseFile, JointTellsWhichKeysHaveNoEffect) {
+    const ResolvedCase joint = load("coupling: {scheme: joint}\n");
+    for (const std::string& note : joint.notes)
+        EXPECT_EQ(note.find("has no effect"), std::string::npos) << note;
+    EXPECT_EQ(joint.settings.real("coupling.tolerance"), 1e-5);
+    EXPECT_EQ(joint.settings.integer("coupling.iterations"), 10);
+    const ResolvedCase contact = load("coupling: {scheme: joint, positions: contact}\n");
+    ASSERT_FALSE(contact.notes.empty());
+    EXPECT_SAYS(contact.notes.back(), "coupling.positions has no effect with coupling.scheme: joint");
+    const ResolvedCase dry = load("coupling: {scheme: joint}\n", {"fluid.enabled=false"});
+    ASSERT_FALSE(dry.notes.empty());
+    EXPECT_SAYS(dry.notes.back(), "coupling.scheme has no effect without a fluid");
+    EXPECT_SAYS(refusal("", {"coupling.iterations=0"}), "coupling.iterations = 0");
+    EXPECT_SAYS(refusal("", {"coupling.tolerance=0"}), "coupling.tolerance = 0");
 }
 
 TEST_F(CaseFile, CyclicSidesComeInPairs) {

@@ -45,9 +45,35 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
     joint.scheme = "joint";
     const auto sentences = mismatches(hello, joint);
     ASSERT_EQ(sentences.size(), 7u);
-    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.0, the case needs 1.x");
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.1, the case needs 1.x");
     EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
     EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
+}
+
+TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
+    Expectation joint = expected();
+    joint.scheme = "joint";
+    const auto sentences = mismatches(fitting(), joint);
+    ASSERT_EQ(sentences.size(), 1u);
+    EXPECT_EQ(sentences[0],
+              "grains rank 0: knowledge of scheme joint is absent, the case needs it for coupling.scheme: "
+              "joint (or use split)");
+    Hello knowing = fitting();
+    knowing.capabilities.effective_inertia = true;
+    EXPECT_TRUE(mismatches(knowing, joint).empty());
+}
+
+// Version 1.0 had no rounds: welcome under split (above), not under joint.
+TEST(Handshake, JointNeedsItsMinorVersion) {
+    Expectation joint = expected();
+    joint.scheme = "joint";
+    Hello old = fitting();
+    old.capabilities.effective_inertia = true;
+    old.protocol_minor = 0;
+    const auto sentences = mismatches(old, joint);
+    ASSERT_EQ(sentences.size(), 1u);
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 1.0, the case needs 1.1 for joint");
+    EXPECT_TRUE(mismatches(old, expected()).empty());
 }
 
 TEST(Handshake, AnAdapterStartedByHandMayTakeAnyCase) {

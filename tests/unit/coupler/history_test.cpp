@@ -14,7 +14,7 @@ TEST(History, HeaderIsTheContract) {
                   "mean_position_x,mean_position_y,front_x,kinetic_energy,grains,contacts,"
                   "max_penetration,contact_iterations,contact_residual,multiplier_iterations,"
                   "multiplier_residual,divergence,pore_volume,wall_step,wall_fluid,wall_grains,"
-                  "wall_coupling"),
+                  "wall_coupling,grain_balance,fluid_balance,joint_rounds,joint_mismatch"),
               0u);
 }
 

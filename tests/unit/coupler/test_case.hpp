@@ -19,6 +19,8 @@ inline Settings test_settings(const std::string& scheme = "split", bool fluid = 
     s.set("fluid.hydrodynamic_radius", 1.0);
     s.set("fluid.cells_per_diameter", 8.0);
     s.set("coupling.scheme", scheme);
+    s.set("coupling.tolerance", 1e-9);
+    s.set("coupling.iterations", std::int64_t{10});
     s.set("limits.stall_soft", 5.0);
     s.set("limits.stall_hard", 20.0);
     s.set("limits.penetration", 0.2);

@@ -94,7 +94,10 @@ TEST(Wire, FreeResponsesWindowsBoxesShapesComeBack) {
     FreeResponse response;
     response.id = 4;
     response.inertia[20] = awkward;
-    EXPECT_EQ(decode<std::vector<FreeResponse>>(encode(std::vector{response}))[0].inertia[20], awkward);
+    response.mismatch = tiny;
+    const FreeResponse back = decode<std::vector<FreeResponse>>(encode(std::vector{response}))[0];
+    EXPECT_EQ(back.inertia[20], awkward);
+    EXPECT_EQ(back.mismatch, tiny);
     const Window window{12, 0.5, 0.01, true, false};
     EXPECT_EQ(decode<Window>(encode(window)).index, 12);
     EXPECT_TRUE(decode<Window>(encode(window)).write_output);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <cmath>
 #include <random>
 
 #include "granular_adapter/nscd/residual.hpp"
@@ -51,6 +53,194 @@ ContactProblem skew_chain(int length) {
     return problem;
 }
 
+/// Effective inertia A = B^T B + diag(m, m, I): positive definite, mass and spin coupled.
+PlanarTensor random_inertia(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> any(-0.5, 0.5);
+    Eigen::Matrix3d b;
+    for (int i = 0; i < 9; ++i) b(i) = any(random);
+    const Eigen::Matrix3d a = b.transpose() * b + Eigen::Vector3d(1.0, 1.0, 0.2).asDiagonal().toDenseMatrix();
+    PlanarTensor tensor;
+    tensor.xx = a(0, 0), tensor.yy = a(1, 1), tensor.ss = a(2, 2);
+    tensor.xy = a(0, 1), tensor.xs = a(0, 2), tensor.ys = a(1, 2);
+    return tensor;
+}
+
+Eigen::Matrix3d dense(const PlanarTensor& t) {
+    Eigen::Matrix3d m;
+    m << t.xx, t.xy, t.xs, t.xy, t.yy, t.ys, t.xs, t.ys, t.ss;
+    return m;
+}
+
+/// The chain with bodies that drag fluid along; `inertia` receives their A.
+ContactProblem wet_chain(int length, std::vector<PlanarTensor>& inertia) {
+    ContactProblem problem = skew_chain(length);
+    std::mt19937_64 random(11);
+    for (BodyMobility& body : problem.bodies) {
+        inertia.push_back(random_inertia(random));
+        body = inverse(inertia.back()).value();
+    }
+    return problem;
+}
+
+TEST(Mobility, IsTheInverseOfTheInertia) {
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 20; ++i) {
+        const PlanarTensor inertia = random_inertia(random);
+        const Eigen::Matrix3d product = dense(inertia) * dense(inverse(inertia).value());
+        EXPECT_LT((product - Eigen::Matrix3d::Identity()).norm(), 1e-13);
+    }
+    const BodyMobility simple = inverse(PlanarTensor(3.0, 7.0)).value();
+    EXPECT_TRUE(simple.isotropic());
+    EXPECT_EQ(simple.xx, 1.0 / 3.0);
+    EXPECT_EQ(simple.ss, 1.0 / 7.0);
+}
+
+// Indefinite although every diagonal entry is positive; singular; not a number.
+TEST(Mobility, NeedsAPositiveDefiniteInertia) {
+    PlanarTensor coupled(1.0, 1.0);
+    coupled.xs = 1.5;
+    EXPECT_FALSE(inverse(coupled));
+    coupled.xs = 1.0;
+    EXPECT_FALSE(inverse(coupled));
+    EXPECT_FALSE(inverse(PlanarTensor(-1.0, 1.0)));
+    EXPECT_FALSE(inverse(PlanarTensor(1.0, 0.0)));
+    EXPECT_FALSE(inverse(PlanarTensor(NAN, 1.0)));
+}
+
+/// H^T M^-1 H by dense algebra, rows and columns (n, t) of each contact.
+Eigen::MatrixXd dense_delassus(const ContactProblem& problem) {
+    const int n = static_cast<int>(problem.contacts.size());
+    const int m = static_cast<int>(problem.bodies.size());
+    Eigen::MatrixXd h = Eigen::MatrixXd::Zero(3 * m, 2 * n);
+    Eigen::MatrixXd mobility = Eigen::MatrixXd::Zero(3 * m, 3 * m);
+    for (int i = 0; i < m; ++i) mobility.block<3, 3>(3 * i, 3 * i) = dense(problem.bodies[i]);
+    for (int k = 0; k < n; ++k) {
+        const Contact& c = problem.contacts[k];
+        const auto add = [&](std::int32_t body, const Vec3& arm, double sign) {
+            for (int d = 0; body >= 0 && d < 2; ++d) {
+                const Vec3& e = d == 0 ? c.normal : c.tangent;
+                h.block<3, 1>(3 * body, 2 * k + d) =
+                    sign * Eigen::Vector3d(e[0], e[1], cross(arm, e)[2]);
+            }
+        };
+        add(c.a, c.arm_a, -1.0);
+        add(c.b, c.arm_b, 1.0);
+    }
+    return h.transpose() * mobility * h;
+}
+
+TEST(Delassus, IsTheDenseProductForAnyMobility) {
+    std::vector<PlanarTensor> inertia;
+    const ContactProblem problem = wet_chain(6, inertia);
+    const Eigen::MatrixXd reference = dense_delassus(problem);
+    EXPECT_LT((reference - reference.transpose()).norm(), 1e-14);
+    const Delassus w(problem);
+    EXPECT_FALSE(w.diagonal());
+    for (int k = 0; k < 6; ++k) {
+        EXPECT_NEAR(w.block(k).nn, reference(2 * k, 2 * k), 1e-14);
+        EXPECT_NEAR(w.block(k).nt, reference(2 * k, 2 * k + 1), 1e-14);
+        EXPECT_NEAR(w.block(k).tt, reference(2 * k + 1, 2 * k + 1), 1e-14);
+        for (int d = 0; d < 2; ++d) {
+            Impulses unit(6);
+            unit[k][d] = 1.0;
+            const Impulses column = w.apply(unit);
+            for (int j = 0; j < 6; ++j)
+                for (int e = 0; e < 2; ++e)
+                    EXPECT_NEAR(column[j][e], reference(2 * j + e, 2 * k + d), 1e-14);
+        }
+    }
+}
+
+// Glued contacts that nothing tries to open or slide have r = -W^-1 (H^T v_free + b): a direct solve. Friction and a
+// closing speed are so large that no contact opens or slides, which the reference confirms.
+TEST(Nlgs, MatchesADirectSolveWhereAllContactsStick) {
+    std::vector<PlanarTensor> inertia;
+    ContactProblem problem = wet_chain(6, inertia);
+    for (Contact& contact : problem.contacts) contact.friction = 50.0, contact.bias = {-20.0, 0.0, 0.0};
+    Eigen::VectorXd b(12);
+    for (int k = 0; k < 6; ++k) {
+        const Vec3 u = contact_velocity(problem.contacts[k], problem.free);
+        b(2 * k) = u[0] + problem.contacts[k].bias[0], b(2 * k + 1) = u[1];
+    }
+    const Eigen::VectorXd reference = -dense_delassus(problem).ldlt().solve(b);
+    for (int k = 0; k < 6; ++k) {
+        ASSERT_GT(reference(2 * k), 0.0);
+        ASSERT_LT(std::abs(reference(2 * k + 1)), 50.0 * reference(2 * k));
+    }
+    SolverSettings settings;
+    settings.tolerance = 1e-13;
+    settings.max_iterations = 100000;
+    const SolverResult result = make_solver("nlgs")->solve(problem, Impulses(6), settings);
+    ASSERT_TRUE(result.converged);
+    for (int k = 0; k < 6; ++k)
+        for (int d = 0; d < 2; ++d)
+            EXPECT_NEAR(result.impulses[k][d], reference(2 * k + d), 1e-10 * reference.norm());
+}
+
+// With slip and lift-off: admissible by the published residual, and A (U - U^F) = J body by body.
+TEST(Nlgs, BalancesMomentumWithAnyInertia) {
+    std::vector<PlanarTensor> inertia;
+    const ContactProblem problem = wet_chain(8, inertia);
+    SolverSettings settings;
+    settings.tolerance = 1e-10;
+    settings.max_iterations = 100000;
+    for (const std::int64_t most : {std::int64_t{3}, std::int64_t{100000}}) {
+        settings.max_iterations = most;  // three sweeps do not converge, and balance all the same
+        const SolverResult result = make_solver("nlgs")->solve(problem, Impulses(8), settings);
+        EXPECT_EQ(result.converged, most > 3);
+        EXPECT_EQ(natural_map_residual(problem, result.impulses), result.residual);
+        std::vector<Eigen::Vector3d> received(8, Eigen::Vector3d::Zero());
+        for (std::size_t k = 0; k < 8; ++k) {
+            const Contact& c = problem.contacts[k];
+            const Vec3 p = world_impulse(c, result.impulses[k]);
+            received[c.b] += Eigen::Vector3d(p[0], p[1], cross(c.arm_b, p)[2]);
+            if (c.a >= 0) received[c.a] -= Eigen::Vector3d(p[0], p[1], cross(c.arm_a, p)[2]);
+        }
+        for (std::size_t i = 0; i < 8; ++i) {
+            const Twist& now = result.velocities[i];
+            const Twist& free = problem.free[i];
+            const Eigen::Vector3d change(now.velocity[0] - free.velocity[0],
+                                         now.velocity[1] - free.velocity[1],
+                                         now.spin[2] - free.spin[2]);
+            EXPECT_LT((dense(inertia[i]) * change - received[i]).norm(), 1e-12);
+        }
+    }
+}
+
+/// Discs in a heap that a common speed presses together: arms along n, isotropic bodies.
+ContactProblem disc_chain(int length) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> any(-0.4, 0.4);
+    ContactProblem problem;
+    for (int i = 0; i < length; ++i) {
+        problem.bodies.push_back({1.0 + any(random), 4.0 + any(random)});
+        problem.free.push_back({{any(random), -1.0, 0.0}, {0.0, 0.0, any(random)}});
+        problem.contacts.push_back(touch(i - 1, i, {0.3, 0.4, 0.0}, {-0.3, -0.4, 0.0}));
+    }
+    return problem;
+}
+
+// One more body, which nothing touches and which prefers a direction, sends all contacts through the general rows.
+TEST(Nlgs, GeneralRowsGiveTheAnswerOfTheFastOnes) {
+    const ContactProblem fast = disc_chain(10);
+    ContactProblem general = fast;
+    PlanarTensor spectator(1.0, 1.0);
+    spectator.xy = 0.5;
+    general.bodies.push_back(spectator);
+    general.free.push_back({});
+    ASSERT_TRUE(Delassus(fast).diagonal());
+    ASSERT_FALSE(Delassus(general).diagonal());
+    SolverSettings settings;
+    settings.tolerance = 1e-13;
+    settings.max_iterations = 100000;
+    const SolverResult a = make_solver("nlgs")->solve(fast, Impulses(10), settings);
+    const SolverResult b = make_solver("nlgs")->solve(general, Impulses(10), settings);
+    ASSERT_TRUE(a.converged && b.converged);
+    EXPECT_EQ(a.iterations, b.iterations);
+    for (std::size_t k = 0; k < 10; ++k)
+        for (int d = 0; d < 2; ++d) EXPECT_NEAR(a.impulses[k][d], b.impulses[k][d], 1e-12);
+}
+
 // Column by column: the diagonal block of contact k is what a unit impulse at k does to k.
 TEST(Delassus, BlocksAgreeWithTheOperator) {
     const ContactProblem problem = skew_chain(5);
@@ -71,7 +261,8 @@ TEST(Delassus, BlocksAgreeWithTheOperator) {
 
 // W is symmetric: x.W y = y.W x.
 TEST(Delassus, IsSymmetric) {
-    const ContactProblem problem = skew_chain(6);
+    std::vector<PlanarTensor> inertia;
+    const ContactProblem problem = wet_chain(6, inertia);
     const Delassus w(problem);
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

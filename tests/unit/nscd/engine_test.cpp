@@ -66,6 +66,56 @@ TEST(Engine, HandsOutTheImpulsesThatMovedTheGrains) {
     }
 }
 
+// Mobilities given by the host replace those of the bodies; what each grain is told it received is A (U - U^F).
+TEST(Engine, TakesTheHostsMobilities) {
+    Engine engine = scenes::settling_pack(6, 6, scenes::exact(0.3, 1e-3));
+    scenes::run(engine, 1.5, 0.01);
+    std::vector<PlanarTensor> inertia;
+    std::vector<BodyMobility> mobilities;
+    std::vector<Twist> free = engine.bodies().twist;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const double mass = engine.bodies().mass[i];
+        PlanarTensor tensor(2.0 * mass, 3.0 * engine.bodies().inertia[i]);
+        tensor.yy = 1.5 * mass;
+        tensor.xy = 0.1 * mass * std::sin(double(i));
+        tensor.xs = 0.02 * mass;
+        inertia.push_back(tensor);
+        mobilities.push_back(inverse(tensor).value());
+        free[i].velocity[1] -= 0.005;
+    }
+    ASSERT_TRUE(engine.step_from(free, mobilities, 0.01).converged);
+    const Bodies& b = engine.bodies();
+    double largest = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const Vec3 change = b.twist[i].velocity - free[i].velocity;
+        const PlanarVector momentum =
+            inertia[i] * PlanarVector{change[0], change[1], b.twist[i].spin[2] - free[i].spin[2]};
+        EXPECT_NEAR(momentum.x, b.contact_impulse[i][0], 1e-12);
+        EXPECT_NEAR(momentum.y, b.contact_impulse[i][1], 1e-12);
+        EXPECT_NEAR(momentum.spin, b.contact_angular_impulse[i][2], 1e-12);
+        largest = std::max(largest, norm(b.contact_impulse[i]));
+    }
+    EXPECT_GT(largest, 1e-3) << "there must be contacts, or this tests nothing";
+    EXPECT_THROW(engine.step_from(free, std::vector<BodyMobility>(3), 0.01), std::invalid_argument);
+}
+
+// A second solve of the same problem starts from the first one's impulses: done at the first look.
+TEST(Engine, ARepeatedStepIsWarmStarted) {
+    Engine engine = scenes::settling_pack(8, 8, scenes::exact(0.3, 1e-6));
+    scenes::run(engine, 1.0, 0.01);
+    const std::vector<Twist> free = engine.bodies().twist;
+    std::vector<BodyMobility> mobilities;
+    for (std::size_t i = 0; i < free.size(); ++i)
+        mobilities.push_back({0.5 / engine.bodies().mass[i], 0.5 / engine.bodies().inertia[i]});
+    std::vector<Twist> falling = free;
+    for (Twist& twist : falling) twist.velocity[1] -= 0.01;
+    const StepReport first = engine.step_from(falling, mobilities, 0.01);
+    engine.bodies().twist = free;
+    const StepReport second = engine.step_from(falling, mobilities, 0.01);
+    EXPECT_GT(first.iterations, 10);
+    EXPECT_LE(second.iterations, 2);
+}
+
 // r_n >= 0, |r_t| <= mu r_n, u_n + b_n >= 0 for every contact, to the solver's tolerance.
 TEST(Engine, ContactsAreAdmissible) {
     Engine engine = scenes::settling_pack(8, 8, scenes::exact(0.3, 1e-9));

@@ -18,6 +18,7 @@ Settings box_settings() {
     Settings settings;
     for (const char* side : {"left", "right", "bottom", "top"})
         settings.set(std::string("domain.") + side, std::string("wall"));
+    settings.set("coupling.scheme", std::string("split"));
     settings.set("coupling.positions", std::string("corrected"));
     settings.set("fluid.enabled", true);
     settings.set("fluid.hydrodynamic_radius", 1.0);
@@ -331,15 +332,121 @@ TEST(NscdAdapter, SaysWhatItIs) {
     EXPECT_EQ(hello.role, Role::grains);
     EXPECT_EQ(hello.capabilities.shapes, std::vector<std::string>{"disc"});
     EXPECT_EQ(hello.capabilities.contact_laws, std::vector<std::string>{"coulomb"});
-    EXPECT_FALSE(hello.capabilities.effective_inertia);
+    EXPECT_TRUE(hello.capabilities.effective_inertia);
 }
 
-TEST(NscdAdapter, RefusesJointResponses) {
+TEST(NscdAdapter, RefusesResponsesUnderSplit) {
     NscdAdapter adapter;
     adapter.initialise(box_settings(), discs, {grain_at(1, 5, 5)});
     const std::string text = refusal<std::runtime_error>(
         [&] { adapter.advance(window(0), std::vector<FreeResponse>(1)); });
     EXPECT_TRUE(contains(text, "joint")) << text;
+}
+
+Settings joint_settings() {
+    Settings settings = box_settings();
+    settings.set("coupling.scheme", std::string("joint"));
+    return settings;
+}
+
+/// A grain that falls at `speed` and feels mass 2 along x, 3 along y, moment 1, coupled by 0.5 between y and spin.
+FreeResponse falling_at(GrainId id, double speed) {
+    FreeResponse response;
+    response.id = id;
+    response.velocity = {0.0, -speed, 0.0};
+    response.inertia[0] = 2.0, response.inertia[6] = 3.0, response.inertia[20] = 1.0;
+    response.inertia[10] = 0.5;
+    return response;
+}
+
+// Frictionless floor: U_y = 0 after an impulse J, so J/det * I = speed with the inverse of ((3, 0.5), (0.5, 1)):
+// det = 2.75, U_y = J/2.75, spin = -0.5 J/2.75. The grain touches the floor and falls at 0.11: J = 0.3025.
+TEST(NscdAdapter, JointSolvesContactsWithTheFluidsInertia) {
+    Settings settings = joint_settings();
+    settings.set("contact.friction", 0.0);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(7, 5, 0.5)});
+    const GrainState grain = adapter.advance(window(0), {falling_at(7, 0.11)}).grains[0];
+    EXPECT_NEAR(grain.contact_impulse[1], 0.3025, 1e-12);
+    EXPECT_NEAR(grain.velocity[1], 0.0, 1e-12);
+    EXPECT_NEAR(grain.angular_velocity[2], -0.055, 1e-12);
+}
+
+// The kick sets the velocity, the contact solve moves: U = (0, 0) there, whatever coupling.positions says.
+TEST(NscdAdapter, JointMovesWithTheContactVelocity) {
+    Settings settings = joint_settings();
+    settings.set("contact.friction", 0.0);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(7, 5, 0.5)});
+    std::vector<Kick> kicks = same_velocities(adapter.advance(window(0), {falling_at(7, 0.11)}));
+    kicks[0].velocity = {1e-6, -1e-6, 0.0};
+    const GrainState grain = adapter.apply_kick(window(0), kicks).grains[0];
+    EXPECT_EQ(grain.velocity, (Vec3{1e-6, -1e-6, 0.0}));
+    EXPECT_NEAR(grain.position[1], 0.5, 1e-13);
+    EXPECT_NEAR(grain.position[0], 5.0, 1e-13);
+}
+
+// Rounds: the second solve knows the first one's impulses and nothing else of it.
+TEST(NscdAdapter, JointMayRepeatAdvanceWithinAWindow) {
+    std::vector<GrainState> grains;
+    std::vector<FreeResponse> first, second;
+    for (int k = 0; k < 15; ++k) {
+        grains.push_back(grain_at(k, 5, 0.5 + k));
+        first.push_back(falling_at(k, 0.1));
+        second.push_back(falling_at(k, 0.1001));
+    }
+    NscdAdapter rounds, direct;
+    rounds.initialise(joint_settings(), discs, grains);
+    direct.initialise(joint_settings(), discs, grains);
+    const Motion cold = rounds.advance(window(0), first);
+    const Motion same = rounds.advance(window(0), first);
+    EXPECT_GT(cold.report.iterations, 20);
+    EXPECT_LE(same.report.iterations, 2);
+    const Motion warm = rounds.advance(window(0), second);
+    const Motion reference = direct.advance(window(0), second);
+    EXPECT_LT(warm.report.iterations, reference.report.iterations);
+    for (int k = 0; k < 15; ++k) {
+        EXPECT_NEAR(warm.grains[k].velocity[1], reference.grains[k].velocity[1], 1e-8);
+        EXPECT_NEAR(warm.grains[k].contact_impulse[1], reference.grains[k].contact_impulse[1], 1e-6);
+        EXPECT_EQ(warm.grains[k].position, grains[k].position);
+    }
+}
+
+TEST(NscdAdapter, JointNeedsExactlyOneResponsePerGrain) {
+    const auto error = [](std::vector<FreeResponse> responses) {
+        NscdAdapter adapter;
+        adapter.initialise(joint_settings(), discs, {grain_at(11, 3, 10), grain_at(22, 7, 10)});
+        return refusal<std::runtime_error>([&] { adapter.advance(window(3), responses); });
+    };
+    EXPECT_EQ(error({falling_at(11, 0)}), "no response came for grain 22 in window 3");
+    EXPECT_EQ(error({}), "no response came for grain 11 in window 3");
+    EXPECT_EQ(error({falling_at(11, 0), falling_at(11, 0)}),
+              "two responses came for grain 11 in window 3");
+    EXPECT_EQ(error({falling_at(99, 0), falling_at(11, 0)}),
+              "a response came for grain 99, which is not here, in window 3");
+}
+
+TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
+    NscdAdapter adapter;
+    adapter.initialise(joint_settings(), discs, {grain_at(11, 3, 10)});
+    FreeResponse response = falling_at(11, 0.0);
+    response.inertia[10] = 2.0;  // 2^2 > 3 * 1
+    const std::string text = refusal<PhysicsRefused>([&] { adapter.advance(window(3), {response}); });
+    EXPECT_TRUE(contains(text, "inertia of grain 11 is not positive definite in window 3")) << text;
+    adapter.bodies().rotation_blocked[0] = 1;
+    const std::string held =
+        refusal<std::runtime_error>([&] { adapter.advance(window(3), {falling_at(11, 0.0)}); });
+    EXPECT_TRUE(contains(held, "grain 11 is held")) << held;
+}
+
+// Dry grains know no fluid: the scheme does not matter.
+TEST(NscdAdapter, JointWithoutFluidIsDry) {
+    Settings settings = joint_settings();
+    settings.set("fluid.enabled", false);
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(4, 5, 10)});
+    adapter.advance(window(0), {});
+    EXPECT_NEAR(adapter.apply_kick(window(0), {}).grains[0].velocity[1], -0.01, 1e-16);
 }
 
 TEST(NscdAdapter, RefusesTheSameIdTwice) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the fluid sends, brought into the order of the bodies: every grain gets exactly one record.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite {
+
+/// One record per id, in the order of `ids`. `what` is its name ("kick"), `when` ends the sentence
+/// ("in window 3"). Throws std::runtime_error naming a grain without a record or with two, or one
+/// that is not here.
+template <class Record>
+std::vector<const Record*> by_grain(const std::vector<GrainId>& ids,
+                                    const std::vector<Record>& records, const std::string& what,
+                                    const std::string& when) {
+    const auto grain = [](GrainId id) { return "grain " + std::to_string(id); };
+    std::unordered_map<GrainId, std::size_t> place;
+    for (std::size_t i = 0; i < ids.size(); ++i) place[ids[i]] = i;
+    std::vector<const Record*> result(ids.size(), nullptr);
+    for (const Record& record : records) {
+        const auto at = place.find(record.id);
+        if (at == place.end())
+            throw std::runtime_error("a " + what + " came for " + grain(record.id) +
+                                     ", which is not here, " + when);
+        if (result[at->second])
+            throw std::runtime_error("two " + what + "s came for " + grain(record.id) + " " + when);
+        result[at->second] = &record;
+    }
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (!result[i])
+            throw std::runtime_error("no " + what + " came for " + grain(ids[i]) + " " + when);
+    return result;
+}
+
+}  // namespace turbidite

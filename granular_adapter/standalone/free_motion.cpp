@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/standalone/free_motion.hpp"
+
+#include <stdexcept>
+
+#include "coupler/protocol/failure.hpp"
+#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/standalone/by_grain.hpp"
+
+namespace turbidite {
+namespace {
+
+// Places in the upper triangle by rows of a symmetric 6 x 6 matrix.
+constexpr std::size_t xx = 0, xy = 1, xs = 5, yy = 6, ys = 10, ss = 20;
+
+nscd::PlanarTensor in_plane(const std::array<double, 21>& inertia) {
+    nscd::PlanarTensor tensor;
+    tensor.xx = inertia[xx], tensor.yy = inertia[yy], tensor.ss = inertia[ss];
+    tensor.xy = inertia[xy], tensor.xs = inertia[xs], tensor.ys = inertia[ys];
+    return tensor;
+}
+
+nscd::Twist in_plane(const FreeResponse& response) {
+    return {{response.velocity[0], response.velocity[1], 0.0},
+            {0.0, 0.0, response.angular_velocity[2]}};
+}
+
+}  // namespace
+
+FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
+                       const std::string& when) {
+    FreeMotion result;
+    const auto ordered = by_grain(bodies.id, responses, "response", when);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const std::string grain = "grain " + std::to_string(bodies.id[i]);
+        if (bodies.fixed[i] || bodies.rotation_blocked[i])
+            throw std::runtime_error(grain + " is held by its host " + when +
+                                     ", but coupling.scheme joint moves every grain; use split");
+        const nscd::Twist twist = in_plane(*ordered[i]);
+        const auto mobility = nscd::inverse(in_plane(ordered[i]->inertia));
+        if (!mobility)
+            throw PhysicsRefused("the effective inertia of " + grain +
+                                 " is not positive definite " + when);
+        if (!nscd::is_finite(twist.velocity) || !nscd::is_finite(twist.spin))
+            throw PhysicsRefused("the free velocity of " + grain + " is not a number " + when +
+                                 "; use a smaller time.step");
+        result.velocities.push_back(twist);
+        result.mobilities.push_back(*mobility);
+    }
+    return result;
+}
+
+}  // namespace turbidite
