@@ -9,6 +9,14 @@ namespace {
 
 constexpr int to_columns_tag = 1, to_rows_tag = 2;
 
+void pack(const double* part, double* block, int n) {
+    std::copy_n(part, n, block);
+}
+
+void unpack(double* part, const double* block, int n) {
+    std::copy_n(block, n, part);
+}
+
 int total_rows(const std::vector<Span>& spans) {
     return std::accumulate(spans.begin(), spans.end(), 0,
                            [](int sum, const Span& span) { return sum + span.count; });
@@ -16,21 +24,29 @@ int total_rows(const std::vector<Span>& spans) {
 
 }  // namespace
 
-MpiPencils::MpiPencils(const RankGroup& group, int columns, const std::vector<Span>& rows_of_rank)
+MpiPencils::MpiPencils(const RankGroup& group, int columns, const std::vector<Span>& rows_of_rank,
+                       bool shared_memory)
     : group_(group),
       columns_(columns),
       rows_of_rank_(rows_of_rank),
       modes_of_rank_(even_spans(columns, group.size())),
       row_values_(aligned_values(static_cast<std::size_t>(columns) * own_rows().count)),
-      column_values_(
-          aligned_values(static_cast<std::size_t>(own_modes().count) * total_rows(rows_of_rank))),
       starts_(group.size()) {
+    if (shared_memory) {
+        shared_ = std::make_unique<SharedValues>(group, column_size());
+        return;
+    }
+    column_values_ = aligned_values(column_size());
     std::size_t size = 0;
     for (int rank = 0; rank < group_.size(); ++rank) {
         starts_[rank] = size;
         if (rank != group_.rank()) size += packed_size(rank);
     }
     packed_.resize(size);
+}
+
+std::size_t MpiPencils::column_size() const {
+    return static_cast<std::size_t>(own_modes().count) * total_rows(rows_of_rank_);
 }
 
 int MpiPencils::packed_size(int rank) const {
@@ -50,8 +66,34 @@ void MpiPencils::for_rows_of_block(int rank, double* block, Visit visit) {
         visit(part, block, modes.count);
 }
 
+/// The same for all ranks, where memory is shared; the own block last is not in anybody's way.
+template <class Visit>
+void MpiPencils::for_shared_blocks(Visit visit) {
+    for (int step = 1; step <= group_.size(); ++step) {
+        const int rank = (group_.rank() + step) % group_.size();
+        for_rows_of_block(rank, place_of_rows(rank), visit);
+    }
+}
+
+double* MpiPencils::place_of_rows(int rank) {
+    return shared_->of(rank) +
+           static_cast<std::size_t>(own_rows().first) * modes_of_rank_[rank].count;
+}
+
 void MpiPencils::to_columns() {
-    const auto pack = [](const double* part, double* block, int n) { std::copy_n(part, n, block); };
+    if (!shared_) return send_to_columns();
+    shared_->fence();  // nobody reads columns any more
+    for_shared_blocks(pack);
+    shared_->fence();
+}
+
+void MpiPencils::to_rows() {
+    if (!shared_) return send_to_rows();
+    shared_->fence();
+    for_shared_blocks(unpack);
+}
+
+void MpiPencils::send_to_columns() {
     requests_.clear();
     for (int rank = 0; rank < group_.size(); ++rank)
         if (rank != group_.rank())
@@ -68,10 +110,7 @@ void MpiPencils::to_columns() {
     PMPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
-void MpiPencils::to_rows() {
-    const auto unpack = [](double* part, const double* block, int n) {
-        std::copy_n(block, n, part);
-    };
+void MpiPencils::send_to_rows() {
     requests_.clear();
     for (int rank = 0; rank < group_.size(); ++rank)
         if (rank != group_.rank())

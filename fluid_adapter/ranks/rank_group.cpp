@@ -46,6 +46,12 @@ RankGroup::RankGroup(MPI_Comm comm) : comm_(new MPI_Comm(MPI_COMM_NULL), release
     PMPI_Comm_dup(comm, comm_.get());
     PMPI_Comm_rank(*comm_, &rank_);
     PMPI_Comm_size(*comm_, &size_);
+    MPI_Comm node = MPI_COMM_NULL;
+    PMPI_Comm_split_type(*comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+    int on_node = 0;
+    PMPI_Comm_size(node, &on_node);
+    PMPI_Comm_free(&node);
+    one_node_ = all(on_node == size_);
 }
 
 void RankGroup::sum(double* values, int count) const {

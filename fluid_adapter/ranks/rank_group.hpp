@@ -25,6 +25,8 @@ class RankGroup {
     int rank() const { return rank_; }
     int size() const { return size_; }
     bool parallel() const { return size_ > 1; }
+    /// All ranks can share memory.
+    bool one_node() const { return one_node_; }
     MPI_Comm comm() const { return comm_ ? *comm_ : MPI_COMM_NULL; }
 
     /// Sums over the ranks, in place; the same bits everywhere.
@@ -46,6 +48,7 @@ class RankGroup {
     std::shared_ptr<MPI_Comm> comm_;
     int rank_ = 0;
     int size_ = 1;
+    bool one_node_ = true;
 };
 
 /// Lists of numbers for each rank, and what the ranks sent here: index by rank. For set-up, not for

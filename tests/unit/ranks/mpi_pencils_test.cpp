@@ -72,20 +72,28 @@ TEST(MpiPencils, RanksMayBeLeftWithoutRowsOrModes) {
                                   decomposition);
 }
 
+/// By messages, as between nodes, and in shared memory; several times over, so that a rank that
+/// runs ahead of the others would be seen.
 TEST(MpiPencils, TransposeThereAndBackIsExact) {
     const RankGroup group(MPI_COMM_WORLD);
     const std::vector<Span> rows = even_spans(11, group.size());
-    MpiPencils pencils(group, 7, rows);
     const Span& own = rows[group.rank()];
-    for (int k = 0; k < 7 * own.count; ++k) pencils.rows()[k] = 7 * own.first + k;
-    pencils.to_columns();
-    for (int j = 0; j < 11; ++j)
-        for (int m = 0; m < pencils.mode_count(); ++m)
-            EXPECT_EQ(pencils.columns()[j * pencils.mode_count() + m],
-                      7 * j + pencils.first_mode() + m);
-    std::fill_n(pencils.rows(), 7 * own.count, -1.0);
-    pencils.to_rows();
-    for (int k = 0; k < 7 * own.count; ++k) EXPECT_EQ(pencils.rows()[k], 7 * own.first + k);
+    for (const bool shared_memory : {false, true}) {
+        MpiPencils pencils(group, 7, rows, shared_memory);
+        for (int round = 0; round < 200; ++round) {
+            for (int k = 0; k < 7 * own.count; ++k) pencils.rows()[k] = round + 7 * own.first + k;
+            pencils.to_columns();
+            for (int j = 0; j < 11; ++j)
+                for (int m = 0; m < pencils.mode_count(); ++m) {
+                    double& value = pencils.columns()[j * pencils.mode_count() + m];
+                    ASSERT_EQ(value, round + 7 * j + pencils.first_mode() + m);
+                    value += 0.5;
+                }
+            pencils.to_rows();
+            for (int k = 0; k < 7 * own.count; ++k)
+                ASSERT_EQ(pencils.rows()[k], round + 7 * own.first + k + 0.5);
+        }
+    }
 }
 
 }  // namespace

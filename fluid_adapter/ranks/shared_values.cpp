@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/ranks/shared_values.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace turbidite {
+
+SharedValues::SharedValues(const RankGroup& group, std::size_t count)
+    : group_(group), values_(group.size()) {
+    MPI_Info apart = MPI_INFO_NULL;  // every rank's array on pages of its own
+    PMPI_Info_create(&apart);
+    PMPI_Info_set(apart, "alloc_shared_noncontig", "true");
+    double* own = nullptr;
+    const int made = PMPI_Win_allocate_shared(static_cast<MPI_Aint>(count * sizeof(double)),
+                                              sizeof(double), apart, group_.comm(), &own, &window_);
+    PMPI_Info_free(&apart);
+    if (made != MPI_SUCCESS) throw std::runtime_error("MPI gave no shared memory to the ranks");
+    PMPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
+    for (int rank = 0; rank < group_.size(); ++rank) {
+        MPI_Aint size = 0;
+        int unit = 0;
+        PMPI_Win_shared_query(window_, rank, &size, &unit, &values_[rank]);
+    }
+    std::fill_n(own, count, 0.0);
+    fence();
+}
+
+SharedValues::~SharedValues() {
+    int finalized = 0;  // the host's objects may outlive MPI
+    PMPI_Finalized(&finalized);
+    if (finalized) return;
+    PMPI_Win_unlock_all(window_);
+    PMPI_Win_free(&window_);
+}
+
+void SharedValues::fence() const {
+    PMPI_Win_sync(window_);
+    PMPI_Barrier(group_.comm());
+    PMPI_Win_sync(window_);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// One case on one fluid rank and on several: 30 discs that sink, turn and meet, some of them across
+// the ranks' boundaries at any time, over 200 windows.
+//
+// Multipliers stop at 1e-9 u_c. Where grains end differs by up to 1e-9 D then (measured over both
+// kinds of points, closed, cyclic and free sides, two to four ranks, rows and columns; it is the
+// last digit written), and u by up to 3e-9 u_c. A halo, a sum or a point that is wrong costs 1e-5
+// and more: one missing holder's sum in one window is a kick of that size.
+#include <cmath>
+#include <sstream>
+
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const the_case = R"(
+domain: {size: [8, 8]}
+grains: {adapter: standalone-nscd, generator: random, count: 30, density_ratio: 1.5}
+fluid: {reynolds: 36, cells_per_diameter: 8, multiplier_tolerance: 1e-9}
+contact: {friction: 0.3, tolerance: 1e-9}
+scales: {kind: avalanche}
+time: {step: 0.0125, end: 2.5}
+output: {interval: 2.5}
+)";
+
+class FluidRanks : public ShellTest {
+ protected:
+    /// Plays the case and returns the numbers of a grains file's `Points`, at the end.
+    std::vector<double> places(const std::string& changes) {
+        scratch.write("case.yaml", the_case);
+        const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
+                                    " run case.yaml --force --out run --set " + changes);
+        EXPECT_EQ(answer.code, 0) << changes << answer.out << answer.err;
+        if (answer.code != 0) return {};
+        EXPECT_EQ(record().at("windows_done"), 200);
+        EXPECT_LT(record().at("maxima").at("grain_balance").get<double>(), 1e-12) << changes;
+        EXPECT_LT(record().at("maxima").at("fluid_balance").get<double>(), 1e-10) << changes;
+        const std::string file = text(run_folder() / "grains/grains_00000200.vtp");
+        const std::size_t points = file.find('>', file.find("<DataArray", file.find("<Points>")));
+        std::istringstream numbers(file.substr(points + 1));
+        std::vector<double> result;
+        for (double number; numbers >> number;) result.push_back(number);
+        return result;
+    }
+
+    void expect_the_same(const std::vector<double>& one, const std::vector<double>& several,
+                         const std::string& which) {
+        ASSERT_EQ(one.size(), 90u);
+        ASSERT_EQ(several.size(), one.size()) << which;
+        double largest = 0.0;
+        for (std::size_t k = 0; k < one.size(); ++k)
+            largest = std::max(largest, std::abs(one[k] - several[k]));
+        EXPECT_LT(largest, 1e-8) << which;  // D
+    }
+};
+
+TEST_F(FluidRanks, RowsAndColumnsAndAnyNumberGiveTheHistoryOfOneRank) {
+    const std::vector<double> one = places("fluid.ranks=1");
+    for (const char* several : {"fluid.ranks=2", "fluid.ranks=4",
+                                "fluid.ranks=3 --set fluid.decomposition=columns"})
+        expect_the_same(one, places(several), several);
+    EXPECT_TRUE(fs::exists(run_folder() / "fluid/processor2/2.5/U"));
+    EXPECT_SAYS(text(run_folder() / "report.html"), "Red: fluid rises");
+}
+
+TEST_F(FluidRanks, WithoutBoundaryPoints) {
+    const std::string interior = " --set fluid.points=interior";
+    expect_the_same(places("fluid.ranks=1" + interior), places("fluid.ranks=2" + interior),
+                    "interior points");
+}
+
+TEST_F(FluidRanks, CyclicSidesAndOpenOnes) {
+    const std::string sides =
+        " --set domain.left=cyclic --set domain.right=cyclic --set domain.top=free";
+    const std::vector<double> one = places("fluid.ranks=1" + sides);
+    expect_the_same(one, places("fluid.ranks=2" + sides), "rows");
+    expect_the_same(one, places("fluid.ranks=2 --set fluid.decomposition=columns" + sides),
+                    "columns");
+}
+
+/// OpenFOAM's own solvers, to their tolerance: 1e-10 of a residual norm.
+TEST_F(FluidRanks, WithOpenFoamsSolvers) {
+    const std::string matrix =
+        " --set fluid.pressure_solver=GAMG --set fluid.viscous_solver=PCG"
+        " --set fluid.pressure_tolerance=1e-10 --set fluid.viscous_tolerance=1e-10";
+    expect_the_same(places("fluid.ranks=1" + matrix), places("fluid.ranks=2" + matrix), "GAMG");
+}
+
+TEST_F(FluidRanks, MoreRanksThanTheBoxHasRoomForAreRefused) {
+    scratch.write("case.yaml", the_case);
+    const Answer answer =
+        shell(std::string(TURBIDITE_PROGRAM) + " check case.yaml --set fluid.ranks=17");
+    EXPECT_EQ(answer.code, 2);
+    for (const char* said : {"fluid.ranks = 17", "4 rows", "Use 16 or fewer"})
+        EXPECT_SAYS(answer.err, said);
+}
+
+}  // namespace
+}  // namespace turbidite
