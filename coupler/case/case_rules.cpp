@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "coupler/case/key_value.hpp"
+#include "coupler/case/scales.hpp"
+#include "coupler/case/transport_schemes.hpp"
 
 namespace turbidite {
 namespace {
@@ -70,6 +72,46 @@ Verdict transport_is_stable(const Settings& s) {
         "Use a smaller step or fewer cells."};
 }
 
+/// u_c D/nu, or nothing while the keys it follows from are not all valid.
+std::optional<double> reynolds_of(const Settings& s) {
+    const bool physical = s.text("scales.kind") == "physical";
+    const std::vector<const char*> needed =
+        physical ? std::vector<const char*>{"scales.diameter",      "scales.gravity",
+                                            "scales.fluid_density", "scales.viscosity",
+                                            "grains.density_ratio", "scales.compacity"}
+                 : std::vector<const char*>{"fluid.reynolds", "grains.density_ratio",
+                                            "scales.compacity"};
+    for (const char* key : needed)
+        if (!s.has(key)) return std::nullopt;
+    return make_scales(s).reynolds;
+}
+
+Verdict scheme_is_known(const Settings& s) {
+    const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
+    if (choice.scheme) return std::nullopt;
+    return Objection{choice.fault, choice.remedy};
+}
+
+/// The largest stable step [t_c] of a scheme of this kind, where the case's step is above it:
+/// 2 nu/u2 with u = u_c (transport_schemes.hpp).
+std::optional<double> step_limit_exceeded(const Settings& s, SchemeKind kind) {
+    const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
+    if (!s.flag("fluid.enabled") || !choice.scheme || choice.scheme->kind != kind)
+        return std::nullopt;
+    const std::optional<double> reynolds = reynolds_of(s);
+    if (!reynolds || s.real("time.step") <= 2.0 / *reynolds * (1.0 + 1e-12)) return std::nullopt;
+    return 2.0 / *reynolds;
+}
+
+Verdict scheme_is_stable(const Settings& s) {
+    const auto limit = step_limit_exceeded(s, SchemeKind::central);
+    if (!limit) return std::nullopt;
+    return Objection{fmt::format("Explicit transport with central differences is unstable beyond "
+                                 "2 nu/u_c^2 = 2/Re = {:.3g} t_c, and time.step = {}.",
+                                 *limit, s.text("time.step")),
+                     "Use Gauss limitedLinearV 1, which stays bounded, or a smaller step."};
+}
+
 Verdict whole_cells(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const double cells = s.real("fluid.cells_per_diameter");
@@ -123,6 +165,8 @@ const std::vector<Rule>& rules() {
         {"time.end", {"time.step"}, at_least_one_window},
         {"time.step", {"time.end"}, countable_windows},
         {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_is_stable},
+        {"fluid.transport_scheme", {}, scheme_is_known},
+        {"fluid.transport_scheme", {"fluid.enabled", "time.step", "scales.kind"}, scheme_is_stable},
         {"domain.size", {"fluid.enabled", "fluid.cells_per_diameter"}, whole_cells},
         {"fluid.ranks",
          {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},
@@ -185,6 +229,12 @@ std::vector<std::string> rule_notes(const Settings& settings) {
     if (settings.real("output.interval") < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
     add_scheme_notes(settings, notes);
+    if (const auto limit = step_limit_exceeded(settings, SchemeKind::biased))
+        notes.push_back(fmt::format(
+            "fluid.transport_scheme = {}: its explicit transport may grow beyond "
+            "2/Re = {:.3g} t_c, and time.step = {}; Gauss limitedLinearV 1 stays "
+            "bounded",
+            settings.text("fluid.transport_scheme"), *limit, settings.text("time.step")));
     return notes;
 }
 

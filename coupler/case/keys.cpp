@@ -233,7 +233,7 @@ std::vector<KeySpec> fluid_keys() {
         {.name = "fluid.transport_scheme",
          .type = KeyType::text,
          .fallback = "Gauss limitedLinearV 1",
-         .help = "OpenFOAM scheme of div(phi,U)"},
+         .help = "OpenFOAM scheme of div(phi,U); central ones need a step below 2/Re"},
         {.name = "fluid.pressure_solver",
          .type = KeyType::choice,
          .fallback = "FFT",

@@ -109,7 +109,7 @@ struct FluidReport {
     std::int64_t multiplier_iterations = 0;
     double multiplier_residual = 0.0;  ///< rms slip at the points [m/s]
     double divergence = 0.0;           ///< max |div phi| after step 1 [1/s]
-    double final_divergence = 0.0;     ///< the same after step 5 (large by nature) [1/s]
+    double final_divergence = 0.0;     ///< after step 5 (large by nature), in windows with output [1/s]
     /// |change of fluid momentum + dt sum(lambda) - boundary impulses| over the largest of them:
     /// zero to solver tolerance.
     double momentum_defect = 0.0;

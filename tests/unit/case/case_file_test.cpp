@@ -275,6 +275,41 @@ TEST_F(CaseFile, MeshNeedsWholeCells) {
     EXPECT_SAYS(refusal("", {"domain.size=[12.3, 24]"}), "Use 12.3125 D.");
 }
 
+TEST_F(CaseFile, AnUnknownTransportSchemeIsAnsweredWithTheNearest) {
+    const std::string set = "fluid.transport_scheme=";
+    EXPECT_SAYS(refusal("", {set + "Gauss limitedLinerV 1"}), "Use Gauss limitedLinearV 1.");
+    EXPECT_SAYS(refusal("", {set + "Gauss limitedLinear"}), "limitedLinear needs a parameter");
+    EXPECT_SAYS(refusal("", {set + "Gauss linearUpwind"}), "Use Gauss linearUpwind grad(U).");
+    EXPECT_SAYS(refusal("", {set + "vanLeer"}), "Use Gauss vanLeer.");
+    EXPECT_SAYS(refusal("", {set + "Gauss"}), "Use Gauss limitedLinearV 1.");
+    EXPECT_EQ(refusal("", {set + "bounded Gauss upwind"}), "");
+}
+
+/// 2/Re = 0.0556 t_c at Re = 36, below the 0.0625 t_c that 16 cells per diameter allow.
+TEST_F(CaseFile, CentralTransportIsRefusedBeyondItsStep) {
+    const std::string scheme = "fluid.transport_scheme=Gauss linear";
+    EXPECT_EQ(refusal("", {scheme, "time.step=0.055"}), "");
+    const std::string text = refusal("", {scheme, "time.step=0.056"});
+    EXPECT_SAYS(text, "fluid.transport_scheme = Gauss linear");
+    EXPECT_SAYS(text, "2/Re = 0.0556 t_c");
+    EXPECT_SAYS(text, "time.step = 0.056");
+    EXPECT_SAYS(text, "Use Gauss limitedLinearV 1");
+    EXPECT_EQ(refusal("", {"time.step=0.056"}), "");
+    EXPECT_EQ(refusal("", {scheme, "time.step=0.056", "fluid.enabled=false"}), "");
+}
+
+TEST_F(CaseFile, BiasedTransportIsNotedBeyondThatStep) {
+    const auto notes = [&](const std::string& step) {
+        std::string all;
+        for (const std::string& note :
+             load("", {"fluid.transport_scheme=Gauss QUICK", "time.step=" + step}).notes)
+            all += note + "\n";
+        return all;
+    };
+    EXPECT_SAYS(notes("0.06"), "fluid.transport_scheme = Gauss QUICK");
+    EXPECT_EQ(notes("0.05").find("fluid.transport_scheme"), std::string::npos);
+}
+
 TEST_F(CaseFile, EndAndStep) {
     EXPECT_SAYS(refusal("", {"time.end=0.001"}), "time.end = 0.001");
     const ResolvedCase odd = load("", {"time.step=0.03"});

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Steps 1 to 3 on rows of a box against the same steps by OpenFOAM's operators, and what explicit
+// transport does beyond dt = 2 nu/u2.
+//
+// `bounded` takes u div phi off the transport, which is rounding after a direct projection: the
+// same numbers, but a scheme that only OpenFOAM's table knows, so the operators run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/physics/coupled_run.hpp"
+
+namespace turbidite {
+namespace {
+
+struct Sides {
+    const char* name;
+    const char *left, *right, *bottom, *top;
+};
+
+constexpr Sides all_sides[] = {
+    {"closed", "wall", "wall", "wall", "wall"},
+    {"freeRightAndTop", "wall", "free", "wall", "free"},
+    {"freeLeftAndBottom", "free", "wall", "free", "wall"},
+    {"channel", "cyclic", "cyclic", "wall", "wall"},
+    {"chimney", "wall", "free", "cyclic", "cyclic"},
+    {"cyclic", "cyclic", "cyclic", "cyclic", "cyclic"},
+};
+
+constexpr int nx = 27, ny = 34;  // odd and even: transforms pair rows
+
+CoupledSetup box_with(const Sides& sides, bool operators, const std::string& k) {
+    CoupledSetup setup;
+    setup.left = sides.left;
+    setup.right = sides.right;
+    setup.bottom = sides.bottom;
+    setup.top = sides.top;
+    setup.cells_per_diameter = 8;
+    setup.width = nx / 8.0;
+    setup.height = ny / 8.0;
+    setup.step = 0.02;
+    setup.gravity = 11.86;
+    setup.tolerance = 1e-9;
+    setup.transport_scheme = std::string(operators ? "bounded " : "") + "Gauss limitedLinearV " + k;
+    return setup;
+}
+
+std::vector<GrainState> two_discs(const CoupledSetup& setup) {
+    return {disc_at(setup, 1.13, 1.02, 0.3, -0.2), disc_at(setup, 2.27, 2.9, -0.4, 0.1)};
+}
+
+/// max |difference| of u, and of p dt over a cell.
+double largest_difference(CoupledRun& a, CoupledRun& b) {
+    double largest = 0.0;
+    const double per_p = a.setup().step * a.setup().cells_per_diameter;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+            for (int axis : {0, 1})
+                largest = std::max(largest, std::abs(a.fluid().velocity(i, j)[axis] -
+                                                     b.fluid().velocity(i, j)[axis]));
+            const double dp = a.fluid().pressure(i, j) - b.fluid().pressure(i, j);
+            largest = std::max(largest, per_p * std::abs(dp));
+        }
+    return largest;
+}
+
+/// Ten windows of rounding, 1e-16, through solves of about 1e3 and conjugate gradients.
+constexpr double rounding = 1e-11;
+
+class FluidSteps : public testing::TestWithParam<Sides> {};
+
+TEST_P(FluidSteps, OnRowsAreOpenFoamsOperators) {
+    for (const char* k : {"1", "0.5"}) {
+        const CoupledSetup rows = box_with(GetParam(), false, k);
+        const CoupledSetup operators = box_with(GetParam(), true, k);
+        CoupledRun one(rows, two_discs(rows)), other(operators, two_discs(operators));
+        for (int n = 0; n < 10; ++n) {
+            one.advance();
+            other.advance();
+            EXPECT_NEAR(one.answer().report.courant, other.answer().report.courant, rounding);
+            EXPECT_LT(one.answer().report.divergence, 1e-12);
+            EXPECT_LT(one.answer().report.momentum_defect, 1e-10);
+        }
+        EXPECT_LT(largest_difference(one, other), rounding);
+        EXPECT_GT(one.answer().report.courant, 0.02);  // something did move
+    }
+}
+
+/// What the steps keep for themselves reaches the saved state, and comes back from one that the
+/// other kind wrote.
+TEST_P(FluidSteps, GoOnFromEachOthersSavedState) {
+    const CoupledSetup rows = box_with(GetParam(), false, "1");
+    const CoupledSetup operators = box_with(GetParam(), true, "1");
+    CoupledRun one(rows, two_discs(rows)), other(operators, two_discs(operators));
+    for (int n = 0; n < 3; ++n) {
+        one.advance();
+        other.advance();
+    }
+    const SavedState from_rows = one.fluid().save(), from_operators = other.fluid().save();
+    one.fluid().restore(from_operators);
+    other.fluid().restore(from_rows);
+    for (int n = 0; n < 3; ++n) {
+        one.advance();
+        other.advance();
+    }
+    EXPECT_LT(largest_difference(one, other), rounding);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, FluidSteps, testing::ValuesIn(all_sides),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// A stream past a disc in a cyclic box, 25 times beyond 2 nu/u2 = 0.002.
+CoupledSetup stream_beyond_the_limit(const std::string& scheme) {
+    CoupledSetup setup = box_with(all_sides[5], false, "1");
+    setup.reynolds = 1000.0;
+    setup.step = 0.05;
+    setup.gravity = 0.0;
+    setup.tolerance = 1e-4;
+    setup.transport_scheme = scheme;
+    return setup;
+}
+
+/// Largest |u_x| on the way; infinity once a window is refused.
+double fastest(const CoupledSetup& setup, int windows) try {
+    CoupledRun run(setup, {disc_at(setup, 1.63, 2.017)});
+    run.fluid().add_velocity(1.0, 0.3);
+    double largest = 0.0;
+    for (int n = 0; n < windows; ++n) {
+        run.advance();
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
+                largest = std::max(largest, std::abs(run.fluid().velocity(i, j)[0]));
+    }
+    return largest;
+} catch (const PhysicsRefused&) {
+    return INFINITY;
+}
+
+TEST(ExplicitTransport, IsBoundedWithTheDefaultSchemeOnly) {
+    EXPECT_LT(fastest(stream_beyond_the_limit("Gauss limitedLinearV 1"), 150), 1.5);
+    EXPECT_GT(fastest(stream_beyond_the_limit("Gauss linear"), 150), 10.0);
+    EXPECT_GT(fastest(stream_beyond_the_limit("Gauss cubic"), 150), 10.0);
+}
+
+}  // namespace
+}  // namespace turbidite
