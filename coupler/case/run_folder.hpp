@@ -21,6 +21,7 @@ struct RunFolder {
     std::filesystem::path logs() const { return root / "logs"; }
     std::filesystem::path log(const std::string& role) const { return logs() / (role + ".log"); }
     std::filesystem::path report() const { return root / "report.html"; }
+    std::filesystem::path pictures() const { return root / "pictures"; }
 
     /// Its existence asks the coupler to end the run after the current window. Its text is the
     /// exit code to end with, 130 or 143.

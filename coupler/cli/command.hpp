@@ -22,6 +22,7 @@ struct Command {
 CommandAction declare_run(CLI::App& options);
 CommandAction declare_check(CLI::App& options);
 CommandAction declare_report(CLI::App& options);
+CommandAction declare_compare(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
 

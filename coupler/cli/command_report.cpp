@@ -7,18 +7,13 @@
 
 #include "coupler/cli/command.hpp"
 #include "coupler/cli/report_script.hpp"
-#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
 
 int report(const std::string& directory) {
+    require_run_folder(directory);
     const RunFolder folder{std::filesystem::absolute(directory)};
-    if (!std::filesystem::exists(folder.resolved_case()))
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("{} is no run folder: it has no case.yaml\n  Give a folder that "
-                                  "`turbidite run` made. Exit code 2.",
-                                  directory));
     if (!write_report(folder, find_programs()))
         throw Failure(ExitCode::participant_failed, "report.html could not be written; see above.");
     fmt::print("{}\n", folder.report().string());

@@ -33,7 +33,7 @@ void request_stop(const RunFolder& folder, int signal) {
     std::ofstream file(folder.stop());
     file << static_cast<int>(code) << "\n";
     file.close();
-    const char* answer = file ? "Stopping after this window" : "The wish to stop cannot be written";
+    const char* answer = file ? "Stopping after the next window" : "The wish to stop cannot be written";
     fmt::print(stderr, "\n{}; once more to kill the job.\n", answer);
 }
 

@@ -29,6 +29,8 @@ const std::vector<Command>& commands() {
          declare_run},
         {"check", "validate a case, all errors at once", declare_check},
         {"report", "write report.html of a run folder", declare_report},
+        {"compare", "the same quantities of several runs on one page, differences quantified",
+         declare_compare},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"test", "run the tests", declare_test},
     };

@@ -56,7 +56,7 @@ bool is_run_folder(const RunFolder& folder) {
 void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
-          folder.fluid(), folder.logs(), folder.report(), folder.stop()})
+          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.stop()})
         fs::remove_all(part);
 }
 

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "coupler/case/run_folder.hpp"
 #include "coupler/cli/programs.hpp"
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 
+/// Failure (bad_input) that names a directory which is no run folder.
+void require_run_folder(const std::filesystem::path& directory);
+
 /// Runs coupler/cli/report/report.py; false when it failed, its words on stderr.
 bool write_report(const RunFolder& folder, const Programs& programs);
+
+/// Runs coupler/cli/report/compare.py, which writes `page` and the numbers beside it. Not done:
+/// bad_input when the runs cannot be compared, otherwise participant_failed; its words on stderr.
+ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
+                          const Programs& programs);
 
 }  // namespace turbidite

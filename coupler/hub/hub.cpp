@@ -163,14 +163,20 @@ Window Hub::window(std::int64_t index) const {
     return window;
 }
 
+// A run that is asked to stop plays one more window and writes it, so that history, grains and
+// fields end together.
 void Hub::play(std::int64_t index) {
-    look_for_stop();
+    const std::optional<ExitCode> stop = requested_stop();
     window_start_ = Clock::now();
-    const Window now = window(index);
+    Window now = window(index);
+    now.write_output = now.write_output || stop;
     Cast cast{grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, kick_rule_};
     WindowResult result = scheme_->play(now, state_, cast);
     ledger_.check(now, result);
     account(now, std::move(result));
+    if (stop && status_.windows_done < case_.settings.integer("run.windows"))
+        throw Failure(*stop, fmt::format("stopped on request after window {}, which is written",
+                                         status_.windows_done));
 }
 
 void Hub::account(const Window& window, WindowResult result) {
@@ -217,18 +223,17 @@ void Hub::account(const Window& window, WindowResult result) {
     progress_.show(row, case_.settings, window.write_output);
 }
 
-void Hub::look_for_stop() const {
+std::optional<ExitCode> Hub::requested_stop() const {
     int code = static_cast<int>(ExitCode::interrupted);
     {
         std::ifstream stop(files_.stop);
-        if (!stop) return;
+        if (!stop) return std::nullopt;
         stop >> code;
     }
     std::error_code ignored;  // a request is meant once: the same line may be started again
     std::filesystem::remove(files_.stop, ignored);
     const bool terminated = code == static_cast<int>(ExitCode::terminated);
-    throw Failure(terminated ? ExitCode::terminated : ExitCode::interrupted,
-                  "stopped on request after window " + std::to_string(status_.windows_done));
+    return terminated ? ExitCode::terminated : ExitCode::interrupted;
 }
 
 void Hub::end(const Verdict& verdict) {

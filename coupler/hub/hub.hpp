@@ -45,7 +45,8 @@ class Hub {
     void account(const Window& window, WindowResult result);
     void tell_disagreement();
     void end_and_record();
-    void look_for_stop() const;
+    /// The code to end with when files_.stop is there, which is then removed.
+    std::optional<ExitCode> requested_stop() const;
     void end(const Verdict& verdict);
     void await_all(bool (ParticipantLink::*condition)(), double limit);
     Window window(std::int64_t index) const;

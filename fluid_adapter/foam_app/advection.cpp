@@ -9,6 +9,7 @@ void advect(FluidFields& fields) {
     const Foam::tmp<Foam::volVectorField> change =
         Foam::fvc::div(fields.phi, fields.U, "div(phi,U)");
     fields.U -= fields.time.deltaT() * change;
+    fields.U.replace(Foam::vector::Z, Foam::dimensionedScalar(Foam::dimVelocity, Foam::Zero));
     fields.U.correctBoundaryConditions();
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 #include "tests/system/shell_test.hpp"
@@ -17,6 +18,8 @@ namespace fs = std::filesystem;
 
 const std::string program = TURBIDITE_PROGRAM;
 const std::string quickstart = TURBIDITE_SOURCE_DIR "/configs/quickstart.yaml";
+// A wet job of small windows without YADE.
+const std::string small = " --set grains.adapter=standalone-nscd --set fluid.cells_per_diameter=4";
 // Dry grains without YADE: the quickest whole job.
 const std::string quick = " --set fluid.enabled=false --set grains.adapter=standalone-nscd";
 
@@ -49,7 +52,7 @@ TEST_F(CommandLine, BadUsage) {
 TEST_F(CommandLine, HelpAndVersion) {
     const Answer help = turbidite("--help");
     EXPECT_EQ(help.code, 0);
-    for (const char* command : {"run", "check", "report", "keys", "test"})
+    for (const char* command : {"run", "check", "report", "compare", "keys", "test"})
         EXPECT_SAYS(help.out, std::string("\n  ") + command);
     EXPECT_SAYS(turbidite("--version").out, "turbidite ");
     EXPECT_SAYS(turbidite("keys").out, "| `contact.friction` |");
@@ -60,6 +63,26 @@ TEST_F(CommandLine, CheckWritesNothing) {
     EXPECT_EQ(answer.code, 0) << answer.err;
     EXPECT_SAYS(answer.out, "60 grains");
     EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), fs::directory_iterator()), 2);
+}
+
+TEST_F(CommandLine, EveryShippedCaseIsValid) {
+    int cases = 0;
+    for (const auto& file : fs::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
+        if (file.path().extension() != ".yaml") continue;
+        ++cases;
+        const Answer answer = turbidite("check " + file.path().string());
+        EXPECT_EQ(answer.code, 0) << answer.err;
+        EXPECT_SAYS(answer.out, "valid");
+    }
+    EXPECT_GE(cases, 2);
+}
+
+TEST_F(CommandLine, TheSedimentationIsValidOnACoarserMesh) {
+    const Answer answer = turbidite("check " TURBIDITE_SOURCE_DIR
+                                    "/configs/sedimentation-discs.yaml"
+                                    " --set fluid.cells_per_diameter=8");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.out, "160 x 480 cells");
 }
 
 TEST_F(CommandLine, DryRunPrintsOneLineThatRunsTheJob) {
@@ -113,27 +136,125 @@ TEST_F(CommandLine, OccupiedFolderIsRefused) {
     EXPECT_SAYS(answer.err, "already holds something");
 }
 
-TEST_F(CommandLine, FirstInterruptEndsTheRunAfterItsWindow) {
-    // 160,000 windows never end by themselves within the test.
-    const pid_t child = fork();
-    if (child == 0) {
-        const std::string line = "exec " + program + " run " + quickstart + quick +
-                                 " --set time.end=2000 --set output.interval=1" +
-                                 into_run_folder() + " >" + (scratch.path() / "out").string() +
-                                 " 2>&1";
-        execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-        _exit(127);
+/// history.csv without the columns of the wall clock.
+std::string physics_of(const std::string& history) {
+    std::istringstream lines(history);
+    std::vector<bool> kept;
+    std::string result;
+    for (std::string line; std::getline(lines, line); result += "\n") {
+        std::istringstream cells(line + ",");
+        const bool header = kept.empty();
+        std::size_t column = 0;
+        for (std::string cell; std::getline(cells, cell, ','); ++column) {
+            if (header) kept.push_back(cell.rfind("wall_", 0) != 0);
+            if (kept.at(column)) result += cell + ",";
+        }
     }
-    for (int i = 0; i < 600 && rows_of_history() < 2; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    kill(child, SIGINT);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130) << text(scratch.path() / "out");
+    return result;
+}
+
+// The CSV holds every digit, so the two runs do the same arithmetic.
+TEST_F(CommandLine, GrainsFromTheFileOfARunGiveThatRunAgain) {
+    const std::string line =
+        "run " + quickstart + small + " --set time.end=0.5 --set output.interval=0.1 --out ";
+    const fs::path first = scratch.path() / "first", again = scratch.path() / "again";
+    ASSERT_EQ(turbidite(line + first.string() + " --set random.seed=7").code, 0);
+    const Answer answer = turbidite(
+        line + again.string() + " --set grains.file=" + (first / "grains/initial.csv").string());
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(text(again / "grains/initial.csv"), text(first / "grains/initial.csv"));
+    const std::string history = physics_of(text(first / "history.csv"));
+    EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 7);  // header, t = 0, 0.1, ... 0.5
+    EXPECT_EQ(physics_of(text(again / "history.csv")), history);
+}
+
+TEST_F(CommandLine, CompareWritesOnePageAndItsNumbers) {
+    const std::string line = "run " + quickstart + quick + " --set output.interval=0.1 --out ";
+    const fs::path one = scratch.path() / "one", two = scratch.path() / "two";
+    const fs::path page = scratch.path() / "page.html";
+    ASSERT_EQ(turbidite(line + one.string() + " --set time.end=0.5").code, 0);
+    ASSERT_EQ(turbidite(line + two.string() + " --set time.end=0.3").code, 0);
+    const Answer answer =
+        turbidite("compare " + one.string() + " " + two.string() + " --out " + page.string());
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(answer.out, page.string() + "\n");
+    EXPECT_SAYS(text(page), "time.end");
+    const auto numbers = nlohmann::json::parse(text(scratch.path() / "page.json"));
+    const auto velocity = numbers.at("runs").at(1).at("quantities").at("mean_velocity_y");
+    EXPECT_EQ(velocity.at("max"), 0.0);  // the same case, as long as both run
+    EXPECT_EQ(velocity.at("end"), 0.3);
+    EXPECT_TRUE(fs::exists(scratch.path() / "page.csv"));
+}
+
+TEST_F(CommandLine, CompareRefusesWhatItCannotCompare) {
+    scratch.write("run/case.yaml", "dimension: 2\n");
+    scratch.write("other/note.txt", "no run");
+    const std::string run = run_folder().string(), other = (scratch.path() / "other").string();
+    const Answer lonely = turbidite("compare " + run);
+    EXPECT_EQ(lonely.code, 2);
+    EXPECT_SAYS(lonely.err, "at least two run folders");
+    const Answer stranger = turbidite("compare " + run + " " + other);
+    EXPECT_EQ(stranger.code, 2);
+    EXPECT_SAYS(stranger.err, other + " is no run folder");
+    const Answer misnamed = turbidite("compare " + run + " " + run + " --out x.csv");
+    EXPECT_EQ(misnamed.code, 2);
+    EXPECT_SAYS(misnamed.err, "does not end in .html");
+    EXPECT_EQ(turbidite("compare " + run + " " + run).code, 2);  // no history
+}
+
+/// A run of 160,000 windows, which would not end by itself within a test, stopped by a signal.
+class Interrupted : public CommandLine {
+ protected:
+    int stop_by(int signal, const std::string& options) const {
+        const pid_t child = fork();
+        if (child == 0) {
+            const std::string line = "exec " + program + " run " + quickstart + options +
+                                     " --set time.end=2000 --set output.interval=1" +
+                                     into_run_folder() + " >" + (scratch.path() / "out").string() +
+                                     " 2>&1";
+            execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+            _exit(127);
+        }
+        for (int i = 0; i < 600 && rows_of_history() < 2; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        kill(child, signal);
+        int status = 0;
+        waitpid(child, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    long windows_done() const { return record().at("windows_done").get<long>(); }
+
+    void expect_history_and_report_to_the_last_window() const {
+        const std::string history = text(run_folder() / "history.csv");
+        const auto last = history.rfind('\n', history.size() - 2) + 1;
+        EXPECT_EQ(std::stol(history.substr(last)), windows_done()) << history;
+        const std::string report = text(run_folder() / "report.html");
+        EXPECT_SAYS(report, "Status: interrupted");
+        EXPECT_EQ(report.find("Picture at"), std::string::npos) << "a picture could not be drawn";
+    }
+};
+
+TEST_F(Interrupted, BySigintEndsWithTheFieldsOfTheLastWindow) {
+    EXPECT_EQ(stop_by(SIGINT, small), 130) << text(scratch.path() / "out");
     EXPECT_EQ(record().at("exit_code"), 130);
-    EXPECT_GT(record().at("windows_done").get<int>(), 0);
-    EXPECT_TRUE(fs::exists(run_folder() / "report.html"));
+    expect_history_and_report_to_the_last_window();
+    double latest = 0.0;
+    fs::path fields;
+    for (const auto& entry : fs::directory_iterator(run_folder() / "fluid")) {
+        const double time = std::atof(entry.path().filename().c_str());
+        if (time > latest) latest = time, fields = entry.path();
+    }
+    EXPECT_NEAR(latest, 0.0125 * static_cast<double>(windows_done()), 1e-6);  // t_c = 1
+    for (const char* name : {"U", "p"})  // 12 x 14 D at 4 cells per D; doubles
+        EXPECT_GT(fs::file_size(fields / name), 48u * 56u * sizeof(double)) << name;
+}
+
+TEST_F(Interrupted, BySigtermEndsAfterTheWindow) {
+    EXPECT_EQ(stop_by(SIGTERM, quick), 143) << text(scratch.path() / "out");
+    EXPECT_EQ(record().at("exit_code"), 143);
+    EXPECT_GT(windows_done(), 0);
+    expect_history_and_report_to_the_last_window();
 }
 
 }  // namespace

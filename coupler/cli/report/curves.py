@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The curves of a report: one table of plots over history.csv, all against t/t_c."""
-from dataclasses import dataclass
+"""The curves of a report: tables of plots over history.csv, all against t/t_c."""
+from dataclasses import dataclass, field
 
+import matplotlib.pyplot as plt
 import numpy as np
 
-
 # Residuals of lone contacts are round-off; drawn at their value they would flatten everything else.
-LOG_FLOOR = 1e-8
+LOG_FLOOR = 1e-16
+TIME_LABEL = r'$t\,/\,t_c$'
 
 
 @dataclass
@@ -19,49 +20,95 @@ class Curve:
 class Plot:
     title: str
     unit: str
-    curves: list
+    curves: list = field(default_factory=list)
     logarithmic: bool = False
     divide_by_height: bool = False  # lengths in D over the height of the domain
 
 
-PLOTS = [
-    Plot('Mean velocity of the grains', 'velocity / u_c',
-         [Curve('mean_velocity_y', 'vertical'), Curve('mean_velocity_x', 'horizontal')]),
-    Plot('Mean height of the grains', 'height / H', [Curve('mean_position_y', 'mean height')],
+# Fig. 3 of Topin et al. 2011.
+SETTLING = [
+    Plot('(a) Mean vertical velocity', r'$\langle u_y \rangle\,/\,u_c$',
+         [Curve('mean_velocity_y', '')]),
+    Plot('(b) Mean vertical position', r'$\langle y \rangle\,/\,H$', [Curve('mean_position_y', '')],
          divide_by_height=True),
-    Plot('Deepest overlap', 'overlap / D', [Curve('max_penetration', 'max_penetration')]),
-    Plot('Contacts with an impulse, and sweeps of the solver', 'count',
-         [Curve('contacts', 'contacts'), Curve('contact_iterations', 'sweeps')]),
+]
+
+MOTION = [
+    Plot('Speed of the grains', r'speed $/\,u_c$',
+         [Curve('mean_velocity_norm', r'of the mean, $|\langle u \rangle|$'),
+          Curve('mean_speed', r'mean, $\langle |u| \rangle$')]),
+    Plot('Kinetic energy', r'energy $/\,(\Sigma m\,u_c^2)$', [Curve('kinetic_energy', '')]),
+    Plot('Deepest overlap', r'overlap $/\,D$', [Curve('max_penetration', '')]),
+    Plot('Contacts with an impulse', 'count', [Curve('contacts', '')]),
+]
+
+SOLVERS = [
     Plot('Residuals', 'dimensionless',
          [Curve('contact_residual', 'contact (scaled natural map)'),
-          Curve('multiplier_residual', 'multipliers (rms slip / u_c)'),
-          Curve('divergence', 'divergence after step 1 (D / u_c)')], logarithmic=True),
-    Plot('Iterations of the multiplier problem', 'count',
-         [Curve('multiplier_iterations', 'multiplier iterations')]),
-    Plot('Wall time of a window', 'seconds',
-         [Curve('wall_step', 'window'), Curve('wall_fluid', 'fluid'), Curve('wall_grains', 'grains'),
-          Curve('wall_coupling', 'coupling')]),
+          Curve('multiplier_residual', r'multipliers (rms slip $/\,u_c$)'),
+          Curve('divergence', r'divergence after step 1 ($\times D/u_c$)'),
+          Curve('joint_mismatch', 'joint: grains against fluid')], logarithmic=True),
+    Plot('Momentum checks', 'relative defect',
+         [Curve('grain_balance', r'grains: $M\,dU/dt = (M-m_f)g + F_c + F_h$'),
+          Curve('fluid_balance', 'fluid: multipliers and boundaries')], logarithmic=True),
+    Plot('Contact solver', 'sweeps', [Curve('contact_iterations', '')]),
+    Plot('Multiplier solver', 'iterations', [Curve('multiplier_iterations', 'multipliers'),
+                                             Curve('joint_rounds', 'joint rounds')]),
 ]
 
 
-def available(plot, history):
+def figure(run, plots, columns=2):
+    """The plots the history has numbers for, as one figure; None when there are none."""
+    shown = [plot for plot in plots if available(plot, run)]
+    if not shown:
+        return None
+    rows = -(-len(shown) // columns)
+    result, axes = plt.subplots(rows, columns, squeeze=False, layout='constrained',
+                                figsize=(11.0, 3.3 * rows))
+    for plot, place in zip(shown, axes.flat):
+        draw(plot, run, place)
+    for unused in list(axes.flat)[len(shown):]:
+        unused.set_axis_off()
+    return result
+
+
+def available(plot, run):
     """The curves of a plot with at least one number in the history."""
-    return [curve for curve in plot.curves
-            if curve.column in history and np.isfinite(history[curve.column]).any()]
+    return [curve for curve in plot.curves if len(run.column(curve.column)[1])]
 
 
-def draw(plot, history, height, axes):
-    for curve in available(plot, history):
-        values = history[curve.column] / (height if plot.divide_by_height else 1.0)
-        if plot.logarithmic:
-            values = np.where(values > 0.0, np.maximum(values, LOG_FLOOR), np.nan)
-        axes.plot(history['time'], values, label=curve.label, linewidth=1.4)
+def draw(plot, run, axes):
+    height = run.size()[1] if plot.divide_by_height and 'domain.size' in run.case else None
+    curves = available(plot, run)
+    for curve in curves:
+        time, values = run.column(curve.column)
+        axes.plot(time, values / height if height else values, label=curve.label, linewidth=1.4,
+                  marker='.' if len(values) == 1 else None)
+    decorate(axes, plot.title, plot.unit if height or not plot.divide_by_height else 'height / D')
     if plot.logarithmic:
-        axes.set_yscale('log')
-    if plot.divide_by_height:
+        logarithmic(axes)
+    if height:
         axes.set_ylim(0.0, 1.0)
-    axes.set_title(plot.title, fontsize=10)
-    axes.set_xlabel('t / t_c')
-    axes.set_ylabel(plot.unit, fontsize=8)
+    if len(curves) > 1:
+        axes.legend(fontsize=8)
+
+
+def decorate(axes, title, unit):
+    axes.set_title(title, fontsize=10)
+    axes.set_xlabel(TIME_LABEL)
+    axes.set_ylabel(unit)
     axes.grid(alpha=0.3)
-    axes.legend(fontsize=8, frameon=False)
+    axes.tick_params(labelsize=9)
+
+
+def logarithmic(axes):
+    """Zeros cannot be drawn and what is below round-off means nothing: both leave the curve."""
+    positive = False
+    for line in axes.lines:
+        values = np.asarray(line.get_ydata(), dtype=float)
+        line.set_ydata(np.where(values > LOG_FLOOR, values, np.nan))
+        positive = positive or (values > LOG_FLOOR).any()
+    if positive:
+        axes.set_yscale('log')
+        axes.relim()
+        axes.autoscale_view()

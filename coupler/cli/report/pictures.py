@@ -1,28 +1,53 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures of a run: vertical fluid velocity in colour (red up, blue down, white at rest) with the grains
-on it, at a few instants from the start to the end."""
+on it, at a few instants from the start until the grains rest."""
+from dataclasses import dataclass
+
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
+import findings
+import fluid_fields
 import run_data
 
 MOST_PICTURES = 6
 # Farther apart than this part of an output interval, grains and fluid do not belong together.
 SAME_TIME = 0.01
+FIGURE_WIDTH = 11.0    # inches
+LARGEST_HEIGHT = 7.0   # of one picture
+# A few cells in a narrow gap can be much faster than the rest; colours end below this part of them.
+COLOURED_PART = 0.999
+
+
+@dataclass
+class Picture:
+    """One instant, in the run's own units; grains or velocity may be None."""
+
+    time: float
+    grains: object
+    velocity: object
 
 
 def instants(run):
-    """Up to six (time, grains file or None, field folder or None), evenly over the run."""
-    grains, fields = run_data.grain_series(run), run_data.field_times(run)
+    """Up to six (time, grains file or None, field folder or None), evenly until the grains rest, or
+    over the run when they do not."""
+    grains, fields = run_data.grain_series(run), fluid_fields.field_times(run)
     leading = grains or fields
     if not leading:
         return []
     times = [time for time, _ in leading]
-    count = min(MOST_PICTURES, len(times))
-    chosen = sorted({int(round(i)) for i in np.linspace(0, len(times) - 1, count)})
     tolerance = SAME_TIME * _interval(times)
     return [(times[i], _at(times[i], grains, tolerance), _at(times[i], fields, tolerance))
-            for i in chosen]
+            for i in _chosen(times, findings.rest_time(run), run.scale('t_c'))]
+
+
+def _chosen(times, rest, time_scale):
+    end = len(times) - 1
+    if rest is not None:
+        end = int(np.abs(np.array(times) - rest * time_scale).argmin())
+    count = min(MOST_PICTURES, end + 1)
+    return sorted({int(round(i)) for i in np.linspace(0, end, count)})
 
 
 def _interval(times):
@@ -37,35 +62,72 @@ def _at(time, series, tolerance):
 def load(run, instant):
     """Grains and field of an instant; what cannot be read is remarked and left out."""
     time, grains_file, field_folder = instant
-    grains = velocity = None
+    picture = Picture(time, None, None)
     try:
         if grains_file is not None:
-            grains = run_data.read_grains(time, grains_file)
+            picture.grains = run_data.read_grains(time, grains_file)
         if field_folder is not None:
-            velocity = run_data.read_velocity(time, field_folder, run_data.mesh_cells(run))
+            picture.velocity = fluid_fields.velocity_at(run, time, field_folder)
     except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
         run.remarks.append(f'Picture at {time:g}: {error}')
-    return grains, velocity
+    return picture
 
 
-def colour_limit(run, fields):
-    """Symmetric limit of the colours in u_c: the largest speed seen, at least 0.05 u_c."""
-    seen = [np.abs(f.vertical).max() / run.scale('u_c') for f in fields if f is not None]
-    return max([0.05] + seen)
+def colour_limit(run, pictures):
+    """Symmetric limit of the colours in u_c, for all pictures, at least 0.05 u_c."""
+    seen = [np.quantile(np.abs(p.velocity.vertical), COLOURED_PART) / run.scale('u_c')
+            for p in pictures if p.velocity is not None]
+    return float(max([0.05] + seen))
 
 
-def draw(run, time, grains, velocity, limit, axes):
+def columns_for(count, aspect):
+    """How many pictures of height/width `aspect` stand side by side."""
+    return min(count, 6 if aspect > 1.5 else 3 if aspect > 0.35 else 2)
+
+
+def figure(run, pictures):
+    """All pictures side by side with one colour scale."""
+    width, height = run.size()
+    columns = columns_for(len(pictures), height / width)
+    rows = -(-len(pictures) // columns)
+    place_width = (FIGURE_WIDTH - 1.5) / columns
+    place_height = min(place_width * height / width, LARGEST_HEIGHT)
+    drawn_width = columns * place_height * width / height
+    result, axes = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True,
+                                layout='constrained',
+                                figsize=(drawn_width + 1.5, rows * (place_height + 0.35) + 0.35))
+    limit = colour_limit(run, pictures)
+    images = [_draw(run, picture, limit, place) for picture, place in zip(pictures, axes.flat)]
+    for unused in list(axes.flat)[len(pictures):]:
+        unused.set_axis_off()
+    for place in axes[:, 0]:
+        place.set_ylabel(r'$y\,/\,D$', fontsize=8)
+    for place in axes[-1, :]:
+        place.set_xlabel(r'$x\,/\,D$', fontsize=8)
+    _colour_bar(result, axes, [image for image in images if image is not None])
+    return result
+
+
+def _colour_bar(result, axes, images):
+    if not images:
+        return
+    bar = result.colorbar(images[-1], ax=axes, shrink=0.8, aspect=30, pad=0.01, extend='both')
+    bar.set_label(r'vertical fluid velocity $/\,u_c$', fontsize=9)
+    bar.ax.tick_params(labelsize=8)
+
+
+def _draw(run, picture, limit, axes):
     """Returns the image for the colour bar, or None without a field."""
     width, height = run.size()
     image = None
-    if velocity is not None:
-        image = axes.imshow(velocity.vertical / run.scale('u_c'), origin='lower', cmap='RdBu_r',
-                            extent=(0, width, 0, height), vmin=-limit, vmax=limit,
+    if picture.velocity is not None:
+        image = axes.imshow(picture.velocity.vertical / run.scale('u_c'), origin='lower',
+                            cmap='RdBu_r', extent=(0, width, 0, height), vmin=-limit, vmax=limit,
                             interpolation='bilinear')
-    if grains is not None:
-        _draw_grains(run, grains, axes)
+    if picture.grains is not None:
+        _draw_grains(run, picture.grains, axes)
     axes.set(xlim=(0, width), ylim=(0, height), aspect='equal')
-    axes.set_title(f't = {time / run.scale("t_c"):.3g} t_c', fontsize=9)
+    axes.set_title(rf'$t = {picture.time / run.scale("t_c"):.3g}\,t_c$', fontsize=10)
     axes.tick_params(labelsize=7)
     return image
 

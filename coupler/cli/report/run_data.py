@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run folder holds, read for the report: case and run record, history, grains, fluid velocity.
+"""What a run folder holds, read for the report: case and run record, history, grains. The fluid's fields
+are in fluid_fields.py.
 
 Everything is returned in the run's own units (see run.json: D, u_c, t_c). What is missing is None, and
 `RunData.remarks` says so in words.
 """
 import csv
 import json
-import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-import processor_fields
 
 
 @dataclass
@@ -23,15 +22,6 @@ class Grains:
     time: float
     centres: np.ndarray
     radii: np.ndarray
-
-
-@dataclass
-class VelocityField:
-    """Cell-centred velocity of a one-layer block, arrays of shape (rows, columns)."""
-
-    time: float
-    horizontal: np.ndarray
-    vertical: np.ndarray
 
 
 @dataclass
@@ -49,6 +39,16 @@ class RunData:
     def size(self):
         """Width and height of the domain [D]."""
         return [float(v) for v in self.case['domain.size'].strip('[]').split(',')]
+
+    def is_wet(self):
+        return self.case.get('fluid.enabled') != 'false'
+
+    def column(self, name):
+        """The rows of the history in which a quantity is given: times [t_c] and values."""
+        if self.history is None or name not in self.history:
+            return np.empty(0), np.empty(0)
+        given = np.isfinite(self.history[name])
+        return self.history['time'][given], self.history[name][given]
 
 
 def load_run(folder):
@@ -105,8 +105,6 @@ def read_history(path):
     return {name: np.array([number(row[name]) for row in rows]) for name in names}
 
 
-# --- grains ---------------------------------------------------------------------------------------
-
 def grain_series(run):
     """(time, path) of every instant of grains/grains.pvd."""
     index = run.folder / 'grains' / 'grains.pvd'
@@ -131,65 +129,3 @@ def _array(element):
     if element.get('format') != 'ascii':
         raise ValueError(f'array format {element.get("format")} is not ascii')
     return np.array((element.text or '').split(), dtype=float)
-
-
-# --- fluid ----------------------------------------------------------------------------------------
-
-def field_times(run):
-    """(time, folder) of every instant with a velocity field, in order."""
-    fluid = run.folder / 'fluid'
-    if run.case.get('fluid.enabled') == 'false':
-        return []
-    found = []
-    for entry in processor_fields.time_parent(fluid).iterdir() if fluid.exists() else []:
-        try:
-            time = float(entry.name)
-        except ValueError:
-            continue
-        if (entry / 'U').exists() or (entry / 'U.gz').exists():
-            found.append((time, entry))
-    if not found:
-        run.remarks.append('fluid/ holds no velocity field: pictures show grains only.')
-    return sorted(found)
-
-
-def mesh_cells(run):
-    """Columns and rows of the one block: domain size in D times cells per diameter."""
-    per_diameter = float(run.case['fluid.cells_per_diameter'])
-    return tuple(int(round(length * per_diameter)) for length in run.size())
-
-
-def read_velocity(time, folder, cells):
-    """Reads `U` of a single block, x running fastest, as OpenFOAM writes it: ascii or binary."""
-    columns, rows = cells
-    values = processor_fields.whole_field(
-        folder, columns * rows, lambda part, n: read_vectors(_contents(part / 'U'), n))
-    if len(values) != columns * rows:
-        raise ValueError(f'{folder.name}/U has {len(values)} cells, the case {columns} x {rows}')
-    grid = values.reshape(rows, columns, 3)
-    return VelocityField(time, grid[:, :, 0], grid[:, :, 1])
-
-
-def _contents(path):
-    if path.exists():
-        return path.read_bytes()
-    import gzip
-    return gzip.decompress(path.with_suffix('.gz').read_bytes())
-
-
-def read_vectors(data, count):
-    """The internal field of an OpenFOAM vector field, (n, 3)."""
-    uniform = re.search(rb'internalField\s+uniform\s+\(([^)]*)\)', data)
-    if uniform:
-        return np.tile(np.array(uniform.group(1).split(), dtype=float), (count, 1))
-    head = re.search(rb'internalField\s+nonuniform\s+List<vector>\s+(\d+)\s*\(', data)
-    if not head:
-        raise ValueError('U has no internal field of vectors')
-    n, start = int(head.group(1)), head.end()
-    if re.search(rb'format\s+binary', data[:head.start()]):
-        if len(data) < start + 24 * n:
-            raise ValueError('U is cut off')
-        return np.frombuffer(data, dtype='<f8', count=3 * n, offset=start).reshape(n, 3)
-    end = data.index(b'\n)', start)
-    numbers = data[start:end].replace(b'(', b' ').replace(b')', b' ').split()
-    return np.array(numbers, dtype=float).reshape(n, 3)

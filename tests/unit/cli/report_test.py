@@ -1,92 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The report on made-up run folders: whole, half empty, broken."""
 import json
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-import numpy as np
+from made_up_run import CASE, COLUMNS, ROWS, RunFolderTest, foam_file
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'coupler/cli/report'))
+import findings
+import fluid_fields
 import pictures
 import report
 import run_data
 
-CASE = """# Resolved case: every key, defaults filled in.
-dimension: 2
-domain:
-  size: [4, 6]  # D
-  left: wall
-grains:
-  adapter: standalone-nscd
-fluid:
-  enabled: true
-  cells_per_diameter: 2
-time:
-  step: 0.1  # t_c
-scales:
-  kind: avalanche
-"""
-
-VTP = """<?xml version="1.0"?>
-<VTKFile type="PolyData" version="1.0"><PolyData><Piece NumberOfPoints="2" NumberOfVerts="2">
-<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
-1 {y} 0
-2.5 {y} 0
-</DataArray></Points>
-<Verts><DataArray type="Int64" Name="connectivity" format="ascii">0 1</DataArray></Verts>
-<PointData><DataArray type="Int64" Name="id" format="ascii">4 9</DataArray>
-<DataArray type="Float64" Name="radius" format="ascii">0.5 0.4</DataArray></PointData>
-</Piece></PolyData></VTKFile>
-"""
-
-COLUMNS, ROWS = 8, 12  # 4 x 6 D at 2 cells per D
+FIGURES = ['motion.png', 'sequence.png', 'settling.png', 'solvers.png', 'wall_time.png']
 
 
-def velocities():
-    """Cell (i, j) moves with (i, j / 100, 0), so that a swapped order is seen."""
-    j, i = np.mgrid[0:ROWS, 0:COLUMNS]
-    return np.stack([i, j / 100.0, 0.0 * i], axis=-1).reshape(-1, 3).astype(float)
-
-
-def foam_file(binary):
-    values = velocities()
-    head = ('FoamFile\n{\n    version 2.0;\n    format %s;\n    class volVectorField;\n}\n'
-            'dimensions [0 1 -1 0 0 0 0];\n\ninternalField   nonuniform List<vector> \n%d\n(' %
-            ('binary' if binary else 'ascii', len(values)))
-    if binary:
-        body = values.astype('<f8').tobytes() + b')\n;\n'
-    else:
-        body = ('\n' + '\n'.join('(%r %r %r)' % tuple(v) for v in values.tolist())
-                + '\n)\n;\n').encode()
-    return head.encode() + body + b'\nboundaryField\n{\n    left { type noSlip; }\n}\n'
-
-
-class RunFolder(unittest.TestCase):
-    def setUp(self):
-        self._scratch = tempfile.TemporaryDirectory()
-        self.folder = Path(self._scratch.name)
-        self.addCleanup(self._scratch.cleanup)
-
-    def write(self, name, content):
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-
-    def write_all(self):
-        self.write('case.yaml', CASE)
-        self.write('run.json', json.dumps({
-            'case': 'made-up', 'status': 'done', 'exit_code': 0, 'error': '', 'D': 1, 'u_c': 1,
-            't_c': 1, 'g': 1, 'reynolds': 36, 'grains': 2, 'windows': 20, 'windows_done': 20}))
-        self.write('history.csv', 'step,time,mean_velocity_y,mean_position_y,max_penetration,'
-                   'contact_residual,wall_step\n0,0,0,3,,,\n10,1,-0.2,2.9,0,1e-4,0.1\n')
-        entries = ''
-        for k, binary in enumerate((True, False)):
-            self.write(f'grains/grains_{k:08d}.vtp', VTP.format(y=4 - k))
-            entries += f'<DataSet timestep="{k}" part="0" file="grains_{k:08d}.vtp"/>'
-            self.write(f'fluid/{k}/U', foam_file(binary))
-        self.write('grains/grains.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
+class Report(RunFolderTest):
+    def pictures(self):
+        return sorted(path.name for path in (self.folder / 'pictures').iterdir())
 
     def make(self):
         self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
@@ -96,16 +26,17 @@ class RunFolder(unittest.TestCase):
         self.write_all()
         page = self.make()
         self.assertIn('made-up', page)
-        self.assertEqual(page.count('src="data:image/png;base64,'), 2)  # pictures and curves
+        self.assertEqual(page.count('src="data:image/png;base64,'), len(FIGURES))
         self.assertIn('Status: done, exit code 0', page)
         self.assertNotIn('Remarks', page)
         self.assertNotIn('src="http', page)
+        self.assertEqual(self.pictures(), FIGURES)
 
     def test_field_order_in_both_formats(self):
         self.write_all()
         run = run_data.load_run(self.folder)
-        for time, folder in run_data.field_times(run):
-            field = run_data.read_velocity(time, folder, run_data.mesh_cells(run))
+        for time, folder in fluid_fields.field_times(run):
+            field = fluid_fields.velocity_at(run, time, folder)
             self.assertEqual(field.vertical.shape, (ROWS, COLUMNS))
             # Row 3, column 5 is the cell with i = 5, j = 3.
             self.assertEqual(field.horizontal[3, 5], 5.0)
@@ -113,7 +44,7 @@ class RunFolder(unittest.TestCase):
 
     def test_uniform_field(self):
         data = b'format ascii;\ninternalField   uniform (0 1.5 0);\n'
-        self.assertTrue((run_data.read_vectors(data, 6) == [0, 1.5, 0]).all())
+        self.assertTrue((fluid_fields.read_vectors(data, 6) == [0, 1.5, 0]).all())
 
     def test_pictures_pair_grains_and_fields(self):
         self.write_all()
@@ -128,9 +59,12 @@ class RunFolder(unittest.TestCase):
     def test_colours_are_symmetric(self):
         self.write_all()
         run = run_data.load_run(self.folder)
-        field = run_data.read_velocity(0, self.folder / 'fluid/0', (COLUMNS, ROWS))
-        # Largest vertical speed: row 11, 0.11 u_c.
-        self.assertAlmostEqual(pictures.colour_limit(run, [field, None]), 0.11)
+        field = fluid_fields.velocity_at(run, 0, self.folder / 'fluid/0')
+        shown = [pictures.Picture(0, None, field), pictures.Picture(1, None, None)]
+        # Largest vertical speed: row 11, 0.11 u_c, an eighth of the cells.
+        self.assertAlmostEqual(pictures.colour_limit(run, shown), 0.11)
+        figure = pictures.figure(run, shown)
+        self.assertEqual(figure.axes[0].images[0].get_clim(), (-0.11, 0.11))
 
     def test_missing_history_and_fields_are_said(self):
         self.write_all()
@@ -141,6 +75,7 @@ class RunFolder(unittest.TestCase):
         self.assertIn('history.csv is missing', page)
         self.assertIn('holds no velocity field', page)
         self.assertEqual(page.count('src="data:image/png;base64,'), 1)  # grains alone
+        self.assertEqual(self.pictures(), ['sequence.png'])
 
     def test_empty_folder(self):
         page = self.make()
@@ -160,6 +95,51 @@ class RunFolder(unittest.TestCase):
                                            'error': 'grain 3 < wall'}))
         page = self.make()
         self.assertIn('physics refused, exit code 6: grain 3 &lt; wall', page)
+
+    def test_captions_tell_the_numbers(self):
+        self.write_all()
+        page = self.make()
+        self.assertIn('Fastest mean fall: 0.2 u_c at t = 1 t_c. Mean position from 3 D to 2.9 D.', page)
+        self.assertIn('Not at rest at the end, t = 1 t_c: the mean speed is 100 % of its maximum', page)
+        # 10 windows of 0.1 s, 0.06 s of them fluid, 0.01 s grains; 0.03 s are left.
+        self.assertIn('10 windows took 1 s, 100 ms each: fluid 0.6 s (60 ms per window); grains 0.1 s '
+                      '(10 ms per window); rest 0.3 s', page)
+
+    def test_one_output_only(self):
+        self.write_all()
+        self.write('history.csv', 'step,time,mean_velocity_y,mean_speed\n0,0,0,0\n')
+        self.write('grains/grains.pvd', '<VTKFile><Collection><DataSet timestep="0" part="0" '
+                   'file="grains_00000000.vtp"/></Collection></VTKFile>')
+        self.assertIn('Status: done', self.make())
+        self.assertEqual(self.pictures(), ['motion.png', 'sequence.png', 'settling.png'])
+
+    def test_dry_run(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('enabled: true', 'enabled: false'))
+        self.write('history.csv', 'step,time,mean_velocity_y,wall_step,wall_fluid,wall_grains\n'
+                   '0,0,0,,,\n10,1,-1,0.1,,0.05\n')
+        page = self.make()
+        self.assertNotIn('fluid velocity', page)
+        self.assertNotIn('fluid 0', page)
+        self.assertIn('grains 0.5 s', page)
+
+    def test_columns_of_the_joint_scheme_are_shown(self):
+        self.write_all()
+        self.write('history.csv', 'step,time,joint_rounds,joint_mismatch\n0,0,,\n10,1,3,1e-9\n')
+        self.assertIn('Joint rounds: 3 on average, 3 at most', self.make())
+
+    def test_rest_is_when_the_speed_stays_small(self):
+        self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.005\n3,3,0.02\n'
+                   '4,4,0.009\n5,5,0.001\n')
+        run = run_data.load_run(self.folder)
+        self.assertEqual(findings.rest_time(run), 4)
+        self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.5\n')
+        self.assertIsNone(findings.rest_time(run_data.load_run(self.folder)))
+
+    def test_pictures_end_when_the_grains_rest(self):
+        times = [0, 2, 4, 6, 8, 10, 12]
+        self.assertEqual(pictures._chosen(times, rest=4.0, time_scale=2.0), [0, 1, 2, 3, 4])
+        self.assertEqual(pictures._chosen(times, rest=None, time_scale=2.0), [0, 1, 2, 4, 5, 6])
 
 
 if __name__ == '__main__':

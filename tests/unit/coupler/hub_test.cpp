@@ -226,15 +226,32 @@ TEST(Hub, ACorruptedFrameIsAnErrorNotAHang) {
     EXPECT_EQ(job.status.code, ExitCode::participant_failed);
 }
 
-TEST(Hub, AStopRequestEndsInOrder) {
+TEST(Hub, AStopRequestEndsAfterOneMoreWindowWhichIsWritten) {
     const TestFolder folder("hub-stop");
     Job job;
+    job.settings.set("run.output_every", std::int64_t{100});
     job.grains_fault = [&](const std::string& function, std::int64_t window) {
         if (function == "advance" && window == 1) std::ofstream(folder.files().stop) << static_cast<int>(ExitCode::terminated);
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::terminated);
-    EXPECT_EQ(job.status.windows_done, 2);
+    EXPECT_EQ(job.status.windows_done, 3);
+    EXPECT_NE(job.status.reason.find("stopped on request after window 3"), std::string::npos) << job.status.reason;
+    const auto rows = read_csv(folder.files().history);
+    EXPECT_EQ(rows.back().front(), "3");
+    EXPECT_TRUE(std::filesystem::exists(folder.files().series / "grains_00000003.vtp"));
+}
+
+TEST(Hub, AStopRequestInTheLastWindowIsARunThatIsDone) {
+    const TestFolder folder("hub-stop-last");
+    Job job;
+    const std::int64_t last = job.settings.integer("run.windows") - 1;
+    job.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == last - 1) std::ofstream(folder.files().stop) << "130";
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done);
+    EXPECT_EQ(job.status.windows_done, last + 1);
 }
 
 // Discs whose lowest point is at 4.5 fall on a floor at 4.4995: two windows carry them 3e-4 (a little less with

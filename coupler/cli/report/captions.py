@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the figures of a report show, in words and numbers. A number that is not there is left out."""
+import findings
+
+
+def sequence(run, pictures):
+    fastest = fastest_fluid(pictures)
+    times = ', '.join(f'{p.time / run.scale("t_c"):.3g}' for p in pictures)
+    text = ['Lengths in D; grains as discs.' if any(p.grains for p in pictures) else 'Lengths in D.']
+    if fastest:
+        text.append('Colour: vertical velocity of the fluid on one scale for all pictures, red up, blue '
+                    f'down. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
+                    f'{fastest[1] / run.scale("t_c"):.3g} t_c.')
+    return ' '.join(text + [f'Times: {times} t_c.'])
+
+
+def fastest_fluid(pictures):
+    """(largest |vertical velocity|, its time) of the pictures with a field; None without any."""
+    seen = [(float(abs(p.velocity.vertical).max()), p.time) for p in pictures if p.velocity is not None]
+    return max(seen) if seen else None
+
+
+def settling(run):
+    """Under Fig. 3: how fast, from where to where, at rest since when."""
+    text = []
+    time, velocity = run.column('mean_velocity_y')
+    if len(velocity):
+        fall = velocity.argmin()
+        text.append(f'Fastest mean fall: {max(0.0, -velocity[fall]):.4g} u_c at t = {time[fall]:.4g} t_c.')
+    _, position = run.column('mean_position_y')
+    if len(position):
+        text.append(f'Mean position from {position[0]:.4g} D to {position[-1]:.4g} D.')
+    return ' '.join(text + [rest(run)])
+
+
+def rest(run):
+    part = f'{100 * findings.REST_FRACTION:g} % of its maximum'
+    since = findings.rest_time(run)
+    time, speed = run.column('mean_speed')
+    if since is not None:
+        return f'At rest from t = {since:.4g} t_c on (the mean speed stays below {part}).'
+    if len(speed) and speed.max() > 0.0:
+        return (f'Not at rest at the end, t = {time[-1]:.4g} t_c: the mean speed is '
+                f'{100 * speed[-1] / speed.max():.3g} % of its maximum.')
+    return ''
+
+
+def motion(run):
+    text = []
+    overlap = findings.largest(run, 'max_penetration', 'penetration')
+    if overlap is not None:
+        text.append(f'Largest overlap of any window: {overlap:.3g} D.')
+    _, contacts = run.column('contacts')
+    if len(contacts):
+        text.append(f'Contacts with an impulse at the end: {contacts[-1]:.0f}.')
+    return ' '.join(text)
+
+
+def solvers(run):
+    """The checks over all windows, and what the iterations cost on average."""
+    text = []
+    defects = [(name, findings.largest(run, column, column)) for name, column in
+               (('grains', 'grain_balance'), ('fluid', 'fluid_balance'))]
+    told = ', '.join(f'{name} {defect:.2g}' for name, defect in defects if defect is not None)
+    if told and run.is_wet():
+        text.append(f'Largest momentum defect of any window: {told}.')
+    divergence = findings.largest(run, 'divergence', 'divergence')
+    if divergence is not None and run.is_wet():
+        text.append(f'Largest divergence after step 1: {divergence:.2g} u_c/D.')
+    for name, column in (('contact sweeps', 'contact_iterations'),
+                         ('multiplier iterations', 'multiplier_iterations'),
+                         ('joint rounds', 'joint_rounds')):
+        _, count = run.column(column)
+        if len(count):
+            text.append(f'{name.capitalize()}: {count.mean():.3g} on average, {count.max():.0f} at most '
+                        'in the rows.')
+    unconverged = (run.record.get('maxima') or {}).get('unconverged_windows')
+    if unconverged is not None:
+        text.append(f'Windows in which the contact solver missed its tolerance: {unconverged}.')
+    return ' '.join(text)
+
+
+def wall_time(wall):
+    """Seconds of the run by participant."""
+    total = wall.total(wall.window)
+    windows = wall.windows.sum()
+    parts = '; '.join(f'{name} {wall.total(part):.3g} s ({1e3 * wall.total(part) / windows:.3g} ms per '
+                      f'window)' for name, part in wall.parts.items())
+    text = (f'{windows:.0f} windows took {total:.4g} s, {1e3 * total / windows:.3g} ms each: {parts}; '
+            f'rest {wall.total(wall.rest()):.3g} s. Each value is a mean over an output interval.')
+    if wall.overlaps():
+        text += (' Fluid and grains work at the same time, so the parts add up to more than the window '
+                 'where they overlap.')
+    return text

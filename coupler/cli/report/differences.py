@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How far the histories of two runs are apart."""
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass
+class Difference:
+    """Of a quantity q(t) of a run from that of the first run, over the time both have; `scale` is the
+    first run's max |q| there. Relative values are None where that is 0."""
+
+    begin: float  # t_c
+    end: float
+    rms: float
+    largest: float
+    scale: float
+
+    def relative(self, value):
+        return value / self.scale if self.scale > 0.0 else None
+
+
+def common_span(first, second):
+    """(begin, end) that two rising lists of times share; None when they share no more than an instant."""
+    if not len(first) or not len(second):
+        return None
+    begin, end = max(first[0], second[0]), min(first[-1], second[-1])
+    return (begin, end) if end > begin else None
+
+
+def difference(first, second):
+    """Of two curves (times, values), interpolated linearly at the times of both; None without a common
+    span. The rms is over time, not over rows: sqrt(int d^2 dt / T)."""
+    span = common_span(first[0], second[0])
+    if span is None:
+        return None
+    times = np.unique(np.concatenate([first[0], second[0], span]))
+    times = times[(times >= span[0]) & (times <= span[1])]
+    reference = np.interp(times, *first)
+    apart = np.interp(times, *second) - reference
+    mean_square = np.trapz(apart**2, times) / (span[1] - span[0])
+    return Difference(*span, float(np.sqrt(mean_square)), float(np.abs(apart).max()),
+                      float(np.abs(reference).max()))

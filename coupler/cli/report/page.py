@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A self-contained HTML page of figures and tables, written whole or not at all."""
+import base64
+import html
+import io
+import sys
+
+import matplotlib.pyplot as plt
+
+STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em;
+       color: #222; }
+h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
+table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; vertical-align: top; }
+th { text-align: left; font-weight: 600; } td:first-child { color: #666; } img { max-width: 100%; }
+table.numbers td + td, table.numbers th + th { text-align: right; font-variant-numeric: tabular-nums; }
+.wide { overflow-x: auto; }
+.bad { color: #a40000; } .remark { color: #7a5c00; }
+details pre { background: #f6f6f4; padding: 1em; overflow-x: auto; font-size: 12px; }
+"""
+RESOLUTION = 140  # dots per inch
+
+
+class Page:
+    def __init__(self, title):
+        self.title = title
+        self.parts = []
+        self.pictures = {}  # name: bytes of a PNG
+
+    def heading(self, text):
+        self.parts.append(f'<h2>{html.escape(text)}</h2>')
+
+    def paragraph(self, text, css=''):
+        attribute = f' class="{css}"' if css else ''
+        self.parts.append(f'<p{attribute}>{html.escape(text)}</p>')
+
+    def figure(self, figure, name, caption):
+        """Embeds a figure and closes it; `name` is also that of the PNG file."""
+        buffer = io.BytesIO()
+        figure.savefig(buffer, format='png', dpi=RESOLUTION)
+        plt.close(figure)
+        self.pictures[name] = buffer.getvalue()
+        data = base64.b64encode(self.pictures[name]).decode()
+        self.parts.append(f'<figure style="margin:0"><img alt="{html.escape(name)}" '
+                          f'src="data:image/png;base64,{data}">'
+                          f'<figcaption>{html.escape(caption)}</figcaption></figure>')
+
+    def table(self, rows, header=None, css=''):
+        line = lambda tag, cells: '<tr>' + ''.join(
+            f'<{tag}>{html.escape(str(cell))}</{tag}>' for cell in cells) + '</tr>'
+        head = line('th', header) if header else ''
+        body = ''.join(line('td', row) for row in rows)
+        self.parts.append(f'<div class="wide"><table class="{css}">{head}{body}</table></div>')
+
+    def bullets(self, items, css=''):
+        lines = ''.join(f'<li>{html.escape(item)}</li>' for item in items)
+        self.parts.append(f'<ul class="{css}">{lines}</ul>')
+
+    def folded(self, summary, text):
+        self.parts.append(f'<details><summary>{html.escape(summary)}</summary>'
+                          f'<pre>{html.escape(text)}</pre></details>')
+
+    def text(self):
+        title = html.escape(self.title)
+        return ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+                f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
+                + ''.join(self.parts) + '</body></html>\n')
+
+
+def write_whole(path, content):
+    """A reader never meets half a file. OSError is said on stderr; returns whether it was written."""
+    part = path.with_name(path.name + '.part')
+    try:
+        part.write_bytes(content if isinstance(content, bytes) else content.encode())
+        part.replace(path)
+    except OSError as error:
+        print(f'cannot write {path}: {error.strerror}', file=sys.stderr)
+        _remove(part)
+        return False
+    return True
+
+
+def _remove(part):
+    try:
+        part.unlink(missing_ok=True)
+    except OSError:
+        pass  # the failure that matters is said already

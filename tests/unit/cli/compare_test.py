@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""compare on made-up histories whose differences are known."""
+import contextlib
+import csv
+import io
+import json
+import unittest
+
+import numpy as np
+from made_up_run import CASE, RunFolderTest
+
+import compare
+from differences import common_span, difference
+
+
+class Differences(unittest.TestCase):
+    def test_of_two_straight_lines_sampled_differently(self):
+        # q1 = 2 t on [0, 4], q2 = 3 t on [1, 3]: apart by t there, rms^2 = int_1^3 t^2 dt / 2 = 13/3.
+        coarse = np.linspace(0, 4, 5), 2 * np.linspace(0, 4, 5)
+        fine = np.linspace(1, 3, 401), 3 * np.linspace(1, 3, 401)
+        apart = difference(coarse, fine)
+        self.assertEqual((apart.begin, apart.end), (1, 3))
+        # Trapezoids of width h = 0.005 are h^2/12 (f'(3) - f'(1)) / 2 = 4e-6 too large.
+        self.assertAlmostEqual(apart.rms**2, 13.0 / 3.0, places=5)
+        self.assertAlmostEqual(apart.largest, 3.0)
+        self.assertAlmostEqual(apart.scale, 6.0)
+        self.assertAlmostEqual(apart.relative(apart.largest), 0.5)
+
+    def test_of_a_curve_from_itself_is_zero(self):
+        curve = np.array([0.0, 1.0, 2.5]), np.array([1.0, -3.0, 2.0])
+        apart = difference(curve, curve)
+        self.assertEqual((apart.rms, apart.largest, apart.scale), (0.0, 0.0, 3.0))
+
+    def test_relative_to_zero_is_not_a_number_to_show(self):
+        flat = np.array([0.0, 1.0]), np.array([0.0, 0.0])
+        self.assertIsNone(difference(flat, flat).relative(0.0))
+
+    def test_an_instant_is_no_span(self):
+        self.assertIsNone(common_span(np.array([0.0, 1.0]), np.array([1.0, 2.0])))
+        self.assertIsNone(common_span(np.array([]), np.array([1.0, 2.0])))
+        self.assertIsNone(difference((np.array([0.0]), np.array([1.0])),
+                                     (np.array([0.0]), np.array([1.0]))))
+
+
+class Compare(RunFolderTest):
+    def write_run(self, name, scale, times=range(5), case=CASE):
+        self.write(f'{name}/case.yaml', case)
+        self.write(f'{name}/run.json', json.dumps({'status': 'done'}))
+        rows = ''.join(f'{10 * t},{t},{-scale * t},{scale * t},{"" if t == 0 else 0.1 * scale}\n'
+                       for t in times)
+        self.write(f'{name}/history.csv', 'step,time,mean_velocity_y,contact_iterations,wall_step\n' + rows)
+
+    def run_it(self, *names):
+        """(exit code, stderr)"""
+        err = io.StringIO()
+        with contextlib.redirect_stderr(err):
+            code = compare.main(['compare.py', str(self.folder / 'page.html')]
+                                + [str(self.folder / name) for name in names])
+        return code, err.getvalue()
+
+    def result(self):
+        return json.loads((self.folder / 'page.json').read_text())
+
+    def test_numbers_of_page_csv_and_json(self):
+        self.write_run('one', 1.0)
+        self.write_run('two', 1.5, case=CASE.replace('size: [4, 6]', 'size: [8, 6]'))
+        self.assertEqual(self.run_it('one', 'two'), (0, ''))
+        result = self.result()
+        self.assertEqual(result['first'], 'one')
+        self.assertEqual(result['parameters'], {'domain.size': ['[4, 6]', '[8, 6]']})
+        velocity = result['runs'][1]['quantities']['mean_velocity_y']
+        self.assertAlmostEqual(velocity['max'], 2.0)            # at t = 4: -6 against -4
+        self.assertAlmostEqual(velocity['max_relative'], 0.5)
+        self.assertEqual(velocity['end_value'], -6.0)
+        self.assertIsNone(result['runs'][0]['quantities']['mean_velocity_y']['max'])
+        self.assertAlmostEqual(result['runs'][0]['wall_seconds'], 4.0)  # 40 windows of 0.1 s
+        self.assertAlmostEqual(result['runs'][1]['wall_ratio'], 1.5)
+        rows = list(csv.DictReader((self.folder / 'page.csv').read_text().splitlines()))
+        row, = [r for r in rows if (r['run'], r['quantity']) == ('two', 'mean_velocity_y')]
+        self.assertEqual(float(row['max']), velocity['max'])
+        page = (self.folder / 'page.html').read_text()
+        self.assertIn('domain.size', page)
+        self.assertIn('50 %', page)
+        self.assertIn('src="data:image/png;base64,', page)
+        self.assertNotIn('Remarks', page)
+
+    def test_only_the_common_time_counts(self):
+        self.write_run('one', 1.0)
+        self.write_run('short', 2.0, times=range(3))
+        self.assertEqual(self.run_it('one', 'short')[0], 0)
+        velocity = self.result()['runs'][1]['quantities']['mean_velocity_y']
+        self.assertEqual((velocity['begin'], velocity['end']), (0.0, 2.0))
+        self.assertAlmostEqual(velocity['max'], 2.0)
+        self.assertAlmostEqual(velocity['max_relative'], 1.0)  # of the first run's 2 within that time
+
+    def test_equal_cases_and_equal_names(self):
+        self.write_run('a/run', 1.0)
+        self.write_run('b/run', 1.0)
+        self.assertEqual(self.run_it('a/run', 'b/run')[0], 0)
+        self.assertIn('The cases are the same', (self.folder / 'page.html').read_text())
+        self.assertEqual(len({run['name'] for run in self.result()['runs']}), 2)
+
+    def test_a_quantity_that_one_run_lacks(self):
+        self.write_run('one', 1.0)
+        self.write_run('dry', 1.0)
+        self.write('dry/history.csv', 'step,time,mean_velocity_y\n0,0,0\n10,1,-1\n')
+        self.assertEqual(self.run_it('one', 'dry')[0], 0)
+        lacking = self.result()['runs'][1]
+        self.assertIsNone(lacking['quantities']['contact_iterations']['end_value'])
+        self.assertIsNone(lacking['wall_ratio'])
+
+    def test_no_common_time(self):
+        self.write_run('one', 1.0)
+        self.write_run('later', 1.0, times=range(5, 8))
+        code, err = self.run_it('one', 'later')
+        self.assertEqual(code, 2)
+        self.assertIn('no common time span', err)
+        self.assertIn('later from 5 to 7 t_c', err)
+        self.assertFalse((self.folder / 'page.html').exists())
+
+    def test_a_run_without_history_is_named(self):
+        self.write_run('one', 1.0)
+        self.write('bare/case.yaml', CASE)
+        code, err = self.run_it('one', 'bare')
+        self.assertEqual(code, 2)
+        self.assertIn('bare has no history', err)
+
+    def test_a_page_that_cannot_be_written(self):
+        self.write_run('one', 1.0)
+        (self.folder / 'page.html').mkdir()
+        code, err = self.run_it('one', 'one')
+        self.assertEqual(code, 4)
+        self.assertIn('cannot write', err)
+
+
+if __name__ == '__main__':
+    unittest.main()
