@@ -24,5 +24,6 @@ CommandAction declare_check(CLI::App& options);
 CommandAction declare_report(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
+CommandAction declare_bench(CLI::App& options);
 
 }  // namespace turbidite
