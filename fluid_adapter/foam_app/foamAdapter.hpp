@@ -29,6 +29,8 @@ class FoamAdapter final : public FluidAdapter {
     void advance(const Window& window) override;
     std::vector<FreeResponse> respond(const Window& window,
                                       const std::vector<GrainState>& grains) override;
+    std::vector<FreeResponse> correct(const Window& window,
+                                      const std::vector<GrainState>& grains) override;
     Kicks impose(const Window& window, const std::vector<GrainState>& grains) override;
     SavedState save() const override;
     void restore(const SavedState& state) override;

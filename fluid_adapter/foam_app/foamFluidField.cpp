@@ -76,15 +76,20 @@ void FoamFluidField::load() {
     }
 }
 
-void FoamFluidField::store(const std::vector<int>& touched, bool force_density) {
-    const double per_dt = fields_.rho / fields_.time.deltaTValue();
+void FoamFluidField::store(const CollocationPoints& points, bool force_density) {
     if (force_density) fields_.lambda.primitiveFieldRef() = Foam::Zero;
-    for (int c : touched) {
-        const Foam::vector corrected(x_[c], y_[c], 0.0);
-        if (force_density) fields_.lambda[c] = per_dt * (fields_.U[c] - corrected);
-        fields_.U[c] = corrected;
-    }
+    for (const InteriorCell& point : points.interior) store(point.cell, force_density);
+    for (const int cell : points.stencilled)
+        if (owns(cell)) store(cell, force_density);
     fields_.U.correctBoundaryConditions();
+}
+
+void FoamFluidField::store(int cell, bool force_density) {
+    const Foam::vector corrected(x_[cell], y_[cell], 0.0);
+    if (force_density)
+        fields_.lambda[cell] =
+            fields_.rho / fields_.time.deltaTValue() * (fields_.U[cell] - corrected);
+    fields_.U[cell] = corrected;
 }
 
 }  // namespace turbidite

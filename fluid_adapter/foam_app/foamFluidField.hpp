@@ -8,7 +8,7 @@
 
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
-#include "fluid_adapter/multiplier/fluid_field.hpp"
+#include "fluid_adapter/multiplier/collocation_points.hpp"
 
 namespace turbidite {
 
@@ -26,11 +26,12 @@ class FoamFluidField final : public FluidField {
 
     void load();  ///< from U
 
-    /// To U, cells in `touched` only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
-    void store(const std::vector<int>& touched, bool force_density);
+    /// To U, cells of these points only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
+    void store(const CollocationPoints& points, bool force_density);
 
  private:
     void map_cells();
+    void store(int cell, bool force_density);
 
     FluidFields& fields_;
     CellGrid grid_;
