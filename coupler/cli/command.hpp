@@ -25,5 +25,6 @@ CommandAction declare_report(CLI::App& options);
 CommandAction declare_compare(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
+CommandAction declare_bench(CLI::App& options);
 
 }  // namespace turbidite

@@ -19,9 +19,9 @@ constexpr auto description =
     "fictitious-domain method.";
 
 constexpr auto footer =
-    "Exit codes: 0 done, 1 tests failed, 2 bad usage or case, 3 handshake refused, 4 a program of "
-    "the job failed,\n5 stalled, 6 physics refused (NaN, overlap, grain through a wall), 130/143 "
-    "interrupted.";
+    "Exit codes: 0 done, 1 a test or benchmark failed, 2 bad usage or case, 3 handshake refused,\n"
+    "4 a program of the job failed, 5 stalled, 6 physics refused (NaN, overlap, grain through a "
+    "wall),\n130/143 interrupted.";
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
@@ -33,6 +33,7 @@ const std::vector<Command>& commands() {
          declare_compare},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"test", "run the tests", declare_test},
+        {"bench", "time this software beside others", declare_bench},
     };
     return table;
 }

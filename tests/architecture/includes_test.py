@@ -17,6 +17,7 @@ YAML = r"^yaml-cpp/.*$"
 PYTHON = r"^(Python\.h|pyconfig\.h|boost/python.*|pybind11/.*)$"
 YADE = r"^(yade/.*|core/.*|lib/.*|pkg/.*|granular_adapter/yade/.*)$"
 OPENFOAM = r"^([A-Za-z]*\.H|fluid_adapter/foam_.*)$"
+PROJECT = r"^(coupler|fluid_adapter|granular_adapter)/.*$"
 
 # (files, forbidden headers, why)
 RULES = [
@@ -31,6 +32,7 @@ RULES = [
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
+    ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the yardstick stands alone"),
     ("fluid_adapter/foam_solver/*.[hc]pp", [MPI, EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

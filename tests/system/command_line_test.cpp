@@ -52,7 +52,7 @@ TEST_F(CommandLine, BadUsage) {
 TEST_F(CommandLine, HelpAndVersion) {
     const Answer help = turbidite("--help");
     EXPECT_EQ(help.code, 0);
-    for (const char* command : {"run", "check", "report", "compare", "keys", "test"})
+    for (const char* command : {"run", "check", "report", "compare", "keys", "test", "bench"})
         EXPECT_SAYS(help.out, std::string("\n  ") + command);
     EXPECT_SAYS(turbidite("--version").out, "turbidite ");
     EXPECT_SAYS(turbidite("keys").out, "| `contact.friction` |");

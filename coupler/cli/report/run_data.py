@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 
 
-
 @dataclass
 class Grains:
     """Discs at one time: centres (n, 2), radii (n,)."""

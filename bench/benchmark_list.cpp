@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <fmt/format.h>
+
+#include "bench/figure.hpp"
+#include "bench/fluid_figures.hpp"
+
+namespace turbidite::bench {
+
+bool Reach::met(double value) const {
+    switch (kind) {
+        case Kind::at_least:
+            return value >= bound;
+        case Kind::at_most:
+            return value <= bound;
+        case Kind::none:
+            break;
+    }
+    return true;
+}
+
+std::string Reach::text() const {
+    if (kind == Kind::none) return "";
+    return fmt::format("{} {:g}", kind == Kind::at_least ? ">=" : "<=", bound);
+}
+
+const std::vector<Benchmark>& benchmark_list() {
+    static const std::vector<Benchmark> list = {
+        {"fluid", "one core, two ranks and the memory of the fluid step", fluid_figures()},
+    };
+    return list;
+}
+
+}  // namespace turbidite::bench

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bench/contenders.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include "coupler/case/case_file.hpp"
+#include "coupler/case/run_folder.hpp"
+#include "coupler/cli/prepare_run.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+int along(double size) {
+    return static_cast<int>(std::lround(size * Box2d::cells_per_diameter));
+}
+
+/// What a part of the work writes to standard error, so that nobody waits in the dark.
+void say(const std::string& text) {
+    fmt::print(stderr, "  {}\n", text);
+}
+
+ResolvedCase case_of(const Site& site, const Box2d& box) {
+    return load_case(site.source("fluid.yaml"),
+                     {fmt::format("domain.size=[{},{}]", box.width, box.height),
+                      fmt::format("grains.count={}", std::max(box.discs, 1)),
+                      fmt::format("fluid.cells_per_diameter={}", Box2d::cells_per_diameter)});
+}
+
+RunFolder prepared_run(const Site& site, const Box2d& box) {
+    const RunFolder folder{site.folder() / ("ours-" + box.name())};
+    if (fs::exists(folder.root)) return folder;
+    say("preparing " + box.name());
+    const ResolvedCase resolved = case_of(site, box);
+    prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});
+    if (box.discs == 0)
+        site.run({"setExprFields", "-case", folder.fluid(), "-dict",
+                  site.source("icofoam/system/setExprFieldsDict")},
+                 "setExprFields-" + box.name());
+    return folder;
+}
+
+fs::path prepared_icofoam(const Site& site, const Box2d& box, const Effort& effort) {
+    const fs::path folder = site.folder() / ("icofoam-" + box.name());
+    if (fs::exists(folder)) return folder;
+    say("preparing icoFoam " + box.name());
+    fs::copy(site.source("icofoam"), folder, fs::copy_options::recursive);
+    std::ofstream(folder / "system/boxSize")
+        << fmt::format("width {}; height {}; nx {}; ny {};\n", box.width, box.height,
+                       along(box.width), along(box.height));
+    const double end =
+        case_of(site, box).settings.real("time.step") * (effort.warm_up + effort.steps);
+    std::ofstream(folder / "system/controlDict", std::ios::app)
+        << fmt::format("\nendTime {:.10g};\n", end);
+    site.run({"blockMesh", "-case", folder}, "blockMesh-icofoam");
+    site.run({"setExprFields", "-case", folder}, "setExprFields-icofoam");
+    return folder;
+}
+
+/// The clock after every step, from lines "ExecutionTime = 4.6 s  ClockTime = 5 s".
+std::vector<double> execution_times(const std::string& log) {
+    static const std::regex line("ExecutionTime = ([0-9.e+-]+) s");
+    std::vector<double> times;
+    for (std::sregex_iterator at(log.begin(), log.end(), line), end; at != end; ++at)
+        times.push_back(std::stod((*at)[1]));
+    return times;
+}
+
+}  // namespace
+
+int Box2d::cells() const {
+    return along(width) * along(height);
+}
+
+std::string Box2d::name() const {
+    return fmt::format("{}x{}{}", along(width), along(height),
+                       discs > 0 ? fmt::format("-{}-discs", discs) : "");
+}
+
+Sample our_window(Site& site, const Box2d& box, const Effort& effort) {
+    const RunFolder folder = prepared_run(site, box);
+    const fs::path result = site.folder() / "ours.json";
+    std::vector<std::string> line{(site.programs().folder / "turbidite-bench-fluid").string(),
+                                  folder.root.string(),
+                                  "--warm-up",
+                                  std::to_string(effort.warm_up),
+                                  "--steps",
+                                  std::to_string(effort.steps),
+                                  "--result",
+                                  result.string()};
+    if (box.discs > 0) line.push_back("--discs");
+    site.run(line, "ours.log");
+    const Sample sample = read_sample(result);
+    say(fmt::format("our window, {}: {:.4g} s", box.name(), sample.processor));
+    return sample;
+}
+
+Sample array_code_step(Site& site, const Box2d& box, const Effort& effort) {
+    const fs::path result = site.folder() / "array-code.json";
+    const Settings settings = case_of(site, box).settings;
+    site.run({site.programs().folder / "turbidite-bench-array-code", "--width",
+              fmt::format("{}", box.width), "--height", fmt::format("{}", box.height),
+              "--cells-per-diameter", std::to_string(Box2d::cells_per_diameter), "--reynolds",
+              settings.text("fluid.reynolds"), "--step", settings.text("time.step"), "--warm-up",
+              std::to_string(effort.warm_up), "--steps", std::to_string(effort.steps), "--result",
+              result.string()},
+             "array-code.log");
+    const Sample sample = read_sample(result);
+    say(fmt::format("array code, {}: {:.4g} s", box.name(), sample.processor));
+    return sample;
+}
+
+Sample icofoam_step(Site& site, const Box2d& box, const Effort& effort) {
+    const fs::path folder = prepared_icofoam(site, box, effort);
+    site.run({"icoFoam", "-case", folder.string()}, "icofoam.log");
+    const std::vector<double> times = execution_times(site.text("icofoam.log"));
+    const int steps = effort.warm_up + effort.steps;
+    if (effort.warm_up < 1 || static_cast<int>(times.size()) != steps)
+        throw Failure(
+            ExitCode::tests_failed,
+            fmt::format("icoFoam's log shows {} steps instead of {}", times.size(), steps));
+    Sample sample;
+    sample.processor = (times.back() - times[effort.warm_up - 1]) / effort.steps;
+    say(fmt::format("icoFoam, {}: {:.4g} s", box.name(), sample.processor));
+    return sample;
+}
+
+}  // namespace turbidite::bench

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The contenders of the fluid benchmark: our window, the array code, icoFoam. All work on the case
+// bench/fluid.yaml, in boxes given in D.
+#pragma once
+
+#include "bench/site.hpp"
+
+namespace turbidite::bench {
+
+struct Box2d {
+    static constexpr int cells_per_diameter = 16;
+
+    double width = 0.0, height = 0.0;  ///< [D], multiples of 2.5
+    int discs = 0;                     ///< 0: no grains, and bench/start_flow.hpp moves the fluid
+
+    int cells() const;
+    std::string name() const;
+};
+
+struct Effort {
+    int warm_up = 0, steps = 1;
+};
+
+/// Prepares the run folder at the first call. Grains start at rest and fall.
+Sample our_window(Site& site, const Box2d& box, const Effort& effort);
+
+Sample array_code_step(Site& site, const Box2d& box, const Effort& effort);
+
+/// Stock icoFoam on bench/icofoam: the mean of the clock in its log (ExecutionTime).
+Sample icofoam_step(Site& site, const Box2d& box, const Effort& effort);
+
+}  // namespace turbidite::bench

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bench/fluid_figures.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/contenders.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite::bench {
+namespace {
+
+double processor(const Sample& sample) {
+    return sample.processor;
+}
+double resident(const Sample& sample) {
+    return sample.resident;
+}
+
+int repeats(const Site& site) {
+    return site.quick() ? 1 : 5;
+}
+
+/// The full box of 320 x 960 cells; one of 40 x 80 to try things out.
+Box2d tall_box(const Site& site, bool discs) {
+    if (site.quick()) return {2.5, 5.0, discs ? 3 : 0};
+    return {20.0, 60.0, discs ? 300 : 0};
+}
+
+Effort windows(const Site& site) {
+    return site.quick() ? Effort{2, 3} : Effort{10, 20};
+}
+
+std::string milliseconds(const std::string& who, const std::vector<Sample>& samples) {
+    return fmt::format("{} {:.4g} ms", who, 1e3 * median_of(samples, processor));
+}
+
+/// Where a window's time goes: medians over all repeats.
+std::string profile(const std::vector<Sample>& samples) {
+    std::string text = "our window:";
+    for (const auto& [part, unused] : samples.front().parts) {
+        const double seconds =
+            median_of(samples, [&](const Sample& s) { return s.parts.at(part); });
+        text += fmt::format(" {} {:.4g} ms,", part, 1e3 * seconds);
+    }
+    const double together = median_of(samples, [](const Sample& s) { return s.wall; });
+    return text + fmt::format(" together {:.4g} ms of wall time", 1e3 * together);
+}
+
+Measured icofoam_over_ours(Site& site) {
+    const Box2d box = tall_box(site, true);
+    // icoFoam's clock has ticks of 10 ms, so tiny meshes need many steps.
+    const Effort steps = site.quick() ? Effort{5, 60} : Effort{3, 8};
+    const Duel duel = alternate(
+        repeats(site), [&] { return icofoam_step(site, tall_box(site, false), steps); },
+        [&] { return our_window(site, box, windows(site)); });
+    Measured measured = ratio(duel, processor);
+    measured.notes = {milliseconds("icoFoam", duel.first), profile(duel.second)};
+    return measured;
+}
+
+Measured ours_over_array_code(Site& site) {
+    const Box2d box = tall_box(site, false);
+    const Duel duel = alternate(
+        repeats(site), [&] { return our_window(site, box, windows(site)); },
+        [&] { return array_code_step(site, box, windows(site)); });
+    Measured measured = ratio(duel, processor);
+    measured.notes = {milliseconds("array code", duel.second), profile(duel.first)};
+    return measured;
+}
+
+Measured cell_cost_growth(Site& site) {
+    const Box2d large = site.quick() ? Box2d{10.0, 10.0} : Box2d{100.0, 250.0};
+    const Box2d small = site.quick() ? Box2d{5.0, 5.0} : Box2d{15.0, 20.0};
+    const Effort few = site.quick() ? Effort{2, 3} : Effort{2, 6};
+    const Duel duel = alternate(
+        site.quick() ? 1 : 3, [&] { return our_window(site, large, few); },
+        [&] { return our_window(site, small, windows(site)); });
+    Measured measured = ratio(duel, processor);
+    const double cells = static_cast<double>(large.cells()) / small.cells();
+    for (double* value : {&measured.value, &measured.lowest, &measured.highest}) *value /= cells;
+    const auto per_cell = [](const std::vector<Sample>& samples, const Box2d& box) {
+        return fmt::format("{}: {:.4g} ns per cell", box.name(),
+                           1e9 * median_of(samples, processor) / box.cells());
+    };
+    measured.notes = {per_cell(duel.first, large), per_cell(duel.second, small),
+                      profile(duel.first)};
+    return measured;
+}
+
+Measured speedup_2_ranks(Site&) {
+    throw Failure(ExitCode::tests_failed, "the fluid runs on one rank in this version");
+}
+
+Measured bytes_per_cell(Site& site) {
+    const Box2d large = site.quick() ? Box2d{15.0, 15.0} : Box2d{40.0, 120.0};
+    const Box2d small = site.quick() ? Box2d{5.0, 5.0} : Box2d{20.0, 60.0};
+    const Duel duel = alternate(
+        site.quick() ? 1 : 3,
+        [&] {
+            return our_window(site, large, {2, 1});
+        },
+        [&] {
+            return our_window(site, small, {2, 1});
+        });
+    const Sample arrays = array_code_step(site, small, {0, 1});
+    const double cells = large.cells() - small.cells();
+    Measured measured;
+    measured.value = (median_of(duel.first, resident) - median_of(duel.second, resident)) / cells;
+    measured.lowest = measured.highest = measured.value;
+    measured.notes = {
+        fmt::format("growth of resident memory from {} to {} cells", small.cells(), large.cells()),
+        "least possible: 72, nine doubles: u (2), p (1), what the faces remember (2), u on its way "
+        "through transport (2), pivots of pressure and viscosity (2)",
+        fmt::format("the array code keeps these and no others: {:.1f} with its ghosts",
+                    arrays.arrays / small.cells())};
+    return measured;
+}
+
+}  // namespace
+
+std::vector<Figure> fluid_figures() {
+    using Kind = Reach::Kind;
+    return {
+        {"icofoam_over_ours_2d",
+         "a step of icoFoam (GAMG, 2 correctors, 1e-7) over our window with 300 discs, 320 x 960",
+         "ratio",
+         {Kind::at_least, 12.0},
+         icofoam_over_ours},
+        {"ours_over_array_code",
+         "our window without grains over the same splitting in hand-written arrays, 320 x 960",
+         "ratio",
+         {Kind::at_most, 3.0},
+         ours_over_array_code},
+        {"cell_cost_growth",
+         "time per cell of 1600 x 4000 cells over that of 240 x 320",
+         "ratio",
+         {Kind::at_most, 1.5},
+         cell_cost_growth},
+        {"speedup_2_ranks",
+         "wall time of a window with 300 discs, 320 x 960, 1 rank over 2",
+         "ratio",
+         {Kind::at_least, 1.6},
+         speedup_2_ranks},
+        {"bytes_per_cell",
+         "growth of the fluid program's resident memory",
+         "bytes",
+         {Kind::none, 0.0},
+         bytes_per_cell},
+    };
+}
+
+}  // namespace turbidite::bench

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bench/site.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "coupler/cli/launch_line.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path temporary_folder() {
+    std::string name = (fs::temp_directory_path() / "turbidite-bench-XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+        throw Failure(ExitCode::bad_input, "no temporary folder " + name +
+                                               " could be made: set TMPDIR to a folder with 2 GB");
+    return name;
+}
+
+}  // namespace
+
+Site::Site(bool quick) : quick_(quick), programs_(find_programs()), folder_(temporary_folder()) {
+    // OpenFOAM looks for its settings while its libraries load.
+    ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
+}
+
+Site::~Site() {
+    std::error_code ignored;  // a folder left over spoils no figure
+    fs::remove_all(folder_, ignored);
+}
+
+fs::path Site::source(const std::string& file) const {
+    return programs_.source / "bench" / file;
+}
+
+void Site::run(const std::vector<std::string>& line, const std::string& log) const {
+    const std::string command =
+        shell_line(line) + " >" + shell_line({(folder_ / log).string()}) + " 2>&1 </dev/null";
+    std::fflush(nullptr);
+    const int status = std::system(command.c_str());
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+    const std::string said = text(log);
+    throw Failure(ExitCode::tests_failed,
+                  fmt::format("{} failed with status {}; its last words:\n{}", line.front(),
+                              WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                              said.substr(said.size() - std::min<std::size_t>(said.size(), 600))));
+}
+
+std::string Site::text(const std::string& log) const {
+    std::ifstream file(folder_ / log);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Duel alternate(int repeats, const Contender& first, const Contender& second) {
+    Duel duel;
+    for (int i = 0; i < repeats; ++i) {
+        duel.first.push_back(first());
+        duel.second.push_back(second());
+    }
+    return duel;
+}
+
+double median_of(const std::vector<Sample>& samples, const Quantity& quantity) {
+    std::vector<double> values;
+    for (const Sample& sample : samples) values.push_back(quantity(sample));
+    return median(values);
+}
+
+Measured ratio(const Duel& duel, const Quantity& quantity) {
+    std::vector<double> each;
+    for (std::size_t i = 0; i < duel.first.size(); ++i)
+        each.push_back(quantity(duel.first[i]) / quantity(duel.second[i]));
+    const auto [lowest, highest] = std::minmax_element(each.begin(), each.end());
+    return {
+        median_of(duel.first, quantity) / median_of(duel.second, quantity), *lowest, *highest, {}};
+}
+
+}  // namespace turbidite::bench

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where a benchmark works: a temporary folder, removed at the end, with the prepared cases, and the
+// programs it starts. Every contender is a process of its own.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/figure.hpp"
+#include "bench/step_clock.hpp"
+#include "coupler/cli/programs.hpp"
+
+namespace turbidite::bench {
+
+class Site {
+ public:
+    explicit Site(bool quick);
+    ~Site();
+    Site(const Site&) = delete;
+    Site& operator=(const Site&) = delete;
+
+    bool quick() const { return quick_; }  ///< tiny meshes, to see that everything works
+    const Programs& programs() const { return programs_; }
+    const std::filesystem::path& folder() const { return folder_; }
+    std::filesystem::path source(const std::string& file) const;  ///< of this folder, bench/
+
+    /// Runs a program to its end; its output goes to the folder's file `log`. Throws Failure with
+    /// the last words of the log when it fails.
+    void run(const std::vector<std::string>& line, const std::string& log) const;
+
+    std::string text(const std::string& log) const;
+
+ private:
+    bool quick_;
+    Programs programs_;
+    std::filesystem::path folder_;
+};
+
+using Contender = std::function<Sample()>;
+
+/// Samples of two contenders that took turns, A B A B …, so that both meet the same machine.
+struct Duel {
+    std::vector<Sample> first, second;
+};
+Duel alternate(int repeats, const Contender& first, const Contender& second);
+
+using Quantity = std::function<double(const Sample&)>;
+double median_of(const std::vector<Sample>& samples, const Quantity& quantity);
+
+/// Median over median of first over second, with the spread of the ratios turn by turn.
+Measured ratio(const Duel& duel, const Quantity& quantity);
+
+}  // namespace turbidite::bench

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// `turbidite bench --quick`: every contender runs and every figure comes out; how large they are is
+// nobody's test.
+#include <cmath>
+
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+const std::string program = TURBIDITE_PROGRAM;
+
+class Bench : public ShellTest {
+ protected:
+    Answer bench(const std::string& arguments) const {
+        return shell(program + " bench " + arguments);
+    }
+};
+
+TEST_F(Bench, QuickGivesEveryFigure) {
+    const Answer answer = bench("fluid --quick --json figures.json");
+    const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
+    for (const char* name :
+         {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth", "bytes_per_cell"}) {
+        ASSERT_TRUE(figures.contains(name)) << answer.err;
+        const auto& figure = figures.at(name);
+        ASSERT_TRUE(figure.at("value").is_number()) << figure << answer.err;
+        EXPECT_TRUE(std::isfinite(figure.at("value").get<double>())) << figure;
+        EXPECT_GT(figure.at("value").get<double>(), 0.0) << figure;
+        EXPECT_FALSE(figure.at("unit").get<std::string>().empty());
+        EXPECT_SAYS(figure.at("command").get<std::string>(), std::string("--figure ") + name);
+        EXPECT_SAYS(answer.out, name);
+    }
+    // A figure that cannot be measured says why, and the command fails.
+    const auto& speedup = figures.at("speedup_2_ranks");
+    EXPECT_TRUE(speedup.at("value").is_null());
+    EXPECT_SAYS(speedup.at("reason").get<std::string>(), "one rank");
+    EXPECT_SAYS(answer.out, "not available");
+    EXPECT_EQ(answer.code, 1) << answer.err;
+}
+
+TEST_F(Bench, ListNamesAllAndMeasuresNothing) {
+    const Answer answer = bench("--list");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    for (const char* name : {"fluid:", "icofoam_over_ours_2d", "ours_over_array_code",
+                             "cell_cost_growth", "speedup_2_ranks", "bytes_per_cell"})
+        EXPECT_SAYS(answer.out, name);
+}
+
+TEST_F(Bench, UnknownNamesAreRefused) {
+    const Answer benchmark = bench("solid");
+    EXPECT_EQ(benchmark.code, 2);
+    EXPECT_SAYS(benchmark.err, "there are fluid");
+    const Answer figure = bench("fluid --figure speed");
+    EXPECT_EQ(figure.code, 2);
+    EXPECT_SAYS(figure.err, "speedup_2_ranks");
+}
+
+TEST_F(Bench, AContenderThatFailsIsNamedWithItsLastWords) {
+    scratch.write("bin/icoFoam", "#!/bin/sh\necho 'icoFoam is not well'\nexit 3\n");
+    const Answer answer = shell("chmod +x bin/icoFoam; PATH=$PWD/bin:$PATH " + program +
+                                " bench fluid --quick --figure icofoam_over_ours_2d");
+    EXPECT_EQ(answer.code, 1);
+    EXPECT_SAYS(answer.err, "icoFoam failed with status 3");
+    EXPECT_SAYS(answer.err, "icoFoam is not well");
+}
+
+}  // namespace
+}  // namespace turbidite
