@@ -5,8 +5,8 @@
 //
 // Multipliers stop at 1e-9 u_c. Where grains end differs by up to 1e-9 D then (measured over both
 // kinds of points, closed, cyclic and free sides, two to four ranks, rows and columns; it is the
-// last digit written), and u by up to 3e-9 u_c. A halo, a sum or a point that is wrong costs 1e-5
-// and more: one missing holder's sum in one window is a kick of that size.
+// last digit written), and u by up to 3e-9 u_c. Without the margin by which grains are sent to ranks
+// beyond their boxes, the run does not get through its first window.
 #include <cmath>
 #include <sstream>
 

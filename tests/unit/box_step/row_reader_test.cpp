@@ -38,7 +38,9 @@ TEST(RowReader, GivesImagesBeyondTheSides) {
     const std::vector<double> field = some_field();
     for (const auto& x : ends)
         for (const auto& y : ends) {
-            RowReader reader({{nx, 1.0, x.first, x.second}, {ny, 1.0, y.first, y.second}});
+            const PlaneOperator plane{{nx, 1.0, x.first, x.second}, {ny, 1.0, y.first, y.second}};
+            AllRows rows(plane);
+            RowReader reader(plane, rows);
             reader.begin(field.data());
             for (int j = -2; j < ny + 2; ++j)
                 for (int i = -2; i < nx + 2; ++i) {
@@ -55,7 +57,9 @@ TEST(RowReader, KeepsWhatIsOverwrittenBehindIt) {
     const AxisOperator x{nx, 1.0, End::periodic, End::periodic};
     for (const End end : {End::neumann, End::periodic}) {
         field = some_field();
-        RowReader reader({x, {ny, 1.0, end, end}});
+        const PlaneOperator plane{x, {ny, 1.0, end, end}};
+        AllRows rows(plane);
+        RowReader reader(plane, rows);
         reader.begin(field.data());
         for (int j = -1; j < ny; ++j) {
             const double* last = reader.row(j + 2);

@@ -234,7 +234,6 @@ TEST_F(CaseFile, VariantsOfLaterVersions) {
                             "dimension=3", "grains.shape=triangle"})
         EXPECT_SAYS(refusal("", {set}), "is not available in this version.");
     EXPECT_SAYS(refusal("", {"checkpoint.interval=1"}), "not available in this version");
-    EXPECT_SAYS(refusal("", {"fluid.ranks=2"}), "one rank in this version");
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
 }
 
@@ -252,6 +251,17 @@ TEST_F(CaseFile, JointTellsWhichKeysHaveNoEffect) {
     EXPECT_SAYS(dry.notes.back(), "coupling.scheme has no effect without a fluid");
     EXPECT_SAYS(refusal("", {"coupling.iterations=0"}), "coupling.iterations = 0");
     EXPECT_SAYS(refusal("", {"coupling.tolerance=0"}), "coupling.tolerance = 0");
+}
+
+TEST_F(CaseFile, EveryFluidRankHasFourLayersOfCells) {
+    for (const char* set : {"fluid.ranks=4096", "fluid.ranks=0"}) {
+        const std::string text = refusal("", {set});
+        EXPECT_SAYS(text, std::string("fluid.ranks = ") + (set + sizeof "fluid.ranks"));
+    }
+    EXPECT_SAYS(refusal("", {"fluid.ranks=4096"}), "A rank needs 4 rows of cells or more");
+    EXPECT_SAYS(refusal("", {"fluid.ranks=4096", "fluid.decomposition=columns"}), "4 columns");
+    EXPECT_EQ(refusal("", {"fluid.ranks=2"}), "");
+    EXPECT_EQ(refusal("", {"fluid.ranks=4096", "fluid.enabled=false"}), "");
 }
 
 TEST_F(CaseFile, CyclicSidesComeInPairs) {
