@@ -86,6 +86,22 @@ Verdict whole_cells(const Settings& s) {
     return std::nullopt;
 }
 
+// A grain's stencils reach three cells beyond a rank's own.
+constexpr double least_layers = 4.0;
+
+Verdict ranks_have_cells(const Settings& s) {
+    if (!s.flag("fluid.enabled")) return std::nullopt;
+    const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
+    const bool rows = s.text("fluid.decomposition") == "rows";
+    const double layers = size.at(rows ? 1 : 0) * s.real("fluid.cells_per_diameter");
+    const double most = std::max(1.0, std::floor(layers / least_layers));
+    if (static_cast<double>(s.integer("fluid.ranks")) <= most) return std::nullopt;
+    return Objection{
+        fmt::format("A rank needs {} {} of cells or more, and there are {}.",
+                    real_text(least_layers), s.text("fluid.decomposition"), real_text(layers)),
+        fmt::format("Use {} or fewer.", real_text(most))};
+}
+
 Verdict reynolds_follows(const Settings& s) {
     if (s.text("scales.kind") != "physical") return std::nullopt;
     return Objection{
@@ -108,6 +124,9 @@ const std::vector<Rule>& rules() {
         {"time.step", {"time.end"}, countable_windows},
         {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_is_stable},
         {"domain.size", {"fluid.enabled", "fluid.cells_per_diameter"}, whole_cells},
+        {"fluid.ranks",
+         {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},
+         ranks_have_cells},
         {"fluid.reynolds", {"scales.kind"}, reynolds_follows},
         {"limits.stall_hard", {"limits.stall_soft"}, limits_in_order},
     };

@@ -141,6 +141,8 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     if (!resolved.settings.flag("fluid.enabled")) return;
     write_fluid_case(resolved.settings, folder.fluid());
     build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
+    if (resolved.settings.integer("fluid.ranks") > 1)
+        decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
 }
 
 void require_programs(const Settings& settings, const std::vector<fs::path>& needed) {

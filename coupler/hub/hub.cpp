@@ -19,8 +19,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double farewell_limit = 30.0;
 constexpr double farewell_limit_after_stall = 2.0;
 
-// Stencils of a grain's points reach this many cells beyond its surface.
-constexpr double stencil_cells = 4.0;
+// A fluid rank must know every grain that decides about a point or a cell of its own. A cell of its
+// own may be in the stencil of a surface point up to 1.5 cells outside its box (rule 6 of
+// multiplier/collocation_points.hpp), and whether that point is kept depends on grains that come
+// within one point spacing of it, at most 4 cells (rules 2 and 3): 5.5, and some to spare.
+constexpr double stencil_cells = 7.0;
 
 double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();

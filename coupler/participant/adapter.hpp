@@ -59,12 +59,19 @@ class FluidAdapter {
     /// Steps 1-3: degenerated Stokes, transport, viscosity. Runs while the grains do step 4.
     virtual void advance(const Window& window) = 0;
 
-    /// Scheme `joint` only: answers for grains that fall freely at their present place.
+    /// Scheme `joint` only, once per window: step 5 for grains that feel no contacts, from
+    /// U^n + g dt (grains at t^n are given). Answers for the grains whose centre this rank owns.
     virtual std::vector<FreeResponse> respond(const Window& window,
                                               const std::vector<GrainState>& grains) = 0;
 
-    /// Step 5, Eqs. 9-10, for every grain that touches this rank's box. Under `joint` the
-    /// velocities given are imposed. Writes fields when the window says so.
+    /// Scheme `joint` only, after every contact solve: the grains carry its velocities and contact
+    /// impulses. Answers with corrected free velocities and the mismatch (records.hpp).
+    virtual std::vector<FreeResponse> correct(const Window& window,
+                                              const std::vector<GrainState>& grains) = 0;
+
+    /// Step 5, Eqs. 9-10, for every grain that touches this rank's box. Writes fields when the
+    /// window says so. Under `joint` it ends the window: the grains are those of the last
+    /// `correct`, the kick's velocity is its U', so that momentum balances to round-off.
     virtual Kicks impose(const Window& window, const std::vector<GrainState>& grains) = 0;
 
     virtual SavedState save() const = 0;

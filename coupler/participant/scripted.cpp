@@ -2,6 +2,7 @@
 #include "coupler/participant/scripted.hpp"
 
 #include <limits>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -149,6 +150,12 @@ std::vector<FreeResponse> ScriptedFluid::respond(const Window& window,
         responses.push_back(response);
     }
     return responses;
+}
+
+std::vector<FreeResponse> ScriptedFluid::correct(const Window& window,
+                                                 const std::vector<GrainState>&) {
+    reach("correct", window.index);
+    throw std::logic_error("the scripted fluid does not correct yet");
 }
 
 Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>& grains) {

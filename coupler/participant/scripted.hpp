@@ -62,6 +62,7 @@ class ScriptedFluid : public FluidAdapter {
     Box initialise(const Settings&, const ShapeTable&) override;
     void advance(const Window&) override;
     std::vector<FreeResponse> respond(const Window&, const std::vector<GrainState>&) override;
+    std::vector<FreeResponse> correct(const Window&, const std::vector<GrainState>&) override;
     Kicks impose(const Window&, const std::vector<GrainState>&) override;
     SavedState save() const override;
     void restore(const SavedState&) override;

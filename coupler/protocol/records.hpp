@@ -52,8 +52,13 @@ struct Kick {
     Vec3 torque{};                      ///< T_h [N m]
 };
 
-/// Scheme `joint`: the fluid's answer to free grains. With impulse J and angular impulse K added,
-/// (U, omega) = (velocity, angular_velocity) + inertia^-1 (J, K).
+/// Scheme `joint`: how the fluid lets a grain respond to impulses in this window. With contact
+/// impulse J and angular impulse K, (U, omega) = (velocity, angular_velocity) + inertia^-1 (J, K).
+///
+/// The first answer of a window is for free grains. Later ones follow a contact solve that found
+/// (U, omega) and (J, K): the fluid has applied the impulses to its coupled system and found
+/// (U', omega'); velocities are then (U', omega') - inertia^-1 (J, K), same inertia, so that the
+/// next contact solve is exact where (J, K) stay as they are.
 struct FreeResponse {
     GrainId id = 0;
     Vec3 velocity{};          ///< U^F [m/s]
@@ -61,6 +66,9 @@ struct FreeResponse {
     /// Effective inertia, symmetric 6 x 6, upper triangle by rows: translation first.
     /// [kg], [kg m], [kg m2]
     std::array<double, 21> inertia{};
+    /// By how much contacts and fluid disagree: |U' - U| + R |omega' - omega| of the last contact
+    /// solve; zero in the first answer [m/s].
+    double mismatch = 0.0;
 };
 
 /// A shape known to both sides by its index. `kind` is a name of shapes/shape_list.

@@ -96,6 +96,7 @@ constexpr auto visit_kicks = [](auto& code, auto& kicks) {
 
 constexpr auto visit_response = [](auto& code, auto& r) {
     code(r.id), array(code, r.velocity), array(code, r.angular_velocity), array(code, r.inertia);
+    code(r.mismatch);
 };
 
 constexpr auto visit_responses = [](auto& code, auto& responses) {

@@ -13,9 +13,11 @@ Foam::fileName parent_of(const std::filesystem::path& directory) {
         std::filesystem::absolute(directory).lexically_normal().parent_path().string());
 }
 
-Foam::fileName name_of(const std::filesystem::path& directory) {
-    return Foam::fileName(
+/// The case, or this rank's part of it, as OpenFOAM's own programs name it.
+Foam::fileName name_of(const std::filesystem::path& directory, const RankGroup& ranks) {
+    const Foam::fileName name(
         std::filesystem::absolute(directory).lexically_normal().filename().string());
+    return ranks.parallel() ? name / ("processor" + std::to_string(ranks.rank())) : name;
 }
 
 Foam::IOobject stored(const Foam::fvMesh& mesh, const char* name, Foam::IOobject::readOption read,
@@ -30,8 +32,9 @@ Foam::IOdictionary transport_properties(const Foam::fvMesh& mesh) {
 
 }  // namespace
 
-FluidFields::FluidFields(const std::filesystem::path& directory)
-    : time(Foam::Time::controlDictName, parent_of(directory), name_of(directory)),
+FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup& group)
+    : ranks(group),
+      time(Foam::Time::controlDictName, parent_of(directory), name_of(directory, group)),
       mesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time.timeName(), time,
                           Foam::IOobject::MUST_READ)),
       p(stored(mesh, "p", Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE), mesh),
@@ -76,7 +79,7 @@ Foam::vector FluidFields::momentum() const {
     const Foam::scalarField& volume = mesh.V().field();
     Foam::vector sum = Foam::Zero;
     forAll(volume, c) sum += volume[c] * U[c];
-    Foam::reduce(sum, Foam::sumOp<Foam::vector>());
+    ranks.sum(sum.v_, Foam::vector::nComponents);
     return rho / thickness * sum;
 }
 

@@ -15,12 +15,15 @@
 
 #include <filesystem>
 
+#include "fluid_adapter/ranks/rank_group.hpp"
+
 namespace turbidite {
 
 struct FluidFields {
-    /// Reads the case; throws Foam::error.
-    explicit FluidFields(const std::filesystem::path& directory);
+    /// Reads the case, on several ranks this rank's processor folder; throws Foam::error.
+    FluidFields(const std::filesystem::path& directory, const RankGroup& ranks);
 
+    RankGroup ranks;
     Foam::Time time;
     Foam::fvMesh mesh;
     Foam::volScalarField p;

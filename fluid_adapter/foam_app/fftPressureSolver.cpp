@@ -3,29 +3,41 @@
 
 #include <surfaceFields.H>
 
-#include "fluid_adapter/foam_app/uniformBox.hpp"
-
 namespace turbidite {
+namespace {
 
-FftPressureSolver::FftPressureSolver(Foam::volScalarField& p)
-    : FftPressureSolver(p, plane_operator(p)) {}
+/// Of any cell: all are equal.
+Foam::scalar cell_volume(const Foam::fvMesh& mesh, const UniformBox& box) {
+    return box.spacing[0] * box.spacing[1] * mesh.bounds().span().z();
+}
 
-FftPressureSolver::FftPressureSolver(Foam::volScalarField& p, const PlaneOperator& plane)
+}  // namespace
+
+FftPressureSolver::FftPressureSolver(Foam::volScalarField& p, const RankGroup& ranks)
+    : FftPressureSolver(p, ranks, uniform_box(p.mesh())) {}
+
+FftPressureSolver::FftPressureSolver(Foam::volScalarField& p, const RankGroup& ranks,
+                                     const UniformBox& box)
+    : FftPressureSolver(p, ranks, box, plane_operator(p, box)) {}
+
+FftPressureSolver::FftPressureSolver(Foam::volScalarField& p, const RankGroup& ranks,
+                                     const UniformBox& box, const PlaneOperator& plane)
     : p_(p),
       floating_(plane.x.has_zero_mode() && plane.y.has_zero_mode()),
-      cell_volume_(p.mesh().V()[0]),
+      cell_volume_(cell_volume(p.mesh(), box)),
       conductance_("conductance", p.mesh().magSf() * p.mesh().deltaCoeffs()),
-      separable_(plane) {
+      rows_(cell_rows(ranks, box)),
+      separable_(plane, rows_.pencils()) {
     separable_.factorise({0.0, 1.0});
 }
 
 void FftPressureSolver::solve(const Foam::scalarField& f, Foam::scalar) {
     double* values = separable_.values();
-    forAll(f, c) values[c] = -f[c] / cell_volume_;
+    rows_.gather([&](int c) { return -f[c] / cell_volume_; }, values);
     separable_.solve();
-    const Foam::scalar level = floating_ ? values[0] : 0.0;
+    const Foam::scalar level = floating_ ? rows_.first(values) : 0.0;
     Foam::scalarField& p = p_.primitiveFieldRef();
-    forAll(p, c) p[c] = values[c] - level;
+    rows_.scatter(values, [&](int c, double value) { p[c] = value - level; });
     p_.correctBoundaryConditions();
 }
 

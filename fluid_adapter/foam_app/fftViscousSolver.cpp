@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/fftViscousSolver.hpp"
 
-#include "fluid_adapter/foam_app/uniformBox.hpp"
-
 namespace turbidite {
 
-FftViscousSolver::FftViscousSolver(Foam::volVectorField& U, Foam::scalar nu)
-    : U_(U), nu_(nu), separable_(plane_operator(U)) {}
+FftViscousSolver::FftViscousSolver(Foam::volVectorField& U, Foam::scalar nu, const RankGroup& ranks)
+    : FftViscousSolver(U, nu, ranks, uniform_box(U.mesh())) {}
+
+FftViscousSolver::FftViscousSolver(Foam::volVectorField& U, Foam::scalar nu, const RankGroup& ranks,
+                                   const UniformBox& box)
+    : U_(U),
+      nu_(nu),
+      rows_(cell_rows(ranks, box)),
+      separable_(plane_operator(U, box), rows_.pencils()) {}
 
 void FftViscousSolver::solve(Foam::scalar dt) {
     if (factorised_for_ != dt) separable_.factorise({1.0, nu_ * dt});
@@ -14,9 +19,9 @@ void FftViscousSolver::solve(Foam::scalar dt) {
     double* values = separable_.values();
     Foam::vectorField& u = U_.primitiveFieldRef();
     for (Foam::direction component : {Foam::vector::X, Foam::vector::Y}) {
-        forAll(u, c) values[c] = u[c][component];
+        rows_.gather([&](int c) { return u[c][component]; }, values);
         separable_.solve();
-        forAll(u, c) u[c][component] = values[c];
+        rows_.scatter(values, [&](int c, double value) { u[c][component] = value; });
     }
     U_.correctBoundaryConditions();
 }

@@ -4,6 +4,7 @@
 // factorisation for both components of u, made when dt changes.
 #pragma once
 
+#include "fluid_adapter/foam_app/uniformBox.hpp"
 #include "fluid_adapter/foam_app/viscousDiffusion.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
@@ -12,14 +13,18 @@ namespace turbidite {
 class FftViscousSolver final : public ViscousSolver {
  public:
     /// Throws NotSeparable.
-    FftViscousSolver(Foam::volVectorField& U, Foam::scalar nu);
+    FftViscousSolver(Foam::volVectorField& U, Foam::scalar nu, const RankGroup& ranks);
 
     void solve(Foam::scalar dt) override;
 
  private:
+    FftViscousSolver(Foam::volVectorField& U, Foam::scalar nu, const RankGroup& ranks,
+                     const UniformBox& box);
+
     Foam::volVectorField& U_;
     Foam::scalar nu_;
     Foam::scalar factorised_for_ = 0.0;
+    CellRows rows_;
     SeparableSolve separable_;
 };
 

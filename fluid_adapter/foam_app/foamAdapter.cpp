@@ -5,11 +5,10 @@
 #include <malloc.h>
 #include <sigFpe.H>
 
-#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
-#include "coupler/shapes/immersed_body.hpp"
 #include "fluid_adapter/foam_app/advection.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
@@ -17,7 +16,7 @@
 #include "fluid_adapter/foam_app/savedState.hpp"
 #include "fluid_adapter/foam_app/solverList.hpp"
 #include "fluid_adapter/foam_app/stokesProjection.hpp"
-#include "fluid_adapter/multiplier/method_list.hpp"
+#include "fluid_adapter/multiplier/immersed_step.hpp"
 
 namespace turbidite {
 namespace {
@@ -38,64 +37,6 @@ class Stopwatch {
     double& total_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// What the multiplier step needs of the case.
-struct GrainRules {
-    std::vector<std::shared_ptr<const Shape>> shapes;
-    double fluid_density = 1.0;
-    double hydrodynamic_radius = 1.0;
-};
-
-Eigen::Vector3d vector_of(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
-
-Planar planar(const Vec3& linear, const Vec3& angular) {
-    return {linear[0], linear[1], angular[2]};
-}
-
-ImmersedGrain immersed_grain(const GrainState& state, const GrainRules& rules) {
-    const Shape& shape = *rules.shapes.at(state.shape);
-    const ImmersedBody body = immersed_body(shape, state.radius, state.density, rules.fluid_density,
-                                            rules.hydrodynamic_radius);
-    const Quaternion& q = state.orientation;
-    ImmersedGrain grain;
-    grain.id = state.id;
-    grain.shape = &shape;
-    grain.radius = rules.hydrodynamic_radius * state.radius;
-    grain.position = vector_of(state.position);
-    grain.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-    grain.effective_mass = body.effective_mass;
-    grain.effective_inertia = body.effective_inertia(2, 2);
-    grain.contact_motion = planar(state.velocity, state.angular_velocity);
-    grain.announced_impulse = planar(state.announced_impulse, state.announced_angular_impulse);
-    return grain;
-}
-
-Kick kick_of(const ImmersedGrain& grain, const Planar& motion, const Planar& impulse) {
-    Kick kick;
-    kick.id = grain.id;
-    kick.velocity = {motion.x(), motion.y(), 0.0};
-    kick.angular_velocity = {0.0, 0.0, motion.z()};
-    kick.multiplier_impulse = {impulse.x(), impulse.y(), 0.0};
-    kick.multiplier_angular_impulse = {0.0, 0.0, impulse.z()};
-    return kick;
-}
-
-MultiplierSettings multiplier_settings(const Settings& settings) {
-    MultiplierSettings result;
-    result.tolerance = settings.real("fluid.multiplier_tolerance");
-    result.iterations = static_cast<int>(settings.integer("fluid.multiplier_iterations"));
-    result.velocity_scale = settings.real("run.velocity_scale");
-    return result;
-}
-
-PointRules point_rules(const Settings& settings, const MethodEntry& method) {
-    PointRules rules;
-    rules.boundary = method.boundary_points;
-    rules.spacing = settings.real("fluid.point_spacing");
-    return rules;
-}
 
 [[noreturn]] void refuse(const std::string& step, const Window& window, const std::string& why) {
     throw PhysicsRefused(step + " of window " + std::to_string(window.index) + ": " + why);
@@ -141,7 +82,7 @@ void keep_freed_memory() {
 }  // namespace
 
 struct FoamAdapter::State {
-    State(const std::filesystem::path& directory, const Settings& settings,
+    State(const std::filesystem::path& directory, const RankGroup& ranks, const Settings& settings,
           const ShapeTable& table);
 
     FluidFields fields;
@@ -149,27 +90,20 @@ struct FoamAdapter::State {
     StokesProjection projection;
     std::unique_ptr<ViscousSolver> viscosity;
     MomentumLedger ledger;
-    const MethodEntry& method;
-    MultiplierSettings solve_settings;
-    PointPlacement placement;
-    GrainRules grain_rules;
-
-    std::vector<ImmersedGrain> grains;
-    CollocationPoints points;
-    SaddlePoint system;
-    MultiplierWorkspace work;
+    ImmersedStep step_five;
+    bool joint;
     FluidReport report;
     FluidTimings timings;
 
     void begin(const Window& window);
-    MultiplierResult solve_multipliers(const Window& window, const std::vector<GrainState>& states);
-    std::vector<Kick> kicks() const;
-    Foam::vector impulse_to_grains() const;
+    void take_grains(const Window& window, const std::vector<GrainState>& grains);
+    void note(const Window& window, const MultiplierResult& result);
+    Kicks finish(const Window& window);
 };
 
-FoamAdapter::State::State(const std::filesystem::path& directory, const Settings& settings,
-                          const ShapeTable& table)
-    : fields(directory),
+FoamAdapter::State::State(const std::filesystem::path& directory, const RankGroup& ranks,
+                          const Settings& settings, const ShapeTable& table)
+    : fields(directory, ranks),
       field(fields, fluid_domain(settings)),
       projection(
           fields,
@@ -177,13 +111,8 @@ FoamAdapter::State::State(const std::filesystem::path& directory, const Settings
           make_pressure_solver(settings.text("fluid.pressure_solver"), fields)),
       viscosity(make_viscous_solver(settings.text("fluid.viscous_solver"), fields)),
       ledger(fields),
-      method(find_method(settings.text("fluid.points"))),
-      solve_settings(multiplier_settings(settings)),
-      placement(point_rules(settings, method)) {
-    grain_rules.fluid_density = settings.real("run.fluid_density");
-    grain_rules.hydrodynamic_radius = settings.real("fluid.hydrodynamic_radius");
-    for (const ShapeRecord& record : table) grain_rules.shapes.push_back(make_shape(record));
-}
+      step_five(field, settings, table),
+      joint(settings.text("coupling.scheme") == "joint") {}
 
 void FoamAdapter::State::begin(const Window& window) {
     timings = {};
@@ -195,41 +124,32 @@ void FoamAdapter::State::begin(const Window& window) {
                                                         "the fluid case's system/controlDict");
 }
 
-MultiplierResult FoamAdapter::State::solve_multipliers(const Window& window,
-                                                       const std::vector<GrainState>& states) {
-    {
-        const Stopwatch watch(timings.points);
-        field.load();
-        grains.clear();
-        for (const GrainState& state : states) grains.push_back(immersed_grain(state, grain_rules));
-        placement.place(field, grains, points);
-    }
+void FoamAdapter::State::take_grains(const Window& window, const std::vector<GrainState>& grains) {
+    const Stopwatch watch(timings.points);
+    field.load();
+    step_five.take(grains, window.step);
+}
+
+/// A window's solves together.
+void FoamAdapter::State::note(const Window& window, const MultiplierResult& result) {
+    report.multiplier_iterations += result.iterations;
+    report.multiplier_residual = result.residual;
+    if (!result.converged)
+        Foam::Info << "window " << window.index << ": multipliers not converged after "
+                   << result.iterations << " iterations, rms slip " << result.residual
+                   << Foam::endl;
+}
+
+Kicks FoamAdapter::State::finish(const Window& window) {
     const Stopwatch watch(timings.multipliers);
-    system.assemble(field, grains, points);
-    const MultiplierResult result = method.solve(system, solve_settings, work);
-    field.store(points.touched, window.write_output);
-    return result;
-}
-
-std::vector<Kick> FoamAdapter::State::kicks() const {
-    std::vector<Kick> kicks;
-    const CellGrid& grid = field.grid();
-    for (std::size_t g = 0; g < grains.size(); ++g) {
-        const Eigen::Vector3d& x = grains[g].position;
-        const int home = field.cell(grid.wrapped(0, grid.layer(0, x.x())),
-                                    grid.wrapped(1, grid.layer(1, x.y())), 0);
-        // On one rank a grain whose centre has left the grid is still ours to answer for.
-        if (Foam::Pstream::parRun() && (home < 0 || !field.owns(home))) continue;
-        kicks.push_back(kick_of(grains[g], system.motions()[g], system.impulses()[g]));
-    }
-    return kicks;
-}
-
-Foam::vector FoamAdapter::State::impulse_to_grains() const {
-    Foam::vector sum = Foam::Zero;
-    for (std::size_t g = 0; g < grains.size(); ++g)
-        sum += Foam::vector(system.impulses()[g].x(), system.impulses()[g].y(), 0.0);
-    return sum;
+    step_five.impose();
+    field.store(step_five.points(), window.write_output);
+    Planar to_grains = step_five.impulse_to_grains();
+    field.sum_over_ranks(to_grains.data(), 2);
+    report.momentum_defect = ledger.close({to_grains.x(), to_grains.y(), 0.0});
+    fields.interpolate_flux();
+    report.final_divergence = fields.largest_divergence();
+    return {step_five.kicks(), {}};
 }
 
 FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move(directory)) {
@@ -243,6 +163,15 @@ FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move
 
 FoamAdapter::~FoamAdapter() = default;
 
+void FoamAdapter::share(int communicator) {
+    ranks_ = RankGroup(MPI_Comm_f2c(communicator));
+    if (!ranks_.parallel()) return;
+    int no_arguments = 0;
+    char** none = nullptr;
+    with_foam_errors("starting in parallel",
+                     [&] { Foam::Pstream::init(no_arguments, none, false); });
+}
+
 Hello FoamAdapter::describe() const {
     Hello hello;
     hello.role = Role::fluid;
@@ -252,13 +181,14 @@ Hello FoamAdapter::describe() const {
     hello.dimension = 2;
     hello.capabilities.saves_state = true;
     hello.capabilities.serialises_state = true;
+    hello.capabilities.effective_inertia = true;
     hello.capabilities.shapes = {"disc"};
     return hello;
 }
 
 Box FoamAdapter::initialise(const Settings& settings, const ShapeTable& shapes) {
     state_ = with_foam_errors("opening the case " + directory_.string(), [&] {
-        return std::make_unique<State>(directory_, settings, shapes);
+        return std::make_unique<State>(directory_, ranks_, settings, shapes);
     });
     const Foam::boundBox bounds(state_->fields.mesh.points(), false);
     return {{bounds.min().x(), bounds.min().y(), bounds.min().z()},
@@ -289,29 +219,36 @@ void FoamAdapter::advance(const Window& window) {
     check_finite(s.fields, "step 3 (viscosity)", window);
 }
 
-std::vector<FreeResponse> FoamAdapter::respond(const Window&, const std::vector<GrainState>&) {
-    throw Failure(
-        ExitCode::bad_input,
-        "coupling.scheme = joint: the OpenFOAM adapter does not know effective inertia yet; "
-        "use split");
+std::vector<FreeResponse> FoamAdapter::respond(const Window& window,
+                                               const std::vector<GrainState>& grains) {
+    State& s = *state_;
+    return in_step("step 5 (free grains)", window, [&] {
+        s.take_grains(window, grains);
+        const Stopwatch watch(s.timings.multipliers);
+        s.note(window, s.step_five.solve());
+        return s.step_five.responses();
+    });
+}
+
+std::vector<FreeResponse> FoamAdapter::correct(const Window& window,
+                                               const std::vector<GrainState>& grains) {
+    State& s = *state_;
+    return in_step("step 5 (contact impulses)", window, [&] {
+        const Stopwatch watch(s.timings.multipliers);
+        s.note(window, s.step_five.push(grains));
+        return s.step_five.responses();
+    });
 }
 
 Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& grains) {
     State& s = *state_;
-    Kicks answer;
-    in_step("step 5 (multipliers)", window, [&] {
-        const MultiplierResult result = s.solve_multipliers(window, grains);
-        s.report.multiplier_iterations = result.iterations;
-        s.report.multiplier_residual = result.residual;
-        if (!result.converged)
-            Foam::Info << "window " << window.index << ": multipliers not converged after "
-                       << result.iterations << " iterations, rms slip " << result.residual
-                       << Foam::endl;
-        answer.kicks = s.kicks();
-        const Stopwatch watch(s.timings.multipliers);
-        s.report.momentum_defect = s.ledger.close(s.impulse_to_grains());
-        s.fields.interpolate_flux();
-        s.report.final_divergence = s.fields.largest_divergence();
+    Kicks answer = in_step("step 5 (multipliers)", window, [&] {
+        if (!s.joint) {
+            s.take_grains(window, grains);
+            const Stopwatch watch(s.timings.multipliers);
+            s.note(window, s.step_five.solve());
+        }
+        return s.finish(window);
     });
     check_finite(s.fields, "step 5 (multipliers)", window);
     check_finite(answer.kicks, window);
@@ -343,7 +280,7 @@ const FluidTimings& FoamAdapter::timings() const {
 }
 
 const CollocationPoints& FoamAdapter::points() const {
-    return state_->points;
+    return state_->step_five.points();
 }
 
 void FoamAdapter::add_velocity(double x, double y) {

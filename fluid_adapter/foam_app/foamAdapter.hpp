@@ -9,6 +9,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
 
@@ -24,10 +25,17 @@ class FoamAdapter final : public FluidAdapter {
     explicit FoamAdapter(std::filesystem::path directory);
     ~FoamAdapter() override;
 
+    /// The fluid's own communicator, as the number of a Fortran handle; before the other calls, and
+    /// not at all where there is one process. With several ranks OpenFOAM is put into parallel
+    /// mode: for it, the world must be this communicator (coupler/transport/world_isolation.hpp).
+    void share(int communicator);
+
     Hello describe() const override;
     Box initialise(const Settings& settings, const ShapeTable& shapes) override;
     void advance(const Window& window) override;
     std::vector<FreeResponse> respond(const Window& window,
+                                      const std::vector<GrainState>& grains) override;
+    std::vector<FreeResponse> correct(const Window& window,
                                       const std::vector<GrainState>& grains) override;
     Kicks impose(const Window& window, const std::vector<GrainState>& grains) override;
     SavedState save() const override;
@@ -49,6 +57,7 @@ class FoamAdapter final : public FluidAdapter {
  private:
     struct State;
     std::filesystem::path directory_;
+    RankGroup ranks_;
     std::unique_ptr<State> state_;
 };
 

@@ -11,6 +11,10 @@ namespace {
 /// Cell centres may be off by this share of a cell: blockMesh's points are written as text.
 constexpr double placement_tolerance = 1e-4;
 
+/// Stencils of points in this rank's cells reach two layers beyond them; one more, so that no
+/// rounding of a place can make a stencil leave the halo, which would go unnoticed.
+constexpr int halo_layers = 3;
+
 Side side_of(const std::string& kind) {
     return kind == "wall" ? Side::wall : kind == "cyclic" ? Side::cyclic : Side::open;
 }
@@ -29,44 +33,79 @@ CellGrid grid_of(const FluidDomain& domain, double thickness) {
 }  // namespace
 
 FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
-    : fields_(fields), grid_(grid_of(domain, fields.thickness)) {
-    if (Foam::Pstream::parRun())
-        throw Failure(ExitCode::bad_input,
-                      "fluid.ranks: the multiplier step runs on one rank so far; set it to 1");
+    : fields_(fields),
+      grid_(grid_of(domain, fields.thickness)),
+      block_(grid_, cell_numbers(), fields.ranks.parallel() ? halo_layers : 0) {
     owned_ = fields.mesh.nCells();
-    x_.resize(owned_);
-    y_.resize(owned_);
+    if (fields.ranks.parallel()) {
+        halo_ = std::make_unique<HaloExchange>(fields.ranks, grid_.counts[0] * grid_.counts[1],
+                                               cell_numbers(), block_.halo());
+        block_.number_halo(halo_->halo());
+        shared_ = std::make_unique<SharedGrains>(fields.ranks);
+    }
+    const std::size_t local = owned_ + block_.halo().size();
+    x_.resize(local);
+    y_.resize(local);
     cell_mass_ = fields.rho * grid_.spacing[0] * grid_.spacing[1];
-    map_cells();
 }
 
-void FoamFluidField::map_cells() {
-    local_.assign(static_cast<std::size_t>(grid_.counts[0]) * grid_.counts[1], -1);
+/// i + nx j of each cell of this rank.
+std::vector<int> FoamFluidField::cell_numbers() const {
+    std::vector<int> numbers;
     bool uniform = true;
-    forAll(fields_.mesh.C(), c) {
-        const Foam::point& centre = fields_.mesh.C()[c];
+    for (const Foam::point& centre : fields_.mesh.cellCentres()) {
         int index[2];
         for (int axis = 0; axis < 2; ++axis) {
-            index[axis] = grid_.wrapped(axis, grid_.layer(axis, centre[axis]));
-            const double off = centre[axis] - grid_.centre(axis, std::max(index[axis], 0));
-            uniform &=
-                index[axis] >= 0 && std::abs(off) < placement_tolerance * grid_.spacing[axis];
+            index[axis] = std::max(grid_.wrapped(axis, grid_.layer(axis, centre[axis])), 0);
+            const double off = centre[axis] - grid_.centre(axis, index[axis]);
+            uniform = uniform && std::abs(off) < placement_tolerance * grid_.spacing[axis];
         }
-        if (!uniform) break;
-        local_[index[0] + static_cast<std::size_t>(grid_.counts[0]) * index[1]] = c;
+        numbers.push_back(index[0] + grid_.counts[0] * index[1]);
     }
-    for (int cell : local_) uniform &= cell >= 0;
-    if (!uniform)
+    double cells = static_cast<double>(numbers.size());
+    fields_.ranks.sum(&cells, 1);
+    uniform = uniform && cells == static_cast<double>(grid_.counts[0]) * grid_.counts[1];
+    if (!fields_.ranks.all(uniform))
         throw Failure(ExitCode::bad_input,
                       "the fluid mesh is not the uniform grid of " +
                           std::to_string(grid_.counts[0]) + " x " +
                           std::to_string(grid_.counts[1]) +
-                          " cells that the case asks for: run blockMesh on the fluid case again");
+                          " cells that the case asks for: run blockMesh (and decomposePar, on "
+                          "several ranks) on the fluid case again");
+    return numbers;
 }
 
 int FoamFluidField::cell(int i, int j, int k) const {
     if (i < 0 || j < 0 || k != 0 || i >= grid_.counts[0] || j >= grid_.counts[1]) return -1;
-    return local_[i + static_cast<std::size_t>(grid_.counts[0]) * j];
+    return block_.at(i, j);
+}
+
+void FoamFluidField::import_halo(double* values) const {
+    if (halo_) halo_->import({values});
+}
+
+void FoamFluidField::import_halo(double* x, double* y) const {
+    if (halo_) halo_->import({x, y});
+}
+
+void FoamFluidField::export_halo(double* values) const {
+    if (halo_) halo_->export_sums({values});
+}
+
+void FoamFluidField::export_halo(double* x, double* y) const {
+    if (halo_) halo_->export_sums({x, y});
+}
+
+void FoamFluidField::sum_over_ranks(double* values, int count) const {
+    fields_.ranks.sum(values, count);
+}
+
+void FoamFluidField::hold_grains(const GrainId* ids, int count) const {
+    if (shared_) shared_->hold(ids, count);
+}
+
+void FoamFluidField::sum_over_holders(const GrainId*, int, double* rows, int per_grain) const {
+    if (shared_) shared_->sum(rows, per_grain);
 }
 
 void FoamFluidField::load() {
@@ -76,15 +115,20 @@ void FoamFluidField::load() {
     }
 }
 
-void FoamFluidField::store(const std::vector<int>& touched, bool force_density) {
-    const double per_dt = fields_.rho / fields_.time.deltaTValue();
+void FoamFluidField::store(const CollocationPoints& points, bool force_density) {
     if (force_density) fields_.lambda.primitiveFieldRef() = Foam::Zero;
-    for (int c : touched) {
-        const Foam::vector corrected(x_[c], y_[c], 0.0);
-        if (force_density) fields_.lambda[c] = per_dt * (fields_.U[c] - corrected);
-        fields_.U[c] = corrected;
-    }
+    for (const InteriorCell& point : points.interior) store(point.cell, force_density);
+    for (const int cell : points.stencilled)
+        if (owns(cell)) store(cell, force_density);
     fields_.U.correctBoundaryConditions();
+}
+
+void FoamFluidField::store(int cell, bool force_density) {
+    const Foam::vector corrected(x_[cell], y_[cell], 0.0);
+    if (force_density)
+        fields_.lambda[cell] =
+            fields_.rho / fields_.time.deltaTValue() * (fields_.U[cell] - corrected);
+    fields_.U[cell] = corrected;
 }
 
 }  // namespace turbidite

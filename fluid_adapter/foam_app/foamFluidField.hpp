@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number.
-// Velocities are copied to contiguous components before step 5 and back after it.
+// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number, on
+// several ranks with a halo around this rank's cells. Velocities are copied to contiguous
+// components before step 5 and back after it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
-#include "fluid_adapter/multiplier/fluid_field.hpp"
+#include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/ranks/halo_exchange.hpp"
+#include "fluid_adapter/ranks/local_block.hpp"
+#include "fluid_adapter/ranks/shared_grains.hpp"
 
 namespace turbidite {
 
 class FoamFluidField final : public FluidField {
  public:
-    /// Throws Failure when the mesh is not the uniform grid of the case.
+    /// Throws Failure, on every rank, when the mesh is not the uniform grid of the case.
     FoamFluidField(FluidFields& fields, const FluidDomain& domain);
 
     const CellGrid& grid() const override { return grid_; }
@@ -23,18 +28,29 @@ class FoamFluidField final : public FluidField {
     bool owns(int cell) const override { return cell < owned_; }
     double cell_mass() const override { return cell_mass_; }
     double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
+    void import_halo(double* values) const override;
+    void import_halo(double* x, double* y) const override;
+    void export_halo(double* values) const override;
+    void export_halo(double* x, double* y) const override;
+    void sum_over_ranks(double* values, int count) const override;
+    void hold_grains(const GrainId* ids, int count) const override;
+    void sum_over_holders(const GrainId* ids, int count, double* rows,
+                          int per_grain) const override;
 
     void load();  ///< from U
 
-    /// To U, cells in `touched` only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
-    void store(const std::vector<int>& touched, bool force_density);
+    /// To U, cells of these points only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
+    void store(const CollocationPoints& points, bool force_density);
 
  private:
-    void map_cells();
+    std::vector<int> cell_numbers() const;
+    void store(int cell, bool force_density);
 
     FluidFields& fields_;
     CellGrid grid_;
-    std::vector<int> local_;  // by number i + nx j
+    LocalBlock block_;
+    std::unique_ptr<HaloExchange> halo_;    // on several ranks
+    std::unique_ptr<SharedGrains> shared_;  // on several ranks
     std::vector<double> x_, y_;
     int owned_ = 0;
     double cell_mass_ = 0.0;

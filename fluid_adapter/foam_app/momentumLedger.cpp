@@ -20,7 +20,7 @@ void MomentumLedger::add(PerFace per_face) {
         const Foam::fvPatch& side = fields_.mesh.boundary()[patch];
         if (!side.coupled() && side.size() > 0) sum += Foam::sum(per_face(patch)());
     }
-    Foam::reduce(sum, Foam::sumOp<Foam::vector>());
+    fields_.ranks.sum(sum.v_, Foam::vector::nComponents);
     sum *= fields_.rho * fields_.time.deltaTValue() / fields_.thickness;
     impulses_ += sum;
     largest_ = std::max(largest_, Foam::mag(sum));

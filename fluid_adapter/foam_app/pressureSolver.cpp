@@ -11,7 +11,8 @@ namespace turbidite {
 MatrixPressureSolver::MatrixPressureSolver(Foam::volScalarField& p)
     : matrix_(Foam::fvm::laplacian(p)), controls_(p.mesh().solverDict(p.name())) {
     p.mesh().setFluxRequired(p.name());
-    matrix_.setReference(0, 0.0);  // where no side fixes p
+    // Where no side fixes p: in one cell of all ranks'.
+    matrix_.setReference(Foam::Pstream::master() ? 0 : -1, 0.0);
     solver_ = matrix_.solver(controls_);
 }
 

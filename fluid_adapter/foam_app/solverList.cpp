@@ -18,13 +18,13 @@ struct Entry {
 };
 
 std::unique_ptr<PressureSolver> fft_pressure(FluidFields& fields) {
-    return std::make_unique<FftPressureSolver>(fields.p);
+    return std::make_unique<FftPressureSolver>(fields.p, fields.ranks);
 }
 std::unique_ptr<PressureSolver> matrix_pressure(FluidFields& fields) {
     return std::make_unique<MatrixPressureSolver>(fields.p);
 }
 std::unique_ptr<ViscousSolver> fft_viscous(FluidFields& fields) {
-    return std::make_unique<FftViscousSolver>(fields.U, fields.nu);
+    return std::make_unique<FftViscousSolver>(fields.U, fields.nu, fields.ranks);
 }
 std::unique_ptr<ViscousSolver> matrix_viscous(FluidFields& fields) {
     return std::make_unique<MatrixViscousSolver>(fields.U, fields.nu);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// turbidite-fluid -case RUN/fluid: OpenFOAM as the fluid participant. The steps of a window are in
-// foamAdapter.cpp.
+// turbidite-fluid -case RUN/fluid [-parallel]: OpenFOAM as the fluid participant. The steps of a
+// window are in foamAdapter.cpp. `-parallel` is OpenFOAM's word for several ranks; how many there
+// are is known without it.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -11,15 +12,21 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 
 int main(int argc, char** argv) {
-    if (argc != 3 || std::string(argv[1]) != "-case") {
+    const bool case_given = argc >= 3 && std::string(argv[1]) == "-case";
+    const bool parallel_given = argc == 4 && std::string(argv[3]) == "-parallel";
+    if (!case_given || (argc != 3 && !parallel_given)) {
         std::fprintf(stderr,
-                     "usage: turbidite-fluid -case RUN/fluid   (started by `turbidite run`)\n");
+                     "usage: turbidite-fluid -case RUN/fluid [-parallel]   (started by `turbidite "
+                     "run`)\n");
         return static_cast<int>(turbidite::ExitCode::bad_input);
     }
     const std::filesystem::path foam_case = std::filesystem::absolute(argv[2]).lexically_normal();
     turbidite::FoamAdapter adapter(foam_case);
 
     turbidite::Launch launch{&argc, &argv, foam_case.parent_path().string()};
-    launch.joined = [](int communicator) { turbidite::isolate_world(MPI_Comm_f2c(communicator)); };
+    launch.joined = [&adapter](int communicator) {
+        turbidite::isolate_world(MPI_Comm_f2c(communicator));
+        adapter.share(communicator);
+    };
     return turbidite::run_fluid(adapter, launch);
 }

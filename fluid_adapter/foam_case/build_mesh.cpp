@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// blockMesh as a child process. OpenFOAM finds its own settings through WM_PROJECT_DIR, which
-// Debian does not set: /usr/share/openfoam unless the user has another.
+// blockMesh and decomposePar as child processes. OpenFOAM finds its own settings through
+// WM_PROJECT_DIR, which Debian does not set: /usr/share/openfoam unless the user has another.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -21,22 +21,22 @@ namespace {
 
 constexpr int not_started = 127;
 
-[[noreturn]] void become_block_mesh(const char* directory, const char* log) {
+[[noreturn]] void become(const char* program, const char* directory, const char* log) {
     const int file = ::open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (file >= 0) {
         ::dup2(file, STDOUT_FILENO);
         ::dup2(file, STDERR_FILENO);
     }
-    ::execlp("blockMesh", "blockMesh", "-case", directory, static_cast<char*>(nullptr));
+    ::execlp(program, program, "-case", directory, static_cast<char*>(nullptr));
     ::_exit(not_started);
 }
 
-int wait_for(pid_t child) {
+int wait_for(pid_t child, const std::string& program) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             throw Failure(ExitCode::participant_failed,
-                          std::string("waiting for blockMesh: ") + std::strerror(errno));
+                          "waiting for " + program + ": " + std::strerror(errno));
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -51,26 +51,36 @@ std::string last_words(const std::filesystem::path& log) {
     return all.substr(from, 1000);
 }
 
-}  // namespace
-
-int build_fluid_mesh(const std::filesystem::path& directory, const std::filesystem::path& log) {
+int run_utility(const std::string& program, const std::filesystem::path& directory,
+                const std::filesystem::path& log) {
     ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
     const std::string where = directory.string(), into = log.string();
     const pid_t child = ::fork();
     if (child < 0)
         throw Failure(ExitCode::participant_failed,
-                      std::string("cannot start blockMesh: ") + std::strerror(errno));
-    if (child == 0) become_block_mesh(where.c_str(), into.c_str());
-    const int status = wait_for(child);
+                      "cannot start " + program + ": " + std::strerror(errno));
+    if (child == 0) become(program.c_str(), where.c_str(), into.c_str());
+    const int status = wait_for(child, program);
     if (status == not_started)
         throw Failure(ExitCode::participant_failed,
-                      "blockMesh was not found: install the Debian package openfoam or put "
-                      "OpenFOAM 1912's programs on PATH");
+                      program +
+                          " was not found: install the Debian package openfoam or put "
+                          "OpenFOAM 1912's programs on PATH");
     if (status != 0)
         throw Failure(ExitCode::participant_failed,
-                      fmt::format("blockMesh failed with code {} on {} (see {}):\n{}", status,
+                      fmt::format("{} failed with code {} on {} (see {}):\n{}", program, status,
                                   where, into, last_words(log)));
     return 0;
+}
+
+}  // namespace
+
+int build_fluid_mesh(const std::filesystem::path& directory, const std::filesystem::path& log) {
+    return run_utility("blockMesh", directory, log);
+}
+
+int decompose_fluid_case(const std::filesystem::path& directory, const std::filesystem::path& log) {
+    return run_utility("decomposePar", directory, log);
 }
 
 }  // namespace turbidite

@@ -113,11 +113,18 @@ std::string block_mesh(const FluidDomain& domain) {
         vertices, domain.cells[0], domain.cells[1], patches);
 }
 
+/// `simple` sorts the cells by a place that is turned by `delta`, by default so far that rows of
+/// more than a thousand cells would be torn; it must only not be zero.
 std::string decomposition(const Settings& settings) {
     const std::int64_t ranks = settings.integer("fluid.ranks");
+    const std::string& kind = settings.text("fluid.decomposition");
+    if (kind != "rows" && kind != "columns")
+        throw Failure(ExitCode::bad_input,
+                      "fluid.decomposition = \"" + kind + "\"; allowed are rows, columns");
+    const bool rows = kind == "rows";
     return fmt::format(
-        "numberOfSubdomains {};\nmethod simple;\ncoeffs {{ n (1 {} 1); delta 0.001; }}\n", ranks,
-        ranks);
+        "numberOfSubdomains {};\nmethod simple;\ncoeffs {{ n ({} {} 1); delta 1e-06; }}\n", ranks,
+        rows ? 1 : ranks, rows ? ranks : 1);
 }
 
 std::string boundary_field(const FluidDomain& domain, const std::string& at_wall,

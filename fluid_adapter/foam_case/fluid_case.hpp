@@ -19,4 +19,8 @@ void write_fluid_case(const Settings& settings, const std::filesystem::path& dir
 /// words when it is missing or fails.
 int build_fluid_mesh(const std::filesystem::path& directory, const std::filesystem::path& log);
 
+/// Runs decomposePar on a case with a mesh: one processor folder per rank of fluid.ranks. Errors as
+/// above.
+int decompose_fluid_case(const std::filesystem::path& directory, const std::filesystem::path& log);
+
 }  // namespace turbidite

@@ -8,16 +8,21 @@
 
 namespace turbidite {
 
-void WholeGrid::Release::operator()(double* values) const {
+void ReleaseAligned::operator()(double* values) const {
     fftw_free(values);
+}
+
+AlignedValues aligned_values(std::size_t count) {
+    // A rank may have no row; what FFTW gives for zero bytes may be null.
+    AlignedValues values(fftw_alloc_real(std::max<std::size_t>(count, 1)));
+    if (!values) throw std::bad_alloc();
+    std::fill_n(values.get(), count, 0.0);
+    return values;
 }
 
 WholeGrid::WholeGrid(int columns, int rows)
     : columns_(columns),
       rows_(rows),
-      values_(fftw_alloc_real(static_cast<std::size_t>(columns) * rows)) {
-    if (!values_) throw std::bad_alloc();
-    std::fill_n(values_.get(), static_cast<std::size_t>(columns) * rows, 0.0);
-}
+      values_(aligned_values(static_cast<std::size_t>(columns) * rows)) {}
 
 }  // namespace turbidite

@@ -5,9 +5,17 @@
 // distributions with a transpose between them; on one rank they are the same array. Valid C++17.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 namespace turbidite {
+
+/// Zeros, aligned as FFTW likes them.
+struct ReleaseAligned {
+    void operator()(double* values) const;
+};
+using AlignedValues = std::unique_ptr<double[], ReleaseAligned>;
+AlignedValues aligned_values(std::size_t count);
 
 class Pencils {
  public:
@@ -22,6 +30,9 @@ class Pencils {
 
     virtual void to_columns() = 0;
     virtual void to_rows() = 0;
+
+    /// The value given on the rank that holds mode 0, on every rank.
+    virtual double from_mode_zero(double value) const = 0;
 };
 
 /// The whole grid on one rank: rows and columns are one array and nothing moves.
@@ -36,13 +47,11 @@ class WholeGrid final : public Pencils {
     double* columns() override { return values_.get(); }
     void to_columns() override {}
     void to_rows() override {}
+    double from_mode_zero(double value) const override { return value; }
 
  private:
-    struct Release {
-        void operator()(double* values) const;
-    };
     int columns_, rows_;
-    std::unique_ptr<double[], Release> values_;  // aligned for FFTW
+    AlignedValues values_;
 };
 
 }  // namespace turbidite

@@ -24,10 +24,12 @@ SeparableSolve::SeparableSolve(const PlaneOperator& plane)
 SeparableSolve::SeparableSolve(const PlaneOperator& plane, std::unique_ptr<Pencils> pencils)
     : pencils_(std::move(pencils)),
       transform_(checked(plane).x, pencils_->row_count(), pencils_->rows()),
-      columns_(plane.x, plane.y, {pencils_->first_mode(), pencils_->mode_count()}) {}
+      columns_(plane.x, plane.y, {pencils_->first_mode(), pencils_->mode_count()}),
+      zero_mode_(plane.x.has_zero_mode() && plane.y.has_zero_mode()) {}
 
 void SeparableSolve::factorise(const Helmholtz& problem) {
     columns_.factorise(problem, transform_.normalisation());
+    free_constants_ = zero_mode_ && problem.alpha == 0.0;
 }
 
 double SeparableSolve::solve() {
@@ -36,7 +38,7 @@ double SeparableSolve::solve() {
     const double taken = columns_.solve(pencils_->columns());
     pencils_->to_rows();
     transform_.backward();
-    return taken;
+    return free_constants_ ? pencils_->from_mode_zero(taken) : 0.0;
 }
 
 }  // namespace turbidite

@@ -35,13 +35,15 @@ class SeparableSolve {
     /// f before a solve and x after it: this rank's complete rows of nx values.
     double* values() { return pencils_->rows(); }
 
-    /// Returns the mean that was taken off f, zero where constants are not free.
+    /// Returns the mean that was taken off f, zero where constants are not free; on every rank.
     double solve();
 
  private:
     std::unique_ptr<Pencils> pencils_;
     RowTransform transform_;
     ColumnSolve columns_;
+    bool zero_mode_;               // no end is dirichlet
+    bool free_constants_ = false;  // and alpha = 0
 };
 
 }  // namespace turbidite

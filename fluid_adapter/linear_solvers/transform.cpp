@@ -28,7 +28,9 @@ const KindEntry& kind_of(const AxisOperator& axis) {
     throw std::invalid_argument("no transform fits the ends of this axis");
 }
 
+/// Null for a rank without rows.
 fftw_plan plan_rows(int length, int rows, double* values, fftw_r2r_kind kind) {
+    if (rows == 0) return nullptr;
     fftw_plan plan = fftw_plan_many_r2r(1, &length, rows, values, nullptr, 1, length, values,
                                         nullptr, 1, length, &kind, FFTW_ESTIMATE);
     if (!plan) throw std::runtime_error("FFTW made no plan for rows of " + std::to_string(length));
@@ -42,8 +44,8 @@ struct RowTransform::Plans {
         : there(plan_rows(axis.cells, rows, values, kind_of(axis).there)),
           back(plan_rows(axis.cells, rows, values, kind_of(axis).back)) {}
     ~Plans() {
-        fftw_destroy_plan(there);
-        fftw_destroy_plan(back);
+        if (there) fftw_destroy_plan(there);
+        if (back) fftw_destroy_plan(back);
     }
     fftw_plan there, back;
 };
@@ -55,11 +57,11 @@ RowTransform::RowTransform(const AxisOperator& axis, int rows, double* values)
 RowTransform::~RowTransform() = default;
 
 void RowTransform::forward() {
-    fftw_execute(plans_->there);
+    if (plans_->there) fftw_execute(plans_->there);
 }
 
 void RowTransform::backward() {
-    fftw_execute(plans_->back);
+    if (plans_->back) fftw_execute(plans_->back);
 }
 
 }  // namespace turbidite

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "fluid_adapter/multiplier/neighbours.hpp"
 
@@ -100,10 +101,11 @@ void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGr
     apply_wall_rule(field.grid(), grains);
     apply_grain_rules(field.grid(), grains);
     build_stencils(field, grains);
+    mark_stencils(points);
     claim_cells(field, grains);
-    collect(field, grains, points);
+    collect(field, points);
     count_dropped(points);
-    list_touched(field.local_cells(), points);
+    forget(points);
 }
 
 void PointPlacement::find_candidates(const FluidField& field,
@@ -113,8 +115,7 @@ void PointPlacement::find_candidates(const FluidField& field,
     const double h = field.grid().largest_spacing();
     for (const ImmersedGrain& grain : grains) {
         if (rules_.boundary)
-            for (const SurfacePoint& point :
-                 grain.shape->surface_points(grain.radius, rules_.spacing * h)) {
+            for (const SurfacePoint& point : surface_points(grain, rules_.spacing * h)) {
                 Candidate candidate;
                 candidate.arm = grain.orientation * point.position;
                 candidate.normal = grain.orientation * point.normal;
@@ -122,6 +123,13 @@ void PointPlacement::find_candidates(const FluidField& field,
             }
         first_.push_back(static_cast<int>(candidates_.size()));
     }
+}
+
+const std::vector<SurfacePoint>& PointPlacement::surface_points(const ImmersedGrain& grain,
+                                                                double spacing) {
+    std::vector<SurfacePoint>& ring = rings_[{grain.shape, grain.radius}];
+    if (ring.empty()) ring = grain.shape->surface_points(grain.radius, spacing);
+    return ring;
 }
 
 void PointPlacement::apply_wall_rule(const CellGrid& grid,
@@ -206,14 +214,21 @@ void PointPlacement::build_stencils(const FluidField& field,
         }
 }
 
+void PointPlacement::mark_stencils(CollocationPoints& points) {
+    points.stencilled.clear();
+    for (const Candidate& point : candidates_) {
+        if (point.fate != Fate::kept) continue;
+        for (int n = 0; n < point.cells; ++n)
+            if (!std::exchange(stencilled_[point.cell[n]], 1))
+                points.stencilled.push_back(point.cell[n]);
+    }
+}
+
 void PointPlacement::claim_cells(const FluidField& field,
                                  const std::vector<ImmersedGrain>& grains) {
-    std::fill(owner_.begin(), owner_.end(), -1);
-    std::fill(stencilled_.begin(), stencilled_.end(), 0);
-    for (const Candidate& point : candidates_)
-        if (point.fate == Fate::kept)
-            for (int n = 0; n < point.cells; ++n) stencilled_[point.cell[n]] = 1;
-    for (std::size_t g = 0; g < grains.size(); ++g)
+    inside_.clear();
+    inside_begin_.assign(1, 0);
+    for (std::size_t g = 0; g < grains.size(); ++g) {
         for_cells_inside(field, grains[g], [&](int cell, const Eigen::Vector3d& arm) {
             const double depth = relative_depth(grains[g], arm);
             const int rival = owner_[cell];
@@ -222,36 +237,31 @@ void PointPlacement::claim_cells(const FluidField& field,
                 return;
             owner_[cell] = static_cast<int>(g);
             depth_[cell] = depth;
+            inside_.push_back({cell, arm.x(), arm.y()});
         });
+        inside_begin_.push_back(static_cast<int>(inside_.size()));
+    }
 }
 
-void PointPlacement::collect(const FluidField& field, const std::vector<ImmersedGrain>& grains,
-                             CollocationPoints& points) {
-    points.begin.assign(1, 0);
-    points.boundary_begin.clear();
+void PointPlacement::collect(const FluidField& field, CollocationPoints& points) const {
+    points.interior_begin.assign(1, 0);
+    points.interior.clear();
+    points.boundary_begin.assign(1, 0);
     points.arm_x.clear();
     points.arm_y.clear();
     points.stencil.assign(1, 0);
     points.cell.clear();
     points.weight.clear();
-    for (std::size_t g = 0; g < grains.size(); ++g) {
-        collect_interior(field, grains[g], static_cast<int>(g), points);
-        points.boundary_begin.push_back(points.size());
-        collect_boundary(static_cast<int>(g), points);
-        points.begin.push_back(points.size());
+    for (int g = 0; g + 1 < static_cast<int>(first_.size()); ++g) {
+        for (int i = inside_begin_[g]; i < inside_begin_[g + 1]; ++i) {
+            const int cell = inside_[i].cell;
+            if (owner_[cell] == g && !stencilled_[cell] && field.owns(cell))
+                points.interior.push_back(inside_[i]);
+        }
+        points.interior_begin.push_back(static_cast<int>(points.interior.size()));
+        collect_boundary(g, points);
+        points.boundary_begin.push_back(points.boundary_points());
     }
-}
-
-void PointPlacement::collect_interior(const FluidField& field, const ImmersedGrain& grain, int g,
-                                      CollocationPoints& points) const {
-    for_cells_inside(field, grain, [&](int cell, const Eigen::Vector3d& arm) {
-        if (owner_[cell] != g || stencilled_[cell] || !field.owns(cell)) return;
-        points.arm_x.push_back(arm.x());
-        points.arm_y.push_back(arm.y());
-        points.cell.push_back(cell);
-        points.weight.push_back(1.0);
-        points.stencil.push_back(static_cast<int>(points.cell.size()));
-    });
 }
 
 void PointPlacement::collect_boundary(int g, CollocationPoints& points) const {
@@ -277,12 +287,9 @@ void PointPlacement::count_dropped(CollocationPoints& points) const {
     }
 }
 
-void PointPlacement::list_touched(int local_cells, CollocationPoints& points) {
-    std::fill(stencilled_.begin(), stencilled_.begin() + local_cells, 0);
-    for (int cell : points.cell) stencilled_[cell] = 1;
-    points.touched.clear();
-    for (int cell = 0; cell < local_cells; ++cell)  // memory order, cheaper than sorting
-        if (stencilled_[cell]) points.touched.push_back(cell);
+void PointPlacement::forget(const CollocationPoints& points) {
+    for (const int cell : points.stencilled) stencilled_[cell] = 0;
+    for (const InteriorCell& point : inside_) owner_[point.cell] = -1;
 }
 
 }  // namespace turbidite

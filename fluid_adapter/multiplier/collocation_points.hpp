@@ -29,6 +29,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "fluid_adapter/multiplier/fluid_field.hpp"
@@ -50,21 +52,30 @@ struct DroppedPoints {
     int off_grid = 0;
 };
 
-/// Points of grain g are begin[g] .. begin[g+1]-1, interior ones first. The cells of point p are
-/// stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last one's
-/// memory.
+/// An interior point: a cell that moves with the grain.
+struct InteriorCell {
+    int cell;             ///< local index
+    double arm_x, arm_y;  ///< r = x - X [m]
+};
+
+/// Interior points of grain g are interior_begin[g] .. interior_begin[g+1]-1 of `interior`,
+/// boundary points boundary_begin[g] .. boundary_begin[g+1]-1 of `arm`. The cells of boundary point
+/// p are stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last
+/// one's memory.
 struct CollocationPoints {
-    std::vector<int> begin;
+    std::vector<int> interior_begin;
+    std::vector<InteriorCell> interior;
     std::vector<int> boundary_begin;
     std::vector<double> arm_x, arm_y;  ///< r = x - X [m]
     std::vector<int> stencil;
     std::vector<int> cell;
     std::vector<double> weight;
-    std::vector<int> touched;  ///< every cell used, once
+    std::vector<int> stencilled;  ///< cells of boundary points, of other ranks' points too, once
     DroppedPoints dropped;
 
-    int size() const { return static_cast<int>(arm_x.size()); }
-    int grains() const { return static_cast<int>(begin.size()) - 1; }
+    int grains() const { return static_cast<int>(boundary_begin.size()) - 1; }
+    int boundary_points() const { return static_cast<int>(arm_x.size()); }
+    int size() const { return static_cast<int>(interior.size()) + boundary_points(); }
 };
 
 /// Places the points of all grains.
@@ -93,21 +104,26 @@ class PointPlacement {
     void apply_grain_rules(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b);
     void build_stencils(const FluidField& field, const std::vector<ImmersedGrain>& grains);
+    void mark_stencils(CollocationPoints& points);
     void claim_cells(const FluidField& field, const std::vector<ImmersedGrain>& grains);
-    void collect(const FluidField& field, const std::vector<ImmersedGrain>& grains,
-                 CollocationPoints& points);
-    void collect_interior(const FluidField& field, const ImmersedGrain& grain, int g,
-                          CollocationPoints& points) const;
+    void collect(const FluidField& field, CollocationPoints& points) const;
     void collect_boundary(int g, CollocationPoints& points) const;
     void count_dropped(CollocationPoints& points) const;
-    void list_touched(int local_cells, CollocationPoints& points);
+    void forget(const CollocationPoints& points);
+
+    const std::vector<SurfacePoint>& surface_points(const ImmersedGrain& grain, double spacing);
 
     PointRules rules_;
     std::vector<int> first_;  // first candidate of each grain
     std::vector<Candidate> candidates_;
-    std::vector<int> owner_;     // grain that claims a cell, -1 none
+    std::vector<InteriorCell> inside_;  // cells inside a grain, of all grains
+    std::vector<int> inside_begin_;
+    // By cell, as between two calls: nothing claimed.
+    std::vector<int> owner_;     // grain that claims it, -1 none
     std::vector<double> depth_;  // its squared relative distance
     std::vector<char> stencilled_;
+    // Of shapes and radii met so far.
+    std::map<std::pair<const Shape*, double>, std::vector<SurfacePoint>> rings_;
 };
 
 }  // namespace turbidite

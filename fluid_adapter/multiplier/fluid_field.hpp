@@ -32,14 +32,29 @@ class FluidField {
     /// Owners' values to the halos of the others.
     virtual void import_halo(double*) const {}
 
+    /// The same for both components at once.
+    virtual void import_halo(double* x, double* y) const {
+        import_halo(x);
+        import_halo(y);
+    }
+
     /// Adds what was written into halos to the owners' values.
     virtual void export_halo(double*) const {}
+
+    /// The same for both components at once.
+    virtual void export_halo(double* x, double* y) const {
+        export_halo(x);
+        export_halo(y);
+    }
 
     /// Sums over the ranks of the fluid, in place.
     virtual void sum_over_ranks(double*, int) const {}
 
+    /// The grains this rank holds, before their first sum over holders; by every rank.
+    virtual void hold_grains(const GrainId*, int) const {}
+
     /// Sums, in place, the rows of grains that more than one rank holds: `per_grain` numbers for
-    /// each of `count` ids.
+    /// each of `count` ids, which are those of `hold_grains`. The same bits for every holder.
     virtual void sum_over_holders(const GrainId*, int, double*, int) const {}
 };
 

@@ -19,7 +19,7 @@ double target(const MultiplierSettings& settings, double first_rms) {
 }  // namespace
 
 void MultiplierWorkspace::resize(int rows) {
-    for (std::vector<double>* vector : {&impulses, &residual, &direction, &image})
+    for (std::vector<double>* vector : {&impulses, &direction, &image, &preconditioned})
         vector->resize(rows);
 }
 
@@ -27,34 +27,37 @@ MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& setting
                           MultiplierWorkspace& work) {
     const int rows = system.rows();
     work.resize(rows);
+    std::fill(work.impulses.begin(), work.impulses.end(), 0.0);
+    std::fill(work.direction.begin(), work.direction.end(), 0.0);
     double* L = work.impulses.data();
-    double* r = work.residual.data();
+    double* r = system.slip().data();
     double* w = work.direction.data();
     double* y = work.image.data();
+    double* z = work.preconditioned.data();
 
-    std::fill(L, L + rows, 0.0);
-    system.initial_slip(r);  // r = s
-    std::copy(r, r + rows, w);
     const double points = std::max(1.0, system.points_everywhere());
-    double rr = system.dot(r, r);
+    double rr = system.dot(r, r), rz = 0.0;
     const double goal = target(settings, std::sqrt(rr / points));
 
     MultiplierResult result;
     while (std::sqrt(rr / points) > goal && result.iterations < settings.iterations) {
+        system.precondition(r, z);
+        const double rz_new = system.dot(r, z);
+        const double beta = result.iterations == 0 ? 0.0 : rz_new / rz;
+        rz = rz_new;
+        for (int i = 0; i < rows; ++i) w[i] = z[i] + beta * w[i];
         system.apply(w, y);
-        const double alpha = rr / system.dot(w, y);
+        const double alpha = rz / system.dot(w, y);
         for (int i = 0; i < rows; ++i) {
             L[i] += alpha * w[i];
             r[i] -= alpha * y[i];
         }
-        const double rr_new = system.dot(r, r);
-        const double beta = rr_new / rr;
-        for (int i = 0; i < rows; ++i) w[i] = r[i] + beta * w[i];
-        rr = rr_new;
+        rr = system.dot(r, r);
         ++result.iterations;
     }
-    system.impose(L);
+    system.add(work.impulses);
     result.residual = std::sqrt(rr / points);
+    result.goal = goal;
     result.converged = result.residual <= goal;
     return result;
 }

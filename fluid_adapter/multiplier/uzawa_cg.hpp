@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Conjugate gradients on the multipliers (Uzawa; Wachs 2011, appendix, with its two signs
-// corrected): S L = s of saddle_point.hpp, where the residual s - S L is the slip left at the
-// points.
+// Preconditioned conjugate gradients on the multipliers (Uzawa; Wachs 2011, appendix, with its two
+// signs corrected): S L = s of saddle_point.hpp, where the residual s - S L is the slip left at the
+// boundary points.
 //
-// Always from L = 0: interior points change with every cell the grain crosses, so last window's
-// multipliers belong to other places, and would be state to save, for a few of about ten
-// iterations.
+// Every window begins at L = 0: the points move over the grid, so last window's multipliers belong
+// to other places, and would be state to save, for one of about three iterations.
 //
 // Valid C++17.
 #pragma once
@@ -30,18 +29,19 @@ struct MultiplierSettings {
 struct MultiplierResult {
     std::int64_t iterations = 0;
     double residual = 0.0;  ///< rms slip [m/s]
+    double goal = 0.0;      ///< what it had to fall below
     bool converged = true;
 };
 
 /// Vectors of the iteration; kept between windows so that nothing is allocated in a solve that is
 /// no larger than an earlier one.
 struct MultiplierWorkspace {
-    std::vector<double> impulses, residual, direction, image;
+    std::vector<double> impulses, direction, image, preconditioned;
 
     void resize(int rows);
 };
 
-/// Solves and imposes the result on field and grains.
+/// Reduces the system's slip until it is below both rules; the system's motions follow.
 MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& settings,
                           MultiplierWorkspace& work);
 

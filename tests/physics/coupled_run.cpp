@@ -42,6 +42,7 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.enabled", true);
     settings.set("fluid.cells_per_diameter", std::int64_t{setup.cells_per_diameter});
     settings.set("fluid.ranks", std::int64_t{1});
+    settings.set("fluid.decomposition", std::string("rows"));
     settings.set("fluid.points", setup.points);
     settings.set("fluid.point_spacing", 1.5);
     settings.set("fluid.hydrodynamic_radius", setup.hydrodynamic_radius);

@@ -13,6 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
+import processor_fields
+
 
 @dataclass
 class Grains:
@@ -139,7 +141,7 @@ def field_times(run):
     if run.case.get('fluid.enabled') == 'false':
         return []
     found = []
-    for entry in fluid.iterdir() if fluid.exists() else []:
+    for entry in processor_fields.time_parent(fluid).iterdir() if fluid.exists() else []:
         try:
             time = float(entry.name)
         except ValueError:
@@ -160,7 +162,8 @@ def mesh_cells(run):
 def read_velocity(time, folder, cells):
     """Reads `U` of a single block, x running fastest, as OpenFOAM writes it: ascii or binary."""
     columns, rows = cells
-    values = read_vectors(_contents(folder / 'U'), columns * rows)
+    values = processor_fields.whole_field(
+        folder, columns * rows, lambda part, n: read_vectors(_contents(part / 'U'), n))
     if len(values) != columns * rows:
         raise ValueError(f'{folder.name}/U has {len(values)} cells, the case {columns} x {rows}')
     grid = values.reshape(rows, columns, 3)

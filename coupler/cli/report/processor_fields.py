@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Fields of a fluid case that several ranks wrote: fluid/processor0, fluid/processor1, ...
+
+Every rank writes the values of its own cells; cellProcAddressing, which decomposePar leaves beside its mesh,
+says which cells of the whole mesh these are.
+"""
+import re
+from pathlib import Path
+
+import numpy as np
+
+
+def processor_folders(fluid):
+    """fluid/processorN in the order of N; empty for a case on one rank."""
+    found = [p for p in Path(fluid).glob('processor*') if re.fullmatch(r'processor\d+', p.name)]
+    return sorted(found, key=lambda p: int(p.name[len('processor'):]))
+
+
+def time_parent(fluid):
+    """The folder whose subfolders are the times: the case itself or its first processor folder."""
+    folders = processor_folders(fluid)
+    return folders[0] if folders else Path(fluid)
+
+
+def whole_field(time_folder, count, read_part):
+    """Values (count, ...) of all cells at the time of `time_folder`, which is a folder of the case or of its
+    first processor. `read_part(folder, n)` reads the n values of one folder, n None where not known."""
+    if not re.fullmatch(r'processor\d+', time_folder.parent.name):
+        return read_part(time_folder, count)
+    whole = None
+    seen = np.zeros(count, dtype=int)
+    for processor in processor_folders(time_folder.parent.parent):
+        cells = read_labels((processor / 'constant/polyMesh/cellProcAddressing').read_bytes())
+        if len(cells) and (cells.min() < 0 or cells.max() >= count):
+            raise ValueError(f'{processor.name} has cells that the case does not have')
+        part = read_part(processor / time_folder.name, len(cells))
+        if len(part) != len(cells):
+            raise ValueError(f'{processor.name}/{time_folder.name} has {len(part)} values for '
+                             f'{len(cells)} cells')
+        if whole is None:
+            whole = np.zeros((count,) + part.shape[1:])
+        whole[cells] = part
+        seen[cells] += 1
+    if not np.all(seen == 1):
+        raise ValueError('the processor folders do not hold every cell once')
+    return whole
+
+
+def read_labels(data):
+    """A labelList file of OpenFOAM, ascii or binary (32-bit labels)."""
+    uniform = re.search(rb'\n(\d+)\s*\{(-?\d+)\}', data)
+    if uniform:
+        return np.full(int(uniform.group(1)), int(uniform.group(2)))
+    head = re.search(rb'\n(\d+)\s*\(', data)
+    if not head:
+        raise ValueError('cellProcAddressing holds no list of labels')
+    n, start = int(head.group(1)), head.end()
+    if re.search(rb'format\s+binary', data[:head.start()]):
+        if len(data) < start + 4 * n:
+            raise ValueError('cellProcAddressing is cut off')
+        return np.frombuffer(data, dtype='<i4', count=n, offset=start)
+    return np.array(data[start:data.index(b')', start)].split(), dtype=int)

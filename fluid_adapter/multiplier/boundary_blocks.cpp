@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/boundary_blocks.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace turbidite {
+namespace {
+
+/// Stencils of three cells that reach away from each other share one up to this distance [cells].
+constexpr double stencil_reach = 5.0;
+
+}  // namespace
+
+void BoundaryBlocks::factorise(const FluidField& field, const std::vector<ImmersedGrain>& grains,
+                               const CollocationPoints& points) {
+    points_ = &points;
+    factors_.clear();
+    tied_.clear();
+    images_.resize(points.boundary_points());
+    on_cells_.resize(field.local_cells(), 0.0);
+    const double reach = stencil_reach * field.grid().largest_spacing();
+    for (int g = 0; g < points.grains(); ++g) {
+        factors_.begin_matrix();
+        order_points(g);
+        assemble(reach, 1.0 / field.cell_mass());
+        if (!factors_.factorise())
+            throw std::runtime_error(
+                "the boundary points of grain " + std::to_string(grains[g].id) +
+                " depend on each other: fluid.point_spacing is too small for its shape");
+        tied_.push_back(tie(g));
+    }
+}
+
+/// 0, n-1, 1, n-2, ...: the ring folded flat.
+void BoundaryBlocks::order_points(int g) {
+    order_.clear();
+    int low = points_->boundary_begin[g], high = points_->boundary_begin[g + 1] - 1;
+    while (low < high) {
+        order_.push_back(low++);
+        order_.push_back(high--);
+    }
+    if (low == high) order_.push_back(low);
+}
+
+void BoundaryBlocks::assemble(double reach, double per_mass) {
+    for (int i = 0; i < static_cast<int>(order_.size()); ++i) add_row(i, reach, per_mass);
+}
+
+void BoundaryBlocks::add_row(int i, double reach, double per_mass) {
+    const CollocationPoints& points = *points_;
+    const int p = order_[i];
+    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s)
+        on_cells_[points.cell[s]] = points.weight[s];
+    row_.assign(i + 1, 0.0);
+    int first = i;
+    for (int j = i; j >= 0; --j) {
+        const int q = order_[j];
+        if (std::abs(points.arm_x[p] - points.arm_x[q]) > reach ||
+            std::abs(points.arm_y[p] - points.arm_y[q]) > reach)
+            continue;
+        double sum = 0.0;
+        for (int s = points.stencil[q]; s < points.stencil[q + 1]; ++s)
+            sum += points.weight[s] * on_cells_[points.cell[s]];
+        row_[j] = per_mass * sum;
+        if (sum != 0.0) first = j;
+    }
+    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) on_cells_[points.cell[s]] = 0.0;
+    std::copy(row_.begin() + first, row_.end(), factors_.add_row(first));
+}
+
+/// T = [1 0 -r_y; 0 1 r_x]: with G^-1 of the columns (1, r_x, r_y) all entries are at hand.
+Eigen::Matrix3d BoundaryBlocks::tie(int g) {
+    const CollocationPoints& points = *points_;
+    columns_.clear();
+    for (const int p : order_)
+        columns_.insert(columns_.end(), {1.0, points.arm_x[p], points.arm_y[p]});
+    factors_.solve(g, columns_.data(), 3);
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // of (1, r_x, r_y) and their images
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const int p = order_[i];
+        images_[p] = Eigen::Map<const Eigen::Vector3d>(&columns_[3 * i]);
+        products += Eigen::Vector3d(1.0, points.arm_x[p], points.arm_y[p]) * images_[p].transpose();
+    }
+    const double mass = products(0, 0), x = products(0, 1), y = products(0, 2);
+    Eigen::Matrix3d tied;
+    tied << mass, 0.0, -y,  //
+        0.0, mass, x,       //
+        -y, x, products(1, 1) + products(2, 2);
+    return tied;
+}
+
+void BoundaryBlocks::solve(const double* r, double* z) {
+    const int n = points_->boundary_points();
+    for (int g = 0; g < points_->grains(); ++g) {
+        order_points(g);
+        columns_.clear();
+        for (const int p : order_) columns_.insert(columns_.end(), {r[p], r[n + p]});
+        factors_.solve(g, columns_.data(), 2);
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            z[order_[i]] = columns_[2 * i];
+            z[n + order_[i]] = columns_[2 * i + 1];
+        }
+    }
+}
+
+void BoundaryBlocks::subtract_images(const Planar* q, double* z) const {
+    double* z_y = z + points_->boundary_points();
+    for (int g = 0; g < points_->grains(); ++g)
+        for (int p = points_->boundary_begin[g]; p < points_->boundary_begin[g + 1]; ++p) {
+            z[p] -= q[g].x() * images_[p][0] - q[g].z() * images_[p][2];
+            z_y[p] -= q[g].y() * images_[p][0] + q[g].z() * images_[p][1];
+        }
+}
+
+}  // namespace turbidite

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/covered_fluid.hpp"
+
+namespace turbidite {
+
+CellSums sum_cells(const CollocationPoints& points, FluidField& field, int g) {
+    const double* ux = field.velocity(0);
+    const double* uy = field.velocity(1);
+    double rx = 0.0, ry = 0.0, rr = 0.0, x = 0.0, y = 0.0, moment = 0.0;
+    for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
+        const InteriorCell& point = points.interior[i];
+        rx += point.arm_x;
+        ry += point.arm_y;
+        rr += point.arm_x * point.arm_x + point.arm_y * point.arm_y;
+        x += ux[point.cell];
+        y += uy[point.cell];
+        moment += point.arm_x * uy[point.cell] - point.arm_y * ux[point.cell];
+    }
+    CellSums sums;
+    sums << points.interior_begin[g + 1] - points.interior_begin[g], rx, ry, rr, x, y, moment;
+    return sums;
+}
+
+Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, double m) {
+    const double mass = grain.effective_mass + m * sums[0];
+    Eigen::Matrix3d inertia;
+    inertia << mass, 0.0, -m * sums[2],  //
+        0.0, mass, m * sums[1],          //
+        -m * sums[2], m * sums[1], grain.effective_inertia + m * sums[3];
+    return inertia;
+}
+
+Planar body_momentum(const ImmersedGrain& grain, const CellSums& sums, double m) {
+    const Planar free = grain.free_motion();
+    return {grain.effective_mass * free.x() + m * sums[4],
+            grain.effective_mass * free.y() + m * sums[5],
+            grain.effective_inertia * free.z() + m * sums[6]};
+}
+
+Planar carry_cells(const CollocationPoints& points, FluidField& field, int g,
+                   const Planar& motion) {
+    double* ux = field.velocity(0);
+    double* uy = field.velocity(1);
+    double lost_x = 0.0, lost_y = 0.0, moment = 0.0;
+    for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
+        const InteriorCell& point = points.interior[i];
+        const double x = motion.x() - motion.z() * point.arm_y;
+        const double y = motion.y() + motion.z() * point.arm_x;
+        const double dx = ux[point.cell] - x, dy = uy[point.cell] - y;
+        lost_x += dx;
+        lost_y += dy;
+        moment += point.arm_x * dy - point.arm_y * dx;
+        ux[point.cell] = x;
+        uy[point.cell] = y;
+    }
+    return field.cell_mass() * Planar(lost_x, lost_y, moment);
+}
+
+}  // namespace turbidite

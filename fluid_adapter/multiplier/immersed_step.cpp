@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/immersed_step.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "coupler/shapes/immersed_body.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Under `joint` slips are taken this much below what contacts and fluid may disagree by, so that
+/// the disagreement is that of the inertia and not of the solve.
+constexpr double slip_per_mismatch = 0.1;
+
+Planar planar(const Vec3& linear, const Vec3& angular) {
+    return {linear[0], linear[1], angular[2]};
+}
+
+Eigen::Matrix3d rotation_of(const Quaternion& q) {
+    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+}
+
+MultiplierSettings multiplier_settings(const Settings& settings) {
+    MultiplierSettings result;
+    result.tolerance = settings.real("fluid.multiplier_tolerance");
+    result.iterations = static_cast<int>(settings.integer("fluid.multiplier_iterations"));
+    result.velocity_scale = settings.real("run.velocity_scale");
+    if (settings.text("coupling.scheme") == "joint")
+        result.tolerance =
+            std::min(result.tolerance, slip_per_mismatch * settings.real("coupling.tolerance"));
+    return result;
+}
+
+PointRules point_rules(const Settings& settings) {
+    const std::string& name = settings.text("fluid.points");
+    std::string known;
+    for (const PointKind& kind : point_kinds()) {
+        if (kind.name == name) return {kind.boundary, settings.real("fluid.point_spacing")};
+        known += (known.empty() ? "" : ", ") + kind.name;
+    }
+    throw std::invalid_argument("unknown fluid.points \"" + name + "\"; known: " + known);
+}
+
+/// Index of (i, j), i <= j, in the upper triangle by rows of a 6 x 6 matrix.
+constexpr int upper(int i, int j) {
+    return i * 6 - i * (i - 1) / 2 + j - i;
+}
+
+/// The plane's (x, y, spin) are 0, 1, 5 of the six; the others do not move and get ones.
+std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
+    constexpr int six[] = {0, 1, 5};
+    std::array<double, 21> inertia{};
+    for (const int still : {2, 3, 4}) inertia[upper(still, still)] = 1.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) inertia[upper(six[i], six[j])] = plane(i, j);
+    return inertia;
+}
+
+}  // namespace
+
+const std::vector<PointKind>& point_kinds() {
+    static const std::vector<PointKind> kinds = {{"interior", false}, {"interior+boundary", true}};
+    return kinds;
+}
+
+ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes)
+    : field_(field),
+      fluid_density_(settings.real("run.fluid_density")),
+      hydrodynamic_radius_(settings.real("fluid.hydrodynamic_radius")),
+      gravity_(settings.real("run.gravity")),
+      joint_(settings.text("coupling.scheme") == "joint"),
+      settings_(multiplier_settings(settings)),
+      placement_(point_rules(settings)) {
+    for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
+}
+
+ImmersedGrain ImmersedStep::immersed(const GrainState& state, double step) const {
+    const Shape& shape = *shapes_.at(state.shape);
+    const ImmersedBody body =
+        immersed_body(shape, state.radius, state.density, fluid_density_, hydrodynamic_radius_);
+    ImmersedGrain grain;
+    grain.id = state.id;
+    grain.shape = &shape;
+    grain.radius = hydrodynamic_radius_ * state.radius;
+    grain.position = {state.position[0], state.position[1], state.position[2]};
+    grain.orientation = rotation_of(state.orientation);
+    grain.effective_mass = body.effective_mass;
+    grain.effective_inertia = body.effective_inertia(2, 2);
+    grain.contact_motion = planar(state.velocity, state.angular_velocity);
+    if (joint_)
+        grain.contact_motion.y() -= body.submerged_mass / body.effective_mass * gravity_ * step;
+    else
+        grain.announced_impulse = planar(state.announced_impulse, state.announced_angular_impulse);
+    return grain;
+}
+
+void ImmersedStep::take(const std::vector<GrainState>& grains, double step) {
+    grains_.clear();
+    index_.clear();
+    for (const GrainState& state : grains) {
+        index_.emplace(state.id, grains_.size());
+        grains_.push_back(immersed(state, step));
+    }
+    contact_impulses_.assign(grains_.size(), Planar::Zero());
+    mismatch_.assign(grains_.size(), 0.0);
+    placement_.place(field_, grains_, points_);
+}
+
+MultiplierResult ImmersedStep::solve() {
+    system_.assemble(field_, grains_, points_);
+    const MultiplierResult result = uzawa_cg(system_, settings_, work_);
+    slip_goal_ = result.goal;
+    return result;
+}
+
+MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {
+    changes_.assign(grains_.size(), Planar::Zero());
+    std::vector<Planar> told(grains_.size(), Planar::Zero());
+    for (const GrainState& state : with_contacts) {
+        const auto at = index_.find(state.id);
+        if (at == index_.end())
+            throw std::runtime_error("contact impulses came for grain " + std::to_string(state.id) +
+                                     ", which the window did not begin with");
+        const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
+        changes_[at->second] = impulse - contact_impulses_[at->second];
+        contact_impulses_[at->second] = impulse;
+        told[at->second] = planar(state.velocity, state.angular_velocity);
+    }
+    system_.push(changes_);
+    MultiplierSettings settings = settings_;
+    settings.tolerance = slip_goal_ / settings.velocity_scale;
+    settings.reduction = 1.0;
+    const MultiplierResult result = uzawa_cg(system_, settings, work_);
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        const Planar off = system_.motions()[g] - told[g];
+        mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());
+    }
+    return result;
+}
+
+/// Exactly one rank does: the owner of the cell that holds the centre or, for a grain on its way
+/// out, of the nearest one.
+bool ImmersedStep::answers_for(std::size_t grain) const {
+    const CellGrid& grid = field_.grid();
+    int index[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        const int layer = grid.layer(axis, grains_[grain].position[axis]);
+        index[axis] = grid.cyclic(axis) ? grid.wrapped(axis, layer)
+                                        : std::clamp(layer, 0, grid.counts[axis] - 1);
+    }
+    const int home = field_.cell(index[0], index[1], 0);
+    return home >= 0 && field_.owns(home);
+}
+
+std::vector<FreeResponse> ImmersedStep::responses() const {
+    std::vector<FreeResponse> responses;
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        if (!answers_for(g)) continue;
+        const Eigen::Matrix3d& inertia = system_.effective_inertia()[g];
+        const Planar free = system_.motions()[g] - inertia.llt().solve(contact_impulses_[g]);
+        FreeResponse response;
+        response.id = grains_[g].id;
+        response.velocity = {free.x(), free.y(), 0.0};
+        response.angular_velocity = {0.0, 0.0, free.z()};
+        response.inertia = in_space(inertia);
+        response.mismatch = mismatch_[g];
+        responses.push_back(response);
+    }
+    return responses;
+}
+
+void ImmersedStep::impose() {
+    system_.impose();
+}
+
+std::vector<Kick> ImmersedStep::kicks() const {
+    std::vector<Kick> kicks;
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+        if (!answers_for(g)) continue;
+        const Planar& motion = system_.motions()[g];
+        const Planar& impulse = system_.impulses()[g];
+        Kick kick;
+        kick.id = grains_[g].id;
+        kick.velocity = {motion.x(), motion.y(), 0.0};
+        kick.angular_velocity = {0.0, 0.0, motion.z()};
+        kick.multiplier_impulse = {impulse.x(), impulse.y(), 0.0};
+        kick.multiplier_angular_impulse = {0.0, 0.0, impulse.z()};
+        kicks.push_back(kick);
+    }
+    return kicks;
+}
+
+Planar ImmersedStep::impulse_to_grains() const {
+    Planar sum = Planar::Zero();
+    for (std::size_t g = 0; g < grains_.size(); ++g)
+        if (answers_for(g)) sum += system_.impulses()[g];
+    return sum;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/profile_cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turbidite {
+namespace {
+
+/// A pivot below this share of its diagonal entry is rounding.
+constexpr double least_pivot = 1e-13;
+
+}  // namespace
+
+void ProfileCholesky::clear() {
+    begin_.assign(1, 0);
+    first_.clear();
+    place_.clear();
+    values_.clear();
+    inverse_.clear();
+}
+
+int ProfileCholesky::begin_matrix() {
+    begin_.push_back(begin_.back());
+    return static_cast<int>(begin_.size()) - 2;
+}
+
+double* ProfileCholesky::add_row(int first) {
+    const int row = begin_.back()++ - begin_[begin_.size() - 2];
+    first_.push_back(first);
+    place_.push_back(static_cast<std::ptrdiff_t>(values_.size()) - first);
+    inverse_.push_back(0.0);
+    values_.resize(values_.size() + row - first + 1, 0.0);
+    return values_.data() + values_.size() - (row - first + 1);
+}
+
+bool ProfileCholesky::factorise() {
+    const int begin = begin_[begin_.size() - 2], rows = begin_.back() - begin;
+    for (int i = 0; i < rows; ++i) {
+        double* row = values_.data() + place_[begin + i];
+        const int first = first_[begin + i];
+        for (int j = first; j < i; ++j) {
+            const double* other = values_.data() + place_[begin + j];
+            double sum = row[j];
+            for (int k = std::max(first, first_[begin + j]); k < j; ++k) sum -= row[k] * other[k];
+            row[j] = sum * inverse_[begin + j];
+        }
+        double pivot = row[i];
+        for (int k = first; k < i; ++k) pivot -= row[k] * row[k];
+        if (!(pivot > least_pivot * row[i])) return false;
+        inverse_[begin + i] = 1.0 / std::sqrt(pivot);
+        row[i] = std::sqrt(pivot);
+    }
+    return true;
+}
+
+void ProfileCholesky::solve(int matrix, double* x, int columns) const {
+    const int begin = begin_[matrix], rows = size(matrix);
+    for (int i = 0; i < rows; ++i) {
+        const double* row = values_.data() + place_[begin + i];
+        for (int c = 0; c < columns; ++c) {
+            double sum = x[i * columns + c];
+            for (int k = first_[begin + i]; k < i; ++k) sum -= row[k] * x[k * columns + c];
+            x[i * columns + c] = sum * inverse_[begin + i];
+        }
+    }
+    for (int i = rows - 1; i >= 0; --i) {
+        const double* row = values_.data() + place_[begin + i];
+        for (int c = 0; c < columns; ++c) {
+            const double value = x[i * columns + c] *= inverse_[begin + i];
+            for (int k = first_[begin + i]; k < i; ++k) x[k * columns + c] -= row[k] * value;
+        }
+    }
+}
+
+}  // namespace turbidite

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Between the cells that a rank has, by whatever decomposition, and the complete rows that a
+// separable solve wants of it. Where every rank has complete neighbouring rows already, as `simple
+// (1 n 1)` cuts them, these are the rows of the solve and nothing travels; otherwise rows are dealt
+// out evenly and cells of other ranks' rows travel, each once per direction. Valid C++17.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fluid_adapter/linear_solvers/pencils.hpp"
+#include "fluid_adapter/ranks/rank_group.hpp"
+
+namespace turbidite {
+
+class CellRows {
+ public:
+    /// `cells`: the number i + columns j of each of this rank's cells, in the rank's order. Throws
+    /// std::invalid_argument, on every rank, unless the ranks have every cell once.
+    CellRows(const RankGroup& group, int columns, int rows, const std::vector<int>& cells);
+
+    /// Arrays for a solve on these rows.
+    std::unique_ptr<Pencils> pencils() const;
+
+    /// rows[...] = value_of(c) for every cell c of this rank's order, wherever its row is.
+    template <class ValueOf>
+    void gather(ValueOf value_of, double* rows);
+
+    /// put(c, value) for every cell c of this rank.
+    template <class Put>
+    void scatter(const double* rows, Put put);
+
+    /// The value of cell (0, 0), on every rank.
+    double first(const double* rows) const;
+
+    /// No value travels between ranks.
+    bool stays() const { return away_.empty() && guests_.empty(); }
+
+ private:
+    struct Part {  // of a buffer, shared with one rank
+        int rank, begin, end;
+    };
+
+    void choose_rows(int rows, const std::vector<int>& cells);
+    void sort_cells(const std::vector<int>& cells);
+    void check_complete() const;
+    int row_holder(int row) const;
+    void begin_exchange(const std::vector<Part>& out, double* out_values,
+                        const std::vector<Part>& in, double* in_values);
+    void end_exchange();
+
+    RankGroup group_;
+    int columns_;
+    std::vector<Span> rows_of_rank_;
+    bool straight_ = false;                    // all cells stay, in the order of the rows
+    std::vector<int> own_cells_, own_places_;  // cells that stay, and where in the rows they go
+    std::vector<Part> away_, guests_;          // of the two lists below
+    std::vector<int> away_cells_;              // cells whose rows are another rank's
+    std::vector<int> guest_places_;            // where in the rows other ranks' cells go
+    std::vector<double> away_values_, guest_values_;
+    std::vector<MPI_Request> requests_;
+};
+
+template <class ValueOf>
+void CellRows::gather(ValueOf value_of, double* rows) {
+    if (straight_) {
+        const int n = static_cast<int>(own_cells_.size());
+        for (int c = 0; c < n; ++c) rows[c] = value_of(c);
+        return;
+    }
+    for (std::size_t k = 0; k < away_cells_.size(); ++k) away_values_[k] = value_of(away_cells_[k]);
+    begin_exchange(away_, away_values_.data(), guests_, guest_values_.data());
+    for (std::size_t k = 0; k < own_cells_.size(); ++k)
+        rows[own_places_[k]] = value_of(own_cells_[k]);
+    end_exchange();
+    for (std::size_t k = 0; k < guest_places_.size(); ++k)
+        rows[guest_places_[k]] = guest_values_[k];
+}
+
+template <class Put>
+void CellRows::scatter(const double* rows, Put put) {
+    if (straight_) {
+        const int n = static_cast<int>(own_cells_.size());
+        for (int c = 0; c < n; ++c) put(c, rows[c]);
+        return;
+    }
+    for (std::size_t k = 0; k < guest_places_.size(); ++k)
+        guest_values_[k] = rows[guest_places_[k]];
+    begin_exchange(guests_, guest_values_.data(), away_, away_values_.data());
+    for (std::size_t k = 0; k < own_cells_.size(); ++k) put(own_cells_[k], rows[own_places_[k]]);
+    end_exchange();
+    for (std::size_t k = 0; k < away_cells_.size(); ++k) put(away_cells_[k], away_values_[k]);
+}
+
+}  // namespace turbidite

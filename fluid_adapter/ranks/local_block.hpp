@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Which local index a rank has for cell (i, j): its own cells first, in its own order, then a halo
+// of all cells within some layers of them (corners count as neighbours). One number per cell of the
+// smallest block of the grid around both. A cyclic side has the other end's cells beyond it.
+// Valid C++17.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fluid_adapter/multiplier/cell_grid.hpp"
+
+namespace turbidite {
+
+class LocalBlock {
+ public:
+    /// `own`: the number i + nx j of each of this rank's cells. Finds the halo, unnumbered so far.
+    LocalBlock(const CellGrid& grid, const std::vector<int>& own, int layers);
+
+    /// Numbers of the halo's cells, ascending.
+    const std::vector<int>& halo() const { return halo_; }
+
+    /// Gives the halo's cells the local indices after the own ones, in this order.
+    void number_halo(const std::vector<int>& order);
+
+    /// Local index of a cell of the grid, -1 where this rank knows nothing of it.
+    int at(int i, int j) const {
+        const int x = along(0, i), y = along(1, j);
+        return x < 0 || y < 0 ? -1 : index_[x + static_cast<std::size_t>(width_[0]) * y];
+    }
+
+ private:
+    /// Place in the block, -1 outside.
+    int along(int axis, int i) const {
+        int place = i - first_[axis];
+        if (place < 0) place += turn_[axis];
+        return place >= 0 && place < width_[axis] ? place : -1;
+    }
+
+    int& slot(int i, int j) {
+        return index_[along(0, i) + static_cast<std::size_t>(width_[0]) * along(1, j)];
+    }
+
+    void enclose(const std::vector<int>& own, int layers);
+    bool is_inside(int cell) const;
+    void mark_around(int cell, int layers);
+
+    CellGrid grid_;
+    std::array<int, 2> first_{}, width_{};
+    std::array<int, 2> turn_{};  // cells around a cyclic axis, 0 for others
+    std::vector<int> index_;
+    std::vector<int> halo_;
+    int own_count_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Sums of rows of numbers, one row per grain, over the ranks that hold the grain. Ranks that share
+// a grain find each other by its id, through a rank that keeps the register of that id: no geometry
+// and no list of all grains. After that only they talk. Sums run in the order of the ranks, so all
+// holders get the same bits. Valid C++17.
+#pragma once
+
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+#include "fluid_adapter/ranks/rank_group.hpp"
+
+namespace turbidite {
+
+class SharedGrains {
+ public:
+    explicit SharedGrains(const RankGroup& group) : group_(group) {}
+
+    /// The grains that this rank holds from now on, each once. Collective.
+    void hold(const GrainId* ids, int count);
+
+    /// Sums rows[g * per_grain ...] of the grains held, in place; every rank at the same time, with
+    /// the same `per_grain`.
+    void sum(double* rows, int per_grain);
+
+ private:
+    struct Partner {
+        int rank = 0;
+        std::vector<int> grains;  // that both hold, by id
+        std::vector<double> sent, received;
+    };
+
+    void begin(const double* rows, int per_grain);
+    void add_own(double* rows, int per_grain) const;
+
+    RankGroup group_;
+    std::vector<Partner> partners_;
+    std::vector<int> shared_;  // grains held by others too
+    std::vector<double> own_;  // this rank's rows of them
+    std::vector<MPI_Request> requests_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Step 5 solved another way, for comparison: no multiplier is eliminated, all points of all grains
+// are rows of one dense matrix S = B B^T/m + T C^-1 T^T, C = diag(cM, cM, cI), solved by LU.
+#pragma once
+
+#include <Eigen/LU>
+#include <array>
+
+#include "fluid_adapter/multiplier/collocation_points.hpp"
+
+namespace turbidite {
+
+class DenseReference {
+ public:
+    DenseReference(FluidField& field, const std::vector<ImmersedGrain>& grains,
+                   const CollocationPoints& points)
+        : field_(field), grains_(grains), B_(points.size(), field.local_cells()) {
+        B_.setZero();
+        for (int g = 0; g < points.grains(); ++g) {
+            for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
+                const InteriorCell& point = points.interior[i];
+                B_(rows_.size(), point.cell) = 1.0;
+                rows_.push_back({g, point.arm_x, point.arm_y});
+            }
+            for (int p = points.boundary_begin[g]; p < points.boundary_begin[g + 1]; ++p) {
+                for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s)
+                    B_(rows_.size(), points.cell[s]) = points.weight[s];
+                rows_.push_back({g, points.arm_x[p], points.arm_y[p]});
+            }
+        }
+    }
+
+    /// Motions of all grains; `pushes`: impulses that come in addition.
+    std::vector<Planar> motions(const std::vector<Planar>& pushes) {
+        const int n = static_cast<int>(rows_.size());
+        Eigen::MatrixXd T(2 * n, 3 * grains_.size());
+        T.setZero();
+        for (int i = 0; i < n; ++i) {
+            const int g = 3 * rows_[i].grain;
+            T.row(i).segment<3>(g) << 1.0, 0.0, -rows_[i].arm_y;
+            T.row(n + i).segment<3>(g) << 0.0, 1.0, rows_[i].arm_x;
+        }
+        Eigen::VectorXd inverse(3 * grains_.size()), free(3 * grains_.size());
+        for (std::size_t g = 0; g < grains_.size(); ++g) {
+            const double m = grains_[g].effective_mass, I = grains_[g].effective_inertia;
+            inverse.segment<3>(3 * g) << 1.0 / m, 1.0 / m, 1.0 / I;
+            free.segment<3>(3 * g) =
+                grains_[g].free_motion() + inverse.segment<3>(3 * g).cwiseProduct(pushes[g]);
+        }
+        const Eigen::MatrixXd gram = B_ * B_.transpose() / field_.cell_mass();
+        Eigen::MatrixXd S = T * inverse.asDiagonal() * T.transpose();
+        S.topLeftCorner(n, n) += gram;
+        S.bottomRightCorner(n, n) += gram;
+        const Eigen::Map<Eigen::VectorXd> ux(field_.velocity(0), field_.local_cells()),
+            uy(field_.velocity(1), field_.local_cells());
+        Eigen::VectorXd slip(2 * n);
+        slip << B_ * ux, B_ * uy;
+        slip -= T * free;
+        const Eigen::VectorXd moved =
+            free + inverse.cwiseProduct(T.transpose() * S.partialPivLu().solve(slip));
+        std::vector<Planar> result;
+        for (std::size_t g = 0; g < grains_.size(); ++g) result.push_back(moved.segment<3>(3 * g));
+        return result;
+    }
+
+ private:
+    struct Row {
+        int grain;
+        double arm_x, arm_y;
+    };
+
+    FluidField& field_;
+    const std::vector<ImmersedGrain>& grains_;
+    Eigen::MatrixXd B_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Separable solves on several ranks against the solve on one.
+#include "fluid_adapter/ranks/mpi_pencils.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fluid_adapter/ranks/cell_rows.hpp"
+#include "tests/unit/linear_solvers/dense_laplacian.hpp"
+#include "tests/unit/ranks/decompositions.hpp"
+
+namespace turbidite {
+namespace {
+
+double some_value(int cell) {
+    return std::sin(3.7 * cell * cell + 1.0) + 0.3;
+}
+
+struct Solved {
+    std::vector<double> values;
+    double mean;
+};
+
+Solved on_one_rank(const PlaneOperator& plane, const Helmholtz& problem) {
+    SeparableSolve solve(plane);
+    solve.factorise(problem);
+    const int cells = plane.x.cells * plane.y.cells;
+    for (int c = 0; c < cells; ++c) solve.values()[c] = some_value(c);
+    const double mean = solve.solve();
+    return {{solve.values(), solve.values() + cells}, mean};
+}
+
+void expect_equal_on_all_ranks(const PlaneOperator& plane, const Helmholtz& problem,
+                               const Decomposition& decomposition) {
+    SCOPED_TRACE(decomposition.name);
+    const RankGroup group(MPI_COMM_WORLD);
+    const int nx = plane.x.cells, ny = plane.y.cells;
+    const std::vector<int> cells =
+        cells_of(decomposition, nx, ny, group.rank(), group.size(), decomposition.name == "random");
+    CellRows rows(group, nx, ny, cells);
+    SeparableSolve solve(plane, rows.pencils());
+    solve.factorise(problem);
+    rows.gather([&](int c) { return some_value(cells[c]); }, solve.values());
+    const double mean = solve.solve();
+
+    const Solved expected = on_one_rank(plane, problem);
+    // The eliminations are the same, mode by mode: what differs is FFTW's order of additions, which
+    // may depend on how many rows a plan has.
+    rows.scatter(solve.values(), [&](int c, double value) {
+        EXPECT_NEAR(value, expected.values[cells[c]], 1e-13);
+    });
+    EXPECT_NEAR(mean, expected.mean, 1e-14);
+    EXPECT_NEAR(rows.first(solve.values()), expected.values[0], 1e-13);
+}
+
+TEST(MpiPencils, SolveAsOneRankDoesForEveryPairOfEnds) {
+    for (const Ends& x : all_ends())
+        for (const Ends& y : all_ends())
+            for (const Helmholtz& problem : {Helmholtz{1.0, 0.02}, {0.0, 0.7}})
+                for (const Decomposition& decomposition : all_decompositions())
+                    expect_equal_on_all_ranks({axis_of(12, 0.25, x), axis_of(9, 0.4, y)}, problem,
+                                              decomposition);
+}
+
+/// Fewer rows or modes than ranks: some ranks have none.
+TEST(MpiPencils, RanksMayBeLeftWithoutRowsOrModes) {
+    const Ends closed = {End::neumann, End::neumann};
+    for (const Decomposition& decomposition : all_decompositions())
+        expect_equal_on_all_ranks({axis_of(3, 0.25, closed), axis_of(3, 0.4, closed)}, {0.0, 1.0},
+                                  decomposition);
+}
+
+TEST(MpiPencils, TransposeThereAndBackIsExact) {
+    const RankGroup group(MPI_COMM_WORLD);
+    const std::vector<Span> rows = even_spans(11, group.size());
+    MpiPencils pencils(group, 7, rows);
+    const Span& own = rows[group.rank()];
+    for (int k = 0; k < 7 * own.count; ++k) pencils.rows()[k] = 7 * own.first + k;
+    pencils.to_columns();
+    for (int j = 0; j < 11; ++j)
+        for (int m = 0; m < pencils.mode_count(); ++m)
+            EXPECT_EQ(pencils.columns()[j * pencils.mode_count() + m],
+                      7 * j + pencils.first_mode() + m);
+    std::fill_n(pencils.rows(), 7 * own.count, -1.0);
+    pencils.to_rows();
+    for (int k = 0; k < 7 * own.count; ++k) EXPECT_EQ(pencils.rows()[k], 7 * own.first + k);
+}
+
+}  // namespace
+}  // namespace turbidite
