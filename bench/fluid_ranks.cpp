@@ -15,9 +15,10 @@ std::vector<int> starts_of(const std::vector<int>& counts) {
     return starts;
 }
 
-/// The hub's: the stencils of its points reach so far beyond a grain.
+/// How far beyond its surface a grain matters to a rank. More than any stencil or rule of points
+/// reaches, so that nothing here depends on them.
 double margin(const Settings& settings) {
-    return 4.0 * settings.real("run.diameter") / settings.real("fluid.cells_per_diameter");
+    return settings.real("run.diameter");
 }
 
 }  // namespace
