@@ -40,13 +40,16 @@ void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
 void ColumnSolve::eliminate(const Helmholtz& problem) {
     const double per_r = 1.0 / along_.coupling();
     const double shift = problem.alpha / problem.beta;
-    for (int j = 0; j < open_length(); ++j)
-        for (int k = 0; k < modes_.count; ++k) {
+    for (int j = 0; j < open_length(); ++j) {
+        // The last pivot of the mode of constants is zero, and hosts may trap a division by it:
+        // its unknown is free.
+        const bool free_unknown = singular_ && j == along_.cells - 1;
+        if (free_unknown) e_[at(j)] = 0.0;
+        for (int k = free_unknown ? 1 : 0; k < modes_.count; ++k) {
             const double d = (shift + mu_[k] + along_.diagonal(j)) * per_r;
             e_[at(j) + k] = 1.0 / (d - (j > 0 ? e_[at(j - 1) + k] : 0.0));
         }
-    // The last pivot of the mode of constants is zero but for rounding: its unknown is free.
-    if (singular_ && !along_.periodic()) e_[at(along_.cells - 1)] = 0.0;
+    }
 }
 
 void ColumnSolve::close_the_ring(const Helmholtz& problem) {
@@ -59,9 +62,9 @@ void ColumnSolve::close_the_ring(const Helmholtz& problem) {
             w_[at(j) + k] = (w_[at(j - 1) + k] + (j == last ? 1.0 : 0.0)) * e_[at(j) + k];
         for (int j = last - 1; j >= 0; --j) w_[at(j) + k] += e_[at(j) + k] * w_[at(j + 1) + k];
         const double d = (shift + mu_[k] + along_.diagonal(along_.cells - 1)) * per_r;
-        closing_[k] = 1.0 / (d - w_[k] - w_[at(last) + k]);
+        const bool free_unknown = singular_ && k == 0;
+        closing_[k] = free_unknown ? 0.0 : 1.0 / (d - w_[k] - w_[at(last) + k]);
     }
-    if (singular_) closing_[0] = 0.0;
 }
 
 double ColumnSolve::solve(double* values) const {

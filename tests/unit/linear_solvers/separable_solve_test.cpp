@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -122,6 +123,17 @@ TEST(SeparableSolve, RefusesWhatIsNotPositive) {
     EXPECT_THROW(solve.factorise({-1.0, 1.0}), std::invalid_argument);
     EXPECT_THROW(solve.factorise({1.0, 0.0}), std::invalid_argument);
     EXPECT_THROW(solve.factorise({1.0, std::nan("")}), std::invalid_argument);
+}
+
+/// Stock OpenFOAM applications end at the first division by zero.
+TEST(SeparableSolve, FreeConstantsAreNoDivisionByZero) {
+    for (const PlaneOperator& plane : all_planes()) {
+        SeparableSolve solve(plane);
+        std::feclearexcept(FE_ALL_EXCEPT);
+        solve.factorise({0.0, 1.0});
+        solved(solve, some_values(plane));
+        EXPECT_FALSE(std::fetestexcept(FE_DIVBYZERO | FE_INVALID));
+    }
 }
 
 }  // namespace

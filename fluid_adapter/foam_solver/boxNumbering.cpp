@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_solver/boxNumbering.hpp"
+
+#include <algorithm>
+
+namespace turbidite {
+namespace {
+
+/// The neighbours of each cell, smaller numbers first.
+using Neighbours = std::vector<std::vector<int>>;
+
+std::string cell_name(int cell) {
+    return "cell " + std::to_string(cell);
+}
+
+Neighbours neighbours_of(const Foam::lduAddressing& addressing) {
+    Neighbours of(addressing.size());
+    const Foam::labelUList& lower = addressing.lowerAddr();
+    const Foam::labelUList& upper = addressing.upperAddr();
+    forAll(lower, face) {
+        of[lower[face]].push_back(upper[face]);
+        of[upper[face]].push_back(lower[face]);
+    }
+    for (std::size_t c = 0; c < of.size(); ++c) {
+        if (of[c].size() < 2 || of[c].size() > 4)
+            throw DoesNotFit(cell_name(c) + " has " + std::to_string(of[c].size()) +
+                             " neighbours; in one layer of cells, 3 x 3 or more, it has 2 to 4");
+        std::sort(of[c].begin(), of[c].end());
+    }
+    return of;
+}
+
+/// Along the boundary from the first corner to the next.
+std::vector<int> first_row(const Neighbours& of) {
+    const auto corner =
+        std::find_if(of.begin(), of.end(), [](const auto& list) { return list.size() == 2; });
+    if (corner == of.end()) throw DoesNotFit("no cell is a corner, with 2 neighbours");
+    std::vector<int> row = {static_cast<int>(corner - of.begin()), corner->front()};
+    while (of[row.back()].size() == 3) {
+        const int last = row.back(), before = row[row.size() - 2];
+        const auto next = std::find_if(of[last].begin(), of[last].end(), [&](int cell) {
+            return cell != before && of[cell].size() < 4;
+        });
+        if (next == of[last].end() || row.size() == of.size())
+            throw DoesNotFit("the boundary through " + cell_name(last) + " ends in no corner");
+        row.push_back(*next);
+    }
+    return row;
+}
+
+/// The cells across a row: of each of its cells the one neighbour without a place. Empty behind the
+/// last row.
+std::vector<int> row_across(const std::vector<int>& row, const Neighbours& of,
+                            const std::vector<int>& place) {
+    std::vector<int> across;
+    for (int cell : row)
+        for (int next : of[cell])
+            if (place[next] < 0) across.push_back(next);
+    if (across.empty() || across.size() == row.size()) return across;
+    throw DoesNotFit("beside the row that starts at " + cell_name(row.front()) + " lie " +
+                     std::to_string(across.size()) + " cells and not " +
+                     std::to_string(row.size()) + ": the mesh has a step or a hole there");
+}
+
+void find_axes(const Foam::lduAddressing& addressing, BoxNumbering& box) {
+    const Foam::labelUList& lower = addressing.lowerAddr();
+    const Foam::labelUList& upper = addressing.upperAddr();
+    box.axis.resize(lower.size());
+    forAll(lower, face) {
+        const int a = lower[face], b = upper[face];
+        const int columns = std::abs(box.column(a) - box.column(b));
+        const int rows = std::abs(box.row(a) - box.row(b));
+        if (columns + rows != 1)
+            throw DoesNotFit(cell_name(a) + " and " + cell_name(b) +
+                             " share a face and do not lie side by side in a box");
+        box.axis[face] = rows;
+    }
+}
+
+void check_complete(const Foam::lduAddressing& addressing, const BoxNumbering& box) {
+    const int nx = box.cells[0], ny = box.cells[1];
+    if (nx * ny != addressing.size() || addressing.lowerAddr().size() != 2 * nx * ny - nx - ny)
+        throw DoesNotFit("its " + std::to_string(addressing.size()) +
+                         " cells are not one box of rows and columns");
+    if (nx < 3 || ny < 3)
+        throw DoesNotFit("it has " + std::to_string(nx) + " x " + std::to_string(ny) +
+                         " cells; 3 x 3 is the least");
+}
+
+}  // namespace
+
+BoxNumbering number_box(const Foam::lduAddressing& addressing) {
+    const Neighbours of = neighbours_of(addressing);
+    BoxNumbering box;
+    box.place.assign(of.size(), -1);
+    int next_place = 0;
+    for (std::vector<int> row = first_row(of); !row.empty(); row = row_across(row, of, box.place)) {
+        if (box.cells[1]++ == 0) box.cells[0] = row.size();
+        for (int cell : row) box.place[cell] = next_place++;
+    }
+    check_complete(addressing, box);
+    find_axes(addressing, box);
+    return box;
+}
+
+}  // namespace turbidite

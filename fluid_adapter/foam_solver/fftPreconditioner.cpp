@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_solver/fftPreconditioner.hpp"
+
+namespace turbidite {
+
+defineTypeNameAndDebug(FftPreconditioner, 0);
+
+namespace {
+
+const Foam::lduMatrix::preconditioner::addsymMatrixConstructorToTable<FftPreconditioner>
+    add_fft_preconditioner;
+
+/// With the inverse of the nearest operator set; ends the program where the mesh is no box.
+const BoxOfMesh& box_for(const Foam::lduMatrix::solver& solver) {
+    try {
+        const BoxOfMesh& box = BoxOfMesh::of(solver.matrix());
+        box.inverse(solver.fieldName())
+            .set(nearest_operator(
+                {solver.matrix(), solver.interfaceBouCoeffs(), solver.interfaces()},
+                box.numbering()));
+        return box;
+    } catch (const DoesNotFit& why) {
+        FatalErrorInFunction << "preconditioner FFT does not fit the matrix of "
+                             << solver.fieldName() << ": " << why.what() << ".\n"
+                             << "    Use `preconditioner DIC;` or `solver GAMG;`, which take any "
+                                "mesh."
+                             << exit(Foam::FatalError);
+        throw;
+    }
+}
+
+}  // namespace
+
+FftPreconditioner::FftPreconditioner(const Foam::lduMatrix::solver& solver, const Foam::dictionary&)
+    : preconditioner(solver), box_(box_for(solver)), inverse_(box_.inverse(solver.fieldName())) {}
+
+void FftPreconditioner::precondition(Foam::solveScalarField& preconditioned,
+                                     const Foam::solveScalarField& residual,
+                                     const Foam::direction) const {
+    inverse_.apply(box_.numbering(), residual, preconditioned);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `solver FFT;` in an OpenFOAM case's fvSolution: a symmetric matrix that is separable, solved
+// directly. Every call reads the coefficients and refuses those that do not fit.
+//
+// An iteration is a correction of psi by A^-1 of its residual. One does, except where coefficients
+// that differ by coefficient_tolerance or rounding leave more than the tolerance; the last one is
+// the one that the tolerance asked for, or that no longer halved the residual.
+#pragma once
+
+#include <lduMatrix.H>
+
+#include "fluid_adapter/foam_solver/boxOfMesh.hpp"
+
+namespace turbidite {
+
+class FftSolver final : public Foam::lduMatrix::solver {
+ public:
+    using word = Foam::word;  // TypeName means it
+    TypeName("FFT");
+
+    FftSolver(const Foam::word& field, const Foam::lduMatrix& matrix,
+              const Foam::FieldField<Foam::Field, Foam::scalar>& boundary_coeffs,
+              const Foam::FieldField<Foam::Field, Foam::scalar>& internal_coeffs,
+              const Foam::lduInterfaceFieldPtrsList& interfaces, const Foam::dictionary& controls);
+
+    Foam::solverPerformance solve(Foam::scalarField& psi, const Foam::scalarField& source,
+                                  const Foam::direction component = 0) const override;
+
+    Foam::solverPerformance scalarSolve(Foam::solveScalarField& psi,
+                                        const Foam::solveScalarField& source,
+                                        const Foam::direction component = 0) const override;
+
+ private:
+    const BoxOfMesh& checked_box() const;
+    Foam::scalar residual_sum(Foam::solveScalarField& residual, const Foam::solveScalarField& psi,
+                              const Foam::solveScalarField& source,
+                              Foam::direction component) const;
+};
+
+}  // namespace turbidite

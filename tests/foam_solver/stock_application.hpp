@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// OpenFOAM's own programs on a small box, with the library under test named in `libs`.
+#pragma once
+
+#include <cmath>
+#include <regex>
+
+#include "tests/foam_solver/foam_box.hpp"
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+
+class StockApplication : public ShellTest {
+ protected:
+    static constexpr const char* libs = "libs (\"" TURBIDITE_FFT_LIBRARY "\");";
+
+    Answer foam(const std::string& command) const {
+        return shell("export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}; " + command);
+    }
+
+    void make_mesh() const {
+        const Answer mesh = foam("blockMesh");
+        ASSERT_EQ(mesh.code, 0) << mesh.out << mesh.err;
+    }
+
+    Answer run(const std::string& application) const {
+        const Answer answer = foam(application);
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        return answer;
+    }
+
+    std::vector<double> field(const std::string& name) const {
+        return read_field(scratch.path() / name);
+    }
+
+    static double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+        EXPECT_EQ(a.size(), b.size());
+        double largest = 0.0;
+        for (std::size_t c = 0; c < a.size() && c < b.size(); ++c)
+            largest = std::max(largest, std::abs(a[c] - b[c]));
+        return largest;
+    }
+
+    /// The iterations of every solve of a field, from the log.
+    static std::vector<int> iterations(const std::string& log, const std::string& field) {
+        const std::regex line("Solving for " + field + ", .*No Iterations ([0-9]+)");
+        std::vector<int> found;
+        for (std::sregex_iterator at(log.begin(), log.end(), line), end; at != end; ++at)
+            found.push_back(std::stoi((*at)[1]));
+        return found;
+    }
+
+    static int most_iterations(const std::string& log, const std::string& field) {
+        const std::vector<int> found = iterations(log, field);
+        EXPECT_FALSE(found.empty()) << log;
+        return found.empty() ? -1 : *std::max_element(found.begin(), found.end());
+    }
+
+    /// Largest final residual of a field's solves.
+    static double worst_residual(const std::string& log, const std::string& field) {
+        const std::regex line("Solving for " + field + ", .*Final residual = ([^,]+),");
+        double worst = -1.0;
+        for (std::sregex_iterator at(log.begin(), log.end(), line), end; at != end; ++at)
+            worst = std::max(worst, std::stod((*at)[1]));
+        return worst;
+    }
+
+    static std::string solver_of(const std::string& field, const std::string& entries) {
+        return "solvers { " + field + " { " + entries + " } }\nSIMPLE {}\n";
+    }
+};
+
+}  // namespace turbidite

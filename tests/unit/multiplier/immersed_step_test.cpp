@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/immersed_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "tests/unit/multiplier/memory_field.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double step = 0.01;
+constexpr double tolerance = 1e-5;  // coupling.tolerance
+
+Settings settings(const std::string& scheme) {
+    Settings result;
+    result.set("coupling.scheme", scheme);
+    result.set("coupling.tolerance", tolerance);
+    result.set("fluid.points", std::string("interior+boundary"));
+    result.set("fluid.point_spacing", 1.5);
+    result.set("fluid.multiplier_tolerance", 1e-4);
+    result.set("fluid.multiplier_iterations", std::int64_t{200});
+    result.set("fluid.hydrodynamic_radius", 1.0);
+    result.set("run.velocity_scale", 1.0);
+    result.set("run.fluid_density", 1.0);
+    result.set("run.gravity", 1.0);
+    return result;
+}
+
+GrainState grain(GrainId id, double x, double y, const Vec3& velocity = {}) {
+    GrainState state;
+    state.id = id;
+    state.radius = 0.5;
+    state.density = 1.5;
+    state.position = {x, y, 0.0};
+    state.velocity = velocity;
+    return state;
+}
+
+/// A field that begins with some flow, and step 5 on it.
+struct Scene {
+    explicit Scene(const std::string& scheme)
+        : field(96, 96, Side::wall), five(field, settings(scheme), {{"disc", {}}}) {
+        field.fill([](double x, double y) {
+            return Planar(0.01 * std::sin(x + 2.0 * y), 0.02 * std::cos(x - y), 0.0);
+        });
+    }
+
+    MemoryField field;
+    ImmersedStep five;
+};
+
+/// Neighbours whose boundary points share cells.
+std::vector<GrainState> neighbours() {
+    return {grain(1, 1.5, 2.0, {0.1, -0.5, 0.0}), grain(2, 2.61, 2.03, {-0.2, 0.3, 0.0}),
+            grain(3, 2.03, 3.07, {0.0, -1.0, 0.0})};
+}
+
+/// What a contact solve would send with these impulses, had it the responses' inertia.
+std::vector<GrainState> after_contacts(std::vector<GrainState> grains,
+                                       const std::vector<FreeResponse>& responses) {
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+        const auto& a = responses[g].inertia;  // x, y, spin: rows 0, 1, 5 of six
+        Eigen::Matrix3d inertia;
+        inertia << a[0], a[1], a[5], a[1], a[6], a[10], a[5], a[10], a[20];
+        const Planar impulse(0.01 * double(g + 1), 0.02, -0.004);
+        const Planar free(responses[g].velocity[0], responses[g].velocity[1],
+                          responses[g].angular_velocity[2]);
+        const Planar moved = free + inertia.inverse() * impulse;
+        grains[g].velocity = {moved.x(), moved.y(), 0.0};
+        grains[g].angular_velocity = {0.0, 0.0, moved.z()};
+        grains[g].contact_impulse = {impulse.x(), impulse.y(), 0.0};
+        grains[g].contact_angular_impulse = {0.0, 0.0, impulse.z()};
+    }
+    return grains;
+}
+
+double largest_mismatch(const std::vector<FreeResponse>& responses) {
+    double largest = 0.0;
+    for (const FreeResponse& response : responses) largest = std::max(largest, response.mismatch);
+    return largest;
+}
+
+TEST(ImmersedStep, AGrainByItselfNeedsOneRound) {
+    Scene scene("joint");
+    const std::vector<GrainState> grains = {grain(4, 3.013, 3.007, {0.1, -0.5, 0.0})};
+    scene.five.take(grains, step);
+    scene.five.solve();
+    scene.five.push(after_contacts(grains, scene.five.responses()));
+    EXPECT_LT(largest_mismatch(scene.five.responses()), 1e-9);
+}
+
+TEST(ImmersedStep, NeighboursAgreeWithinTheToleranceAfterAFewRounds) {
+    Scene scene("joint");
+    scene.five.take(neighbours(), step);
+    scene.five.solve();
+    double mismatch = 1.0;
+    int rounds = 0;
+    for (; mismatch > tolerance && rounds < 6; ++rounds) {
+        scene.five.push(after_contacts(neighbours(), scene.five.responses()));
+        mismatch = largest_mismatch(scene.five.responses());
+        if (rounds == 0) {
+            EXPECT_GT(mismatch, tolerance);  // there is something to do
+        }
+    }
+    EXPECT_LE(mismatch, tolerance);
+    EXPECT_LE(rounds, 3);
+}
+
+TEST(ImmersedStep, MomentumIsExactWithContactImpulses) {
+    // c M (U - U^n) = c M g dt + J + dt lambda, and the fluid loses dt lambda.
+    Scene scene("joint");
+    const Planar before = scene.field.momentum();
+    scene.five.take(neighbours(), step);
+    scene.five.solve();
+    const auto pushed = after_contacts(neighbours(), scene.five.responses());
+    scene.five.push(pushed);
+    scene.five.impose();
+    const double c_mass = 0.5 * 3.14159265358979 / 4.0;  // rho_s = 1.5
+    const std::vector<Kick> kicks = scene.five.kicks();
+    for (std::size_t g = 0; g < kicks.size(); ++g) {
+        const double change = kicks[g].velocity[1] - neighbours()[g].velocity[1];
+        EXPECT_NEAR(c_mass * (change + step),
+                    pushed[g].contact_impulse[1] + kicks[g].multiplier_impulse[1], 1e-13);
+    }
+    const Planar change = scene.field.momentum() - before;
+    EXPECT_NEAR(change.y(), -scene.five.impulse_to_grains().y(), 1e-12);
+}
+
+TEST(ImmersedStep, WithoutContactsJointIsSplitWithFreeFall) {
+    // U^{n+4/5} = U^n - g dt is what the contact solve of `split` finds where nothing touches.
+    Scene joint("joint"), split("split");
+    joint.five.take(neighbours(), step);
+    joint.five.solve();
+    std::vector<GrainState> fallen = neighbours();
+    for (GrainState& state : fallen) state.velocity[1] -= step;
+    split.five.take(fallen, step);
+    split.five.solve();
+    const std::vector<FreeResponse> free = joint.five.responses();
+    split.five.impose();
+    const std::vector<Kick> kicks = split.five.kicks();
+    ASSERT_EQ(free.size(), kicks.size());
+    for (std::size_t g = 0; g < kicks.size(); ++g)
+        for (int axis = 0; axis < 2; ++axis)
+            EXPECT_NEAR(free[g].velocity[axis], kicks[g].velocity[axis], 2e-4);  // tolerances
+}
+
+TEST(ImmersedStep, AGrainOnItsWayOutIsAnsweredFor) {
+    MemoryField field(96, 96, Side::open);
+    ImmersedStep five(field, settings("split"), {{"disc", {}}});
+    five.take({grain(9, -0.3, 2.0), grain(10, 2.0, 6.2)}, step);
+    five.solve();
+    five.impose();
+    EXPECT_EQ(five.kicks().size(), 2u);
+}
+
+TEST(ImmersedStep, NamesAGrainThatTheWindowDidNotBeginWith) {
+    Scene scene("joint");
+    scene.five.take({grain(4, 3.0, 3.0)}, step);
+    scene.five.solve();
+    try {
+        scene.five.push({grain(5, 3.0, 3.0)});
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("grain 5"), std::string::npos);
+    }
+}
+
+TEST(ImmersedStep, UnknownPointsListTheKnown) {
+    Settings wrong = settings("split");
+    wrong.set("fluid.points", std::string("surface"));
+    MemoryField field(16, 16, Side::wall);
+    try {
+        ImmersedStep five(field, wrong, {{"disc", {}}});
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("interior+boundary"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace turbidite
