@@ -9,6 +9,7 @@
 
 #include "coupler/case/case_file.hpp"
 #include "coupler/case/run_folder.hpp"
+#include "coupler/cli/launch_line.hpp"
 #include "coupler/cli/prepare_run.hpp"
 #include "coupler/protocol/failure.hpp"
 
@@ -26,18 +27,20 @@ void say(const std::string& text) {
     fmt::print(stderr, "  {}\n", text);
 }
 
-ResolvedCase case_of(const Site& site, const Box2d& box) {
+ResolvedCase case_of(const Site& site, const Box2d& box, int ranks = 1) {
     return load_case(site.source("fluid.yaml"),
                      {fmt::format("domain.size=[{},{}]", box.width, box.height),
                       fmt::format("grains.count={}", std::max(box.discs, 1)),
+                      fmt::format("fluid.ranks={}", ranks),
                       fmt::format("fluid.cells_per_diameter={}", Box2d::cells_per_diameter)});
 }
 
-RunFolder prepared_run(const Site& site, const Box2d& box) {
-    const RunFolder folder{site.folder() / ("ours-" + box.name())};
+RunFolder prepared_run(const Site& site, const Box2d& box, int ranks) {
+    const std::string name = fmt::format("{}-on-{}", box.name(), ranks);
+    const RunFolder folder{site.folder() / ("ours-" + name)};
     if (fs::exists(folder.root)) return folder;
-    say("preparing " + box.name());
-    const ResolvedCase resolved = case_of(site, box);
+    say("preparing " + name);
+    const ResolvedCase resolved = case_of(site, box, ranks);
     prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});
     if (box.discs == 0)
         site.run({"setExprFields", "-case", folder.fluid(), "-dict",
@@ -83,21 +86,23 @@ std::string Box2d::name() const {
                        discs > 0 ? fmt::format("-{}-discs", discs) : "");
 }
 
-Sample our_window(Site& site, const Box2d& box, const Effort& effort) {
-    const RunFolder folder = prepared_run(site, box);
+Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks) {
+    const RunFolder folder = prepared_run(site, box, ranks);
     const fs::path result = site.folder() / "ours.json";
-    std::vector<std::string> line{(site.programs().folder / "turbidite-bench-fluid").string(),
-                                  folder.root.string(),
-                                  "--warm-up",
-                                  std::to_string(effort.warm_up),
-                                  "--steps",
-                                  std::to_string(effort.steps),
-                                  "--result",
-                                  result.string()};
+    std::vector<std::string> line;
+    if (ranks > 1) {
+        line = mpirun_options(this_site());
+        line.insert(line.end(), {"-n", std::to_string(ranks)});
+    }
+    line.insert(line.end(), {(site.programs().folder / "turbidite-bench-fluid").string(),
+                             folder.root.string(), "--warm-up", std::to_string(effort.warm_up),
+                             "--steps", std::to_string(effort.steps), "--result", result.string()});
     if (box.discs > 0) line.push_back("--discs");
+    if (ranks > 1) line.push_back("--parallel");
     site.run(line, "ours.log");
     const Sample sample = read_sample(result);
-    say(fmt::format("our window, {}: {:.4g} s", box.name(), sample.processor));
+    say(fmt::format("our window, {} on {}: {:.4g} s, wall {:.4g} s", box.name(), ranks,
+                    sample.processor, sample.wall));
     return sample;
 }
 

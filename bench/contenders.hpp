@@ -22,8 +22,9 @@ struct Effort {
     int warm_up = 0, steps = 1;
 };
 
-/// Prepares the run folder at the first call. Grains start at rest and fall.
-Sample our_window(Site& site, const Box2d& box, const Effort& effort);
+/// Prepares the run folder at the first call. Grains start at rest and fall. Several ranks run
+/// under mpirun, and need discs to move the fluid.
+Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks = 1);
 
 Sample array_code_step(Site& site, const Box2d& box, const Effort& effort);
 

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include "bench/contenders.hpp"
-#include "coupler/protocol/failure.hpp"
 
 namespace turbidite::bench {
 namespace {
 
 double processor(const Sample& sample) {
     return sample.processor;
+}
+double wall(const Sample& sample) {
+    return sample.wall;
 }
 double resident(const Sample& sample) {
     return sample.resident;
@@ -42,7 +44,7 @@ std::string profile(const std::vector<Sample>& samples) {
             median_of(samples, [&](const Sample& s) { return s.parts.at(part); });
         text += fmt::format(" {} {:.4g} ms,", part, 1e3 * seconds);
     }
-    const double together = median_of(samples, [](const Sample& s) { return s.wall; });
+    const double together = median_of(samples, wall);
     return text + fmt::format(" together {:.4g} ms of wall time", 1e3 * together);
 }
 
@@ -87,8 +89,15 @@ Measured cell_cost_growth(Site& site) {
     return measured;
 }
 
-Measured speedup_2_ranks(Site&) {
-    throw Failure(ExitCode::tests_failed, "the fluid runs on one rank in this version");
+Measured speedup_2_ranks(Site& site) {
+    const Box2d box = tall_box(site, true);
+    const Duel duel = alternate(
+        repeats(site), [&] { return our_window(site, box, windows(site), 1); },
+        [&] { return our_window(site, box, windows(site), 2); });
+    Measured measured = ratio(duel, wall);
+    measured.notes = {"on one rank: " + profile(duel.first),
+                      "on the first of two: " + profile(duel.second)};
+    return measured;
 }
 
 Measured bytes_per_cell(Site& site) {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// turbidite-bench-fluid RUN: times windows of our fluid on a prepared run folder. With --discs the
-// grains of the folder move as the contact engine and the fluid make them (scheme `split`), and
-// only the fluid's work is timed.
+// turbidite-bench-fluid RUN: times windows of our fluid on a prepared run folder, with --parallel
+// under mpirun. With --discs the grains of the folder move as the contact engine and the fluid make
+// them (scheme `split`), and only the fluid's work is timed.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
+#include "bench/fluid_ranks.hpp"
 #include "bench/step_clock.hpp"
 #include "coupler/case/case_file.hpp"
 #include "coupler/case/run_folder.hpp"
@@ -22,7 +24,7 @@ struct Options {
     std::filesystem::path run;
     std::filesystem::path result;
     int warm_up = 0, steps = 1;
-    bool discs = false;
+    bool discs = false, parallel = false;
 };
 
 /// The grains between two windows of the fluid; none at all without --discs.
@@ -37,8 +39,8 @@ class MovingGrains {
         if (!contact_) return {};
         return contact_->advance(window, {}).grains;
     }
-    void move(const Window& window, const Kicks& answer) {
-        if (contact_) contact_->apply_kick(window, answer.kicks);
+    void move(const Window& window, const std::vector<Kick>& kicks) {
+        if (contact_) contact_->apply_kick(window, kicks);
     }
 
  private:
@@ -65,25 +67,27 @@ class Profile {
     std::map<std::string, std::vector<double>> seconds_;
 };
 
-Sample run(const Options& options) {
+Sample run(const Options& options, FluidRanks& ranks) {
     const ResolvedCase resolved = load_run_folder(options.run);
     FoamAdapter fluid(RunFolder{options.run}.fluid());
-    fluid.initialise(resolved.settings, resolved.shapes);
+    ranks.initialise(fluid, resolved.settings, resolved.shapes);
     MovingGrains grains(resolved, options.discs);
     const double dt = resolved.settings.real("run.step");
     StepClock clock;
     Profile profile;
     for (int n = 0; n < options.warm_up + options.steps; ++n) {
         const Window window{n, n * dt, dt, false, false};
-        const std::vector<GrainState> moving = grains.advance(window);
+        const std::vector<GrainState> moving = ranks.here(grains.advance(window));
+        ranks.meet();
         clock.start();
         fluid.advance(window);
         const Kicks answer = fluid.impose(window, moving);
+        ranks.meet();
         if (n >= options.warm_up) {
             clock.stop();
             profile.add(fluid.timings());
         }
-        grains.move(window, answer);
+        grains.move(window, ranks.all(answer.kicks));
     }
     Sample sample;
     sample.processor = clock.processor();
@@ -91,6 +95,13 @@ Sample run(const Options& options) {
     sample.resident = resident_bytes();
     sample.parts = profile.medians();
     return sample;
+}
+
+/// Without the end of MPI, which would wait for the other ranks: mpirun ends them.
+[[noreturn]] void leave(int code, const char* why) {
+    std::fprintf(stderr, "turbidite-bench-fluid: %s\n", why);
+    std::fflush(nullptr);
+    std::_Exit(code);
 }
 
 }  // namespace
@@ -101,18 +112,20 @@ int main(int argc, char** argv) {
     CLI::App app{"One contender of `turbidite bench fluid`", "turbidite-bench-fluid"};
     app.add_option("RUN", options.run, "run folder, prepared")->required();
     app.add_flag("--discs", options.discs, "with the grains of the folder");
+    app.add_flag("--parallel", options.parallel, "on the ranks of mpirun");
     app.add_option("--warm-up", options.warm_up, "windows before the timed ones");
     app.add_option("--steps", options.steps, "timed windows");
     app.add_option("--result", options.result, "file to write")->required();
     CLI11_PARSE(app, argc, argv);
+    turbidite::bench::FluidRanks ranks(options.parallel, &argc, &argv);
     try {
-        write_sample(turbidite::bench::run(options), options.result);
+        const turbidite::bench::Sample sample = turbidite::bench::run(options, ranks);
+        if (ranks.first()) write_sample(sample, options.result);
     } catch (const turbidite::Failure& failure) {
-        std::fprintf(stderr, "turbidite-bench-fluid: %s\n", failure.what());
-        return static_cast<int>(failure.code());
+        turbidite::bench::leave(static_cast<int>(failure.code()), failure.what());
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "turbidite-bench-fluid: %s\n", error.what());
-        return static_cast<int>(turbidite::ExitCode::participant_failed);
+        turbidite::bench::leave(static_cast<int>(turbidite::ExitCode::participant_failed),
+                                error.what());
     }
     return 0;
 }

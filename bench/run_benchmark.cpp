@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -124,8 +125,10 @@ void write_json(const std::vector<Entry>& entries, const std::filesystem::path& 
 bool run_benchmarks(const BenchOrder& order) {
     std::vector<Entry> entries = entries_of(order);
     Site site(order.quick);
-    fmt::print("machine: {} processors, memory triad {:.1f} GB/s on one core\n",
-               ::sysconf(_SC_NPROCESSORS_ONLN), 1e-9 * memory_triad());
+    double load = 0.0;  // before we add to it
+    ::getloadavg(&load, 1);
+    fmt::print("machine: {} processors, load {:.1f}, memory triad {:.1f} GB/s on one core\n",
+               ::sysconf(_SC_NPROCESSORS_ONLN), load, 1e-9 * memory_triad());
     std::fflush(stdout);
     for (Entry& entry : entries) measure(entry, site);
     fmt::print("{}", table(entries));

@@ -54,15 +54,6 @@ void append(Arguments& to, const Arguments& more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
-// Copying between processes through the kernel is forbidden in most containers; mpirun would warn.
-Arguments mpirun_options(const LaunchSite& site) {
-    Arguments options{"mpirun"};
-    if (site.as_root) options.push_back("--allow-run-as-root");
-    append(options, {"--oversubscribe", "--bind-to", "none", "--mca",
-                     "btl_vader_single_copy_mechanism", "none"});
-    return options;
-}
-
 std::string python_path(const LaunchSite& site) {
     const std::string ours = site.programs.yade_folder().string();
     return site.python.empty() ? ours : ours + ":" + site.python;
@@ -104,6 +95,15 @@ LaunchSite this_site() {
             .as_root = geteuid() == 0,
             .openfoam = openfoam ? openfoam : "/usr/share/openfoam",
             .python = python ? python : ""};
+}
+
+// Copying between processes through the kernel is forbidden in most containers; mpirun would warn.
+std::vector<std::string> mpirun_options(const LaunchSite& site) {
+    Arguments options{"mpirun"};
+    if (site.as_root) options.push_back("--allow-run-as-root");
+    append(options, {"--oversubscribe", "--bind-to", "none", "--mca",
+                     "btl_vader_single_copy_mechanism", "none"});
+    return options;
 }
 
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,

@@ -28,6 +28,9 @@ struct LaunchSite {
 /// Of this machine and user.
 LaunchSite this_site();
 
+/// `mpirun` and what it needs on this site, before the first program.
+std::vector<std::string> mpirun_options(const LaunchSite& site);
+
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
                                           const LaunchSite& site);
 

@@ -31,8 +31,8 @@ RULES = [
     ("fluid_adapter/multiplier/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
-    ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
     ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the yardstick stands alone"),
+    ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
     ("fluid_adapter/foam_solver/*.[hc]pp", [MPI, EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)

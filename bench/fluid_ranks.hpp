@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The ranks of our fluid when turbidite-bench-fluid runs alone under mpirun: what the coupler does
+// in a job, without messages. Every rank moves all grains, gives the fluid those that touch its
+// box, and hears the kicks of all ranks.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "coupler/transport/exchange_plan.hpp"
+#include "coupler/transport/world.hpp"
+#include "fluid_adapter/foam_app/foamAdapter.hpp"
+
+namespace turbidite::bench {
+
+class FluidRanks {
+ public:
+    /// `parallel`: under mpirun. Otherwise there is one rank, and MPI is not even started.
+    FluidRanks(bool parallel, int* argc, char*** argv);
+
+    bool first() const { return rank_ == 0; }
+
+    /// Opens the case on every rank.
+    void initialise(FoamAdapter& fluid, const Settings& settings, const ShapeTable& shapes);
+
+    /// The grains that this rank's fluid needs.
+    std::vector<GrainState> here(const std::vector<GrainState>& grains) const;
+
+    /// The kicks of all ranks, on all ranks.
+    std::vector<Kick> all(const std::vector<Kick>& kicks) const;
+
+    /// Waits until every rank is here.
+    void meet() const;
+
+ private:
+    std::unique_ptr<MpiEnvironment> mpi_;
+    int rank_ = 0;
+    std::optional<ExchangePlan> plan_;
+};
+
+}  // namespace turbidite::bench
