@@ -20,6 +20,7 @@ class BoxFluidStep final : public FluidStep {
     void diffuse(MomentumLedger& ledger) override;
     bool finite() const override;
     void put_fields() override;
+    std::int64_t kind() const override { return 2; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
 

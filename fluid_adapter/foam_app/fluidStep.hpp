@@ -9,6 +9,7 @@
 // U holds the velocity before `project` and after `diffuse`, and nothing in between.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -34,7 +35,9 @@ class FluidStep {
     /// What the step keeps for itself and fields have as well: p.
     virtual void put_fields() {}
 
-    /// What it knows beyond u and p: the excess flux, in an order of its own, and back.
+    /// What it knows beyond u and p: the excess flux, in an order of its own, and back. The kind of
+    /// step says whose order.
+    virtual std::int64_t kind() const = 0;
     virtual std::vector<double> memory() = 0;
     virtual void set_memory(const std::vector<double>& values) = 0;
 };

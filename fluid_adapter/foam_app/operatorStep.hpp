@@ -18,6 +18,7 @@ class OperatorStep final : public FluidStep {
     void transport(MomentumLedger& ledger) override;
     void diffuse(MomentumLedger& ledger) override;
     bool finite() const override;
+    std::int64_t kind() const override { return 1; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
 

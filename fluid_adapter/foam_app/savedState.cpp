@@ -9,6 +9,7 @@ namespace {
 
 struct Header {
     std::int64_t cells = 0;
+    std::int64_t kind = 0;  // of the steps that wrote it
     std::int64_t time_index = 0;
     double time = 0.0;
 };
@@ -37,7 +38,8 @@ void take(const char*& from, Field& field) {
 }  // namespace
 
 SavedState save_fields(FluidFields& fields, FluidStep& step) {
-    const Header header{fields.mesh.nCells(), fields.time.timeIndex(), fields.time.value()};
+    const Header header{fields.mesh.nCells(), step.kind(), fields.time.timeIndex(),
+                        fields.time.value()};
     SavedState state(sizeof header);
     std::memcpy(state.data(), &header, sizeof header);
     append(state, fields.U.primitiveField());
@@ -56,6 +58,10 @@ void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& ste
     if (header.cells != fields.mesh.nCells())
         throw Failure(ExitCode::bad_input, "the saved fluid state does not belong to a mesh of " +
                                                std::to_string(fields.mesh.nCells()) + " cells");
+    if (header.kind != step.kind())
+        throw Failure(ExitCode::bad_input,
+                      "the saved fluid state was written with another fluid.pressure_solver, "
+                      "fluid.viscous_solver or fluid.transport_scheme; go on with the same ones");
     const char* from = state.data() + sizeof header;
     take(from, U);
     take(from, p);

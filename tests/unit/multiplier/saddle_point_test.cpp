@@ -158,6 +158,10 @@ struct Case {
     double density_factor;  // on cM and cI: negative is lighter than the fluid
 };
 
+void PrintTo(const Case& scene, std::ostream* out) {
+    *out << scene.name;
+}
+
 class Against : public testing::TestWithParam<Case> {
  protected:
     Against() : problem(scaled(), GetParam().boundary) { problem.field.fill_randomly(5); }
