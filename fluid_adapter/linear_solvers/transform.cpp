@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluid_adapter/linear_solvers/transform.hpp"
 
+#include <algorithm>
+
 #include "fluid_adapter/linear_solvers/fourier_rows.hpp"
 
 namespace turbidite {
@@ -12,12 +14,19 @@ RowTransform::RowTransform(const AxisOperator& axis)
 
 RowTransform::~RowTransform() = default;
 
+// Zero before each call: transforms are not normalised, and what one row leaves of rounding in the
+// other would grow from solve to solve.
+double* RowTransform::absent_row() {
+    std::fill(absent_.begin(), absent_.end(), 0.0);
+    return absent_.data();
+}
+
 void RowTransform::forward(double* first, double* second) {
-    kind_->forward(first, second ? second : absent_.data());
+    kind_->forward(first, second ? second : absent_row());
 }
 
 void RowTransform::backward(double* first, double* second) {
-    kind_->backward(first, second ? second : absent_.data());
+    kind_->backward(first, second ? second : absent_row());
 }
 
 }  // namespace turbidite

@@ -49,6 +49,8 @@ class RowTransform {
     };
 
  private:
+    double* absent_row();
+
     std::unique_ptr<Kind> kind_;
     std::vector<double> absent_;  // the second row where there is none
     double normalisation_;
