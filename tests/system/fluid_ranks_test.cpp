@@ -64,7 +64,7 @@ TEST_F(FluidRanks, RowsAndColumnsAndAnyNumberGiveTheHistoryOfOneRank) {
                                 "fluid.ranks=3 --set fluid.decomposition=columns"})
         expect_the_same(one, places(several), several);
     EXPECT_TRUE(fs::exists(run_folder() / "fluid/processor2/2.5/U"));
-    EXPECT_SAYS(text(run_folder() / "report.html"), "Red: fluid rises");
+    EXPECT_SAYS(text(run_folder() / "report.html"), "Colour: vertical velocity of the fluid");
 }
 
 TEST_F(FluidRanks, WithoutBoundaryPoints) {
