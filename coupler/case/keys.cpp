@@ -317,7 +317,7 @@ std::vector<KeySpec> scheme_keys() {
         {.name = "coupling.tolerance",
          .type = KeyType::real,
          .unit = "u_c",
-         .fallback = "1e-05",
+         .fallback = "0.0001",
          .range = tolerance,
          .help = "joint: largest difference between contact and fluid velocity of a grain"},
         {.name = "coupling.iterations",

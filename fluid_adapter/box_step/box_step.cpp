@@ -144,20 +144,33 @@ void BoxStep::transport(double dt) {
     }
 }
 
+void BoxStep::hold_flux() {
+    for (int axis = 0; axis < 2; ++axis) flux_[axis].resize(excess_[axis].size());
+    u_.begin(velocity(0));
+    v_.begin(velocity(1));
+    for (int j = 0; j <= ny_; ++j) {
+        const double* u = u_.row(j);
+        if (j < ny_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), held_x(j));
+        mean_flux(nx_, v_.row(j - 1), v_.row(j), 1.0, excess_y(j), held_y(j));
+    }
+    held_ = true;
+}
+
 /// Momentum through the faces above row j.
 void BoxStep::carry_above(int j) {
     const double two_by_k = 2.0 / fluid_.limiter;
     const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
     const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
-    mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
-    convective_flux(nx_, two_by_k, flux_above_.data(), u, v, carried_above_[0].data(),
-                    carried_above_[1].data());
+    const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
+    if (!held_) mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
+    convective_flux(nx_, two_by_k, flux, u, v, carried_above_[0].data(), carried_above_[1].data());
 }
 
 void BoxStep::transport_row(int j, double dt) {
     const double *u = u_.row(j), *v = v_.row(j);
-    mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
-    convective_flux(nx_ + 1, 2.0 / fluid_.limiter, flux_x_.data(), along_row(u), along_row(v),
+    const double* flux = held_ ? held_x(j) : flux_x_.data();
+    if (!held_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
+    convective_flux(nx_ + 1, 2.0 / fluid_.limiter, flux, along_row(u), along_row(v),
                     carried_x_[0].data(), carried_x_[1].data());
     for (int axis = 0; axis < 2; ++axis) {
         const double* across = carried_x_[axis].data();
@@ -223,7 +236,8 @@ BoxStep::Force BoxStep::convective_force() {
         const double share = at_face(fluid_.velocity, side);
         const Force u{share * velocity(0)[cell], share * velocity(1)[cell]};
         const int axis = side / 2;
-        const double inward = (side % 2 == 0 ? 1.0 : -1.0) * (u[axis] + excess_[axis][face]);
+        const double flux = held_ ? flux_[axis][face] : u[axis] + excess_[axis][face];
+        const double inward = side % 2 == 0 ? flux : -flux;
         return Force{inward * u[0], inward * u[1]};
     });
 }

@@ -9,8 +9,8 @@
 //     3  viscosity    u3 - dt nu laplacian(u3) = u2
 //
 // Fluxes are face velocities: phi over |S|. The flux itself is never stored: it is e + S.u1, two
-// values per cell, beside u and p. Each step reads and writes its fields once.
-// Valid C++17.
+// values per cell, beside u and p; only transport in several parts keeps it. Each step reads and
+// writes its fields once. Valid C++17.
 #pragma once
 
 #include <array>
@@ -55,7 +55,12 @@ class BoxStep {
     std::vector<double>& excess(int axis) { return excess_[axis]; }
 
     FluxReport project(double dt);
+
     void transport(double dt);
+
+    /// For transport in several parts: between the two, phi1 is kept while u changes.
+    void hold_flux();
+    void release_flux() { held_ = false; }
 
     /// `take(j)` is called once row j is complete.
     void diffuse(double dt, const SeparableSolve::RowWork& take);
@@ -82,6 +87,8 @@ class BoxStep {
     Force over_sides(PerCell per_cell);
 
     double* excess_x(int j) { return excess_[0].data() + static_cast<std::size_t>(j) * (nx_ + 1); }
+    double* held_x(int j) { return flux_[0].data() + static_cast<std::size_t>(j) * (nx_ + 1); }
+    double* held_y(int j) { return flux_[1].data() + static_cast<std::size_t>(j) * nx_; }
     double* excess_y(int j) { return excess_[1].data() + static_cast<std::size_t>(j) * nx_; }
     double* row_of(int axis, int j) { return velocity(axis) + static_cast<std::size_t>(j) * nx_; }
 
@@ -94,6 +101,8 @@ class BoxStep {
     double factorised_for_ = 0.0;
     double kept_ = 0.0;  // k of this window
     std::array<std::vector<double>, 2> excess_;
+    std::array<std::vector<double>, 2> flux_;  // phi1 over |S|, where it was held; like excess_
+    bool held_ = false;
     RowReader u_, v_, p_;
     Row flux_x_, flux_below_, flux_above_;
     Row corrected_u_, corrected_below_, corrected_here_;

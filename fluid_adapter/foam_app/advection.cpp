@@ -5,10 +5,10 @@
 
 namespace turbidite {
 
-void advect(FluidFields& fields) {
+void advect(FluidFields& fields, Foam::scalar dt) {
     const Foam::tmp<Foam::volVectorField> change =
         Foam::fvc::div(fields.phi, fields.U, "div(phi,U)");
-    fields.U -= fields.time.deltaT() * change;
+    fields.U -= Foam::dimensionedScalar("dt", Foam::dimTime, dt) * change;
     fields.U.replace(Foam::vector::Z, Foam::dimensionedScalar(Foam::dimVelocity, Foam::Zero));
     fields.U.correctBoundaryConditions();
 }

@@ -8,6 +8,7 @@
 
 namespace turbidite {
 
-void advect(FluidFields& fields);
+/// Over dt [s].
+void advect(FluidFields& fields, Foam::scalar dt);
 
 }  // namespace turbidite

@@ -59,9 +59,13 @@ FluxReport BoxFluidStep::project(MomentumLedger& ledger) {
     return {largest[0], largest[1]};
 }
 
-void BoxFluidStep::transport(MomentumLedger& ledger) {
-    ledger.add(on_all_ranks(step_.convective_force()));
-    step_.transport(fields_.time.deltaTValue());
+void BoxFluidStep::transport(MomentumLedger& ledger, int parts) {
+    if (parts > 1) step_.hold_flux();
+    for (int part = 0; part < parts; ++part) {
+        ledger.add(on_all_ranks(step_.convective_force()), 1.0 / parts);
+        step_.transport(fields_.time.deltaTValue() / parts);
+    }
+    step_.release_flux();
 }
 
 void BoxFluidStep::diffuse(MomentumLedger& ledger) {

@@ -16,7 +16,7 @@ class BoxFluidStep final : public FluidStep {
     BoxFluidStep(FluidFields& fields, double limiter);
 
     FluxReport project(MomentumLedger& ledger) override;
-    void transport(MomentumLedger& ledger) override;
+    void transport(MomentumLedger& ledger, int parts) override;
     void diffuse(MomentumLedger& ledger) override;
     bool finite() const override;
     void put_fields() override;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "fluid_adapter/foam_app/boxFluidStep.hpp"

@@ -26,7 +26,9 @@ class FluidStep {
 
     // Each adds to the ledger what crosses the boundaries.
     virtual FluxReport project(MomentumLedger& ledger) = 0;
-    virtual void transport(MomentumLedger& ledger) = 0;
+
+    /// In `parts` equal steps with the same flux.
+    virtual void transport(MomentumLedger& ledger, int parts) = 0;
     virtual void diffuse(MomentumLedger& ledger) = 0;
 
     /// After `diffuse`: no velocity is infinite or no number.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
@@ -208,7 +209,7 @@ void FoamAdapter::advance(const Window& window) {
     });
     in_step("step 2 (transport)", window, [&] {
         const Stopwatch watch(s.timings.transport);
-        s.step->transport(s.ledger);
+        s.step->transport(s.ledger, transport_parts(s.report.courant));
     });
     in_step("step 3 (viscosity)", window, [&] {
         const Stopwatch watch(s.timings.viscosity);

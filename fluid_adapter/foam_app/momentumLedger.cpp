@@ -16,19 +16,19 @@ void MomentumLedger::open() {
 /// Sums `per_face(patch)`, a tmp<vectorField> of impulse over rho_f, over the true boundary: faces
 /// shared by ranks or joined by a cyclic side have two sides that cancel.
 template <class PerFace>
-void MomentumLedger::add_faces(PerFace per_face) {
+void MomentumLedger::add_faces(PerFace per_face, double share) {
     Foam::vector sum = Foam::Zero;
     forAll(fields_.mesh.boundary(), patch) {
         const Foam::fvPatch& side = fields_.mesh.boundary()[patch];
         if (!side.coupled() && side.size() > 0) sum += Foam::sum(per_face(patch)());
     }
     fields_.ranks.sum(sum.v_, Foam::vector::nComponents);
-    sum *= fields_.rho * fields_.time.deltaTValue() / fields_.thickness;
+    sum *= share * fields_.rho * fields_.time.deltaTValue() / fields_.thickness;
     add_impulse(sum);
 }
 
-void MomentumLedger::add(const std::array<double, 2>& force) {
-    const Foam::scalar density_and_time = fields_.rho * fields_.time.deltaTValue();
+void MomentumLedger::add(const std::array<double, 2>& force, double share) {
+    const Foam::scalar density_and_time = share * fields_.rho * fields_.time.deltaTValue();
     add_impulse(density_and_time * Foam::vector(force[0], force[1], 0.0));
 }
 
@@ -43,10 +43,12 @@ void MomentumLedger::add_pressure() {
     });
 }
 
-void MomentumLedger::add_convection() {
-    add_faces([this](Foam::label patch) {
-        return -fields_.phi.boundaryField()[patch] * fields_.U.boundaryField()[patch];
-    });
+void MomentumLedger::add_convection(double share) {
+    add_faces(
+        [this](Foam::label patch) {
+            return -fields_.phi.boundaryField()[patch] * fields_.U.boundaryField()[patch];
+        },
+        share);
 }
 
 void MomentumLedger::add_viscosity() {

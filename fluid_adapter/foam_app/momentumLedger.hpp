@@ -20,13 +20,14 @@ class MomentumLedger {
  public:
     explicit MomentumLedger(const FluidFields& fields) : fields_(fields) {}
 
-    void open();            ///< before step 1: takes P^n
-    void add_pressure();    ///< after step 1, with p
-    void add_convection();  ///< before step 2 changes U, with phi
-    void add_viscosity();   ///< after step 3, with U
+    void open();          ///< before step 1: takes P^n
+    void add_pressure();  ///< after step 1, with p
+    /// Before step 2 changes U, with phi, over `share` of dt.
+    void add_convection(double share);
+    void add_viscosity();  ///< after step 3, with U
 
-    /// The same for boundary forces over rho_f, per unit length [m3/s2].
-    void add(const std::array<double, 2>& force);
+    /// The same for boundary forces over rho_f, per unit length [m3/s2], over `share` of dt.
+    void add(const std::array<double, 2>& force, double share = 1.0);
 
     /// U was changed from outside between windows.
     void forget() { current_.reset(); }
@@ -40,7 +41,7 @@ class MomentumLedger {
 
  private:
     template <class PerFace>
-    void add_faces(PerFace per_face);
+    void add_faces(PerFace per_face, double share = 1.0);
     void add_impulse(const Foam::vector& impulse);
 
     const FluidFields& fields_;

@@ -18,9 +18,11 @@ FluxReport OperatorStep::project(MomentumLedger& ledger) {
     return {divergence, fields_.courant()};
 }
 
-void OperatorStep::transport(MomentumLedger& ledger) {
-    ledger.add_convection();
-    advect(fields_);
+void OperatorStep::transport(MomentumLedger& ledger, int parts) {
+    for (int part = 0; part < parts; ++part) {
+        ledger.add_convection(1.0 / parts);
+        advect(fields_, fields_.time.deltaTValue() / parts);
+    }
 }
 
 void OperatorStep::diffuse(MomentumLedger& ledger) {

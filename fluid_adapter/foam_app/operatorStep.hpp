@@ -15,7 +15,7 @@ class OperatorStep final : public FluidStep {
                  std::unique_ptr<ViscousSolver> viscosity);
 
     FluxReport project(MomentumLedger& ledger) override;
-    void transport(MomentumLedger& ledger) override;
+    void transport(MomentumLedger& ledger, int parts) override;
     void diffuse(MomentumLedger& ledger) override;
     bool finite() const override;
     std::int64_t kind() const override { return 1; }
