@@ -47,6 +47,7 @@ def arguments():
     parser.add_argument('--case', default=str(ROOT / 'configs/sedimentation-discs.yaml'))
     parser.add_argument('--set', action='append', default=[], help='key=value for every run')
     parser.add_argument('--steps', default='0.02,0.01,0.005', help='time steps in t_c')
+    parser.add_argument('--program', default=str(ROOT / 'turbidite'), help='what runs a case')
     parser.add_argument('--out', default='runs/schemes', help='folder of the run folders')
     return parser.parse_args()
 
@@ -55,7 +56,7 @@ def play(options, scheme, step):
     """The run of one row; started only if it is not there."""
     folder = Path(options.out) / f'{scheme.replace(", ", "-")}-{step}'
     if not (folder / 'report.html').exists():
-        command = [str(ROOT / 'turbidite'), 'run', options.case, '--out', str(folder), '--force']
+        command = [options.program, 'run', options.case, '--out', str(folder), '--force']
         for setting in SCHEMES[scheme] + [f'time.step={step}'] + options.set:
             command += ['--set', setting]
         print(' '.join(command), file=sys.stderr, flush=True)

@@ -23,7 +23,7 @@ struct RunFolder {
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
 
-    /// Its existence asks the coupler to end the run after the current window. Its text is the
+    /// Its existence asks the coupler to play one more window, write it, and end the run. Its text is the
     /// exit code to end with, 130 or 143.
     std::filesystem::path stop() const { return root / "STOP"; }
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The five functions that plug a code into the job: describe, initialise, advance, apply kick
-// (fluid: impose), save/restore. The participant library calls them in the order of the scheme; an
-// adapter never sees a message, a rank of another program, or MPI.
+// (fluid: impose), save/restore; a fluid that takes part in scheme `joint` has two more, respond and
+// correct. The participant library calls them in the order of the scheme; an adapter never sees a
+// message, a rank of another program, or MPI.
 //
 // Errors: throw PhysicsRefused (exit code 6) when the physics cannot go on, any other exception for
 // a failure of the program (exit code 4). The text reaches the user with role, rank, host and log.

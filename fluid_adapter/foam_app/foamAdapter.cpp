@@ -64,8 +64,8 @@ void check_finite(const std::vector<Kick>& kicks, const Window& window) {
     }
 }
 
-/// OpenFOAM's operators make fields and drop them, several per window. Freed memory stays with the
-/// process, or the system would clear the same pages again each time: a quarter of a window.
+/// OperatorStep's fields come and go several times per window. Freed memory stays with the process,
+/// or the system would clear the same pages again each time: a quarter of such a window.
 void keep_freed_memory() {
     constexpr int most = 1 << 30;
     ::mallopt(M_MMAP_THRESHOLD, most);

@@ -250,7 +250,7 @@ TEST_F(Interrupted, BySigintEndsWithTheFieldsOfTheLastWindow) {
         EXPECT_GT(fs::file_size(fields / name), 48u * 56u * sizeof(double)) << name;
 }
 
-TEST_F(Interrupted, BySigtermEndsAfterTheWindow) {
+TEST_F(Interrupted, BySigtermEndsAfterOneMoreWindow) {
     EXPECT_EQ(stop_by(SIGTERM, quick), 143) << text(scratch.path() / "out");
     EXPECT_EQ(record().at("exit_code"), 143);
     EXPECT_GT(windows_done(), 0);

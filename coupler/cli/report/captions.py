@@ -77,6 +77,10 @@ def solvers(run):
     unconverged = (run.record.get('maxima') or {}).get('unconverged_windows')
     if unconverged is not None:
         text.append(f'Windows in which the contact solver missed its tolerance: {unconverged}.')
+    apart = (run.record.get('maxima') or {}).get('unconverged_joint_windows')
+    if apart is not None:
+        text.append('Windows in which contacts and fluid did not agree to coupling.tolerance: '
+                    f'{apart}.')
     return ' '.join(text)
 
 

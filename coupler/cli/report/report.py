@@ -20,6 +20,12 @@ import wall_shares
 from page import Page, write_whole
 
 
+def coupling(case):
+    """Positions are a choice of `split` alone."""
+    scheme = case.get('coupling.scheme')
+    return scheme if scheme == 'joint' else f'{scheme}, positions {case.get("coupling.positions")}'
+
+
 def facts(run):
     """(name, value) pairs of the case, with units."""
     record, case = run.record, run.case
@@ -37,7 +43,7 @@ def facts(run):
                    f'{record.get("g", float("nan")):.4g} ({units(case)})'),
         ('time', f'{record.get("windows_done", 0)} of {record.get("windows", "?")} windows of '
                  f'{case.get("time.step")} t_c'),
-        ('coupling', f'{case.get("coupling.scheme")}, positions {case.get("coupling.positions")}'),
+        ('coupling', coupling(case)),
         ('seed', str(record.get('seed', '?'))),
     ]
     if 'wall_seconds' in record:

@@ -103,7 +103,6 @@ TEST(SeparableSolve, LeavesARoundingResidualOnALargeGrid) {
         }
 }
 
-/// A second problem on the same plans, and the first again, bit for bit.
 TEST(SeparableSolve, TheHundredthSolveIsAsGoodAsTheFirst) {
     // Rows are transformed in pairs, also the last one of an odd count: what it leaves in the row
     // that is not there must not come back.
@@ -117,6 +116,7 @@ TEST(SeparableSolve, TheHundredthSolveIsAsGoodAsTheFirst) {
     }
 }
 
+/// A second problem on the same plans, and the first again, bit for bit.
 TEST(SeparableSolve, CanBeFactorisedAgain) {
     const PlaneOperator plane{axis_of(7, 0.25, {End::neumann, End::neumann}),
                               axis_of(6, 0.4, {End::periodic, End::periodic})};
