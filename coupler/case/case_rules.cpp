@@ -128,7 +128,8 @@ Verdict whole_cells(const Settings& s) {
     return std::nullopt;
 }
 
-// A grain's stencils reach three cells beyond a rank's own.
+// Step 5 keeps a halo of three layers (halo_layers in foamFluidField.cpp), and a rank should have
+// more than its halo.
 constexpr double least_layers = 4.0;
 
 Verdict ranks_have_cells(const Settings& s) {

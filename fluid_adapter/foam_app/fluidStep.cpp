@@ -45,7 +45,8 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
     try {
         return std::make_unique<BoxFluidStep>(fields, *limiter);
     } catch (const NotSeparable&) {
-        return operator_step(settings, fields);  // which says what does not fit
+        return operator_step(settings,
+                             fields);  // which does without whole rows, or says what does not fit
     }
 }
 

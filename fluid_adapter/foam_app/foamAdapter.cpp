@@ -50,7 +50,7 @@ auto in_step(const std::string& step, const Window& window, Work work) {
 }
 
 void check_finite(bool finite, const std::string& step, const Window& window) {
-    if (!finite) refuse(step, window, "the fluid velocity is not finite");
+    if (!finite) refuse(step, window, "the fluid velocity is not finite; use a smaller time.step");
 }
 
 void check_finite(const std::vector<Kick>& kicks, const Window& window) {
@@ -60,7 +60,8 @@ void check_finite(const std::vector<Kick>& kicks, const Window& window) {
                            kick.multiplier_angular_impulse[2];
         if (!std::isfinite(sum))
             refuse("step 5 (multipliers)", window,
-                   "the kick of grain " + std::to_string(kick.id) + " is not finite");
+                   "the kick of grain " + std::to_string(kick.id) +
+                       " is not finite; use a smaller time.step");
     }
 }
 

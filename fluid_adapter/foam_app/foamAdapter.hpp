@@ -48,10 +48,10 @@ class FoamAdapter final : public FluidAdapter {
     /// Adds (x, y) to u everywhere: a stream to begin with, or a uniform body force times dt.
     void add_velocity(double x, double y);
 
-    /// u at a cell of the grid [m/s].
+    /// u at a cell of the grid that this rank owns [m/s].
     Vec3 velocity(int i, int j) const;
 
-    /// p at a cell of the grid, over rho_f [m2/s2].
+    /// p there, over rho_f [m2/s2]; all ranks call it together, as save().
     double pressure(int i, int j) const;
 
  private:

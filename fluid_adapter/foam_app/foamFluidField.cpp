@@ -80,16 +80,8 @@ int FoamFluidField::cell(int i, int j, int k) const {
     return block_.at(i, j);
 }
 
-void FoamFluidField::import_halo(double* values) const {
-    if (halo_) halo_->import({values});
-}
-
 void FoamFluidField::import_halo(double* x, double* y) const {
     if (halo_) halo_->import({x, y});
-}
-
-void FoamFluidField::export_halo(double* values) const {
-    if (halo_) halo_->export_sums({values});
 }
 
 void FoamFluidField::export_halo(double* x, double* y) const {
@@ -104,7 +96,7 @@ void FoamFluidField::hold_grains(const GrainId* ids, int count) const {
     if (shared_) shared_->hold(ids, count);
 }
 
-void FoamFluidField::sum_over_holders(const GrainId*, int, double* rows, int per_grain) const {
+void FoamFluidField::sum_over_holders(double* rows, int per_grain) const {
     if (shared_) shared_->sum(rows, per_grain);
 }
 

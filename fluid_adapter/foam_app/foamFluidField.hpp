@@ -28,14 +28,11 @@ class FoamFluidField final : public FluidField {
     bool owns(int cell) const override { return cell < owned_; }
     double cell_mass() const override { return cell_mass_; }
     double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
-    void import_halo(double* values) const override;
     void import_halo(double* x, double* y) const override;
-    void export_halo(double* values) const override;
     void export_halo(double* x, double* y) const override;
     void sum_over_ranks(double* values, int count) const override;
     void hold_grains(const GrainId* ids, int count) const override;
-    void sum_over_holders(const GrainId* ids, int count, double* rows,
-                          int per_grain) const override;
+    void sum_over_holders(double* rows, int per_grain) const override;
 
     void load();  ///< from U
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/savedState.hpp"
 
+#include <array>
 #include <cstring>
 #include <vector>
 
@@ -12,7 +13,13 @@ struct Header {
     std::int64_t kind = 0;  // of the steps that wrote it
     std::int64_t time_index = 0;
     double time = 0.0;
+    std::array<double, 4> corners{};  // of this rank's cells
 };
+
+std::array<double, 4> corners_of(const Foam::fvMesh& mesh) {
+    const Foam::boundBox box(mesh.points(), false);
+    return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};
+}
 
 /// A field's values as bytes; labels and vectors of doubles have no padding.
 template <class Field>
@@ -39,7 +46,7 @@ void take(const char*& from, Field& field) {
 
 SavedState save_fields(FluidFields& fields, FluidStep& step) {
     const Header header{fields.mesh.nCells(), step.kind(), fields.time.timeIndex(),
-                        fields.time.value()};
+                        fields.time.value(), corners_of(fields.mesh)};
     SavedState state(sizeof header);
     std::memcpy(state.data(), &header, sizeof header);
     append(state, fields.U.primitiveField());
@@ -53,15 +60,21 @@ void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& ste
     auto& p = fields.p.primitiveFieldRef();
     std::vector<double> memory = step.memory();
     Header header;
-    if (state.size() == sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(memory))
-        std::memcpy(&header, state.data(), sizeof header);
-    if (header.cells != fields.mesh.nCells())
-        throw Failure(ExitCode::bad_input, "the saved fluid state does not belong to a mesh of " +
-                                               std::to_string(fields.mesh.nCells()) + " cells");
+    if (state.size() >= sizeof header) std::memcpy(&header, state.data(), sizeof header);
+    if (header.cells != fields.mesh.nCells() || header.corners != corners_of(fields.mesh))
+        throw Failure(ExitCode::bad_input,
+                      "the saved fluid state is of " + std::to_string(header.cells) +
+                          " cells, this rank has " + std::to_string(fields.mesh.nCells()) +
+                          " or others; go on with the same mesh, fluid.ranks and "
+                          "fluid.decomposition");
     if (header.kind != step.kind())
         throw Failure(ExitCode::bad_input,
                       "the saved fluid state was written with another fluid.pressure_solver, "
                       "fluid.viscous_solver or fluid.transport_scheme; go on with the same ones");
+    if (state.size() != sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(memory))
+        throw Failure(ExitCode::bad_input, "the saved fluid state has " +
+                                               std::to_string(state.size()) +
+                                               " bytes, not those of this case; it is incomplete");
     const char* from = state.data() + sizeof header;
     take(from, U);
     take(from, p);

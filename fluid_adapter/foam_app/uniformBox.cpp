@@ -48,6 +48,9 @@ void count_cells(const Foam::fvMesh& mesh, UniformBox& box) {
     }
     demand(all == Foam::returnReduce(mesh.nCells(), Foam::sumOp<Foam::label>()),
            "the mesh is not rows and columns of equal cells");
+    demand(box.cells[0] >= 3 && box.cells[1] >= 3, "the mesh has " + std::to_string(box.cells[0]) +
+                                                       " x " + std::to_string(box.cells[1]) +
+                                                       " cells; 3 x 3 is the least");
 }
 
 void number_cells(const Foam::fvMesh& mesh, UniformBox& box) {

@@ -65,8 +65,8 @@ const Foam::cyclicLduInterface& checked_cyclic(const Foam::lduInterfaceField& fi
     return *interface;
 }
 
-/// Calls visit(axis, a, b, A_ab) for each coefficient of a row a that lies above the diagonal or
-/// belongs to a cyclic patch, and counts the latter.
+/// Calls visit(axis, a, A_ab) for each coefficient of a row a that belongs to a cyclic patch;
+/// returns how many there are across each axis.
 template <class Visit>
 std::array<int, 2> for_each_cyclic(const SolverMatrix& system, const BoxNumbering& box,
                                    Visit visit) {
@@ -86,6 +86,7 @@ std::array<int, 2> for_each_cyclic(const SolverMatrix& system, const BoxNumberin
     return count;
 }
 
+/// Calls visit(axis, a, b, A_ab) for each coefficient above the diagonal.
 template <class Visit>
 void for_each_inner(const SolverMatrix& system, const BoxNumbering& box, Visit visit) {
     const Foam::scalarField& upper = system.matrix.upper();

@@ -8,10 +8,12 @@
 namespace turbidite {
 
 /// Within the rounding of the recurrence: an error of a factor is multiplied by e2 from row to row,
-/// so they add up to 1/(1 - e2) times a rounding or two.
-bool EliminationFactors::is_settled(double factor, int mode) const {
+/// so they add up to 1/(1 - e2) times a rounding or two, or to one per row where that is fewer: a
+/// mode with d = 2 goes to e = 1 as 1/j does and, from a dirichlet end, never settles.
+bool EliminationFactors::is_settled(double factor, int mode, int row) const {
     const double e = settled_[mode];
-    return std::abs(factor - e) * (1.0 - e * e) <= 2.0 * std::numeric_limits<double>::epsilon() * e;
+    const double per_rounding = std::max(1.0 - e * e, 1.0 / (row + 1));
+    return std::abs(factor - e) * per_rounding <= 2.0 * std::numeric_limits<double>::epsilon() * e;
 }
 
 void EliminationFactors::store(const std::vector<double>& factors, int begin, int end) {
@@ -44,8 +46,8 @@ void EliminationFactors::compute(const std::vector<double>& shift, double first,
             store(factors, modes_, modes_);
             continue;
         }
-        while (begin > 0 && is_settled(factors[begin - 1], begin - 1)) --begin;
-        while (end < modes_ && is_settled(factors[end], end)) ++end;
+        while (begin > 0 && is_settled(factors[begin - 1], begin - 1, j)) --begin;
+        while (end < modes_ && is_settled(factors[end], end, j)) ++end;
         store(factors, begin, end);
     }
 }

@@ -5,7 +5,8 @@
 //     e_0 = 1/d_first,   e_j = 1/(d - e_{j-1}),   e_last = 1/(d_last - e_{last-1})
 //
 // one per mode and row. With j they go to the fixed point e = (d - sqrt(d2 - 4))/2 as e^2j does:
-// for all but the smoothest modes within a few rows. Only what has not settled is stored; a settled
+// for all but the smoothest modes within a few rows; one with d = 2 goes to 1 as 1/j does and may
+// never settle. Only what has not settled is stored; a settled
 // row costs no memory traffic. Modes settle from the one of largest d outwards, which is the last
 // mode, or the middle one of a periodic axis. Valid C++17.
 #pragma once
@@ -42,7 +43,7 @@ class EliminationFactors {
     };
 
     void store(const std::vector<double>& factors, int begin, int end);
-    bool is_settled(double factor, int mode) const;
+    bool is_settled(double factor, int mode, int row) const;
 
     int modes_ = 0;
     std::vector<double> settled_, stored_;

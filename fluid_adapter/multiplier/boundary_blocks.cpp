@@ -8,7 +8,8 @@
 namespace turbidite {
 namespace {
 
-/// Stencils of three cells that reach away from each other share one up to this distance [cells].
+/// A stencil's cells lie at most two cells from its point, so two points share one below a distance
+/// of four; one more for cells that are not square and for rounded places [cells].
 constexpr double stencil_reach = 5.0;
 
 }  // namespace
@@ -26,9 +27,9 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
         order_points(g);
         assemble(reach, 1.0 / field.cell_mass());
         if (!factors_.factorise())
-            throw std::runtime_error(
-                "the boundary points of grain " + std::to_string(grains[g].id) +
-                " depend on each other: fluid.point_spacing is too small for its shape");
+            throw std::runtime_error("the boundary points of grain " +
+                                     std::to_string(grains[g].id) +
+                                     " depend on each other; use fluid.point_spacing 1.5 or more");
         tied_.push_back(tie(g));
     }
 }

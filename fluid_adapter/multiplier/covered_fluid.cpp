@@ -31,10 +31,11 @@ Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, d
 }
 
 Planar body_momentum(const ImmersedGrain& grain, const CellSums& sums, double m) {
-    const Planar free = grain.free_motion();
-    return {grain.effective_mass * free.x() + m * sums[4],
-            grain.effective_mass * free.y() + m * sums[5],
-            grain.effective_inertia * free.z() + m * sums[6]};
+    const Planar& U = grain.contact_motion;
+    const Planar& J = grain.announced_impulse;
+    return {grain.effective_mass * U.x() - J.x() + m * sums[4],
+            grain.effective_mass * U.y() - J.y() + m * sums[5],
+            grain.effective_inertia * U.z() - J.z() + m * sums[6]};
 }
 
 Planar carry_cells(const CollocationPoints& points, FluidField& field, int g,

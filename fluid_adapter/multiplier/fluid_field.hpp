@@ -29,23 +29,11 @@ class FluidField {
     /// One component of velocity, contiguous over local cells [m/s].
     virtual double* velocity(int axis) = 0;
 
-    /// Owners' values to the halos of the others.
-    virtual void import_halo(double*) const {}
-
-    /// The same for both components at once.
-    virtual void import_halo(double* x, double* y) const {
-        import_halo(x);
-        import_halo(y);
-    }
+    /// Owners' values of both components to the halos of the others.
+    virtual void import_halo(double*, double*) const {}
 
     /// Adds what was written into halos to the owners' values.
-    virtual void export_halo(double*) const {}
-
-    /// The same for both components at once.
-    virtual void export_halo(double* x, double* y) const {
-        export_halo(x);
-        export_halo(y);
-    }
+    virtual void export_halo(double*, double*) const {}
 
     /// Sums over the ranks of the fluid, in place.
     virtual void sum_over_ranks(double*, int) const {}
@@ -53,9 +41,9 @@ class FluidField {
     /// The grains this rank holds, before their first sum over holders; by every rank.
     virtual void hold_grains(const GrainId*, int) const {}
 
-    /// Sums, in place, the rows of grains that more than one rank holds: `per_grain` numbers for
-    /// each of `count` ids, which are those of `hold_grains`. The same bits for every holder.
-    virtual void sum_over_holders(const GrainId*, int, double*, int) const {}
+    /// Sums, in place, the rows of grains that more than one rank holds: so many numbers for each
+    /// grain of `hold_grains`, in its order. The same bits for every holder.
+    virtual void sum_over_holders(double*, int) const {}
 };
 
 }  // namespace turbidite

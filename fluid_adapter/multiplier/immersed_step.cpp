@@ -34,12 +34,19 @@ MultiplierSettings multiplier_settings(const Settings& settings) {
     return result;
 }
 
+/// The values of `fluid.points`: are there boundary points?
+struct PointKind {
+    const char* name;
+    bool boundary;
+};
+constexpr PointKind point_kinds[] = {{"interior", false}, {"interior+boundary", true}};
+
 PointRules point_rules(const Settings& settings) {
     const std::string& name = settings.text("fluid.points");
     std::string known;
-    for (const PointKind& kind : point_kinds()) {
+    for (const PointKind& kind : point_kinds) {
         if (kind.name == name) return {kind.boundary, settings.real("fluid.point_spacing")};
-        known += (known.empty() ? "" : ", ") + kind.name;
+        known += (known.empty() ? "" : ", ") + std::string(kind.name);
     }
     throw std::invalid_argument("unknown fluid.points \"" + name + "\"; known: " + known);
 }
@@ -60,11 +67,6 @@ std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
 }
 
 }  // namespace
-
-const std::vector<PointKind>& point_kinds() {
-    static const std::vector<PointKind> kinds = {{"interior", false}, {"interior+boundary", true}};
-    return kinds;
-}
 
 ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes)
     : field_(field),
@@ -129,6 +131,10 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         contact_impulses_[at->second] = impulse;
         told[at->second] = planar(state.velocity, state.angular_velocity);
     }
+    if (with_contacts.size() != grains_.size())
+        throw std::runtime_error(
+            "contact impulses came for " + std::to_string(with_contacts.size()) +
+            " grains, the window began with " + std::to_string(grains_.size()));
     system_.push(changes_);
     MultiplierSettings settings = settings_;
     settings.tolerance = slip_goal_ / settings.velocity_scale;

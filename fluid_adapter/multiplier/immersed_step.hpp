@@ -34,8 +34,8 @@ class ImmersedStep {
     /// Multipliers of the grains taken.
     MultiplierResult solve();
 
-    /// Applies contact impulses and solves again. Throws std::runtime_error naming a grain that was
-    /// not taken.
+    /// Applies contact impulses and solves again. Throws std::runtime_error unless they are for the
+    /// grains taken, each once.
     MultiplierResult push(const std::vector<GrainState>& with_contacts);
 
     /// Of the grains whose centre this rank owns. Mismatches are those of the last push.
@@ -73,12 +73,5 @@ class ImmersedStep {
     SaddlePoint system_;
     MultiplierWorkspace work_;
 };
-
-/// The values of `fluid.points`: are there boundary points?
-struct PointKind {
-    std::string name;
-    bool boundary;
-};
-const std::vector<PointKind>& point_kinds();
 
 }  // namespace turbidite

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -13,9 +14,12 @@ namespace {
 /// fluid and covers too little.
 void demand_positive(const Eigen::Matrix3d& inertia, GrainId id) {
     if (inertia(0, 0) > 0.0 && inertia.determinant() > 0.0) return;
-    throw std::runtime_error("grain " + std::to_string(id) + " and the fluid it covers have an " +
-                             "effective mass of " + std::to_string(inertia(0, 0)) +
-                             ": it is too light, or lies outside the grid");
+    std::ostringstream text;
+    text << "grain " << id << " and the fluid it covers have mass " << inertia(0, 0)
+         << " kg/m and determinant " << inertia.determinant()
+         << " of their inertia; both must be positive: use a larger grains.density_ratio, or see "
+            "why the grain covers no fluid";
+    throw std::runtime_error(text.str());
 }
 
 }  // namespace
@@ -118,9 +122,11 @@ void SaddlePoint::impose() {
         impulses_[g] += carry_cells(*points_, *field_, static_cast<int>(g), motions_[g]);
     sum_over_holders(impulses_);
     for (const int cell : points_->stencilled) {
-        if (!field_->owns(cell)) continue;
-        field_->velocity(0)[cell] -= cells_x_[cell];
-        field_->velocity(1)[cell] -= cells_y_[cell];
+        if (field_->owns(cell)) {
+            field_->velocity(0)[cell] -= cells_x_[cell];
+            field_->velocity(1)[cell] -= cells_y_[cell];
+        }
+        cells_x_[cell] = cells_y_[cell] = 0.0;  // halos export all they have, next window too
     }
 }
 

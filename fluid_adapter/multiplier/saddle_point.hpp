@@ -81,8 +81,7 @@ class SaddlePoint {
     template <class Row>
     void sum_over_holders(std::vector<Row>& rows) const {
         double* first = rows.empty() ? nullptr : rows.front().data();
-        field_->sum_over_holders(ids_.data(), static_cast<int>(ids_.size()), first,
-                                 static_cast<int>(Row::SizeAtCompileTime));
+        field_->sum_over_holders(first, static_cast<int>(Row::SizeAtCompileTime));
     }
 
     FluidField* field_ = nullptr;
@@ -97,8 +96,9 @@ class SaddlePoint {
     std::vector<Planar> motions_, impulses_;
     BoundaryBlocks blocks_;
     std::vector<double> multipliers_, slip_;
-    std::vector<double> cells_x_, cells_y_;  // B^T of something, by local cell
-    std::vector<Planar> rows_;               // of grains, for sums
+    std::vector<double> cells_x_,
+        cells_y_;               // B^T of something, by local cell; zero between windows
+    std::vector<Planar> rows_;  // of grains, for sums
 };
 
 }  // namespace turbidite

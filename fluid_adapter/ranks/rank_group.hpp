@@ -51,8 +51,8 @@ class RankGroup {
     bool one_node_ = true;
 };
 
-/// Lists of numbers for each rank, and what the ranks sent here: index by rank. For set-up, not for
-/// what happens every window.
+/// Lists of numbers for each rank, and what the ranks sent here: index by rank. Every rank talks to
+/// every other: for set-up and once per window (shared_grains.hpp), not within iterations.
 template <class Number>
 using ByRank = std::vector<std::vector<Number>>;
 ByRank<int> all_to_all(const RankGroup& group, const ByRank<int>& lists);

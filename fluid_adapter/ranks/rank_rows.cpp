@@ -10,7 +10,7 @@
 namespace turbidite {
 namespace {
 
-constexpr int upward_tag = 4, downward_tag = 5;
+constexpr int upward_tag = 7, downward_tag = 8;
 
 }  // namespace
 

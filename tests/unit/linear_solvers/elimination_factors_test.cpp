@@ -20,8 +20,12 @@ std::vector<double> shifts(End end, double added) {
 
 /// Every factor is that of the recurrence, to what the recurrence makes of rounding.
 TEST(EliminationFactors, AreThoseOfTheRecurrence) {
-    for (const End end : {End::dirichlet, End::periodic}) {
-        const std::vector<double> shift = shifts(end, 1e-3);
+    // Without addition the first periodic mode has d = 2.
+    for (const auto& [end, added] : {std::pair{End::dirichlet, 1e-3},
+                                     {End::periodic, 1e-3},
+                                     {End::periodic, 0.0},
+                                     {End::dirichlet, 0.0}}) {
+        const std::vector<double> shift = shifts(end, added);
         EliminationFactors factors;
         factors.compute(shift, 3.0, 2.0, 3.0, rows);
         std::vector<long double> e(modes), gain(modes, 0.0L);  // of roundings, summed
