@@ -224,7 +224,8 @@ std::vector<KeySpec> fluid_keys() {
          .unit = "u_c",
          .fallback = "0.0001",
          .range = tolerance,
-         .help = "rms slip at which the multipliers stop"},
+         .help = "rms slip at which the multipliers stop; joint: at most a tenth of "
+                 "coupling.tolerance"},
         {.name = "fluid.multiplier_iterations",
          .type = KeyType::integer,
          .fallback = "200",
