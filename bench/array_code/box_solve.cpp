@@ -10,7 +10,7 @@ BoxSolve::BoxSolve(const Rows& rows, double spacing, Condition condition, double
                    double* first)
     : rows_(rows), pivots_(static_cast<std::size_t>(rows.nx) * rows.ny) {
     const bool neumann = condition == Condition::neumann;
-    // Estimated plans, as in the solver it is compared with.
+    // Estimated plans, so that two runs do the same arithmetic.
     there_ = fftw_plan_r2r_1d(rows.nx, first, first, neumann ? FFTW_REDFT10 : FFTW_RODFT10,
                               FFTW_ESTIMATE);
     back_ = fftw_plan_r2r_1d(rows.nx, first, first, neumann ? FFTW_REDFT01 : FFTW_RODFT01,
