@@ -8,8 +8,12 @@
 //     |r_t| <= mu r_n, and r_t = -mu r_n u_t/|u_t| unless u_t = 0       Coulomb
 //
 // r [N s] are impulses over the step; body b receives +r, body a (if any) -r. Vectors in contact
-// frames have three components (n, t, s); in two dimensions s is zero. Nothing here knows shapes,
-// laws or solvers.
+// frames have three components. In the plane they are (n, t, roll): the third is the rolling moment
+// impulse m [N m s] on b (-m on a), conjugate to the relative spin w = spin_b - spin_a,
+//
+//     |m| <= rolling r_n, and m = -rolling r_n w/|w| unless w = 0    rolling resistance
+//
+// zero wherever `rolling` is zero. Nothing here knows shapes, laws or solvers.
 #pragma once
 
 #include <array>
@@ -21,7 +25,7 @@
 
 namespace turbidite::nscd {
 
-/// In the contact frame (n, t, s).
+/// In the contact frame (n, t, roll).
 using Impulses = std::vector<Vec3>;
 
 struct Contact {
@@ -33,6 +37,7 @@ struct Contact {
     Vec3 arm_b{};
     double friction = 0.0;  ///< mu
     Vec3 bias{};            ///< b [m/s]
+    double rolling = 0.0;   ///< lever of the rolling resistance, mu_r times a radius [m]
 };
 
 struct ContactProblem {

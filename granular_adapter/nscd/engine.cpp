@@ -134,7 +134,7 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
     impulses_ = std::move(result.impulses);
     StepReport report{static_cast<std::int64_t>(points_.size()),
                       static_cast<std::int64_t>(memory_.contacts().size()), result.iterations,
-                      result.residual, result.converged};
+                      result.residual, result.change, result.converged};
     return report;
 }
 

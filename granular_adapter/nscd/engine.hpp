@@ -47,6 +47,7 @@ struct StepReport {
     std::int64_t contacts = 0;    ///< those with an impulse
     std::int64_t iterations = 0;  ///< sweeps
     double residual = 0.0;        ///< scaled natural map
+    ChangeMeasures change;        ///< quad and max
     bool converged = true;
 };
 

@@ -216,6 +216,7 @@ SolverResult iterate(const ContactProblem& problem, const Delassus& w, const Imp
         if (!last && !(sums.error <= target * (sums.size + floor))) continue;
         unpack(rows, result.impulses);
         result.residual = natural_map_residual(problem, result.impulses);
+        result.change = change_measures(problem, result.impulses);
         result.converged = result.residual <= settings.tolerance;
     }
     result.velocities = body_velocities(problem, result.impulses);
@@ -233,7 +234,7 @@ void check_settings(const SolverSettings& settings) {
 SolverResult Nlgs::solve(const ContactProblem& problem, const Impulses& guess,
                          const SolverSettings& settings) const {
     check_settings(settings);
-    if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, true};
+    if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, {}, true};
     const Delassus w(problem);
     if (w.diagonal()) return iterate<DiagonalRow>(problem, w, guess, settings);
     return iterate<FullRow>(problem, w, guess, settings);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "granular_adapter/nscd/contact_problem.hpp"
+#include "granular_adapter/nscd/residual.hpp"
 
 namespace turbidite::nscd {
 
@@ -25,6 +26,7 @@ struct SolverResult {
     std::vector<Twist> velocities;  ///< v_free + M^-1 H r with these impulses, to round-off
     std::int64_t iterations = 0;
     double residual = 0.0;  ///< natural_map_residual of these impulses
+    ChangeMeasures change;  ///< quad and max of these impulses (residual.hpp)
     bool converged = true;
 };
 
