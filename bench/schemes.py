@@ -8,8 +8,6 @@ Runs `./turbidite run` once per row, unless the row's run folder is there alread
 histories with those of `joint` at the smallest step. Times are wall times of this machine: compare rows, not
 tables."""
 import argparse
-import csv
-import json
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +15,9 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / 'coupler/cli/report'))
+import run_data  # noqa: E402  what a run folder holds
+
 SCHEMES = {
     'split, corrected': ['coupling.scheme=split', 'coupling.positions=corrected'],
     'split, contact': ['coupling.scheme=split', 'coupling.positions=contact'],
@@ -31,15 +32,15 @@ class Run:
     """One run folder's history and record."""
 
     def __init__(self, folder):
-        self.record = json.loads((folder / 'run.json').read_text())
-        with open(folder / 'history.csv', newline='') as file:
-            self.rows = list(csv.DictReader(file))
+        run = run_data.load_run(folder)
+        self.record, self.history = run.record, run.history
 
     def column(self, name):
-        return np.array([float(row[name] or 'nan') for row in self.rows])
+        return self.history[name]
 
     def mean(self, name):
-        return float(np.nanmean(self.column(name)[1:])) if self.rows[-1].get(name) else None
+        values = self.column(name)[1:]
+        return float(np.nanmean(values)) if np.isfinite(values[-1]) else None
 
 
 def arguments():

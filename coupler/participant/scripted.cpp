@@ -14,11 +14,6 @@ namespace {
 
 constexpr double everywhere = std::numeric_limits<double>::max();
 
-// Upper triangle by rows of a 6 x 6 matrix: index of the diagonal entry of row i.
-constexpr std::size_t diagonal(std::size_t i) {
-    return i * 6 - i * (i - 1) / 2;
-}
-
 Vec3 plus(const Vec3& a, double s, const Vec3& b) {
     return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
@@ -92,7 +87,7 @@ Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeRespo
             const FreeResponse& response = *by_id.at(grain.id);
             grain.velocity = response.velocity;
             grain.angular_velocity = response.angular_velocity;
-            mass = response.inertia[diagonal(1)];
+            mass = response.inertia[upper_entry(1, 1)];
         } else {
             grain.velocity[1] -= body.submerged_mass / mass * bodies_.gravity() * window.step;
         }
@@ -183,8 +178,8 @@ FreeResponse ScriptedFluid::response(GrainId id, const FreeGrain& motion) const 
     response.id = id;
     response.velocity = motion.velocity;
     response.angular_velocity = motion.angular_velocity;
-    for (int i = 0; i < 3; ++i) response.inertia[diagonal(i)] = told_ * motion.mass;
-    for (int i = 3; i < 6; ++i) response.inertia[diagonal(i)] = told_ * motion.inertia;
+    for (std::size_t i = 0; i < 6; ++i)
+        response.inertia[upper_entry(i, i)] = told_ * (i < 3 ? motion.mass : motion.inertia);
     return response;
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -52,6 +53,12 @@ struct Kick {
     Vec3 torque{};                      ///< T_h [N m]
 };
 
+/// Place of entry (i, j), i <= j, of a symmetric 6 x 6 matrix that is stored as its upper triangle
+/// by rows.
+constexpr std::size_t upper_entry(std::size_t i, std::size_t j) {
+    return i * 6 - i * (i + 1) / 2 + j;
+}
+
 /// Scheme `joint`: how the fluid lets a grain respond to impulses in this window. With contact
 /// impulse J and angular impulse K, (U, omega) = (velocity, angular_velocity) + inertia^-1 (J, K).
 ///
@@ -63,7 +70,7 @@ struct FreeResponse {
     GrainId id = 0;
     Vec3 velocity{};          ///< U^F [m/s]
     Vec3 angular_velocity{};  ///< omega^F [rad/s]
-    /// Effective inertia, symmetric 6 x 6, upper triangle by rows: translation first.
+    /// Effective inertia, symmetric 6 x 6 (upper_entry): translation first.
     /// [kg], [kg m], [kg m2]
     std::array<double, 21> inertia{};
     /// By how much contacts and fluid disagree: |U' - U| + R |omega' - omega| of the last contact
@@ -109,7 +116,8 @@ struct FluidReport {
     std::int64_t multiplier_iterations = 0;
     double multiplier_residual = 0.0;  ///< rms slip at the points [m/s]
     double divergence = 0.0;           ///< max |div phi| after step 1 [1/s]
-    double final_divergence = 0.0;     ///< after step 5 (large by nature), in windows with output [1/s]
+    double final_divergence =
+        0.0;  ///< after step 5 (large by nature), in windows with output [1/s]
     /// |change of fluid momentum + dt sum(lambda) - boundary impulses| over the largest of them:
     /// zero to solver tolerance.
     double momentum_defect = 0.0;

@@ -51,18 +51,13 @@ PointRules point_rules(const Settings& settings) {
     throw std::invalid_argument("unknown fluid.points \"" + name + "\"; known: " + known);
 }
 
-/// Index of (i, j), i <= j, in the upper triangle by rows of a 6 x 6 matrix.
-constexpr int upper(int i, int j) {
-    return i * 6 - i * (i - 1) / 2 + j - i;
-}
-
 /// The plane's (x, y, spin) are 0, 1, 5 of the six; the others do not move and get ones.
 std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
-    constexpr int six[] = {0, 1, 5};
+    constexpr std::size_t six[] = {0, 1, 5};
     std::array<double, 21> inertia{};
-    for (const int still : {2, 3, 4}) inertia[upper(still, still)] = 1.0;
+    for (const std::size_t still : {2, 3, 4}) inertia[upper_entry(still, still)] = 1.0;
     for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j) inertia[upper(six[i], six[j])] = plane(i, j);
+        for (int j = i; j < 3; ++j) inertia[upper_entry(six[i], six[j])] = plane(i, j);
     return inertia;
 }
 
@@ -120,7 +115,7 @@ MultiplierResult ImmersedStep::solve() {
 
 MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {
     changes_.assign(grains_.size(), Planar::Zero());
-    std::vector<Planar> told(grains_.size(), Planar::Zero());
+    told_.assign(grains_.size(), Planar::Zero());
     for (const GrainState& state : with_contacts) {
         const auto at = index_.find(state.id);
         if (at == index_.end())
@@ -129,7 +124,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
-        told[at->second] = planar(state.velocity, state.angular_velocity);
+        told_[at->second] = planar(state.velocity, state.angular_velocity);
     }
     if (with_contacts.size() != grains_.size())
         throw std::runtime_error(
@@ -141,7 +136,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
     settings.reduction = 1.0;
     const MultiplierResult result = uzawa_cg(system_, settings, work_);
     for (std::size_t g = 0; g < grains_.size(); ++g) {
-        const Planar off = system_.motions()[g] - told[g];
+        const Planar off = system_.motions()[g] - told_[g];
         mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());
     }
     return result;

@@ -67,6 +67,7 @@ class ImmersedStep {
     std::unordered_map<GrainId, std::size_t> index_;
     std::vector<Planar> contact_impulses_;  // J, pushed so far
     std::vector<Planar> changes_;
+    std::vector<Planar> told_;  ///< velocities that came with the last contact impulses
     std::vector<double> mismatch_;
     PointPlacement placement_;
     CollocationPoints points_;

@@ -12,8 +12,14 @@ SharedValues::SharedValues(const RankGroup& group, std::size_t count)
     PMPI_Info_create(&apart);
     PMPI_Info_set(apart, "alloc_shared_noncontig", "true");
     double* own = nullptr;
+    // The default handler would end the job without a word.
+    MPI_Errhandler usual = MPI_ERRHANDLER_NULL;
+    PMPI_Comm_get_errhandler(group_.comm(), &usual);
+    PMPI_Comm_set_errhandler(group_.comm(), MPI_ERRORS_RETURN);
     const int made = PMPI_Win_allocate_shared(static_cast<MPI_Aint>(count * sizeof(double)),
                                               sizeof(double), apart, group_.comm(), &own, &window_);
+    PMPI_Comm_set_errhandler(group_.comm(), usual);
+    PMPI_Errhandler_free(&usual);
     PMPI_Info_free(&apart);
     if (made != MPI_SUCCESS) throw std::runtime_error("MPI gave no shared memory to the ranks");
     PMPI_Win_lock_all(MPI_MODE_NOCHECK, window_);

@@ -10,13 +10,15 @@
 namespace turbidite {
 namespace {
 
-// Places in the upper triangle by rows of a symmetric 6 x 6 matrix.
-constexpr std::size_t xx = 0, xy = 1, xs = 5, yy = 6, ys = 10, ss = 20;
-
 nscd::PlanarTensor in_plane(const std::array<double, 21>& inertia) {
+    constexpr std::size_t x = 0, y = 1, spin = 5;  // of the six
     nscd::PlanarTensor tensor;
-    tensor.xx = inertia[xx], tensor.yy = inertia[yy], tensor.ss = inertia[ss];
-    tensor.xy = inertia[xy], tensor.xs = inertia[xs], tensor.ys = inertia[ys];
+    tensor.xx = inertia[upper_entry(x, x)];
+    tensor.xy = inertia[upper_entry(x, y)];
+    tensor.xs = inertia[upper_entry(x, spin)];
+    tensor.yy = inertia[upper_entry(y, y)];
+    tensor.ys = inertia[upper_entry(y, spin)];
+    tensor.ss = inertia[upper_entry(spin, spin)];
     return tensor;
 }
 

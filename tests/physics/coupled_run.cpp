@@ -69,6 +69,15 @@ void set_contact_values(Settings& settings) {
 
 }  // namespace
 
+CoupledSetup with_sides(const Sides& sides) {
+    CoupledSetup setup;
+    setup.left = sides.left;
+    setup.right = sides.right;
+    setup.bottom = sides.bottom;
+    setup.top = sides.top;
+    return setup;
+}
+
 Settings settings_of(const CoupledSetup& setup) {
     Settings settings;
     set_run_values(settings, setup);

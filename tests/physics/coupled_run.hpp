@@ -32,6 +32,13 @@ struct CoupledSetup {
     double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative ones
 };
 
+/// The four sides of a box, under the name of a test's parameter.
+struct Sides {
+    const char* name;
+    const char *left, *right, *bottom, *top;
+};
+CoupledSetup with_sides(const Sides& sides);
+
 Settings settings_of(const CoupledSetup& setup);
 
 /// A disc of diameter 1.

@@ -19,11 +19,6 @@
 namespace turbidite {
 namespace {
 
-struct Sides {
-    const char* name;
-    const char *left, *right, *bottom, *top;
-};
-
 constexpr Sides all_sides[] = {
     {"closed", "wall", "wall", "wall", "wall"},
     {"freeRightAndTop", "wall", "free", "wall", "free"},
@@ -34,11 +29,7 @@ constexpr Sides all_sides[] = {
 };
 
 CoupledSetup box_with(const Sides& sides) {
-    CoupledSetup setup;
-    setup.left = sides.left;
-    setup.right = sides.right;
-    setup.bottom = sides.bottom;
-    setup.top = sides.top;
+    CoupledSetup setup = with_sides(sides);
     setup.width = 5.0;  // 80 x 64 cells
     setup.reynolds = 36.0;
     setup.gravity = 11.86;

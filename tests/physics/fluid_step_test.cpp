@@ -17,11 +17,6 @@
 namespace turbidite {
 namespace {
 
-struct Sides {
-    const char* name;
-    const char *left, *right, *bottom, *top;
-};
-
 constexpr Sides all_sides[] = {
     {"closed", "wall", "wall", "wall", "wall"},
     {"freeRightAndTop", "wall", "free", "wall", "free"},
@@ -34,11 +29,7 @@ constexpr Sides all_sides[] = {
 constexpr int nx = 27, ny = 34;  // odd and even: transforms pair rows
 
 CoupledSetup box_with(const Sides& sides, bool operators, const std::string& k) {
-    CoupledSetup setup;
-    setup.left = sides.left;
-    setup.right = sides.right;
-    setup.bottom = sides.bottom;
-    setup.top = sides.top;
+    CoupledSetup setup = with_sides(sides);
     setup.cells_per_diameter = 8;
     setup.width = nx / 8.0;
     setup.height = ny / 8.0;
@@ -126,7 +117,8 @@ TEST(TransportParts, KeepEveryPartBelowTwoThirds) {
     EXPECT_EQ(transport_parts(std::numeric_limits<double>::quiet_NaN()), 1);  // refused elsewhere
 }
 
-/// Beyond a Courant number of 2/3 transport is cut into parts; the two kinds of steps still agree, momentum balances on open sides too, and u stays bounded.
+/// Beyond a Courant number of 2/3 transport is cut into parts; the two kinds of steps still agree,
+/// momentum balances on open sides too, and u stays bounded.
 TEST_P(FluidSteps, TakeLongStepsInParts) {
     CoupledSetup rows = box_with(GetParam(), false, "1"),
                  operators = box_with(GetParam(), true, "1");

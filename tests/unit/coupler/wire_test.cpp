@@ -93,10 +93,10 @@ TEST(Wire, HelloComesBack) {
 TEST(Wire, FreeResponsesWindowsBoxesShapesComeBack) {
     FreeResponse response;
     response.id = 4;
-    response.inertia[20] = awkward;
+    response.inertia[upper_entry(5, 5)] = awkward;
     response.mismatch = tiny;
     const FreeResponse back = decode<std::vector<FreeResponse>>(encode(std::vector{response}))[0];
-    EXPECT_EQ(back.inertia[20], awkward);
+    EXPECT_EQ(back.inertia[upper_entry(5, 5)], awkward);
     EXPECT_EQ(back.mismatch, tiny);
     const Window window{12, 0.5, 0.01, true, false};
     EXPECT_EQ(decode<Window>(encode(window)).index, 12);

@@ -61,9 +61,11 @@ std::vector<GrainState> neighbours() {
 std::vector<GrainState> after_contacts(std::vector<GrainState> grains,
                                        const std::vector<FreeResponse>& responses) {
     for (std::size_t g = 0; g < grains.size(); ++g) {
-        const auto& a = responses[g].inertia;  // x, y, spin: rows 0, 1, 5 of six
+        constexpr std::size_t six[] = {0, 1, 5};  // x, y, spin
         Eigen::Matrix3d inertia;
-        inertia << a[0], a[1], a[5], a[1], a[6], a[10], a[5], a[10], a[20];
+        for (int i = 0; i < 3; ++i)
+            for (int j = i; j < 3; ++j)
+                inertia(i, j) = inertia(j, i) = responses[g].inertia[upper_entry(six[i], six[j])];
         const Planar impulse(0.01 * double(g + 1), 0.02, -0.004);
         const Planar free(responses[g].velocity[0], responses[g].velocity[1],
                           responses[g].angular_velocity[2]);

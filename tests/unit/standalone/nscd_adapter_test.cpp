@@ -349,18 +349,22 @@ Settings joint_settings() {
     return settings;
 }
 
-/// A grain that falls at `speed` and feels mass 2 along x, 3 along y, moment 1, coupled by 0.5 between y and spin.
+/// A grain that falls at `speed` and feels mass 2 along x, 3 along y, moment 1, coupled by 0.5
+/// between y and spin.
 FreeResponse falling_at(GrainId id, double speed) {
     FreeResponse response;
     response.id = id;
     response.velocity = {0.0, -speed, 0.0};
-    response.inertia[0] = 2.0, response.inertia[6] = 3.0, response.inertia[20] = 1.0;
-    response.inertia[10] = 0.5;
+    response.inertia[upper_entry(0, 0)] = 2.0;
+    response.inertia[upper_entry(1, 1)] = 3.0;
+    response.inertia[upper_entry(1, 5)] = 0.5;
+    response.inertia[upper_entry(5, 5)] = 1.0;
     return response;
 }
 
-// Frictionless floor: U_y = 0 after an impulse J, so J/det * I = speed with the inverse of ((3, 0.5), (0.5, 1)):
-// det = 2.75, U_y = J/2.75, spin = -0.5 J/2.75. The grain touches the floor and falls at 0.11: J = 0.3025.
+// Frictionless floor: U_y = 0 after an impulse J, so J/det * I = speed with the inverse of ((3,
+// 0.5), (0.5, 1)): det = 2.75, U_y = J/2.75, spin = -0.5 J/2.75. The grain touches the floor and
+// falls at 0.11: J = 0.3025.
 TEST(NscdAdapter, JointSolvesContactsWithTheFluidsInertia) {
     Settings settings = joint_settings();
     settings.set("contact.friction", 0.0);
@@ -372,7 +376,8 @@ TEST(NscdAdapter, JointSolvesContactsWithTheFluidsInertia) {
     EXPECT_NEAR(grain.angular_velocity[2], -0.055, 1e-12);
 }
 
-// The kick sets the velocity, the contact solve moves: U = (0, 0) there, whatever coupling.positions says.
+// The kick sets the velocity, the contact solve moves: U = (0, 0) there, whatever
+// coupling.positions says.
 TEST(NscdAdapter, JointMovesWithTheContactVelocity) {
     Settings settings = joint_settings();
     settings.set("contact.friction", 0.0);
@@ -407,7 +412,8 @@ TEST(NscdAdapter, JointMayRepeatAdvanceWithinAWindow) {
     EXPECT_LT(warm.report.iterations, reference.report.iterations);
     for (int k = 0; k < 15; ++k) {
         EXPECT_NEAR(warm.grains[k].velocity[1], reference.grains[k].velocity[1], 1e-8);
-        EXPECT_NEAR(warm.grains[k].contact_impulse[1], reference.grains[k].contact_impulse[1], 1e-6);
+        EXPECT_NEAR(warm.grains[k].contact_impulse[1], reference.grains[k].contact_impulse[1],
+                    1e-6);
         EXPECT_EQ(warm.grains[k].position, grains[k].position);
     }
 }
@@ -430,8 +436,9 @@ TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
     NscdAdapter adapter;
     adapter.initialise(joint_settings(), discs, {grain_at(11, 3, 10)});
     FreeResponse response = falling_at(11, 0.0);
-    response.inertia[10] = 2.0;  // 2^2 > 3 * 1
-    const std::string text = refusal<PhysicsRefused>([&] { adapter.advance(window(3), {response}); });
+    response.inertia[upper_entry(1, 5)] = 2.0;  // 2^2 > 3 * 1
+    const std::string text =
+        refusal<PhysicsRefused>([&] { adapter.advance(window(3), {response}); });
     EXPECT_TRUE(contains(text, "inertia of grain 11 is not positive definite in window 3")) << text;
     adapter.bodies().rotation_blocked[0] = 1;
     const std::string held =
