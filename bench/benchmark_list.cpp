@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <fmt/format.h>
 
+#include "bench/contact_figures.hpp"
 #include "bench/figure.hpp"
 #include "bench/fluid_figures.hpp"
 
@@ -26,6 +27,8 @@ std::string Reach::text() const {
 const std::vector<Benchmark>& benchmark_list() {
     static const std::vector<Benchmark> list = {
         {"fluid", "one core, two ranks and the memory of the fluid step", fluid_figures()},
+        {"contact", "contact-iterations per second, growth with size, ours beside others",
+         contact_figures()},
     };
     return list;
 }

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
@@ -47,12 +48,18 @@ void StepClock::stop() {
     wall_.push_back(wall_seconds() - wall_start_);
 }
 
+double StepClock::processor_sum() const {
+    return std::accumulate(processor_.begin(), processor_.end(), 0.0);
+}
+
+double StepClock::wall_sum() const {
+    return std::accumulate(wall_.begin(), wall_.end(), 0.0);
+}
+
 void write_sample(const Sample& sample, const std::filesystem::path& file) {
-    const nlohmann::json json = {{"processor", sample.processor},
-                                 {"wall", sample.wall},
-                                 {"resident", sample.resident},
-                                 {"arrays", sample.arrays},
-                                 {"parts", sample.parts}};
+    const nlohmann::json json = {{"processor", sample.processor}, {"wall", sample.wall},
+                                 {"resident", sample.resident},   {"arrays", sample.arrays},
+                                 {"parts", sample.parts},         {"counts", sample.counts}};
     std::ofstream stream(file);
     stream << json << "\n";
     if (!stream.flush())
@@ -62,8 +69,8 @@ void write_sample(const Sample& sample, const std::filesystem::path& file) {
 Sample read_sample(const std::filesystem::path& file) try {
     std::ifstream stream(file);
     const nlohmann::json json = nlohmann::json::parse(stream);
-    return {json.at("processor"), json.at("wall"), json.at("resident"), json.at("arrays"),
-            json.at("parts")};
+    return {json.at("processor"), json.at("wall"),  json.at("resident"),
+            json.at("arrays"),    json.at("parts"), json.at("counts")};
 } catch (const nlohmann::json::exception& error) {
     throw Failure(
         ExitCode::participant_failed,

@@ -30,6 +30,8 @@ class StepClock {
     void stop();  ///< ends a step
     double processor() const { return median(processor_); }
     double wall() const { return median(wall_); }
+    double processor_sum() const;
+    double wall_sum() const;
 
  private:
     double processor_start_ = 0.0, wall_start_ = 0.0;
@@ -38,11 +40,12 @@ class StepClock {
 
 /// What a contender reports: medians over its timed steps.
 struct Sample {
-    double processor = 0.0;               ///< per step [s]
-    double wall = 0.0;                    ///< per step [s]
-    double resident = 0.0;                ///< after the last step [bytes]
-    double arrays = 0.0;                  ///< the array code: its arrays [bytes]
-    std::map<std::string, double> parts;  ///< of a step, wall [s]
+    double processor = 0.0;                ///< per step [s]
+    double wall = 0.0;                     ///< per step [s]
+    double resident = 0.0;                 ///< after the last step [bytes]
+    double arrays = 0.0;                   ///< the array code: its arrays [bytes]
+    std::map<std::string, double> parts;   ///< of a step, wall [s]
+    std::map<std::string, double> counts;  ///< what was done, by name
 };
 
 /// Throw Failure naming the file.

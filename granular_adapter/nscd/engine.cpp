@@ -125,16 +125,18 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
     points_ = detect(alert_distance(bodies_, free, dt));
     problem_ = build(free, std::move(mobilities), dt);
     const std::vector<ContactKey> names = keys();
-    Impulses guess;
-    guess.reserve(names.size());
-    for (const ContactKey& name : names) guess.push_back(memory_.guess(name, dt));
-    SolverResult result = solver_->solve(problem_, guess, settings_.solver_settings);
+    guess_.clear();
+    for (const ContactKey& name : names) guess_.push_back(memory_.guess(name, dt));
+    SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
     memory_.remember(names, result.impulses, dt);
     hand_out(result);
     impulses_ = std::move(result.impulses);
     StepReport report{static_cast<std::int64_t>(points_.size()),
-                      static_cast<std::int64_t>(memory_.contacts().size()), result.iterations,
-                      result.residual, result.change, result.converged};
+                      static_cast<std::int64_t>(memory_.contacts().size()),
+                      result.iterations,
+                      result.residual,
+                      result.change,
+                      result.converged};
     return report;
 }
 

@@ -87,6 +87,9 @@ class Engine {
     const ContactProblem& problem() const { return problem_; }
     const Impulses& impulses() const { return impulses_; }
 
+    /// What the last step's solver started from.
+    const Impulses& guess() const { return guess_; }
+
     /// Drops bodies whose entry is zero, and with them the last step's contact points.
     void keep(const std::vector<std::uint8_t>& mask);
 
@@ -118,6 +121,7 @@ class Engine {
     ContactMemory memory_;
     std::vector<ContactPoint> points_;
     ContactProblem problem_;
+    Impulses guess_;
     Impulses impulses_;
 };
 

@@ -21,9 +21,8 @@ class Bench : public ShellTest {
 TEST_F(Bench, QuickGivesEveryFigure) {
     const Answer answer = bench("fluid --quick --json figures.json");
     const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
-    for (const char* name :
-         {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth", "speedup_2_ranks",
-          "bytes_per_cell"}) {
+    for (const char* name : {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth",
+                             "speedup_2_ranks", "bytes_per_cell"}) {
         ASSERT_TRUE(figures.contains(name)) << answer.err;
         const auto& figure = figures.at(name);
         ASSERT_TRUE(figure.at("value").is_number()) << figure << answer.err;
@@ -36,18 +35,30 @@ TEST_F(Bench, QuickGivesEveryFigure) {
     EXPECT_EQ(answer.code, 0) << answer.err;
 }
 
+TEST_F(Bench, QuickGivesEveryFigureOfTheContactSolver) {
+    const Answer answer = bench("contact --quick --json figures.json");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
+    for (const char* name : {"contact_rate_1397", "contact_rate_50000", "contact_cost_growth"}) {
+        ASSERT_TRUE(figures.contains(name)) << answer.err;
+        ASSERT_TRUE(figures.at(name).at("value").is_number()) << figures.at(name) << answer.err;
+        EXPECT_GT(figures.at(name).at("value").get<double>(), 0.0);
+    }
+}
+
 TEST_F(Bench, ListNamesAllAndMeasuresNothing) {
     const Answer answer = bench("--list");
     EXPECT_EQ(answer.code, 0) << answer.err;
     for (const char* name : {"fluid:", "icofoam_over_ours_2d", "ours_over_array_code",
-                             "cell_cost_growth", "speedup_2_ranks", "bytes_per_cell"})
+                             "cell_cost_growth", "speedup_2_ranks", "bytes_per_cell",
+                             "contact:", "contact_rate_1397", "contact_cost_growth"})
         EXPECT_SAYS(answer.out, name);
 }
 
 TEST_F(Bench, UnknownNamesAreRefused) {
     const Answer benchmark = bench("solid");
     EXPECT_EQ(benchmark.code, 2);
-    EXPECT_SAYS(benchmark.err, "there are fluid");
+    EXPECT_SAYS(benchmark.err, "there are fluid, contact");
     const Answer figure = bench("fluid --figure speed");
     EXPECT_EQ(figure.code, 2);
     EXPECT_SAYS(figure.err, "speedup_2_ranks");

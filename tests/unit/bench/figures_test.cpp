@@ -58,7 +58,7 @@ TEST(Figures, ReachOfEachKind) {
 
 TEST(Figures, ASampleSurvivesItsFile) {
     const ScratchFolder scratch;
-    Sample sample{0.125, 0.25, 4096.0, 72.0, {{"1 projection", 0.0625}}};
+    Sample sample{0.125, 0.25, 4096.0, 72.0, {{"1 projection", 0.0625}}, {{"sweeps", 12.0}}};
     write_sample(sample, scratch.path() / "sample.json");
     const Sample back = read_sample(scratch.path() / "sample.json");
     EXPECT_EQ(back.processor, 0.125);
@@ -66,6 +66,7 @@ TEST(Figures, ASampleSurvivesItsFile) {
     EXPECT_EQ(back.resident, 4096.0);
     EXPECT_EQ(back.arrays, 72.0);
     EXPECT_EQ(back.parts, sample.parts);
+    EXPECT_EQ(back.counts, sample.counts);
     EXPECT_THROW(write_sample(sample, scratch.path() / "none/sample.json"), Failure);
     EXPECT_THROW(read_sample(scratch.write("broken.json", "{\"processor\": 1}")), Failure);
     EXPECT_THROW(read_sample(scratch.path() / "missing.json"), Failure);

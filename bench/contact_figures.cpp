@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bench/contact_figures.hpp"
+
+#include "bench/contact_rate.hpp"
+
+namespace turbidite::bench {
+
+std::vector<Figure> contact_figures() {
+    using Kind = Reach::Kind;
+    return {
+        {"contact_rate_1397",
+         "contact-iterations per second, contacts with impulse only, dry column of 1397 discs",
+         "1/s",
+         {Kind::at_least, 1.2e8},
+         contact_rate_1397},
+        {"contact_rate_50000",
+         "the same for 50,000 discs",
+         "1/s",
+         {Kind::at_least, 8e7},
+         contact_rate_50000},
+        {"contact_cost_growth",
+         "time per contact-iteration at 1e6 discs over that at 1e3",
+         "ratio",
+         {Kind::at_most, 2.0},
+         contact_cost_growth},
+    };
+}
+
+}  // namespace turbidite::bench

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "bench/contact_rate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/site.hpp"
+
+namespace turbidite::bench {
+namespace {
+
+/// One call of the worker.
+struct Order {
+    double width = 0.0;  ///< of the column [D]
+    int warm_up = 0, steps = 1;
+    int sweeps = 2000;
+    double tolerance = 1e-3;
+};
+
+Sample run_worker(Site& site, const Order& order) {
+    const std::filesystem::path result = site.folder() / "contact.json";
+    site.run({site.programs().folder / "turbidite-bench-contact", "--width",
+              fmt::format("{}", order.width), "--warm-up", std::to_string(order.warm_up), "--steps",
+              std::to_string(order.steps), "--sweeps", std::to_string(order.sweeps), "--tolerance",
+              fmt::format("{:g}", order.tolerance), "--result", result.string()},
+             "contact.log");
+    const Sample sample = read_sample(result);
+    fmt::print(stderr, "  {} discs: {:.3g} contact-iterations per second\n",
+               sample.counts.at("discs"), sample.counts.at("rate"));
+    return sample;
+}
+
+double count(const std::vector<Sample>& samples, const std::string& name) {
+    return median_of(samples, [&](const Sample& sample) { return sample.counts.at(name); });
+}
+
+double seconds(const std::vector<Sample>& samples, const std::string& part) {
+    return median_of(samples, [&](const Sample& sample) { return sample.parts.at(part); });
+}
+
+std::string scene(const std::vector<Sample>& samples) {
+    return fmt::format("{} discs, {:.0f} contacts with impulse of {:.0f} near, {:.0f} sweeps",
+                       count(samples, "discs"), count(samples, "contacts"),
+                       count(samples, "candidates"), count(samples, "sweeps"));
+}
+
+std::string time_needed(const std::vector<Sample>& samples, const Order& order) {
+    return fmt::format(
+        "to natural map {:g}: {:.4g} ms, {:.0f} % of steps get there; whole step {:.4g} ms",
+        order.tolerance, 1e3 * seconds(samples, "solve"), 100.0 * count(samples, "converged"),
+        1e3 * seconds(samples, "step"));
+}
+
+Measured rate(Site& site, const Order& order, int repeats) {
+    std::vector<Sample> samples;
+    for (int i = 0; i < (site.quick() ? 1 : repeats); ++i)
+        samples.push_back(run_worker(site, order));
+    Measured measured;
+    measured.value = count(samples, "rate");
+    const auto [lowest, highest] = std::minmax_element(
+        samples.begin(), samples.end(),
+        [](const Sample& a, const Sample& b) { return a.counts.at("rate") < b.counts.at("rate"); });
+    measured.lowest = lowest->counts.at("rate");
+    measured.highest = highest->counts.at("rate");
+    measured.notes = {scene(samples), time_needed(samples, order)};
+    return measured;
+}
+
+double cost(const Sample& sample) {
+    return 1.0 / sample.counts.at("rate");
+}
+
+}  // namespace
+
+Measured contact_rate_1397(Site& site) {
+    if (site.quick()) return rate(site, {.width = 7.0, .warm_up = 5, .steps = 5}, 1);
+    return rate(site, {.width = 25.0, .warm_up = 500, .steps = 100}, 5);
+}
+
+Measured contact_rate_50000(Site& site) {
+    if (site.quick()) return rate(site, {.width = 21.2, .warm_up = 2, .steps = 2}, 1);
+    return rate(site, {.width = 147.6, .warm_up = 30, .steps = 10}, 3);
+}
+
+// A fixed number of sweeps at both sizes, since large columns converge slower.
+Measured contact_cost_growth(Site& site) {
+    const int sweeps = site.quick() ? 8 : 200;
+    const Order large{site.quick() ? 30.0 : 658.0, 4, 2, sweeps, 1e-12};
+    const Order small{21.2, 4, site.quick() ? 2 : 50, sweeps, 1e-12};
+    const Duel duel = alternate(
+        site.quick() ? 1 : 3, [&] { return run_worker(site, large); },
+        [&] { return run_worker(site, small); });
+    Measured measured = ratio(duel, cost);
+    for (const auto* samples : {&duel.first, &duel.second})
+        measured.notes.push_back(
+            fmt::format("{}: {:.4g} ns", scene(*samples), 1e9 * median_of(*samples, cost)));
+    return measured;
+}
+
+}  // namespace turbidite::bench

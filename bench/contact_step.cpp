@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite-bench-contact: times the contact solver on the steps of a dense column of discs.
+//
+// Every timed step is done by the engine (warm start, detection and all), then its problem is
+// solved once more from the same first guess, alone under the clock. Counted are updates of
+// contacts that have an impulse at the end: sweeps times those.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "bench/dense_packing.hpp"
+#include "bench/step_clock.hpp"
+#include "coupler/protocol/failure.hpp"
+#include "granular_adapter/nscd/solver_list.hpp"
+
+namespace turbidite::bench {
+namespace {
+
+struct Options {
+    double width = 25.0, step = 0.01;
+    int warm_up = 0, steps = 1;
+    nscd::SolverSettings solver;
+    std::filesystem::path result;
+};
+
+/// Sums over the timed steps.
+struct Totals {
+    double candidates = 0.0, contacts = 0.0, sweeps = 0.0, updates = 0.0, converged = 0.0;
+
+    void add(const nscd::SolverResult& result) {
+        const auto loaded =
+            static_cast<double>(std::count_if(result.impulses.begin(), result.impulses.end(),
+                                              [](const Vec3& r) { return r[0] > 0.0; }));
+        candidates += static_cast<double>(result.impulses.size());
+        contacts += loaded;
+        sweeps += static_cast<double>(result.iterations);
+        updates += loaded * static_cast<double>(result.iterations);
+        converged += result.converged ? 1.0 : 0.0;
+    }
+};
+
+Sample run(const Options& options) {
+    nscd::Engine engine = dense_column({.width = options.width}, options.solver);
+    const auto solver = nscd::make_solver("nlgs");
+    StepClock whole, solve;
+    Totals totals;
+    for (int n = 0; n < options.warm_up + options.steps; ++n) {
+        whole.start();
+        engine.step(options.step);
+        if (n >= options.warm_up) {
+            whole.stop();
+            solve.start();
+            const nscd::SolverResult result =
+                solver->solve(engine.problem(), engine.guess(), options.solver);
+            solve.stop();
+            totals.add(result);
+        }
+        engine.move(options.step);
+    }
+    const double steps = options.steps;
+    Sample sample;
+    sample.processor = solve.processor();
+    sample.wall = solve.wall();
+    sample.resident = resident_bytes();
+    sample.parts = {{"step", whole.processor()}, {"solve", solve.processor()}};
+    sample.counts = {{"discs", static_cast<double>(engine.bodies().size())},
+                     {"candidates", totals.candidates / steps},
+                     {"contacts", totals.contacts / steps},
+                     {"sweeps", totals.sweeps / steps},
+                     {"converged", totals.converged / steps},
+                     {"rate", totals.updates / solve.processor_sum()},
+                     {"wall rate", totals.updates / solve.wall_sum()}};
+    return sample;
+}
+
+}  // namespace
+}  // namespace turbidite::bench
+
+int main(int argc, char** argv) {
+    turbidite::bench::Options options;
+    CLI::App app{"The worker of `turbidite bench contact`", "turbidite-bench-contact"};
+    app.add_option("--width", options.width, "of the column [D]");
+    app.add_option("--step", options.step, "dt [sqrt(D/g)]");
+    app.add_option("--warm-up", options.warm_up, "steps before the timed ones");
+    app.add_option("--steps", options.steps, "timed steps")->check(CLI::PositiveNumber);
+    app.add_option("--tolerance", options.solver.tolerance, "of the natural map");
+    app.add_option("--sweeps", options.solver.max_iterations, "at most, per step");
+    app.add_option("--result", options.result, "file to write")->required();
+    CLI11_PARSE(app, argc, argv);
+    try {
+        write_sample(turbidite::bench::run(options), options.result);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "turbidite-bench-contact: %s\n", error.what());
+        return static_cast<int>(turbidite::ExitCode::participant_failed);
+    }
+    return 0;
+}
