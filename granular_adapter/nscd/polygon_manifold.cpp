@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/polygon_manifold.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -117,18 +118,22 @@ struct Facing {
     int end_corner(bool far) const { return far ? reference.after(side) : side; }
 };
 
-/// A corner of each, apart: the line between them is the normal. Named by the first's.
-ManifoldPoint between_corners(const Facing& f, const Place& lowest, int end) {
-    const double dx = f.ox + f.incident.x[lowest.corner] - f.reference.x[end];
-    const double dy = f.oy + f.incident.y[lowest.corner] - f.reference.y[end];
-    const double distance = std::sqrt(dx * dx + dy * dy), sign = f.flip ? -1.0 : 1.0;
-    ManifoldPoint p;
-    p.x = f.reference.x[end] + 0.5 * dx + (f.flip ? -f.ox : 0.0);
-    p.y = f.reference.y[end] + 0.5 * dy + (f.flip ? -f.oy : 0.0);
-    p.nx = sign * dx / distance;
-    p.ny = sign * dy / distance;
+/// Share of the way from a to b at which the incident side is nearest to an end of the reference.
+double nearest_share(const Place& a, const Place& b, double end) {
+    const double t = b.t - a.t, h = b.h - a.h;
+    return std::clamp(((end - a.t) * t - a.h * h) / (t * t + h * h), 0.0, 1.0);
+}
+
+/// Beyond the end of the reference, apart: the line from there to (t, h) is the normal. Named by
+/// the first polygon's corner.
+ManifoldPoint beyond_end(const Facing& f, double end, double t, double h, int end_corner,
+                         int incident_corner) {
+    const double along = t - end, distance = std::sqrt(along * along + h * h);
+    ManifoldPoint p = f.point(end + 0.5 * along, h, f.flip ? incident_corner : end_corner, f.flip);
+    const double sign = (f.flip ? -1.0 : 1.0) / distance;
+    p.nx = sign * (h * f.nx - along * f.ny);
+    p.ny = sign * (h * f.ny + along * f.nx);
     p.gap = distance;
-    p.corner = f.flip ? lowest.corner : end;
     return p;
 }
 
@@ -137,33 +142,59 @@ double height_at(const Place& a, const Place& b, double t) {
     return a.h + (b.h - a.h) * (t - a.t) / (b.t - a.t);
 }
 
+/// The lowest corner p with the side to q, over the reference from 0 to its length.
+struct Overlap {
+    double start = 0.0;    ///< where the common part begins, at p or at the reference's end
+    bool outside = false;  ///< p lies before or beyond the reference
+    bool beyond = false;
+    bool shared = false;  ///< there is a common part
+};
+
+Overlap overlap(const Place& p, const Place& q, double length, double same) {
+    const bool before = p.t<-same, beyond = p.t> length + same;
+    if (before) return {0.0, true, false, q.t > same};
+    if (beyond) return {length, true, true, q.t < length - same};
+    return {p.t, false, false, std::abs(q.t - p.t) > same};
+}
+
+ManifoldPoint first_point(const Facing& f, const Place& p, const Place& q, const Overlap& o) {
+    if (!o.outside) return f.point(p.t, p.h, p.corner, true);
+    const int end_corner = f.end_corner(o.beyond);
+    const double share = p.h > 0.0 ? nearest_share(p, q, o.start) : 0.5;
+    // Sides that lie flat on each other within rounding: the end of the common part counts.
+    if (o.shared && share > 0.0 && share < 1.0)
+        return f.point(o.start, height_at(p, q, o.start), end_corner, false);
+    if (!(p.h > 0.0)) return f.point(o.start, p.h, p.corner, true);
+    return beyond_end(f, o.start, p.t + share * (q.t - p.t), p.h + share * (q.h - p.h), end_corner,
+                      share < 1.0 ? p.corner : q.corner);
+}
+
+/// The other end of the common part.
+ManifoldPoint second_point(const Facing& f, const Place& p, const Place& q) {
+    const bool ahead = q.t > p.t;
+    const double end = ahead ? f.length : 0.0;
+    if (ahead ? q.t > end : q.t < end)
+        return f.point(end, height_at(p, q, end), f.end_corner(ahead), false);
+    return f.point(q.t, q.h, q.corner, true);
+}
+
+double common_length(const Facing& f, const Place& q, const Overlap& o) {
+    return std::abs(std::clamp(q.t, 0.0, f.length) - o.start);
+}
+
 Manifold clip(const Facing& f, int lowest, double alert, double same) {
-    Manifold manifold;
     const Place p = f.place(lowest), q = f.place(f.other_end(lowest));
-    const bool before = p.t<-same, beyond = p.t> f.length + same;
-    const bool outside = before || beyond;
-    const double start = before ? 0.0 : beyond ? f.length : p.t;
-    // Sides are above each other where the incident one reaches back over the reference.
-    const bool shared =
-        outside ? (before ? q.t > same : q.t < f.length - same) : std::abs(q.t - p.t) > same;
-    ManifoldPoint& first = manifold.points[0];
-    if (!outside || (p.h <= 0.0 && !shared))
-        first = f.point(start, p.h, p.corner, true);
-    else if (p.h > 0.0)
-        first = between_corners(f, p, f.end_corner(beyond));
-    else  // lowest by less than `same`: the ends of the common part count
-        first = f.point(start, height_at(p, q, start), f.end_corner(beyond), false);
-    if (!(first.gap < alert)) return manifold;
+    const Overlap o = overlap(p, q, f.length, same);
+    Manifold manifold;
+    manifold.points[0] = first_point(f, p, q, o);
+    if (!(manifold.points[0].gap < alert)) return manifold;
     manifold.count = 1;
-    if (!shared) return manifold;
-    const bool ahead = q.t > p.t, past = ahead ? q.t > f.length : q.t < 0.0;
-    const double end = past ? (ahead ? f.length : 0.0) : q.t;
-    const double height = past ? height_at(p, q, end) : q.h;
-    if (!(height < alert) || !(std::abs(end - start) > same)) return manifold;
-    manifold.points[1] = past ? f.point(end, height, f.end_corner(ahead), false)
-                              : f.point(end, height, q.corner, true);
+    const double length = common_length(f, q, o);
+    if (!o.shared || !(length > same)) return manifold;
+    manifold.points[1] = second_point(f, p, q);
+    if (!(manifold.points[1].gap < alert)) return manifold;
     manifold.count = 2;
-    for (ManifoldPoint& point : manifold.points) point.length = 0.5 * std::abs(end - start);
+    for (ManifoldPoint& point : manifold.points) point.length = 0.5 * length;
     return manifold;
 }
 
