@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
+#include "coupler/shapes/polygon_outline.hpp"
 
 namespace turbidite {
 
@@ -23,7 +24,7 @@ struct SurfacePoint {
 };
 
 class Shape {
-   public:
+ public:
     virtual ~Shape() = default;
 
     virtual int dimension() const = 0;
@@ -38,6 +39,9 @@ class Shape {
 
     /// Points spaced as evenly as the shape allows, never closer than `spacing` [m].
     virtual std::vector<SurfacePoint> surface_points(double radius, double spacing) const = 0;
+
+    /// Corners of a polygon of unit circumradius, counter-clockwise; empty for round shapes.
+    virtual std::vector<Point2> outline() const { return {}; }
 };
 
 /// Every shape there is, by the name used in `grains.shape`.

@@ -1,15 +1,35 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <stdexcept>
 
+#include "coupler/shapes/convex_polygon.hpp"
 #include "coupler/shapes/disc.hpp"
 #include "coupler/shapes/shape.hpp"
 
 namespace turbidite {
+namespace {
+
+using ShapePointer = std::shared_ptr<const Shape>;
+
+ShapePointer make_disc(const ShapeRecord&) {
+    return std::make_shared<Disc>();
+}
+
+ShapePointer make_triangle(const ShapeRecord& record) {
+    const auto& vertices = record.vertices;
+    return std::make_shared<ConvexPolygon>(vertices.empty() ? equilateral_triangle() : vertices);
+}
+
+ShapePointer make_polygon(const ShapeRecord& record) {
+    return std::make_shared<ConvexPolygon>(record.vertices);
+}
+
+}  // namespace
 
 const std::vector<ShapeEntry>& shape_list() {
     static const std::vector<ShapeEntry> shapes = {
-        {"disc", "round grain in the plane",
-         [](const ShapeRecord&) -> std::shared_ptr<const Shape> { return std::make_shared<Disc>(); }},
+        {"disc", "round grain in the plane", make_disc},
+        {"triangle", "equilateral triangle, a side below at angle 0", make_triangle},
+        {"polygon", "convex polygon with the corners of grains.vertices", make_polygon},
     };
     return shapes;
 }

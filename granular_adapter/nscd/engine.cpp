@@ -14,18 +14,12 @@
 namespace turbidite::nscd {
 namespace {
 
-// Contacts within this share of the largest diameter are always in the problem, so that a contact
-// which opens by rounding does not flicker. Larger only costs time.
+// Contacts within this share of both radii are always in the problem, so that a contact which opens
+// by rounding does not flicker. Larger only costs time.
 constexpr double alert_share = 0.02;
 
-constexpr std::uint64_t bodies_format = 0x314445534354ULL;
-constexpr std::uint64_t memory_format = 0x314d454d4354ULL;
-
-double largest_radius(const Bodies& bodies) {
-    double largest = 0.0;
-    for (const double radius : bodies.radius) largest = std::max(largest, radius);
-    return largest;
-}
+constexpr std::uint64_t bodies_format = 0x324445534354ULL;
+constexpr std::uint64_t memory_format = 0x324d454d4354ULL;
 
 /// Upper bound of |u_rel| between any two bodies or a body and a wall: the diagonal of the box that
 /// holds all velocities and zero.
@@ -39,9 +33,25 @@ double speed_range(const std::vector<Twist>& twists) {
     return norm(high - low);
 }
 
-double alert_distance(const Bodies& bodies, const std::vector<Twist>& free, double dt) {
-    return dt * std::max(speed_range(free), speed_range(bodies.twist)) +
-           alert_share * 2.0 * largest_radius(bodies);
+/// Fastest that a corner moves about its own centre.
+double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < twists.size(); ++i)
+        fastest = std::max(fastest, bodies.radius[i] * std::abs(twists[i].spin[2]));
+    return fastest;
+}
+
+/// Fastest that a wall moves where a body is.
+double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
+    double fastest = 0.0;
+    for (const Wall& wall : walls) {
+        fastest = std::max(fastest, norm(wall.velocity));
+        if (wall.spin == 0.0) continue;
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            fastest = std::max(fastest, norm(velocity_at(wall, bodies.position[i])) +
+                                            std::abs(wall.spin) * bodies.radius[i]);
+    }
+    return fastest;
 }
 
 std::vector<BodyMobility> mobilities(const Bodies& bodies) {
@@ -64,15 +74,37 @@ void check_step(double dt) {
     if (!(dt > 0.0)) throw std::invalid_argument("the time step must be positive");
 }
 
-void write_memory(ByteWriter& out, const ContactMemory& memory) {
-    out.value(memory_format);
-    out.array(memory.contacts());
+/// Where a wall is and how it moves; the rest comes from the settings.
+template <class Visit, class AnyWall>
+void for_each_state(AnyWall& wall, Visit&& visit) {
+    visit(wall.point), visit(wall.normal), visit(wall.velocity), visit(wall.spin);
+    visit(wall.pivot);
 }
 
-std::vector<RememberedContact> read_memory(ByteReader& in) {
+void write_memory(ByteWriter& out, const ContactMemory& memory, const std::vector<Wall>& walls) {
+    out.value(memory_format);
+    out.array(memory.contacts());
+    out.value(static_cast<std::uint64_t>(walls.size()));
+    for (const Wall& wall : walls)
+        for_each_state(wall, [&out](const auto& value) { out.value(value); });
+}
+
+struct SavedMemory {
+    std::vector<RememberedContact> contacts;
+    std::vector<Wall> walls;
+};
+
+/// Takes what does not move from the present walls.
+SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
     if (in.value<std::uint64_t>() != memory_format)
         throw std::invalid_argument("saved contact impulses: these bytes are something else");
-    return in.array<RememberedContact>();
+    SavedMemory saved{in.array<RememberedContact>(), walls};
+    if (in.value<std::uint64_t>() != walls.size())
+        throw std::invalid_argument("saved contact state: it has another number of walls");
+    for (Wall& wall : saved.walls)
+        for_each_state(wall,
+                       [&in](auto& value) { value = in.value<std::decay_t<decltype(value)>>(); });
+    return saved;
 }
 
 Bodies read_bodies(ByteReader& in) {
@@ -122,7 +154,7 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
             "a contact step needs one free velocity and one mobility per "
             "body");
     check_periods(bodies_.radius, settings_.box);
-    points_ = detect(alert_distance(bodies_, free, dt));
+    points_ = detect(reach(free, dt), alert_share);
     problem_ = build(free, std::move(mobilities), dt);
     const std::vector<ContactKey> names = keys();
     guess_.clear();
@@ -147,11 +179,12 @@ void Engine::move(double dt) {
 void Engine::move(double dt, const std::vector<Twist>& velocities) {
     check_step(dt);
     nscd::move(bodies_, velocities, dt, settings_.box);
+    for (Wall& wall : walls_) nscd::move(wall, dt);
 }
 
 double Engine::max_penetration() const {
     double deepest = 0.0;
-    for (const ContactPoint& point : detect(0.0)) deepest = std::max(deepest, -point.gap);
+    for (const ContactPoint& point : detect(0.0, 0.0)) deepest = std::max(deepest, -point.gap);
     return deepest;
 }
 
@@ -166,17 +199,18 @@ std::vector<char> Engine::save() const {
     ByteWriter out;
     out.value(bodies_format);
     Bodies::for_each_array(bodies_, [&out](const auto& array) { out.array(array); });
-    write_memory(out, memory_);
+    write_memory(out, memory_, walls_);
     return out.take();
 }
 
 void Engine::restore(const std::vector<char>& state) {
     ByteReader in(state);
     Bodies bodies = read_bodies(in);
-    std::vector<RememberedContact> contacts = read_memory(in);
+    SavedMemory saved = read_memory(in, walls_);
     demand_end(in);
     bodies_ = std::move(bodies);
-    memory_.replace(std::move(contacts));
+    memory_.replace(std::move(saved.contacts));
+    walls_ = std::move(saved.walls);
     points_.clear();
     problem_ = {};
     impulses_.clear();
@@ -184,30 +218,45 @@ void Engine::restore(const std::vector<char>& state) {
 
 std::vector<char> Engine::save_memory() const {
     ByteWriter out;
-    write_memory(out, memory_);
+    write_memory(out, memory_, walls_);
     return out.take();
 }
 
 void Engine::restore_memory(const std::vector<char>& state) {
     ByteReader in(state);
-    std::vector<RememberedContact> contacts = read_memory(in);
+    SavedMemory saved = read_memory(in, walls_);
     demand_end(in);
-    memory_.replace(std::move(contacts));
+    memory_.replace(std::move(saved.contacts));
+    walls_ = std::move(saved.walls);
 }
 
-std::vector<ContactPoint> Engine::detect(double alert) const {
+/// How far surfaces may approach each other in a step.
+double Engine::reach(const std::vector<Twist>& free, double dt) const {
+    double speed = std::max(speed_range(free), speed_range(bodies_.twist));
+    if (narrow_phase_.has_corners())
+        speed += 2.0 * std::max(rim_speed(bodies_, free), rim_speed(bodies_, bodies_.twist));
+    return dt * (speed + wall_speed(walls_, bodies_));
+}
+
+/// Points whose gap is below `reach` and `share` of the radii.
+std::vector<ContactPoint> Engine::detect(double reach, double share) const {
     const PeriodicBox& box = settings_.box;
+    const PlacedPolygons polygons = narrow_phase_.place(bodies_);
+    std::vector<double> wide = bodies_.radius;
+    for (double& radius : wide) radius *= 1.0 + share;
     std::vector<ContactPoint> points;
-    for (Pair pair : candidate_pairs(bodies_.position, bodies_.radius, alert, box)) {
+    for (Pair pair : candidate_pairs(bodies_.position, wide, reach, box)) {
         if (bodies_.fixed[pair.a] && bodies_.fixed[pair.b]) continue;
         if (bodies_.id[pair.a] > bodies_.id[pair.b]) std::swap(pair.a, pair.b);
         const Vec3 offset = box.minimum_image(bodies_.position[pair.b] - bodies_.position[pair.a]);
-        narrow_phase_.pair({bodies_, pair.a, pair.b, offset, alert}, points);
+        const double alert = reach + share * (bodies_.radius[pair.a] + bodies_.radius[pair.b]);
+        narrow_phase_.pair({bodies_, pair.a, pair.b, offset, alert, &polygons}, points);
     }
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(bodies_.size()); ++i)
         for (std::int32_t w = 0; w < static_cast<std::int32_t>(walls_.size()); ++w)
             if (!bodies_.fixed[i])
-                narrow_phase_.wall({bodies_, i, walls_[static_cast<std::size_t>(w)], w, alert},
+                narrow_phase_.wall({bodies_, i, walls_[static_cast<std::size_t>(w)], w,
+                                    reach + share * 2.0 * bodies_.radius[i], &polygons},
                                    points);
     order_top_down(points);
     return points;
@@ -244,8 +293,18 @@ ContactProblem Engine::build(const std::vector<Twist>& free, std::vector<BodyMob
                                     p.arm_b,
                                     terms.friction,
                                     {terms.normal_bias, terms.tangential_bias, 0.0}});
+        if (p.wall >= 0) add_wall_motion(problem.contacts.back(), p);
     }
     return problem;
+}
+
+/// A wall is no body of the problem: what it moves at the contact goes into the bias.
+void Engine::add_wall_motion(Contact& contact, const ContactPoint& point) const {
+    const Wall& wall = walls_[static_cast<std::size_t>(point.wall)];
+    if (!is_moving(wall)) return;
+    const Vec3 v = velocity_at(wall, bodies_.position[point.b] + point.arm_b);
+    contact.bias[0] -= dot(contact.normal, v);
+    contact.bias[1] -= dot(contact.tangent, v);
 }
 
 ContactKey Engine::key(const ContactPoint& point) const {

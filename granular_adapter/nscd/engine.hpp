@@ -59,6 +59,8 @@ class Engine {
     Bodies& bodies() { return bodies_; }
     const Bodies& bodies() const { return bodies_; }
     const std::vector<Wall>& walls() const { return walls_; }
+    /// Hosts may change a wall's motion between two steps.
+    std::vector<Wall>& walls() { return walls_; }
     const EngineSettings& settings() const { return settings_; }
 
     /// Solves contacts at the present configuration; positions stay. Starts from free fall.
@@ -73,7 +75,7 @@ class Engine {
     StepReport step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
                          double dt);
 
-    /// Moves with the bodies' present velocities.
+    /// Moves with the bodies' present velocities; walls follow their own.
     void move(double dt);
 
     /// Moves with given ones; the bodies keep theirs.
@@ -93,21 +95,23 @@ class Engine {
     /// Drops bodies whose entry is zero, and with them the last step's contact points.
     void keep(const std::vector<std::uint8_t>& mask);
 
-    /// Bodies and contact memory; restore() expects an engine with the same settings.
+    /// Bodies, walls and contact memory; restore() expects an engine with the same settings.
     std::vector<char> save() const;
     void restore(const std::vector<char>& state);
 
-    /// The contact memory alone, for hosts that store bodies themselves.
+    /// Walls and contact memory alone, for hosts that store bodies themselves.
     ContactMemory& memory() { return memory_; }
     const ContactMemory& memory() const { return memory_; }
     std::vector<char> save_memory() const;
     void restore_memory(const std::vector<char>& state);
 
  private:
-    std::vector<ContactPoint> detect(double alert) const;
+    double reach(const std::vector<Twist>& free, double dt) const;
+    std::vector<ContactPoint> detect(double reach, double share) const;
     void order_top_down(std::vector<ContactPoint>& points) const;
     ContactProblem build(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
                          double dt) const;
+    void add_wall_motion(Contact& contact, const ContactPoint& point) const;
     ContactKey key(const ContactPoint& point) const;
     std::vector<ContactKey> keys() const;
     void hand_out(const SolverResult& result);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "granular_adapter/nscd/polygon_contacts.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
 
 namespace turbidite::nscd {
@@ -38,11 +39,12 @@ void disc_wall(const WallView& view, std::vector<ContactPoint>& points) {
     const double radius = view.bodies.radius[view.body];
     const double place = along(view.wall, centre), end = view.wall.half_length;
     if (std::abs(place) > end) return disc_corner(view, std::copysign(end, place), points);
-    const double distance = signed_distance(view.wall, centre);
+    // A half-plane is solid behind; a segment holds grains on both of its sides.
+    const double height = signed_distance(view.wall, centre);
+    const double side = std::isfinite(end) && height < 0.0 ? -1.0 : 1.0;
+    const double distance = side * height;
     if (!(distance - radius < view.alert)) return;
-    // A segment has grains on both of its sides; it holds those whose centre is in front.
-    if (std::isfinite(end) && distance < 0.0) return;
-    const Vec3& normal = view.wall.normal;
+    const Vec3 normal = side * view.wall.normal;
     points.push_back(
         {-1, view.body, view.wall_index, 0, distance - radius, normal, Vec3{}, -radius * normal});
 }
@@ -70,16 +72,24 @@ PairDetector find_pair_detector(const std::string& first, const std::string& sec
 }  // namespace
 
 const std::vector<PairDetectorEntry>& pair_detector_list() {
-    static const std::vector<PairDetectorEntry> entries = {{"disc", "disc", disc_disc}};
+    static const std::vector<PairDetectorEntry> entries = {
+        {"disc", "disc", disc_disc},
+        {"disc", "polygon", disc_polygon},
+        {"disc", "triangle", disc_polygon},
+        {"polygon", "polygon", polygon_polygon},
+        {"polygon", "triangle", polygon_polygon},
+        {"triangle", "triangle", polygon_polygon},
+    };
     return entries;
 }
 
 const std::vector<WallDetectorEntry>& wall_detector_list() {
-    static const std::vector<WallDetectorEntry> entries = {{"disc", disc_wall}};
+    static const std::vector<WallDetectorEntry> entries = {
+        {"disc", disc_wall}, {"polygon", polygon_wall}, {"triangle", polygon_wall}};
     return entries;
 }
 
-NarrowPhase::NarrowPhase(const ShapeTable& shapes) {
+NarrowPhase::NarrowPhase(const ShapeTable& shapes) : polygons_(shapes) {
     for (const ShapeRecord& shape : shapes) {
         kinds_.push_back(shape.kind);
         walls_.push_back(find_wall_detector(shape.kind));
@@ -95,7 +105,8 @@ void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) 
     const PairChoice& choice = pairs_.at(shape_a * kinds_.size() + shape_b);
     if (!choice.swapped) return choice.detect(view, points);
     const std::size_t before = points.size();
-    choice.detect({view.bodies, view.b, view.a, -1.0 * view.offset, view.alert}, points);
+    choice.detect({view.bodies, view.b, view.a, -1.0 * view.offset, view.alert, view.polygons},
+                  points);
     std::for_each(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(), swap_bodies);
 }
 

@@ -4,7 +4,7 @@
 //
 // The normal points from a (or the wall) to b. Between bodies both arms end at the same point,
 // half-way across the gap, so that an impulse and its reaction have no moment; at a wall the arm
-// ends on the body's surface.
+// ends on the body's surface. What polygons add is in polygon_manifold.hpp.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/bodies.hpp"
+#include "granular_adapter/nscd/placed_polygons.hpp"
 #include "granular_adapter/nscd/walls.hpp"
 
 namespace turbidite::nscd {
@@ -25,6 +26,7 @@ struct ContactPoint {
     Vec3 normal{};             ///< unit
     Vec3 arm_a{};              ///< centre of a to the contact point [m]
     Vec3 arm_b{};
+    double length = 0.0;  ///< of the face that the point stands for; 0 for points [m]
 };
 
 /// Two bodies; `offset` is b - a by the nearest image.
@@ -33,7 +35,8 @@ struct PairView {
     std::int32_t a;
     std::int32_t b;
     Vec3 offset;
-    double alert;  ///< only gaps below this are reported [m]
+    double alert;                              ///< only gaps below this are reported [m]
+    const PlacedPolygons* polygons = nullptr;  ///< needed where a shape has corners
 };
 
 /// A body and a wall.
@@ -43,6 +46,7 @@ struct WallView {
     const Wall& wall;
     std::int32_t wall_index;
     double alert;
+    const PlacedPolygons* polygons = nullptr;
 };
 
 using PairDetector = void (*)(const PairView&, std::vector<ContactPoint>&);
@@ -67,6 +71,10 @@ class NarrowPhase {
  public:
     explicit NarrowPhase(const ShapeTable& shapes);
 
+    /// Corners at their places, once per configuration; what views of it are given.
+    PlacedPolygons place(const Bodies& bodies) const { return {polygons_, bodies}; }
+    bool has_corners() const { return polygons_.any(); }
+
     void pair(const PairView& view, std::vector<ContactPoint>& points) const;
     void wall(const WallView& view, std::vector<ContactPoint>& points) const;
 
@@ -75,6 +83,7 @@ class NarrowPhase {
         PairDetector detect;
         bool swapped;  ///< the detector wants b first
     };
+    PolygonShapes polygons_;
     std::vector<std::string> kinds_;
     std::vector<PairChoice> pairs_;  ///< kind a x kind b
     std::vector<WallDetector> walls_;

@@ -45,7 +45,7 @@ TEST(Shapes, AnUnknownNameListsTheKnownOnes) {
         make_shape({"disk", {}});
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "unknown shape \"disk\"; known: disc");
+        EXPECT_STREQ(error.what(), "unknown shape \"disk\"; known: disc, triangle, polygon");
     }
 }
 

@@ -49,7 +49,7 @@ TEST(NarrowPhase, MeasuresOverlapWithAWall) {
 }
 
 // Segment |x| <= 1 on y = 0: at x = 1.3, y = 0.4 the corner is 0.5 away: gap 0, normal (0.6, 0.8).
-// A centre behind the segment belongs to its other side.
+// The side on which the centre is holds it.
 TEST(NarrowPhase, TouchesTheCornersOfASegment) {
     Wall segment = scenes::floor(0.0);
     segment.half_length = 1.0;
@@ -61,7 +61,10 @@ TEST(NarrowPhase, TouchesTheCornersOfASegment) {
     ASSERT_EQ(other.size(), 1u);
     EXPECT_NE(other[0].feature, corner[0].feature);
     EXPECT_EQ(against_wall(segment, {0.0, 0.4, 0.0}, 0.01).size(), 1u);
-    EXPECT_TRUE(against_wall(segment, {0.0, -0.4, 0.0}, 0.01).empty());
+    const auto behind = against_wall(segment, {0.0, -0.4, 0.0}, 0.01);
+    ASSERT_EQ(behind.size(), 1u);
+    EXPECT_NEAR(behind[0].gap, -0.1, 1e-15);
+    expect_near(behind[0].normal, {0.0, -1.0, 0.0});
     EXPECT_TRUE(against_wall(segment, {1.5, 0.4, 0.0}, 0.01).empty());
 }
 
