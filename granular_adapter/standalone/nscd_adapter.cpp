@@ -14,6 +14,7 @@
 #include "granular_adapter/nscd/law_list.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
 #include "granular_adapter/standalone/by_grain.hpp"
+#include "granular_adapter/standalone/contact_records.hpp"
 #include "granular_adapter/standalone/free_motion.hpp"
 
 namespace turbidite {
@@ -142,6 +143,8 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     report_.contacts = step.contacts;
     report_.iterations = step.iterations;
     report_.residual = step.residual;
+    report_.quad = step.change.quad;
+    report_.max = step.change.max;
     report_.converged = step.converged;
     report_.wall_seconds = watch.seconds();
     return motion();
@@ -174,6 +177,8 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
         throw std::logic_error("apply_kick needs an advance of the same window before it");
     if (fluid_ || !kicks.empty()) take_velocities(window, kicks);
     check_grains(in_window(window) + " after the kick");
+    std::optional<std::vector<ContactRecord>> contacts;
+    if (window.write_output) contacts = contact_records(engine());
     const bool with_contact = joint_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     contact_twists_.clear();
@@ -181,8 +186,11 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     check_grains(in_window(window) + " after motion");
     report_.removed = static_cast<std::int64_t>(removed_.size());
     report_.max_penetration = engine().max_penetration();
-    report_.wall_seconds = watch.seconds();
-    return motion();
+    Motion result = motion();
+    if (contacts) drop_contacts_of(removed_, *contacts);
+    result.contacts = std::move(contacts);
+    result.report.wall_seconds = report_.wall_seconds = watch.seconds();
+    return result;
 }
 
 SavedState NscdAdapter::save() const {

@@ -244,6 +244,38 @@ TEST(NscdAdapter, RemovesAndCountsGrainsPastAFreeSide) {
     EXPECT_EQ(adapter.advance(window(2), {}).report.removed, 0);
 }
 
+// Two discs on top of each other, the upper one thrown out through the right side: contacts are told when output
+// is due, as they were solved, and without the one that left.
+TEST(NscdAdapter, TellsContactsInWindowsWithOutput) {
+    Settings settings = box_settings();
+    settings.set("domain.right", std::string("free"));
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(7, 5, 1.5), grain_at(3, 5, 0.5)});
+    Window now = window(0);
+    Motion motion = adapter.advance(now, {});
+    EXPECT_FALSE(adapter.apply_kick(now, same_velocities(motion)).contacts);
+    now = window(1);
+    now.write_output = true;
+    motion = adapter.advance(now, {});
+    EXPECT_FALSE(motion.contacts) << "the fluid has no use for them";
+    motion = adapter.apply_kick(now, same_velocities(motion));
+    ASSERT_EQ(motion.contacts->size(), 2u);
+    EXPECT_EQ(motion.contacts->at(0).a, 3);
+    EXPECT_EQ(motion.contacts->at(0).b, 7);
+    EXPECT_EQ(motion.contacts->at(1).wall, 2) << "0 left, 1 right, 2 bottom, 3 top";
+    ASSERT_TRUE(motion.report.quad && motion.report.max && motion.report.residual);
+    EXPECT_LE(*motion.report.quad, *motion.report.max);
+    EXPECT_LT(*motion.report.max, 1e-6) << "solved to 1e-10";
+
+    now.index = 2;
+    std::vector<Kick> kicks = same_velocities(adapter.advance(now, {}));
+    kicks[0].velocity = {1000.0, 0.0, 0.0};
+    motion = adapter.apply_kick(now, kicks);
+    EXPECT_EQ(motion.report.removed, 1);
+    ASSERT_EQ(motion.contacts->size(), 1u);
+    EXPECT_EQ(motion.contacts->at(0).wall, 2);
+}
+
 // Period 10: from 9.99 at speed 2 over 0.01 to 0.01.
 TEST(NscdAdapter, WrapsCyclicSides) {
     Settings settings = box_settings();
