@@ -49,13 +49,13 @@ struct ContactProblem {
 /// t = e_z x n.
 Vec3 tangent_of(const Vec3& normal);
 
-/// H_k^T v of one contact, bias left out.
+/// H_k^T v of one contact, bias left out: (u_n, u_t, w).
 Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v);
 
 /// v_free + M^-1 H r.
 std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r);
 
-/// H_k r_k of one contact as a vector [N s].
+/// The force part of H_k r_k as a vector [N s]; the moment impulse r[2] comes on top.
 Vec3 world_impulse(const Contact& contact, const Vec3& r);
 
 }  // namespace turbidite::nscd

@@ -24,11 +24,15 @@
 
 namespace turbidite::nscd {
 
-/// Diagonal block of W [1/kg].
+/// Diagonal block of W [1/kg]. Its third row belongs to moments and spins (rolling_contact.hpp) and
+/// is zero where nothing resists rolling [1/(kg m), 1/(kg m2)].
 struct Block {
     double nn = 0.0;
     double nt = 0.0;
     double tt = 0.0;
+    double nr = 0.0;
+    double tr = 0.0;
+    double rr = 0.0;
 };
 
 /// (n, t) of an impulse or a velocity.
