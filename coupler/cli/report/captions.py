@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the figures of a report show, in words and numbers. A number that is not there is left out."""
 import findings
+import peaks
 
 
 def sequence(run, pictures):
-    fastest = fastest_fluid(pictures)
+    fastest, quickest = fastest_fluid(pictures), fastest_grain(pictures)
     times = ', '.join(f'{p.time / run.scale("t_c"):.3g}' for p in pictures)
-    text = ['Lengths in D; grains as discs.' if any(p.grains for p in pictures) else 'Lengths in D.']
+    text = ['Lengths in D.']
+    if quickest and not run.is_wet():
+        text.append('Colour: speed of the grains on one scale for all pictures. Fastest here: '
+                    f'{quickest[0] / run.scale("u_c"):.3g} u_c at t = '
+                    f'{quickest[1] / run.scale("t_c"):.3g} t_c.')
     if fastest:
         text.append('Colour: vertical velocity of the fluid on one scale for all pictures, red up, blue '
                     f'down. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
@@ -18,6 +23,33 @@ def fastest_fluid(pictures):
     """(largest |vertical velocity|, its time) of the pictures with a field; None without any."""
     seen = [(float(abs(p.velocity.vertical).max()), p.time) for p in pictures if p.velocity is not None]
     return max(seen) if seen else None
+
+
+def fastest_grain(pictures):
+    """(largest speed, its time) of the pictures whose grains tell it; None without any."""
+    seen = [(float(p.grains.speeds().max()), p.time) for p in pictures
+            if p.grains is not None and p.grains.velocities is not None and len(p.grains.radii)]
+    return max(seen) if seen else None
+
+
+def collapse(run):
+    """Under Fig. 8(a): the peak of the mean velocity, and how far the front got."""
+    text = []
+    highest = peaks.peak(run)
+    if highest:
+        text.append(f'Largest |<u>|: {highest.value:.4g} u_c at t = {highest.time:.4g} t_c.')
+    _, front = run.column('front_x')
+    if len(front):
+        text.append(f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.')
+    removed = grains_lost(run)
+    if removed:
+        text.append(f'{removed} grains left the box; means are over those that are in it.')
+    return ' '.join(text + [rest(run)])
+
+
+def grains_lost(run):
+    _, grains = run.column('grains')
+    return int(grains[0] - grains[-1]) if len(grains) else 0
 
 
 def settling(run):

@@ -78,8 +78,11 @@ def add_curves(page, run):
     if run.history is None:
         page.heading('Curves')
         return page.paragraph('There is no history, so there are no curves.', 'remark')
+    motion = ('settling', curves.SETTLING, captions.settling)
+    if not run.is_wet():
+        motion = ('collapse', curves.COLLAPSE, captions.collapse)
     for heading, name, plots, caption in (
-            ('Mean motion', 'settling', curves.SETTLING, captions.settling),
+            ('Mean motion', *motion),
             ('Speed, energy and contacts', 'motion', curves.MOTION, captions.motion),
             ('Residuals and iterations', 'solvers', curves.SOLVERS, captions.solvers)):
         figure = curves.figure(run, plots)

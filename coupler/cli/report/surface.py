@@ -2,7 +2,7 @@
 """The free surface of a heap: its highest point in each column of one D."""
 import numpy as np
 
-import run_data
+import grain_files
 
 
 def surface(run, grains):
@@ -11,21 +11,37 @@ def surface(run, grains):
     centres, radii = grains.centres / diameter, grains.radii / diameter
     columns = int(np.ceil(run.size()[0]))
     heights = np.zeros(columns)
-    for (x, y), radius in zip(centres, radii):
-        first, last = int(np.floor(x - radius)), int(np.floor(x + radius))
+    for i, (centre, radius) in enumerate(zip(centres, radii)):
+        corners = (grains.outlines or {}).get(i)
+        first, last = int(np.floor(centre[0] - radius)), int(np.floor(centre[0] + radius))
         for column in range(max(first, 0), min(last, columns - 1) + 1):
-            nearest = min(max(x, column), column + 1.0) - x
-            if abs(nearest) < radius:
-                top = y + np.sqrt(radius**2 - nearest**2)
-                heights[column] = max(heights[column], top)
+            top = top_of_disc(centre, radius, column) if corners is None else top_of_polygon(
+                corners / diameter, column)
+            heights[column] = max(heights[column], top)
     return np.arange(columns) + 0.5, heights
+
+
+def top_of_disc(centre, radius, column):
+    """Highest point with column <= x <= column + 1; 0 when the disc does not reach in."""
+    nearest = min(max(centre[0], column), column + 1.0) - centre[0]
+    return centre[1] + np.sqrt(radius**2 - nearest**2) if abs(nearest) < radius else 0.0
+
+
+def top_of_polygon(corners, column):
+    """The same of a polygon: a corner in the column, or where an edge enters or leaves it."""
+    inside = (corners[:, 0] >= column) & (corners[:, 0] <= column + 1.0)
+    tops = [0.0, *corners[inside, 1]]
+    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0)):
+        tops += [y1 + (y2 - y1) * (x - x1) / (x2 - x1) for x in (column, column + 1.0)
+                 if min(x1, x2) < x < max(x1, x2)]
+    return max(tops)
 
 
 def last_grains(run):
     """Grains of the last instant that can be read; None, and a remark, when there is none."""
-    for time, path in reversed(run_data.grain_series(run)):
+    for time, path in reversed(grain_files.grain_series(run)):
         try:
-            return run_data.read_grains(time, path)
+            return grain_files.read_grains(time, path, run.shapes())
         except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
             run.remarks.append(f'{path.name} cannot be read: {error}')
     return None
