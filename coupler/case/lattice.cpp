@@ -86,7 +86,8 @@ bool displace(NeighbourGrid& grid, std::size_t index, double dx, double dy,
 // The grains of the lattice are one note, since room and movement explain each other.
 void shake_lattice(PackingResult& result, const PackingRequest& request, double compacity) {
     const double left = make_room(result.grains, request);
-    PackingResult shaken{.grains = std::move(result.grains)};
+    PackingResult shaken;
+    shaken.grains = std::move(result.grains);
     apply_jitter(shaken, request);
     result.grains = std::move(shaken.grains);
     std::string note = fmt::format(

@@ -36,10 +36,10 @@ struct PackingRegion {
 
 struct PackingRequest {
     PackingBox box;
-    std::optional<PackingRegion> region;  ///< what is filled; the whole box unless given
-    double compacity = 0.0;               ///< lattice: solid area fraction of the infinite lattice
-    std::int64_t count = 0;               ///< random: number of grains
-    double jitter = 0.0;                  ///< largest displacement along x and along y [D]
+    std::optional<PackingRegion> region = {};  ///< what is filled; the whole box unless given
+    double compacity = 0.0;  ///< lattice: solid area fraction of the infinite lattice
+    std::int64_t count = 0;  ///< random: number of grains
+    double jitter = 0.0;     ///< largest displacement along x and along y [D]
     std::uint64_t seed = 1;
 
     PackingRegion filled() const { return region ? *region : PackingRegion{box.width, box.height}; }
