@@ -77,6 +77,25 @@ def rest(run):
     return ''
 
 
+def force_network(networks):
+    """How strong the widest lines are, and where."""
+    counts = ', '.join(f'{len(network.forces)} at t = {network.time:.3g} t_c' for network in networks)
+    strongest = max(networks, key=lambda network: abs(network.forces).max())
+    return ('Lines join grains in contact, as wide as their normal force (red pushes, blue pulls), on one '
+            'scale for all pictures; the weakest are not drawn. Contacts with an impulse: '
+            f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g D^2 at t = '
+            f'{strongest.time:.3g} t_c.')
+
+
+def contact_statistics(run):
+    text = ['Left: probability density of normal forces between grains over their mean. Right: of the '
+            'directions of contacts between grains, each counted both ways.']
+    _, coordination = run.column('coordination')
+    if len(coordination):
+        text.append(f'Coordination at the end: {coordination[-1]:.3g} contacts per grain.')
+    return ' '.join(text)
+
+
 def motion(run):
     text = []
     overlap = findings.largest(run, 'max_penetration', 'penetration')

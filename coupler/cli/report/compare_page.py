@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The page of a comparison: tables and figures of its members (seeds.Member), the first one solid."""
 import matplotlib.pyplot as plt
-import numpy as np
 
 import curves
 import findings
+import surface
 from page import Page
 from seeds import SEED
 
@@ -146,12 +146,10 @@ def add_surfaces(page, comparison):
     page.heading('Surface at the end')
     figure, axes = plt.subplots(figsize=(11.0, 4.0), layout='constrained')
     for i, name, found in shown:
-        draw_member(axes, i, f'{name}, t = {found.time:g}', (found.x, found.height),
-                    (found.x, found.low, found.high) if found.runs > 1 else None)
-    reach = max(np.flatnonzero(found.high)[-1] for _, _, found in shown if found.high.any())
-    curves.decorate(axes, 'Surface', r'$y\,/\,D$')
-    axes.set(xlabel=r'$x\,/\,D$', xlim=(0.0, reach + 2.0), ylim=(0.0, None))
-    axes.legend(fontsize=8)
+        x, high, low, height = surface.trimmed(found.x, found.high, found.low, found.height)
+        draw_member(axes, i, f'{name}, t = {found.time:g}', (x, height),
+                    (x, low, high) if found.runs > 1 else None)
+    surface.decorate(axes)
     page.figure(figure, 'surface', 'Highest point of the grains in each column of one D at the last '
                                    'output.')
 

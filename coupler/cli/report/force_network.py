@@ -21,7 +21,7 @@ LARGEST_FORCE = 6.0     # f/<f> in the distribution
 
 @dataclass
 class Network:
-    """Contacts with an impulse at one time; forces in units of rho_s D^2 g (weights of a square of D)."""
+    """Contacts with an impulse at one time; forces over rho_s g D^2."""
 
     time: float           # t_c
     grains: object        # grain_files.Grains

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The grain series of a run folder: where it is and what one of its files holds."""
+"""The series of a run's grains folder and what a file of grains holds."""
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
@@ -11,82 +11,67 @@ class Grains:
     """At one time, in the run's own units; what a file does not tell is None."""
 
     time: float
-    centres: np.ndarray           # (n, 2)
-    radii: np.ndarray             # (n,) circumscribed
-    ids: np.ndarray = None        # (n,)
+    centres: np.ndarray            # (n, 2)
+    radii: np.ndarray              # (n,) circumscribed
+    ids: np.ndarray = None         # (n,)
     velocities: np.ndarray = None  # (n, 2)
-    outlines: dict = None         # index of a polygon: its corners (k, 2)
+    outlines: dict = None          # index of a polygon: its corners (k, 2)
 
     def speeds(self):
         return None if self.velocities is None else np.hypot(*self.velocities.T)
 
 
 def grain_series(run):
-    """(time, path) of every instant of grains/grains.pvd."""
-    return series(run, 'grains.pvd', 'pictures have no grains')
-
-
-def series(run, name, consequence):
-    """(time, path) of every instant of grains/`name`; a missing one is remarked if that has a
-    consequence."""
-    index = run.folder / 'grains' / name
+    """(time, path) of every instant of grains/grains.pvd; outlines of polygons stand beside the grains."""
+    index = run.folder / 'grains' / 'grains.pvd'
     if not index.exists():
-        if consequence:
-            run.remarks.append(f'grains/{name} is missing: {consequence}.')
+        run.remarks.append('grains/grains.pvd is missing: pictures have no grains.')
         return []
+    return series(index)
+
+
+def series(index):
+    """(time, path) of the first part of every instant."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))
-            for entry in ElementTree.parse(index).iter('DataSet')]
+            for entry in ElementTree.parse(index).iter('DataSet') if entry.get('part', '0') == '0']
 
 
-def read_grains(time, path, shapes=()):
-    """Grains of a VTK PolyData file with ascii arrays. `shapes` is the shape table of run.json."""
+def read_grains(time, path):
+    """Grains of a VTK PolyData file, with the outlines of the file beside it if there is one."""
     arrays = read_arrays(path)
     if 'radius' not in arrays:
         raise ValueError(f'{path.name} has no array "radius"')
-    grains = Grains(time, arrays['Points'].reshape(-1, 3)[:, :2], arrays['radius'])
+    grains = Grains(time, in_plane(arrays['Points']), arrays['radius'])
     if 'id' in arrays:
         grains.ids = arrays['id'].astype(np.int64)
     if 'velocity' in arrays:
-        grains.velocities = arrays['velocity'].reshape(-1, 3)[:, :2]
-    grains.outlines = outlines(grains, arrays, shapes)
+        grains.velocities = in_plane(arrays['velocity'])
+    corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))
+    if corners != path and corners.exists():
+        grains.outlines = read_outlines(corners, grains.ids)
     return grains
 
 
-def outlines(grains, arrays, shapes):
-    """Corners of the polygons: the shape's, in units of R, turned by the angle and moved to the centre."""
-    corners = [corners_of(shape) for shape in shapes]
-    if not any(corner is not None for corner in corners):
-        return None
-    kinds = arrays.get('shape', np.zeros(len(grains.radii))).astype(int)
-    turns = angles(arrays, len(grains.radii))
-    found = {}
-    for i, kind in enumerate(kinds):
-        if corners[kind] is None:
-            continue
-        c, s = np.cos(turns[i]), np.sin(turns[i])
-        found[i] = grains.centres[i] + grains.radii[i] * corners[kind] @ np.array([[c, s], [-s, c]])
-    return found
+def read_outlines(path, ids):
+    """{index of the grain: its corners (k, 2)}"""
+    arrays = read_arrays(path)
+    points = in_plane(arrays['Points'])[arrays['connectivity'].astype(int)]
+    corners = np.split(points, arrays['offsets'].astype(int)[:-1])
+    index = {grain: i for i, grain in enumerate(ids)}
+    return {index[grain]: outline for grain, outline in zip(arrays['id'].astype(np.int64), corners)}
 
 
-def corners_of(shape):
-    """(k, 2) of a record {kind, vertices: [x, y, ...]}; None for round ones."""
-    vertices = shape.get('vertices') or []
-    return np.array(vertices, dtype=float).reshape(-1, 2) if vertices else None
-
-
-def angles(arrays, count):
-    """About z [rad], from the unit quaternions (w, x, y, z)."""
-    if 'orientation' not in arrays:
-        return np.zeros(count)
-    q = arrays['orientation'].reshape(-1, 4)
-    return 2.0 * np.arctan2(q[:, 3], q[:, 0])
+def in_plane(triples):
+    """(n, 2) of x, y, z in a row."""
+    return triples.reshape(-1, 3)[:, :2]
 
 
 def read_arrays(path):
-    """Every array of a one-piece PolyData file by name, flat; those of points as `Points`."""
+    """Every array of a one-piece PolyData file by name, flat, the positions as `Points`. Where points and
+    cells share a name it is the cells'. Arrays are ascii, or it is a ValueError."""
     piece = ElementTree.parse(path).find('.//Piece')
     arrays = {'Points': _array(piece.find('Points/DataArray'))}
-    for group in ('PointData', 'CellData', 'Lines', 'Verts'):
+    for group in ('Verts', 'Lines', 'Polys', 'PointData', 'CellData'):
         for element in piece.iterfind(f'{group}/DataArray'):
             arrays[element.get('Name')] = _array(element)
     return arrays

@@ -67,7 +67,7 @@ def load(run, instant):
     picture = Picture(time, None, None)
     try:
         if grains_file is not None:
-            picture.grains = grain_files.read_grains(time, grains_file, run.shapes())
+            picture.grains = grain_files.read_grains(time, grains_file)
         if field_folder is not None:
             picture.velocity = fluid_fields.velocity_at(run, time, field_folder)
     except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:

@@ -12,10 +12,13 @@ import matplotlib
 matplotlib.use('Agg')
 
 import captions
+import contact_files
 import curves
 import findings
+import force_network
 import pictures
 import run_data
+import surface
 import wall_shares
 from page import Page, write_whole
 
@@ -72,6 +75,10 @@ def add_sequence(page, run):
         return page.paragraph('There is nothing to draw yet.', 'remark')
     loaded = [pictures.load(run, instant) for instant in chosen]
     page.figure(pictures.figure(run, loaded), 'sequence', captions.sequence(run, loaded))
+    grains = [picture.grains for picture in loaded if picture.grains is not None]
+    if grains and not run.is_wet():
+        page.figure(surface.figure(run, grains), 'surface',
+                    'Highest point of the grains in each column of one D.')
 
 
 def add_curves(page, run):
@@ -89,6 +96,17 @@ def add_curves(page, run):
         if figure is not None:
             page.heading(heading)
             page.figure(figure, name, caption(run))
+
+
+def add_contacts(page, run):
+    shown = contact_files.networks(run)
+    if not shown:
+        return
+    page.heading('Force network')
+    page.figure(force_network.figure(run, shown), 'force_network', captions.force_network(shown))
+    told = force_network.statistics(shown)
+    if told is not None:
+        page.figure(told, 'contact_statistics', captions.contact_statistics(run))
 
 
 def add_wall_time(page, run):
@@ -112,6 +130,7 @@ def make_page(run):
     add_status(page, run)
     page.table(facts(run))
     add_sequence(page, run)
+    add_contacts(page, run)
     add_curves(page, run)
     add_wall_time(page, run)
     add_remarks(page, run)

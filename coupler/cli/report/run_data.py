@@ -30,10 +30,6 @@ class RunData:
         """Width and height of the domain [D]."""
         return [float(v) for v in self.case['domain.size'].strip('[]').split(',')]
 
-    def shapes(self):
-        """The shape table of run.json; empty where all grains are discs."""
-        return self.record.get('shapes') or []
-
     def is_wet(self):
         return self.case.get('fluid.enabled') != 'false'
 

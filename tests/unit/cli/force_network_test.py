@@ -7,9 +7,11 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
-from made_up_run import RunFolderTest
+from made_up_run import CASE, RunFolderTest
 
+import contact_files
 import force_network
+import report
 import run_data
 from grain_files import Grains
 
@@ -70,6 +72,47 @@ class ForceNetwork(RunFolderTest):
         self.assertEqual(len(told.axes[0].lines), 2)
         plt.close(told)
         self.assertIsNone(force_network.statistics([network([1.0])]))
+
+
+CONTACTS = """<VTKFile><PolyData><Piece><Points>
+<DataArray Name="position" format="ascii">1 {y} 0 2.5 {y} 0 1 0 0 1 {y} 0</DataArray></Points><Lines>
+<DataArray Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray Name="offsets" format="ascii">2 4</DataArray></Lines><PointData>
+<DataArray Name="normal_force" format="ascii">3 3 6 6</DataArray></PointData><CellData>
+<DataArray Name="id_a" format="ascii">4 -3</DataArray><DataArray Name="id_b" format="ascii">9 4</DataArray>
+<DataArray Name="normal_force" format="ascii">3 6</DataArray>
+<DataArray Name="normal" format="ascii">1 0 0 0 1 0</DataArray></CellData></Piece></PolyData></VTKFile>
+"""
+
+
+class ContactSeries(RunFolderTest):
+    def setUp(self):
+        super().setUp()
+        self.write_all()
+        self.write('case.yaml', CASE.replace('standalone-nscd', 'standalone-nscd\n  density_ratio: 1.5'))
+        self.write('grains/contacts.pvd', '<VTKFile><Collection><DataSet timestep="1" part="0" '
+                   'file="contacts_1.vtp"/></Collection></VTKFile>')
+        self.write('grains/contacts_1.vtp', CONTACTS.format(y=3))
+
+    def test_networks_of_a_run(self):
+        network, = contact_files.networks(run_data.load_run(self.folder))
+        self.assertEqual(network.time, 1.0)
+        self.assertEqual(network.ends.tolist(), [[[1, 3], [2.5, 3]], [[1, 0], [1, 3]]])
+        self.assertEqual(network.forces.tolist(), [2.0, 4.0])  # over rho_s g D^2 = 1.5
+        self.assertEqual(network.between_grains.tolist(), [True, False])
+        self.assertEqual(network.normals.tolist(), [[1, 0], [0, 1]])
+
+    def test_the_report_shows_them(self):
+        self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
+        page = (self.folder / 'report.html').read_text()
+        self.assertIn('Force network', page)
+        self.assertIn('2 at t = 1 t_c. Largest force: 4 rho_s g D^2', page)
+        self.assertTrue((self.folder / 'pictures/force_network.png').exists())
+
+    def test_a_broken_file_is_said(self):
+        self.write('grains/contacts_1.vtp', CONTACTS.format(y=3)[:300])
+        self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
+        self.assertIn('Contacts at 1:', (self.folder / 'report.html').read_text())
 
 
 if __name__ == '__main__':

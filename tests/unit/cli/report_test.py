@@ -153,7 +153,7 @@ class Report(RunFolderTest):
         self.assertIn('Colour: speed of the grains', page)
         self.assertIn('Fastest here: 2 u_c', page)
         self.assertEqual(self.pictures(), ['collapse.png', 'motion.png', 'sequence.png', 'solvers.png',
-                                           'wall_time.png'])
+                                           'surface.png', 'wall_time.png'])
 
     def test_captions_of_a_collapse(self):
         self.write_all()
@@ -164,17 +164,18 @@ class Report(RunFolderTest):
         self.assertIn('Largest |&lt;u&gt;|: 0.5 u_c at t = 1 t_c. Front from 25 D to 29 D. 2 grains left '
                       'the box', page)
 
-    def test_polygons_are_turned_and_moved(self):
-        self.write('grains.vtp', VTP.format(y=3).replace('</PointData>', (
-            '<DataArray type="Int64" Name="shape" format="ascii">1 0</DataArray>'
-            '<DataArray type="Float64" Name="orientation" NumberOfComponents="4" format="ascii">'
-            f'{np.sqrt(0.5)!r} 0 0 {np.sqrt(0.5)!r} 1 0 0 0</DataArray></PointData>')))
-        square = {'kind': 'polygon', 'vertices': [1, 0, 0, 1, -1, 0, 0, -1]}
-        grains = grain_files.read_grains(0.0, self.folder / 'grains.vtp', [{'kind': 'disc'}, square])
-        # R = 0.5 at (1, 3), a quarter turn: the corner at (R, 0) goes to (0, R).
+    def test_polygons_are_drawn_as_polygons(self):
+        # The grains have ids 4 and 9; 4, at (1, 3), is a square that stands on a corner.
+        self.write('grains_7.vtp', VTP.format(y=3))
+        array = '<DataArray type="Float64" Name="{}" format="ascii">{}</DataArray>'
+        self.write('outlines_7.vtp', '<VTKFile><PolyData><Piece><Points>'
+                   + array.format('position', '1 3.5 0 0.5 3 0 1 2.5 0 1.5 3 0') + '</Points><Polys>'
+                   + array.format('connectivity', '0 1 2 3') + array.format('offsets', '4')
+                   + '</Polys><CellData>' + array.format('id', '4') + '</CellData></Piece></PolyData>'
+                   '</VTKFile>')
+        grains = grain_files.read_grains(0.0, self.folder / 'grains_7.vtp')
         self.assertEqual(list(grains.outlines), [0])
-        np.testing.assert_allclose(grains.outlines[0], [[1, 3.5], [0.5, 3], [1, 2.5], [1.5, 3]],
-                                   atol=1e-12)
+        np.testing.assert_array_equal(grains.outlines[0], [[1, 3.5], [0.5, 3], [1, 2.5], [1.5, 3]])
         figure, axes = plt.subplots()
         grain_drawing.draw(axes, grains, 1.0)
         kinds = [type(collection).__name__ for collection in axes.collections]
@@ -186,6 +187,13 @@ class Report(RunFolderTest):
         self.assertEqual(surface.top_of_polygon(grains.outlines[0], 2), 0.0)
         self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 1), 3.5)
         self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 0), 3.25)
+
+    def test_parts_of_an_instant_are_one(self):
+        self.write('grains/grains.pvd', '<VTKFile><Collection>'
+                   '<DataSet timestep="2" part="0" file="grains_7.vtp"/>'
+                   '<DataSet timestep="2" part="1" file="outlines_7.vtp"/></Collection></VTKFile>')
+        (time, path), = grain_files.grain_series(run_data.load_run(self.folder))
+        self.assertEqual((time, path.name), (2.0, 'grains_7.vtp'))
 
     def test_rest_is_when_the_speed_stays_small(self):
         self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.005\n3,3,0.02\n'
