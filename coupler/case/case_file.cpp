@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "coupler/case/case_entries.hpp"
@@ -45,9 +46,16 @@ SolidSides solid_sides(const Settings& settings) {
             solid("domain.top")};
 }
 
+std::optional<PackingRegion> packing_region(const Settings& settings) {
+    if (!settings.has("grains.region")) return std::nullopt;
+    const auto size = real_list("grains.region", settings.text("grains.region"));
+    return PackingRegion{size.at(0), size.at(1)};
+}
+
 PackingRequest packing_request(const Settings& settings) {
     const bool counted = settings.has("grains.count");
     return {.box = packing_box(settings),
+            .region = packing_region(settings),
             .compacity = settings.real("grains.compacity"),
             .count = counted ? settings.integer("grains.count") : 0,
             .jitter = settings.real("grains.jitter"),
@@ -110,6 +118,16 @@ void check_grains(const Population& population, const Settings& settings, CaseEn
     for (CaseProblem& problem : problems) entries.problems.push_back(std::move(problem));
 }
 
+// A region that was refused would only be refused again, grain by grain.
+bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
+    const CaseEntry* entry = entries.find("grains.region");
+    if (entry == nullptr || entry->is_null) return false;
+    if (!settings.has("grains.region")) return true;
+    const auto region = packing_region(settings);
+    const PackingBox box = packing_box(settings);
+    return region->width > box.width || region->height > box.height;
+}
+
 /// Grains of the given file, else of grains.file, else generated. Needs a valid box.
 Population make_population(Settings& settings, CaseEntries& entries,
                            const std::filesystem::path& folder,
@@ -118,6 +136,7 @@ Population make_population(Settings& settings, CaseEntries& entries,
          {"domain.size", "domain.left", "domain.right", "domain.bottom", "domain.top",
           "grains.generator", "grains.compacity", "grains.jitter", "random.seed"})
         if (!settings.has(key)) return {};
+    if (region_is_refused(settings, entries)) return {};
     const bool from_file = !given.empty() || settings.has("grains.file");
     // A valid count is missing: the generator has nothing to go by.
     const bool uncounted =

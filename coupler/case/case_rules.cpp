@@ -44,6 +44,15 @@ Verdict bottom_top(const Settings& s) {
     return opposite_sides(s, "domain.bottom", "domain.top");
 }
 
+Verdict region_in_box(const Settings& s) {
+    const std::vector<double> region = real_list("grains.region", s.text("grains.region"));
+    const std::vector<double> box = real_list("domain.size", s.text("domain.size"));
+    if (region.at(0) <= box.at(0) && region.at(1) <= box.at(1)) return std::nullopt;
+    return Objection{
+        fmt::format("The region lies in the box, domain.size = {} D.", s.text("domain.size")),
+        "Make it smaller, or remove it to fill the whole box."};
+}
+
 Verdict at_least_one_window(const Settings& s) {
     if (s.real("time.end") >= s.real("time.step")) return std::nullopt;
     return Objection{
@@ -163,6 +172,7 @@ const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"domain.left", {"domain.right"}, left_right},
         {"domain.bottom", {"domain.top"}, bottom_top},
+        {"grains.region", {"domain.size"}, region_in_box},
         {"time.end", {"time.step"}, at_least_one_window},
         {"time.step", {"time.end"}, countable_windows},
         {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_is_stable},
@@ -230,6 +240,8 @@ std::vector<std::string> rule_notes(const Settings& settings) {
     if (settings.real("output.interval") < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
     add_scheme_notes(settings, notes);
+    if (settings.has("grains.region") && settings.has("grains.file"))
+        notes.push_back("grains.region has no effect with grains.file");
     if (const auto limit = step_limit_exceeded(settings, SchemeKind::biased))
         notes.push_back(fmt::format(
             "fluid.transport_scheme = {}: its explicit transport may grow beyond "

@@ -130,6 +130,15 @@ std::vector<KeySpec> grains_keys() {
          .fallback = "random",
          .choices = generator_choices(),
          .help = "how the grains are placed"},
+        {.name = "grains.region",
+         .type = KeyType::real_list,
+         .unit = "D",
+         .need = Need::optional,
+         .range = {.lower = 1.0},
+         .help = "width and height of the part of the box that the generator fills, from the lower "
+                 "left corner; the whole box unless given",
+         .allowed = "Width and height in D, each at least one grain and at most the box's.",
+         .remedy = "Write for example region: [25, 50], or remove it to fill the whole box."},
         {.name = "grains.compacity",
          .type = KeyType::real,
          .fallback = "0.9069",
@@ -148,8 +157,9 @@ std::vector<KeySpec> grains_keys() {
          .unit = "D",
          .fallback = "0",
          .range = not_negative,
-         .help =
-             "largest random displacement along each axis; shortened where grains would overlap"},
+         .help = "largest random displacement along each axis; shortened where grains would "
+                 "overlap. A lattice is stretched first to make room, by at most 1 % of its "
+                 "compacity"},
         {.name = "grains.file",
          .type = KeyType::text,
          .need = Need::optional,

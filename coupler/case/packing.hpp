@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,21 @@ struct PackingBox {
     bool periodic_y = false;
 };
 
+/// A rectangle in the lower left corner of the box.
+struct PackingRegion {
+    double width = 0.0;   ///< [D]
+    double height = 0.0;  ///< [D]
+};
+
 struct PackingRequest {
     PackingBox box;
+    std::optional<PackingRegion> region = {};  ///< what is filled; the whole box unless given
     double compacity = 0.0;  ///< lattice: solid area fraction of the infinite lattice
     std::int64_t count = 0;  ///< random: number of grains
     double jitter = 0.0;     ///< largest displacement along x and along y [D]
     std::uint64_t seed = 1;
+
+    PackingRegion filled() const { return region ? *region : PackingRegion{box.width, box.height}; }
 };
 
 /// A packing, remarks for the user, or the reason why there is none.

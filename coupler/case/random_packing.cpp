@@ -20,15 +20,15 @@ constexpr int shaking_sweeps = 100;
 constexpr double shaking_distance = 0.2;  // [D]
 
 // Walls take the gap as well, so that no grain starts in touch with anything.
-PlacedGrain random_place(const PackingBox& box, double gap, RandomNumbers& random) {
+PlacedGrain random_place(const PackingRegion& region, double gap, RandomNumbers& random) {
     const double edge = 0.5 + gap;
-    return {.x = random.uniform(edge, box.width - edge),
-            .y = random.uniform(edge, box.height - edge)};
+    return {.x = random.uniform(edge, region.width - edge),
+            .y = random.uniform(edge, region.height - edge)};
 }
 
-bool add_one(NeighbourGrid& grid, const PackingBox& box, double gap, RandomNumbers& random) {
+bool add_one(NeighbourGrid& grid, const PackingRegion& region, double gap, RandomNumbers& random) {
     for (int attempt = 0; attempt < attempts_per_grain; ++attempt) {
-        PlacedGrain grain = random_place(box, gap, random);
+        PlacedGrain grain = random_place(region, gap, random);
         grain.id = static_cast<GrainId>(grid.grains().size());
         if (!grid.is_free(grain, gap)) continue;
         grid.insert(grain);
@@ -39,12 +39,12 @@ bool add_one(NeighbourGrid& grid, const PackingBox& box, double gap, RandomNumbe
 
 /// Empty when the grains did not fit with this gap.
 Packing add_one_by_one(const PackingRequest& request, double gap) {
-    const PackingBox& box = request.box;
-    if (box.width < 1.0 + 2.0 * gap || box.height < 1.0 + 2.0 * gap) return {};
+    const PackingRegion region = request.filled();
+    if (region.width < 1.0 + 2.0 * gap || region.height < 1.0 + 2.0 * gap) return {};
     RandomNumbers random(request.seed);
-    NeighbourGrid grid(box, 0.5, gap);
+    NeighbourGrid grid(request.box, 0.5, gap);
     for (std::int64_t i = 0; i < request.count; ++i)
-        if (!add_one(grid, box, gap, random)) return {};
+        if (!add_one(grid, region, gap, random)) return {};
     return grid.grains();
 }
 
@@ -85,7 +85,7 @@ Packing shaken_sites(const PackingRequest& request) {
     shaking.jitter = shaking_distance;
     for (int sweep = 0; sweep < shaking_sweeps; ++sweep) {
         shaking.seed = request.seed + static_cast<std::uint64_t>(sweep);
-        shake(grains, shaking);
+        shake(grains, shaking, request.filled());
     }
     return grains;
 }
@@ -94,8 +94,9 @@ std::string does_not_fit(const PackingRequest& request) {
     const auto most = lattice_of(request, densest_compacity()).size();
     return fmt::format(
         "A box of {} x {} D holds at most {} grains in the densest lattice. "
-        "Ask for fewer grains or enlarge domain.size.",
-        request.box.width, request.box.height, most);
+        "Ask for fewer grains or enlarge {}.",
+        request.filled().width, request.filled().height, most,
+        request.region ? "grains.region" : "domain.size");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A given number of equal discs (D = 1) without overlap, placed at random in the box.
+// A given number of equal discs (D = 1) without overlap, placed at random in the region.
 //
 // Random sequential addition with a smallest gap of 0.1 D, taken smaller step by step (never below
 // 0) when the grains do not fit; it saturates at a solid fraction of about 0.547. Denser requests

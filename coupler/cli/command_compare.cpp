@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite compare DIR DIR...: one page with the same quantities of several runs.
+// turbidite compare DIR DIR...: one page with the same quantities of several runs, seeds
+// averaged.
 #include <fmt/format.h>
 
 #include <memory>
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 struct CompareOptions {
     std::vector<std::string> directories;
     std::string page = "compare.html";
+    bool each = false;
 };
 
 // The numbers go beside the page under its name, so the name must not be theirs.
@@ -40,7 +42,7 @@ int compare(const CompareOptions& options) {
         runs.push_back({fs::absolute(directory)});
     }
     const fs::path page = fs::absolute(options.page);
-    const ExitCode code = write_comparison(page, runs, find_programs());
+    const ExitCode code = write_comparison(page, runs, options.each, find_programs());
     if (code == ExitCode::done) fmt::print("{}\n", page.string());
     return static_cast<int>(code);
 }
@@ -55,6 +57,9 @@ CommandAction declare_compare(CLI::App& app) {
                    "the page to write; its numbers beside it as .csv and .json")
         ->type_name("FILE")
         ->capture_default_str();
+    app.add_flag("--each", options->each,
+                 "every run by itself; otherwise runs whose cases differ in random.seed alone are "
+                 "averaged");
     return [options] { return compare(*options); };
 }
 

@@ -36,8 +36,10 @@ bool write_report(const RunFolder& folder, const Programs& programs) {
 }
 
 ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
-                          const Programs& programs) {
-    std::vector<std::string> arguments{page};
+                          bool each, const Programs& programs) {
+    std::vector<std::string> arguments;
+    if (each) arguments.push_back("--each");
+    arguments.push_back(page);
     for (const RunFolder& run : runs) arguments.push_back(run.root);
     const int status = run_script(programs, programs.compare(), arguments);
     for (const ExitCode code : {ExitCode::done, ExitCode::bad_input})

@@ -16,9 +16,9 @@ void require_run_folder(const std::filesystem::path& directory);
 /// Runs coupler/cli/report/report.py; false when it failed, its words on stderr.
 bool write_report(const RunFolder& folder, const Programs& programs);
 
-/// Runs coupler/cli/report/compare.py, which writes `page` and the numbers beside it. Not done:
-/// bad_input when the runs cannot be compared, otherwise participant_failed; its words on stderr.
+/// Runs coupler/cli/report/compare.py, which writes `page` and the numbers beside it; without `each`
+/// it averages runs that differ in the seed alone. Not done: bad_input when the runs cannot be compared, otherwise participant_failed; its words on stderr.
 ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
-                          const Programs& programs);
+                          bool each, const Programs& programs);
 
 }  // namespace turbidite

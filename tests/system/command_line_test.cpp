@@ -186,6 +186,33 @@ TEST_F(CommandLine, CompareWritesOnePageAndItsNumbers) {
     EXPECT_TRUE(fs::exists(scratch.path() / "page.csv"));
 }
 
+TEST_F(CommandLine, SeedsOfADryColumnAreAveraged) {
+    // A small column of the shipped case: rows of 4, 3, ... in 4 x 6 D, all with room to move.
+    const std::string line = "run " TURBIDITE_SOURCE_DIR
+                             "/configs/avalanche-dry.yaml --set grains.adapter=standalone-nscd "
+                             "--set grains.region=[4,6] --set domain.size=[12,8] "
+                             "--set time.end=0.2 --set output.interval=0.1 --set random.seed=";
+    const auto folder = [&](int seed) {
+        return (scratch.path() / ("column-seed" + std::to_string(seed))).string();
+    };
+    for (const int seed : {1, 2}) {
+        const Answer answer = turbidite(line + std::to_string(seed) + " --out " + folder(seed));
+        ASSERT_EQ(answer.code, 0) << answer.err;
+    }
+    EXPECT_NE(text(folder(1) + "/grains/initial.csv"), text(folder(2) + "/grains/initial.csv"));
+    const fs::path page = scratch.path() / "page.html";
+    const std::string both = folder(1) + " " + folder(2) + " --out " + page.string();
+    ASSERT_EQ(turbidite("compare " + both).code, 0);
+    const auto numbers = nlohmann::json::parse(text(scratch.path() / "page.json"));
+    ASSERT_EQ(numbers.at("runs").size(), 1u);
+    EXPECT_EQ(numbers.at("runs").at(0).at("name"), "column");
+    EXPECT_EQ(numbers.at("runs").at(0).at("seeds"), nlohmann::json({"1", "2"}));
+    ASSERT_EQ(turbidite("compare --each " + both).code, 0);
+    const auto apart = nlohmann::json::parse(text(scratch.path() / "page.json"));
+    EXPECT_EQ(apart.at("runs").size(), 2u);
+    EXPECT_GT(apart.at("mean_velocity_pairs").at(0).at("largest"), 0.0);
+}
+
 TEST_F(CommandLine, CompareRefusesWhatItCannotCompare) {
     scratch.write("run/case.yaml", "dimension: 2\n");
     scratch.write("other/note.txt", "no run");

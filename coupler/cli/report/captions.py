@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the figures of a report show, in words and numbers. A number that is not there is left out."""
 import findings
+import peaks
 
 
 def sequence(run, pictures):
-    fastest = fastest_fluid(pictures)
+    fastest, quickest = fastest_fluid(pictures), fastest_grain(pictures)
     times = ', '.join(f'{p.time / run.scale("t_c"):.3g}' for p in pictures)
-    text = ['Lengths in D; grains as discs.' if any(p.grains for p in pictures) else 'Lengths in D.']
+    text = ['Lengths in D.']
+    if quickest and not run.is_wet():
+        text.append('Colour: speed of the grains on one scale for all pictures. Fastest here: '
+                    f'{quickest[0] / run.scale("u_c"):.3g} u_c at t = '
+                    f'{quickest[1] / run.scale("t_c"):.3g} t_c.')
     if fastest:
         text.append('Colour: vertical velocity of the fluid on one scale for all pictures, red up, blue '
                     f'down. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
@@ -18,6 +23,33 @@ def fastest_fluid(pictures):
     """(largest |vertical velocity|, its time) of the pictures with a field; None without any."""
     seen = [(float(abs(p.velocity.vertical).max()), p.time) for p in pictures if p.velocity is not None]
     return max(seen) if seen else None
+
+
+def fastest_grain(pictures):
+    """(largest speed, its time) of the pictures whose grains tell it; None without any."""
+    seen = [(float(p.grains.speeds().max()), p.time) for p in pictures
+            if p.grains is not None and p.grains.velocities is not None and len(p.grains.radii)]
+    return max(seen) if seen else None
+
+
+def collapse(run):
+    """Under Fig. 8(a): the peak of the mean velocity, and how far the front got."""
+    text = []
+    highest = peaks.peak(run)
+    if highest:
+        text.append(f'Largest |<u>|: {highest.value:.4g} u_c at t = {highest.time:.4g} t_c.')
+    _, front = run.column('front_x')
+    if len(front):
+        text.append(f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.')
+    removed = grains_lost(run)
+    if removed:
+        text.append(f'{removed} grains left the box; means are over those that are in it.')
+    return ' '.join(text + [rest(run)])
+
+
+def grains_lost(run):
+    _, grains = run.column('grains')
+    return int(grains[0] - grains[-1]) if len(grains) else 0
 
 
 def settling(run):
@@ -43,6 +75,25 @@ def rest(run):
         return (f'Not at rest at the end, t = {time[-1]:.4g} t_c: the mean speed is '
                 f'{100 * speed[-1] / speed.max():.3g} % of its maximum.')
     return ''
+
+
+def force_network(networks):
+    """How strong the widest lines are, and where."""
+    counts = ', '.join(f'{len(network.forces)} at t = {network.time:.3g} t_c' for network in networks)
+    strongest = max(networks, key=lambda network: abs(network.forces).max())
+    return ('Lines join grains in contact, as wide as their normal force (red pushes, blue pulls), on one '
+            'scale for all pictures; the weakest are not drawn. Contacts with an impulse: '
+            f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g D^2 at t = '
+            f'{strongest.time:.3g} t_c.')
+
+
+def contact_statistics(run):
+    text = ['Left: probability density of normal forces between grains over their mean. Right: of the '
+            'directions of contacts between grains, each counted both ways.']
+    _, coordination = run.column('coordination')
+    if len(coordination):
+        text.append(f'Coordination at the end: {coordination[-1]:.3g} contacts per grain.')
+    return ' '.join(text)
 
 
 def motion(run):

@@ -33,6 +33,17 @@ SETTLING = [
          divide_by_height=True),
 ]
 
+# Fig. 8 of Topin et al. 2011, for grains without a fluid.
+COLLAPSE = [
+    Plot('(a) Mean velocity', r'$\langle u \rangle\,/\,u_c$',
+         [Curve('mean_velocity_norm', r'norm $|\langle u \rangle|$'),
+          Curve('mean_velocity_x', r'$\langle u_x \rangle$'),
+          Curve('mean_velocity_y', r'$\langle u_y \rangle$')]),
+    Plot('(b) Extent', r'length $/\,D$',
+         [Curve('front_x', r'front, $\max(x+R)$'), Curve('mean_position_x', r'$\langle x \rangle$'),
+          Curve('mean_position_y', r'$\langle y \rangle$')]),
+]
+
 MOTION = [
     Plot('Speed of the grains', r'speed $/\,u_c$',
          [Curve('mean_velocity_norm', r'of the mean, $|\langle u \rangle|$'),

@@ -14,6 +14,7 @@ class Difference:
     end: float
     rms: float
     largest: float
+    mean: float
     scale: float
 
     def relative(self, value):
@@ -30,7 +31,7 @@ def common_span(first, second):
 
 def difference(first, second):
     """Of two curves (times, values), interpolated linearly at the times of both; None without a common
-    span. The rms is over time, not over rows: sqrt(int d^2 dt / T)."""
+    span. Averages are over time, not over rows: rms sqrt(int d^2 dt / T), mean int |d| dt / T."""
     span = common_span(first[0], second[0])
     if span is None:
         return None
@@ -39,5 +40,6 @@ def difference(first, second):
     reference = np.interp(times, *first)
     apart = np.interp(times, *second) - reference
     mean_square = np.trapz(apart**2, times) / (span[1] - span[0])
-    return Difference(*span, float(np.sqrt(mean_square)), float(np.abs(apart).max()),
+    mean = np.trapz(np.abs(apart), times) / (span[1] - span[0])
+    return Difference(*span, float(np.sqrt(mean_square)), float(np.abs(apart).max()), float(mean),
                       float(np.abs(reference).max()))

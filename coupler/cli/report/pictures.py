@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pictures of a run: vertical fluid velocity in colour (red up, blue down, white at rest) with the grains
-on it, at a few instants from the start until the grains rest."""
+"""Pictures of a run at a few instants from the start until the grains rest: with a fluid its vertical
+velocity in colour (red up, blue down, white at rest) with the grains on it, otherwise the grains coloured by
+their speed."""
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import EllipseCollection
 
 import findings
 import fluid_fields
-import run_data
+import grain_drawing
+import grain_files
 
 MOST_PICTURES = 6
 # Farther apart than this part of an output interval, grains and fluid do not belong together.
@@ -18,6 +19,7 @@ FIGURE_WIDTH = 11.0    # inches
 LARGEST_HEIGHT = 7.0   # of one picture
 # A few cells in a narrow gap can be much faster than the rest; colours end below this part of them.
 COLOURED_PART = 0.999
+SPEED_COLOURS = 'viridis'
 
 
 @dataclass
@@ -32,7 +34,7 @@ class Picture:
 def instants(run):
     """Up to six (time, grains file or None, field folder or None), evenly until the grains rest, or
     over the run when they do not."""
-    grains, fields = run_data.grain_series(run), fluid_fields.field_times(run)
+    grains, fields = grain_files.grain_series(run), fluid_fields.field_times(run)
     leading = grains or fields
     if not leading:
         return []
@@ -65,7 +67,7 @@ def load(run, instant):
     picture = Picture(time, None, None)
     try:
         if grains_file is not None:
-            picture.grains = run_data.read_grains(time, grains_file)
+            picture.grains = grain_files.read_grains(time, grains_file)
         if field_folder is not None:
             picture.velocity = fluid_fields.velocity_at(run, time, field_folder)
     except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
@@ -80,44 +82,74 @@ def colour_limit(run, pictures):
     return float(max([0.05] + seen))
 
 
+def speed_limit(run, pictures):
+    """Largest speed in colour [u_c]."""
+    seen = [np.quantile(p.grains.speeds(), COLOURED_PART) / run.scale('u_c') for p in pictures
+            if p.grains is not None and p.grains.velocities is not None and len(p.grains.radii)]
+    return float(max([1e-3] + seen))
+
+
+def view(run, all_grains):
+    """Width and height that are drawn [D], from the lower left corner: the domain, or, without a fluid,
+    what the grains take up of it."""
+    width, height = run.size()
+    if run.is_wet():
+        return width, height
+    reach = [((g.centres + g.radii[:, None]) / run.scale('D')).max(axis=0)
+             for g in all_grains if g is not None and len(g.radii)]
+    if not reach:
+        return width, height
+    right, top = np.ceil(np.max(reach, axis=0) + 1.0)
+    return min(width, right), min(height, top)
+
+
 def columns_for(count, aspect):
     """How many pictures of height/width `aspect` stand side by side."""
-    return min(count, 6 if aspect > 1.5 else 3 if aspect > 0.35 else 2)
+    return min(count, 6 if aspect > 1.5 else 3 if aspect > 0.6 else 2)
 
 
 def figure(run, pictures):
     """All pictures side by side with one colour scale."""
-    width, height = run.size()
-    columns = columns_for(len(pictures), height / width)
-    rows = -(-len(pictures) // columns)
+    result, axes, size = frame(run, [picture.grains for picture in pictures])
+    wet = run.is_wet()
+    limit = colour_limit(run, pictures) if wet else speed_limit(run, pictures)
+    images = [_draw(run, picture, limit, size, place) for picture, place in zip(pictures, axes.flat)]
+    _colour_bar(result, axes, [image for image in images if image is not None],
+                r'vertical fluid velocity $/\,u_c$' if wet else r'speed of the grains $/\,u_c$',
+                extend='both' if wet else 'max')
+    return result
+
+
+def frame(run, all_grains):
+    """A figure with a place for each, its axes, and the width and height that each shows [D]."""
+    width, height = view(run, all_grains)
+    columns = columns_for(len(all_grains), height / width)
+    rows = -(-len(all_grains) // columns)
     place_width = (FIGURE_WIDTH - 1.5) / columns
     place_height = min(place_width * height / width, LARGEST_HEIGHT)
     drawn_width = columns * place_height * width / height
     result, axes = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True,
                                 layout='constrained',
                                 figsize=(drawn_width + 1.5, rows * (place_height + 0.35) + 0.35))
-    limit = colour_limit(run, pictures)
-    images = [_draw(run, picture, limit, place) for picture, place in zip(pictures, axes.flat)]
-    for unused in list(axes.flat)[len(pictures):]:
+    for unused in list(axes.flat)[len(all_grains):]:
         unused.set_axis_off()
     for place in axes[:, 0]:
         place.set_ylabel(r'$y\,/\,D$', fontsize=8)
     for place in axes[-1, :]:
         place.set_xlabel(r'$x\,/\,D$', fontsize=8)
-    _colour_bar(result, axes, [image for image in images if image is not None])
-    return result
+    return result, axes, (width, height)
 
 
-def _colour_bar(result, axes, images):
+def _colour_bar(result, axes, images, label, extend):
     if not images:
         return
-    bar = result.colorbar(images[-1], ax=axes, shrink=0.8, aspect=30, pad=0.01, extend='both')
-    bar.set_label(r'vertical fluid velocity $/\,u_c$', fontsize=9)
+    bar = result.colorbar(images[-1], ax=axes, shrink=0.8, aspect=30, pad=0.01, extend=extend)
+    bar.set_label(label, fontsize=9)
     bar.ax.tick_params(labelsize=8)
 
 
-def _draw(run, picture, limit, axes):
-    """Returns the image for the colour bar, or None without a field."""
+def _draw(run, picture, limit, size, axes):
+    """Returns the image for the colour bar, or None without one."""
     width, height = run.size()
     image = None
     if picture.velocity is not None:
@@ -125,16 +157,16 @@ def _draw(run, picture, limit, axes):
                             cmap='RdBu_r', extent=(0, width, 0, height), vmin=-limit, vmax=limit,
                             interpolation='bilinear')
     if picture.grains is not None:
-        _draw_grains(run, picture.grains, axes)
-    axes.set(xlim=(0, width), ylim=(0, height), aspect='equal')
-    axes.set_title(rf'$t = {picture.time / run.scale("t_c"):.3g}\,t_c$', fontsize=10)
-    axes.tick_params(labelsize=7)
+        speeds = None if run.is_wet() else picture.grains.speeds()
+        coloured = grain_drawing.draw(
+            axes, picture.grains, run.scale('D'), colours=SPEED_COLOURS, limits=(0.0, limit),
+            values=None if speeds is None else speeds / run.scale('u_c'))
+        image = image or coloured
+    decorate(run, axes, size, picture.time)
     return image
 
 
-def _draw_grains(run, grains, axes):
-    diameter = run.scale('D')
-    sizes = 2.0 * grains.radii / diameter
-    axes.add_collection(EllipseCollection(
-        sizes, sizes, np.zeros_like(sizes), units='xy', offsets=grains.centres / diameter,
-        transOffset=axes.transData, facecolors='#d9d4c7', edgecolors='#3a3a3a', linewidths=0.4))
+def decorate(run, axes, size, time):
+    axes.set(xlim=(0, size[0]), ylim=(0, size[1]), aspect='equal')
+    axes.set_title(rf'$t = {time / run.scale("t_c"):.3g}\,t_c$', fontsize=10)
+    axes.tick_params(labelsize=7)

@@ -12,10 +12,13 @@ import matplotlib
 matplotlib.use('Agg')
 
 import captions
+import contact_files
 import curves
 import findings
+import force_network
 import pictures
 import run_data
+import surface
 import wall_shares
 from page import Page, write_whole
 
@@ -72,20 +75,38 @@ def add_sequence(page, run):
         return page.paragraph('There is nothing to draw yet.', 'remark')
     loaded = [pictures.load(run, instant) for instant in chosen]
     page.figure(pictures.figure(run, loaded), 'sequence', captions.sequence(run, loaded))
+    grains = [picture.grains for picture in loaded if picture.grains is not None]
+    if grains and not run.is_wet():
+        page.figure(surface.figure(run, grains), 'surface',
+                    'Highest point of the grains in each column of one D.')
 
 
 def add_curves(page, run):
     if run.history is None:
         page.heading('Curves')
         return page.paragraph('There is no history, so there are no curves.', 'remark')
+    motion = ('settling', curves.SETTLING, captions.settling)
+    if not run.is_wet():
+        motion = ('collapse', curves.COLLAPSE, captions.collapse)
     for heading, name, plots, caption in (
-            ('Mean motion', 'settling', curves.SETTLING, captions.settling),
+            ('Mean motion', *motion),
             ('Speed, energy and contacts', 'motion', curves.MOTION, captions.motion),
             ('Residuals and iterations', 'solvers', curves.SOLVERS, captions.solvers)):
         figure = curves.figure(run, plots)
         if figure is not None:
             page.heading(heading)
             page.figure(figure, name, caption(run))
+
+
+def add_contacts(page, run):
+    shown = contact_files.networks(run)
+    if not shown:
+        return
+    page.heading('Force network')
+    page.figure(force_network.figure(run, shown), 'force_network', captions.force_network(shown))
+    told = force_network.statistics(shown)
+    if told is not None:
+        page.figure(told, 'contact_statistics', captions.contact_statistics(run))
 
 
 def add_wall_time(page, run):
@@ -109,6 +130,7 @@ def make_page(run):
     add_status(page, run)
     page.table(facts(run))
     add_sequence(page, run)
+    add_contacts(page, run)
     add_curves(page, run)
     add_wall_time(page, run)
     add_remarks(page, run)

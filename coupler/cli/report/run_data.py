@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run folder holds, read for the report: case and run record, history, grains. The fluid's fields
-are in fluid_fields.py.
+"""What a run folder holds, read for the report: case and run record, history. Grains are read by
+grain_files.py, the fluid's fields by fluid_fields.py.
 
 Everything is returned in the run's own units (see run.json: D, u_c, t_c). What is missing is None, and
 `RunData.remarks` says so in words.
@@ -12,15 +12,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-
-
-@dataclass
-class Grains:
-    """Discs at one time: centres (n, 2), radii (n,)."""
-
-    time: float
-    centres: np.ndarray
-    radii: np.ndarray
 
 
 @dataclass
@@ -102,29 +93,3 @@ def read_history(path):
         raise ValueError('it has no column "time"')
     number = lambda text: float(text) if text not in (None, '') else np.nan
     return {name: np.array([number(row[name]) for row in rows]) for name in names}
-
-
-def grain_series(run):
-    """(time, path) of every instant of grains/grains.pvd."""
-    index = run.folder / 'grains' / 'grains.pvd'
-    if not index.exists():
-        run.remarks.append('grains/grains.pvd is missing: pictures have no grains.')
-        return []
-    return [(float(entry.get('timestep')), index.parent / entry.get('file'))
-            for entry in ElementTree.parse(index).iter('DataSet')]
-
-
-def read_grains(time, path):
-    """Centres and radii of a VTK PolyData file with ascii arrays."""
-    piece = ElementTree.parse(path).find('.//Piece')
-    points = _array(piece.find('Points/DataArray')).reshape(-1, 3)
-    radii = [a for a in piece.iter('DataArray') if a.get('Name') == 'radius']
-    if not radii:
-        raise ValueError(f'{path.name} has no array "radius"')
-    return Grains(time, points[:, :2], _array(radii[0]))
-
-
-def _array(element):
-    if element.get('format') != 'ascii':
-        raise ValueError(f'array format {element.get("format")} is not ascii')
-    return np.array((element.text or '').split(), dtype=float)

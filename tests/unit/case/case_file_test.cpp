@@ -245,7 +245,8 @@ TEST_F(CaseFile, JointTellsWhichKeysHaveNoEffect) {
     EXPECT_EQ(joint.settings.integer("coupling.iterations"), 10);
     const ResolvedCase contact = load("coupling: {scheme: joint, positions: contact}\n");
     ASSERT_FALSE(contact.notes.empty());
-    EXPECT_SAYS(contact.notes.back(), "coupling.positions has no effect with coupling.scheme: joint");
+    EXPECT_SAYS(contact.notes.back(),
+                "coupling.positions has no effect with coupling.scheme: joint");
     const ResolvedCase dry = load("coupling: {scheme: joint}\n", {"fluid.enabled=false"});
     ASSERT_FALSE(dry.notes.empty());
     EXPECT_SAYS(dry.notes.back(), "coupling.scheme has no effect without a fluid");
@@ -366,6 +367,23 @@ TEST_F(CaseFile, CompacityOutsideTheLattice) {
     const std::string text = refusal("", {"grains.generator=lattice", "grains.compacity=0.5"});
     EXPECT_SAYS(text, "grains.compacity = 0.5");
     EXPECT_SAYS(text, "0.7854");
+}
+
+TEST_F(CaseFile, RegionOfTheGenerator) {
+    const std::vector<std::string> column = {"grains.generator=lattice", "domain.size=[60, 60]",
+                                             "fluid.enabled=false", "grains.region=[25, 50]"};
+    EXPECT_EQ(load("", column).population.size(), 1397u);
+    const auto with = [&](const std::string& region) {
+        std::vector<std::string> overrides = column;
+        overrides.back() = "grains.region=" + region;
+        return refusal("", overrides);
+    };
+    const std::string larger = with("[25, 61]");
+    EXPECT_SAYS(larger, "grains.region = [25, 61]");
+    EXPECT_SAYS(larger, "domain.size = [60, 60]");
+    EXPECT_EQ(larger.find("outside the box"), std::string::npos);  // said once
+    EXPECT_SAYS(with("[0.5, 50]"), "each at least one grain");
+    EXPECT_SAYS(with("25"), "Write for example region: [25, 50]");
 }
 
 TEST_F(CaseFile, DensityOfDryGrainsKeepsItsUnit) {

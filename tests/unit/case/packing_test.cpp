@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "coupler/case/lattice.hpp"
 #include "coupler/case/population.hpp"
@@ -62,12 +63,84 @@ TEST(Lattice, ClampsOnlyRoundingErrors) {
 }
 
 TEST(Lattice, JitterNeverMakesOverlap) {
-    // Rows touch, so most grains cannot move; a note says so.
+    // Rows touch and the box gives little room, so most grains cannot move; a note says so.
     const PackingResult result =
         lattice_packing({.box = paper_box, .compacity = 0.80, .jitter = 0.2, .seed = 5});
     EXPECT_TRUE(is_sound(result.grains, paper_box));
     ASSERT_EQ(result.notes.size(), 1u);
     EXPECT_NE(result.notes[0].find("had no room"), std::string::npos);
+}
+
+TEST(Lattice, FillsItsRegionAlone) {
+    // The counts of the paper's column, whatever the box around it.
+    const PackingBox wide{.width = 250.0, .height = 100.0};
+    for (const auto& [compacity, count] :
+         {std::pair{0.9069, 1397u}, std::pair{0.84, 1290u}, std::pair{0.7854, 1190u}}) {
+        PackingRequest request{
+            .box = wide, .region = PackingRegion{25.0, 50.0}, .compacity = compacity};
+        const Packing grains = lattice_packing(request).grains;
+        EXPECT_EQ(grains.size(), count) << compacity;
+        for (const PlacedGrain& grain : grains) {
+            EXPECT_LE(grain.x, 24.5 + 1e-9);
+            EXPECT_LE(grain.y, 49.5 + 1e-9);
+        }
+    }
+}
+
+TEST(Lattice, JitterMovesEveryGrainOfTheDensestLattice) {
+    PackingRequest request{.box = {.width = 250.0, .height = 100.0},
+                           .region = PackingRegion{25.0, 50.0},
+                           .compacity = 0.9069};
+    const Packing still = lattice_packing(request).grains;
+    request.jitter = 1e-3;
+    const PackingResult result = lattice_packing(request);
+    ASSERT_EQ(result.grains.size(), still.size());
+    EXPECT_TRUE(is_sound(result.grains, request.box));
+    const double stretch = 1.0 + 2.0 * std::numbers::sqrt2 * request.jitter;
+    int moved = 0;
+    for (std::size_t i = 0; i < still.size(); ++i) {
+        const double x = 0.5 + request.jitter + stretch * (still[i].x - 0.5);
+        const double y = 0.5 + request.jitter + stretch * (still[i].y - 0.5);
+        const double dx = std::abs(result.grains[i].x - x);
+        const double dy = std::abs(result.grains[i].y - y);
+        moved += dx > 0.0 && dy > 0.0;
+        EXPECT_LE(std::max(dx, dy), request.jitter + 1e-12);
+    }
+    EXPECT_EQ(moved, 1397);
+    // 0.9069 / (1 + 2 sqrt(2) 0.001)^2 = 0.9069 x 0.99437
+    EXPECT_NE(result.notes.back().find("0.9018"), std::string::npos) << result.notes.back();
+    EXPECT_EQ(result.notes.back().find("had no room"), std::string::npos);
+}
+
+TEST(Lattice, JitterCostsAtMostOnePercentOfTheCompacity) {
+    PackingRequest request{.box = {.width = 250.0, .height = 100.0},
+                           .region = PackingRegion{25.0, 50.0},
+                           .compacity = 0.9069,
+                           .jitter = 0.1};
+    const PackingResult result = lattice_packing(request);
+    EXPECT_TRUE(is_sound(result.grains, request.box));
+    EXPECT_NE(result.notes.back().find("0.8979"), std::string::npos) << result.notes.back();
+}
+
+TEST(Lattice, JoinedSidesAreNotPulledApart) {
+    // Ten touching grains around a ring of 10 D: nothing to stretch along x.
+    PackingRequest request{.box = {.width = 10.0, .height = 20.0, .periodic_x = true},
+                           .region = PackingRegion{10.0, 1.0},
+                           .compacity = 0.9069,
+                           .jitter = 1e-3};
+    const Packing grains = lattice_packing(request).grains;
+    ASSERT_EQ(grains.size(), 10u);
+    for (std::size_t i = 0; i < grains.size(); ++i) EXPECT_NEAR(grains[i].x, 0.5 + i, 1e-3);
+}
+
+TEST(Lattice, SeedDecidesTheJitter) {
+    PackingRequest request{.box = paper_box, .compacity = 0.9069, .jitter = 1e-4, .seed = 1};
+    request.box = {.width = 250.0, .height = 100.0};
+    request.region = PackingRegion{25.0, 50.0};
+    const std::string one = population_csv(lattice_packing(request).grains);
+    EXPECT_EQ(one, population_csv(lattice_packing(request).grains));
+    request.seed = 2;
+    EXPECT_NE(one, population_csv(lattice_packing(request).grains));
 }
 
 TEST(RandomPacking, JitterMovesWithinItsBound) {
@@ -100,6 +173,18 @@ TEST(RandomPacking, DenseRequestsTakeLatticeSites) {
     ASSERT_EQ(result.grains.size(), 70u);
     EXPECT_TRUE(is_sound(result.grains, box));
     EXPECT_NE(result.notes.at(0).find("lattice"), std::string::npos);
+}
+
+TEST(RandomPacking, StaysInItsRegion) {
+    // 20 discs in 6 x 6: solid fraction 0.44, 30 in 6 x 6: 0.65, from shaken lattice sites.
+    for (const std::int64_t count : {20, 30}) {
+        PackingRequest request{.box = {.width = 40.0, .height = 40.0},
+                               .region = PackingRegion{6.0, 6.0},
+                               .count = count};
+        const Packing grains = random_packing(request).grains;
+        ASSERT_EQ(grains.size(), static_cast<std::size_t>(count));
+        EXPECT_TRUE(is_sound(grains, {.width = 6.0, .height = 6.0}));
+    }
 }
 
 TEST(RandomPacking, RefusesWhatCannotFit) {

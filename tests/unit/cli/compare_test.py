@@ -7,9 +7,11 @@ import json
 import unittest
 
 import numpy as np
-from made_up_run import CASE, RunFolderTest
+from made_up_run import CASE, VTP, RunFolderTest
 
 import compare
+import run_data
+import seeds
 from differences import common_span, difference
 
 
@@ -23,13 +25,14 @@ class Differences(unittest.TestCase):
         # Trapezoids of width h = 0.005 are h^2/12 (f'(3) - f'(1)) / 2 = 4e-6 too large.
         self.assertAlmostEqual(apart.rms**2, 13.0 / 3.0, places=5)
         self.assertAlmostEqual(apart.largest, 3.0)
+        self.assertAlmostEqual(apart.mean, 2.0)  # int_1^3 t dt / 2
         self.assertAlmostEqual(apart.scale, 6.0)
         self.assertAlmostEqual(apart.relative(apart.largest), 0.5)
 
     def test_of_a_curve_from_itself_is_zero(self):
         curve = np.array([0.0, 1.0, 2.5]), np.array([1.0, -3.0, 2.0])
         apart = difference(curve, curve)
-        self.assertEqual((apart.rms, apart.largest, apart.scale), (0.0, 0.0, 3.0))
+        self.assertEqual((apart.rms, apart.largest, apart.mean, apart.scale), (0.0, 0.0, 0.0, 3.0))
 
     def test_relative_to_zero_is_not_a_number_to_show(self):
         flat = np.array([0.0, 1.0]), np.array([0.0, 0.0])
@@ -124,6 +127,85 @@ class Compare(RunFolderTest):
         code, err = self.run_it('one', 'bare')
         self.assertEqual(code, 2)
         self.assertIn('bare has no history', err)
+
+    def write_seed(self, name, seed, scale):
+        """|<u>| rises to `scale` at 2 t_c and falls to 0 at 4 t_c."""
+        self.write_run(name, scale, case=CASE + f'random:\n  seed: {seed}\n')
+        self.write(f'{name}/history.csv', 'step,time,mean_velocity_norm,contact_iterations\n'
+                   + ''.join(f'{10 * t},{t},{scale * (1 - abs(t - 2) / 2)},{"" if t == 0 else 7}\n'
+                             for t in range(5)))
+        self.write(f'{name}/run.json', json.dumps(
+            {'status': 'done', 'maxima': {'penetration': 1e-4 * scale, 'unconverged_windows': seed}}))
+
+    def test_seeds_are_averaged(self):
+        for seed, scale in ((1, 1.0), (2, 2.0), (3, 3.0)):
+            self.write_seed(f'dense-seed{seed}', seed, scale)
+        self.write_run('other', 1.0, case=CASE.replace('standalone', 'yade'))
+        self.write('other/history.csv', (self.folder / 'dense-seed1/history.csv').read_text())
+        self.assertEqual(self.run_it('dense-seed1', 'other', 'dense-seed2', 'dense-seed3'), (0, ''))
+        result = self.result()
+        mean, other = result['runs']
+        self.assertEqual((mean['name'], other['name']), ('dense', 'other'))
+        self.assertEqual(mean['seeds'], ['1', '2', '3'])
+        self.assertEqual(len(mean['folders']), 3)
+        self.assertEqual(mean['peak'], {'mean': {'value': 2.0, 'time': 2.0}, 'single': [
+            {'value': value, 'time': 2.0} for value in (1.0, 2.0, 3.0)]})
+        self.assertAlmostEqual(mean['penetration'], 3e-4)  # the worst of the three
+        self.assertEqual(mean['unconverged_windows'], 3)
+        self.assertEqual(mean['quantities']['contact_iterations']['end_value'], 7)
+        # Mean: a triangle of height 2; the other: of height 1. Apart by half the peak, by 1/4 on average.
+        pair, = result['mean_velocity_pairs']
+        self.assertEqual((pair['first'], pair['second']), ('dense', 'other'))
+        self.assertAlmostEqual(pair['largest'], 0.5)
+        self.assertAlmostEqual(pair['mean'], 0.25)
+        page = (self.folder / 'page.html').read_text()
+        self.assertIn('dense: mean of dense-seed1 (seed 1), dense-seed2 (seed 2), dense-seed3 (seed 3)',
+                      page)
+        self.assertIn('1, 2, 3', page)
+
+    def test_each_keeps_seeds_apart(self):
+        for seed in (1, 2):
+            self.write_seed(f'run-{seed}', seed, float(seed))
+        self.assertEqual(compare.main(['compare.py', '--each', str(self.folder / 'page.html')]
+                                      + [str(self.folder / f'run-{seed}') for seed in (1, 2)]), 0)
+        self.assertEqual([run['name'] for run in self.result()['runs']], ['run-1', 'run-2'])
+        self.assertIsNone(self.result()['runs'][0]['quantities']['mean_velocity_norm']['max'])
+        self.assertNotIn('averaged', (self.folder / 'page.html').read_text())
+
+    def test_repetitions_of_a_seed_are_not_averaged(self):
+        for name in ('before', 'after'):
+            self.write_seed(name, 1, 1.0)
+        self.assertEqual(self.run_it('before', 'after')[0], 0)
+        self.assertEqual([run['name'] for run in self.result()['runs']], ['before', 'after'])
+
+    def test_a_group_covers_the_time_of_its_shortest_run(self):
+        runs = []
+        for seed, times in ((1, range(5)), (2, range(3))):
+            self.write_run(f'run-{seed}', float(seed), times=times,
+                           case=CASE + f'random:\n  seed: {seed}\n')
+            runs.append(run_data.load_run(self.folder / f'run-{seed}'))
+        group, = seeds.members(runs)
+        time, values = group.data.column('mean_velocity_y')
+        self.assertEqual(time.tolist(), [0, 1, 2])
+        self.assertEqual(values.tolist(), [0.0, -1.5, -3.0])
+        _, low, high = group.band('mean_velocity_y')
+        self.assertEqual((low.tolist(), high.tolist()), ([0, -2, -4], [0, -1, -2]))
+        # The first row has no wall time.
+        self.assertEqual(group.data.column('wall_step')[0].tolist(), [1, 2])
+
+    def test_surfaces_at_the_end(self):
+        self.write_run('one', 1.0)
+        self.write_run('two', 1.0)
+        for name, y in (('one', 4), ('two', 3)):
+            self.write(f'{name}/grains/grains.pvd', '<VTKFile><Collection><DataSet timestep="4" part="0" '
+                       'file="grains_00000040.vtp"/></Collection></VTKFile>')
+            self.write(f'{name}/grains/grains_00000040.vtp', VTP.format(y=y))
+        self.assertEqual(self.run_it('one', 'two')[0], 0)
+        # Discs of radius 0.5 at x = 1 and 0.4 at x = 2.5, in columns [0, 1], [1, 2], [2, 3], [3, 4].
+        for run, y in zip(self.result()['runs'], (4, 3)):
+            self.assertEqual(run['surface']['x'], [0.5, 1.5, 2.5, 3.5])
+            self.assertEqual(run['surface']['height'], [y + 0.5, y + 0.5, y + 0.4, 0.0])
+        self.assertIn('Surface at the end', (self.folder / 'page.html').read_text())
 
     def test_a_page_that_cannot_be_written(self):
         self.write_run('one', 1.0)

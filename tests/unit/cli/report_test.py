@@ -3,13 +3,21 @@
 import json
 import unittest
 
-from made_up_run import CASE, COLUMNS, ROWS, RunFolderTest, foam_file
+import matplotlib
+
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
+from made_up_run import CASE, COLUMNS, ROWS, VTP, RunFolderTest, foam_file
 
 import findings
 import fluid_fields
+import grain_drawing
+import grain_files
 import pictures
 import report
 import run_data
+import surface
 
 FIGURES = ['motion.png', 'sequence.png', 'settling.png', 'solvers.png', 'wall_time.png']
 
@@ -52,7 +60,7 @@ class Report(RunFolderTest):
         for time, grains, field in pictures.instants(run):
             self.assertEqual(grains.name, f'grains_{int(time):08d}.vtp')
             self.assertEqual(field.name, str(int(time)))
-        grains = run_data.read_grains(*run_data.grain_series(run)[1])
+        grains = grain_files.read_grains(*grain_files.grain_series(run)[1])
         self.assertEqual(grains.centres.tolist(), [[1, 3], [2.5, 3]])
         self.assertEqual(grains.radii.tolist(), [0.5, 0.4])
 
@@ -127,6 +135,65 @@ class Report(RunFolderTest):
         self.write_all()
         self.write('history.csv', 'step,time,joint_rounds,joint_mismatch\n0,0,,\n10,1,3,1e-9\n')
         self.assertIn('Joint rounds: 3 on average, 3 at most', self.make())
+
+    def test_dry_grains_are_coloured_by_their_speed(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('enabled: true', 'enabled: false'))
+        velocity = ('<DataArray type="Float64" Name="velocity" NumberOfComponents="3" format="ascii">'
+                    '0.3 0.4 0 0 -2 0</DataArray></PointData>')
+        for k in range(2):
+            self.write(f'grains/grains_{k:08d}.vtp', VTP.format(y=4 - k).replace('</PointData>', velocity))
+        run = run_data.load_run(self.folder)
+        shown = [pictures.load(run, instant) for instant in pictures.instants(run)]
+        self.assertEqual(shown[0].grains.speeds().tolist(), [0.5, 2.0])
+        self.assertAlmostEqual(pictures.speed_limit(run, shown), 2.0, places=2)
+        # Grains reach x = 2.9 and y = 4.5: rounded up with one D to spare, within the box of 4 x 6.
+        self.assertEqual(pictures.view(run, [picture.grains for picture in shown]), (4, 6))
+        page = self.make()
+        self.assertIn('Colour: speed of the grains', page)
+        self.assertIn('Fastest here: 2 u_c', page)
+        self.assertEqual(self.pictures(), ['collapse.png', 'motion.png', 'sequence.png', 'solvers.png',
+                                           'surface.png', 'wall_time.png'])
+
+    def test_captions_of_a_collapse(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('enabled: true', 'enabled: false'))
+        self.write('history.csv', 'step,time,mean_velocity_norm,front_x,grains\n0,0,0,25,9\n'
+                   '10,1,0.5,26,9\n20,2,0.25,29,7\n')
+        page = self.make()
+        self.assertIn('Largest |&lt;u&gt;|: 0.5 u_c at t = 1 t_c. Front from 25 D to 29 D. 2 grains left '
+                      'the box', page)
+
+    def test_polygons_are_drawn_as_polygons(self):
+        # The grains have ids 4 and 9; 4, at (1, 3), is a square that stands on a corner.
+        self.write('grains_7.vtp', VTP.format(y=3))
+        array = '<DataArray type="Float64" Name="{}" format="ascii">{}</DataArray>'
+        self.write('outlines_7.vtp', '<VTKFile><PolyData><Piece><Points>'
+                   + array.format('position', '1 3.5 0 0.5 3 0 1 2.5 0 1.5 3 0') + '</Points><Polys>'
+                   + array.format('connectivity', '0 1 2 3') + array.format('offsets', '4')
+                   + '</Polys><CellData>' + array.format('id', '4') + '</CellData></Piece></PolyData>'
+                   '</VTKFile>')
+        grains = grain_files.read_grains(0.0, self.folder / 'grains_7.vtp')
+        self.assertEqual(list(grains.outlines), [0])
+        np.testing.assert_array_equal(grains.outlines[0], [[1, 3.5], [0.5, 3], [1, 2.5], [1.5, 3]])
+        figure, axes = plt.subplots()
+        grain_drawing.draw(axes, grains, 1.0)
+        kinds = [type(collection).__name__ for collection in axes.collections]
+        self.assertEqual(kinds, ['EllipseCollection', 'PolyCollection'])
+        plt.close(figure)
+        # Column [1, 2] has its left half's highest corner, (1, 3.5); [0, 1] meets it at the same point.
+        self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0], 0), 3.5)
+        self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0], 1), 3.5)
+        self.assertEqual(surface.top_of_polygon(grains.outlines[0], 2), 0.0)
+        self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 1), 3.5)
+        self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 0), 3.25)
+
+    def test_parts_of_an_instant_are_one(self):
+        self.write('grains/grains.pvd', '<VTKFile><Collection>'
+                   '<DataSet timestep="2" part="0" file="grains_7.vtp"/>'
+                   '<DataSet timestep="2" part="1" file="outlines_7.vtp"/></Collection></VTKFile>')
+        (time, path), = grain_files.grain_series(run_data.load_run(self.folder))
+        self.assertEqual((time, path.name), (2.0, 'grains_7.vtp'))
 
     def test_rest_is_when_the_speed_stays_small(self):
         self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.005\n3,3,0.02\n'

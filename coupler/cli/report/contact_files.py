@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The contact series of a run folder, made into force networks."""
+import numpy as np
+
+import force_network
+import grain_files
+
+MOST_NETWORKS = 4
+
+
+def networks(run):
+    """Up to four instants, evenly over the outputs that tell contacts; none for runs that tell none."""
+    index = run.folder / 'grains' / 'contacts.pvd'
+    if not index.exists():
+        return []
+    contacts, grains = grain_files.series(index), dict(grain_files.grain_series(run))
+    both = [(time, path, grains[time]) for time, path in contacts if time in grains]
+    chosen = {int(round(i)) for i in np.linspace(0, len(both) - 1, MOST_NETWORKS + 1)[1:]} if both else ()
+    found = []
+    for time, contact_file, grain_file in [both[i] for i in sorted(chosen)]:
+        try:
+            found.append(read_network(run, time, contact_file, grain_file))
+        except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
+            run.remarks.append(f'Contacts at {time:g}: {error}')
+    return [network for network in found if len(network.forces)]
+
+
+def read_network(run, time, contact_file, grain_file):
+    """Forces in units of the weight of a square of D with the density of the grains, rho_s g D^2."""
+    arrays = grain_files.read_arrays(contact_file)
+    diameter = run.scale('D')
+    ends = grain_files.in_plane(arrays['Points']).reshape(-1, 2, 2) / diameter
+    return force_network.Network(
+        time / run.scale('t_c'), grain_files.read_grains(time, grain_file), ends,
+        grain_files.in_plane(arrays['normal']), arrays['normal_force'] / unit_force(run),
+        arrays['id_a'] >= 0)
+
+
+def unit_force(run):
+    """rho_s g D^2 per unit length out of the plane. Dry runs in units of D, u_c count densities in those of
+    a fluid that is not there, so rho_s = density_ratio."""
+    fluid = float(run.record.get('rho') or 1.0)
+    density = fluid * float(run.case.get('grains.density_ratio', 1.0))
+    return density * float(run.record.get('g') or 1.0) * run.scale('D')**2

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of what the contacts carry: the force network over the grains, the distribution of normal forces
+and the directions of contacts."""
+from dataclasses import dataclass
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+
+import curves
+import grain_drawing
+import pictures
+
+WIDEST = 4.0            # points, of the line of the largest force drawn at scale
+LARGEST_PART = 0.995    # larger forces than this part of them are drawn as wide as it
+THINNEST = 0.08         # of the widest; thinner lines are not seen
+PUSH, PULL = '#b3261e', '#1d5fa8'
+BINS_FORCE, BINS_ANGLE = 30, 36
+LARGEST_FORCE = 6.0     # f/<f> in the distribution
+
+
+@dataclass
+class Network:
+    """Contacts with an impulse at one time; forces over rho_s g D^2."""
+
+    time: float           # t_c
+    grains: object        # grain_files.Grains
+    ends: np.ndarray      # (n, 2, 2) of the line that stands for a contact [D]
+    normals: np.ndarray   # (n, 2) unit
+    forces: np.ndarray    # (n,) along the normal, > 0 pushes
+    between_grains: np.ndarray  # (n,) bool; others are at walls
+
+
+def figure(run, networks):
+    """The networks side by side, lines as wide as their force over one scale for all."""
+    scale = force_scale(networks)
+    result, axes, size = pictures.frame(run, [network.grains for network in networks])
+    for network, place in zip(networks, axes.flat):
+        grain_drawing.draw(place, network.grains, run.scale('D'), alpha=0.45)
+        place.add_collection(lines(network, scale))
+        pictures.decorate(run, place, size, network.grains.time)
+    return result
+
+
+def force_scale(networks):
+    forces = np.concatenate([np.abs(network.forces) for network in networks])
+    return float(np.quantile(forces, LARGEST_PART)) if len(forces) else 1.0
+
+
+def lines(network, scale):
+    """Weak contacts first, so that strong ones lie on top."""
+    order = np.argsort(np.abs(network.forces))
+    part = np.clip(np.abs(network.forces[order]) / scale, 0.0, 1.0)
+    seen = part >= THINNEST
+    colours = np.where(network.forces[order][seen] >= 0.0, PUSH, PULL)
+    return LineCollection(network.ends[order][seen], linewidths=WIDEST * part[seen], colors=colours,
+                          capstyle='round')
+
+
+def statistics(networks):
+    """P(f/<f>) and the directions of contacts between grains, one curve per network."""
+    shown = [network for network in networks if network.between_grains.sum() > 1]
+    if not shown:
+        return None
+    result = plt.figure(figsize=(11.0, 4.0), layout='constrained')
+    forces = result.add_subplot(1, 2, 1)
+    polar = result.add_subplot(1, 2, 2, projection='polar')
+    for network in shown:
+        label = rf'$t = {network.time:.3g}\,t_c$'
+        forces.plot(*distribution(network), marker='.', linewidth=1.2, label=label)
+        polar.plot(*directions(network), linewidth=1.2, label=label)
+    curves.decorate(forces, 'Normal forces', r'$P(f\,/\,\langle f \rangle)$')
+    forces.set(xlabel=r'$f\,/\,\langle f \rangle$', yscale='log')
+    forces.legend(fontsize=8)
+    polar.set_title('Directions of contacts', fontsize=10)
+    polar.tick_params(labelsize=8)
+    polar.set_rlabel_position(80)
+    return result
+
+
+def distribution(network):
+    """(middles of the bins, probability density) of pushing forces over their mean; empty bins left out."""
+    forces = network.forces[network.between_grains]
+    forces = forces[forces > 0.0]
+    density, edges = np.histogram(forces / forces.mean(), bins=BINS_FORCE, range=(0.0, LARGEST_FORCE))
+    density = density / (len(forces) * (edges[1] - edges[0]))
+    middles = 0.5 * (edges[1:] + edges[:-1])
+    return middles[density > 0.0], density[density > 0.0]
+
+
+def directions(network):
+    """(angles, probability density) of contact normals, each with its opposite, as a closed curve."""
+    normals = network.normals[network.between_grains]
+    angles = np.arctan2(normals[:, 1], normals[:, 0])
+    both = np.concatenate([angles, angles + np.pi]) % (2.0 * np.pi)
+    density, edges = np.histogram(both, bins=BINS_ANGLE, range=(0.0, 2.0 * np.pi))
+    density = density / (len(both) * (edges[1] - edges[0]))
+    middles = 0.5 * (edges[1:] + edges[:-1])
+    return np.append(middles, middles[0] + 2.0 * np.pi), np.append(density, density[0])

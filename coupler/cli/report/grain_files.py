@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The series of a run's grains folder and what a file of grains holds."""
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass
+class Grains:
+    """At one time, in the run's own units; what a file does not tell is None."""
+
+    time: float
+    centres: np.ndarray            # (n, 2)
+    radii: np.ndarray              # (n,) circumscribed
+    ids: np.ndarray = None         # (n,)
+    velocities: np.ndarray = None  # (n, 2)
+    outlines: dict = None          # index of a polygon: its corners (k, 2)
+
+    def speeds(self):
+        return None if self.velocities is None else np.hypot(*self.velocities.T)
+
+
+def grain_series(run):
+    """(time, path) of every instant of grains/grains.pvd; outlines of polygons stand beside the grains."""
+    index = run.folder / 'grains' / 'grains.pvd'
+    if not index.exists():
+        run.remarks.append('grains/grains.pvd is missing: pictures have no grains.')
+        return []
+    return series(index)
+
+
+def series(index):
+    """(time, path) of the first part of every instant."""
+    return [(float(entry.get('timestep')), index.parent / entry.get('file'))
+            for entry in ElementTree.parse(index).iter('DataSet') if entry.get('part', '0') == '0']
+
+
+def read_grains(time, path):
+    """Grains of a VTK PolyData file, with the outlines of the file beside it if there is one."""
+    arrays = read_arrays(path)
+    if 'radius' not in arrays:
+        raise ValueError(f'{path.name} has no array "radius"')
+    grains = Grains(time, in_plane(arrays['Points']), arrays['radius'])
+    if 'id' in arrays:
+        grains.ids = arrays['id'].astype(np.int64)
+    if 'velocity' in arrays:
+        grains.velocities = in_plane(arrays['velocity'])
+    corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))
+    if corners != path and corners.exists():
+        grains.outlines = read_outlines(corners, grains.ids)
+    return grains
+
+
+def read_outlines(path, ids):
+    """{index of the grain: its corners (k, 2)}"""
+    arrays = read_arrays(path)
+    points = in_plane(arrays['Points'])[arrays['connectivity'].astype(int)]
+    corners = np.split(points, arrays['offsets'].astype(int)[:-1])
+    index = {grain: i for i, grain in enumerate(ids)}
+    return {index[grain]: outline for grain, outline in zip(arrays['id'].astype(np.int64), corners)}
+
+
+def in_plane(triples):
+    """(n, 2) of x, y, z in a row."""
+    return triples.reshape(-1, 3)[:, :2]
+
+
+def read_arrays(path):
+    """Every array of a one-piece PolyData file by name, flat, the positions as `Points`. Where points and
+    cells share a name it is the cells'. Arrays are ascii, or it is a ValueError."""
+    piece = ElementTree.parse(path).find('.//Piece')
+    arrays = {'Points': _array(piece.find('Points/DataArray'))}
+    for group in ('Verts', 'Lines', 'Polys', 'PointData', 'CellData'):
+        for element in piece.iterfind(f'{group}/DataArray'):
+            arrays[element.get('Name')] = _array(element)
+    return arrays
+
+
+def _array(element):
+    if element.get('format') != 'ascii':
+        raise ValueError(f'array format {element.get("format")} is not ascii')
+    return np.array((element.text or '').split(), dtype=float)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How an avalanche is told apart from another: its fastest moment, and how far two mean curves differ."""
+from dataclasses import dataclass
+
+from differences import difference
+
+COLUMN = 'mean_velocity_norm'  # |<u>|, Fig. 8 of Topin et al. 2011
+
+
+@dataclass
+class Peak:
+    """Largest |<u>| [u_c] and when [t_c]."""
+
+    value: float
+    time: float
+
+
+def peak(run):
+    """Of one run or of a mean curve; None when the grains never moved."""
+    time, values = run.column(COLUMN)
+    if not len(values) or values.max() <= 0.0:
+        return None
+    highest = int(values.argmax())
+    return Peak(float(values[highest]), float(time[highest]))
+
+
+@dataclass
+class MemberPeaks:
+    mean: Peak    # of the mean curve
+    single: list  # of each run
+
+    def of(self, name):
+        """Smallest and largest value or time over the runs."""
+        values = [getattr(single, name) for single in self.single]
+        return min(values), max(values)
+
+
+def peaks(member):
+    mean = peak(member.data)
+    single = [peak(run) for run in member.runs]
+    return MemberPeaks(mean, single) if mean and all(single) else None
+
+
+@dataclass
+class Pair:
+    """Difference of |<u>|(t) of two members over the time both have, over the first one's peak."""
+
+    first: str
+    second: str
+    largest: float
+    mean: float   # over time
+    begin: float  # t_c
+    end: float
+
+
+def pairs(members):
+    """Every two members that moved in a common time."""
+    found = []
+    for i, first in enumerate(members):
+        for second in members[i + 1:]:
+            apart = difference(first.data.column(COLUMN), second.data.column(COLUMN))
+            if apart and apart.scale > 0.0:
+                found.append(Pair(first.name, second.name, apart.relative(apart.largest),
+                                  apart.relative(apart.mean), apart.begin, apart.end))
+    return found

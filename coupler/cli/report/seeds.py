@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs of one case with several seeds, taken together: the mean of their histories and how far they spread.
+
+A `Member` is one line of a comparison, a single run or such a group. Its `data` has the interface of a
+single run's, so what can be told of a run can be told of a group.
+"""
+import os
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+import run_data
+from differences import common_span
+
+SEED = 'random.seed'
+
+
+@dataclass
+class Member:
+    name: str
+    data: run_data.RunData                    # of the run, or averaged over the group
+    runs: list = field(default_factory=list)  # RunData of each
+
+    def is_group(self):
+        return len(self.runs) > 1
+
+    def seeds(self):
+        return [run.case.get(SEED, '?') for run in self.runs]
+
+    def band(self, column):
+        """Times [t_c], smallest and largest value over the runs; of a single run both are its own."""
+        if not self.is_group():
+            time, values = self.data.column(column)
+            return time, values, values
+        time = self.data.history['time']
+        values = np.array([at_times(run, column, time) for run in self.runs])
+        known = np.isfinite(values).all(axis=0)
+        return time[known], values[:, known].min(axis=0), values[:, known].max(axis=0)
+
+
+def members(runs, each=False):
+    """One member per run, or, unless `each`, per set of runs whose cases differ in the seed alone. Runs with
+    equal seeds stay single: they are repetitions, whose mean tells nothing about seeds."""
+    groups = [[run] for run in runs] if each else grouped(runs)
+    names = unique([name_of(group) for group in groups], groups)
+    return [Member(name, group[0] if len(group) == 1 else average(group), group)
+            for name, group in zip(names, groups)]
+
+
+def grouped(runs):
+    """Lists of runs, in the order of their first ones."""
+    alike = {}
+    for run in runs:
+        alike.setdefault(case_without_seed(run), []).append(run)
+    order = []
+    for group in alike.values():
+        seeds = {run.case.get(SEED) for run in group}
+        told_apart = len(seeds) == len(group) and None not in seeds and share_time(group)
+        order += [group] if told_apart else [[run] for run in group]
+    return sorted(order, key=lambda group: next(i for i, run in enumerate(runs) if run is group[0]))
+
+
+def case_without_seed(run):
+    """A run without a readable case is like no other."""
+    if not run.case:
+        return id(run)
+    return tuple(sorted((key, value) for key, value in run.case.items() if key != SEED))
+
+
+def share_time(runs):
+    first = runs[0].history['time']
+    return all(common_span(first, run.history['time']) for run in runs[1:])
+
+
+# --- names --------------------------------------------------------------------------------------------
+
+def name_of(group):
+    """The folder's name; of a group what its folders have in common, without a trailing `-seed`."""
+    names = [run.folder.resolve().name for run in group]
+    if len(group) == 1:
+        return names[0]
+    common = re.sub(r'[-_.]*(seeds?|s)?[-_.]*$', '', os.path.commonprefix(names))
+    return common or f'{names[0]} and {len(names) - 1} more'
+
+
+def unique(names, groups):
+    """Names that tell the members apart: the paths as given where the folders' names are equal."""
+    if len(set(names)) < len(names):
+        names = [str(group[0].folder) for group in groups]
+    if len(set(names)) < len(names):
+        names = [f'{name} ({i + 1})' for i, name in enumerate(names)]
+    return names
+
+
+# --- averages -----------------------------------------------------------------------------------------
+
+def at_times(run, column, time):
+    """A quantity of a run interpolated linearly; nan beyond the rows in which it is given."""
+    given, values = run.column(column)
+    if not len(values):
+        return np.full(len(time), np.nan)
+    return np.interp(time, given, values, left=np.nan, right=np.nan)
+
+
+def shared_times(runs):
+    """Rows of any of the runs within the time that all have [t_c]."""
+    begin = max(run.history['time'][0] for run in runs)
+    end = min(run.history['time'][-1] for run in runs)
+    times = np.unique(np.concatenate([run.history['time'] for run in runs]))
+    return times[(times >= begin) & (times <= end)]
+
+
+def average(runs):
+    """RunData of the group: mean history, largest of the maxima, status of the worst."""
+    mean = run_data.RunData(runs[0].folder, record=average_record(runs), case=dict(runs[0].case))
+    mean.case[SEED] = ', '.join(run.case[SEED] for run in runs)
+    time = shared_times(runs)
+    columns = [name for name in runs[0].history if all(name in run.history for run in runs)]
+    mean.history = {name: np.mean([at_times(run, name, time) for run in runs], axis=0)
+                    for name in columns if name != 'time'}
+    mean.history['time'] = time
+    for run in runs:
+        mean.remarks += [f'{Path(run.folder).name}: {remark}' for remark in run.remarks]
+    return mean
+
+
+def average_record(runs):
+    """Maxima are the largest of any run; scales are the same for all; the first status that is not done."""
+    record = dict(runs[0].record)
+    statuses = [run.record.get('status', 'unknown') for run in runs]
+    record['status'] = next((status for status in statuses if status != 'done'), 'done')
+    tables = [run.record.get('maxima') or {} for run in runs]
+    names = [name for name in tables[0] if all(table.get(name) is not None for table in tables)]
+    record['maxima'] = {name: max(table[name] for table in tables) for name in names}
+    return record

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The free surface of a heap: its highest point in each column of one D."""
+import matplotlib.pyplot as plt
+import numpy as np
+
+import curves
+import grain_files
+
+
+def surface(run, grains):
+    """(middles of the columns, heights), both in D; 0 where there is no grain."""
+    diameter = run.scale('D')
+    centres, radii = grains.centres / diameter, grains.radii / diameter
+    columns = int(np.ceil(run.size()[0]))
+    heights = np.zeros(columns)
+    for i, (centre, radius) in enumerate(zip(centres, radii)):
+        corners = (grains.outlines or {}).get(i)
+        first, last = int(np.floor(centre[0] - radius)), int(np.floor(centre[0] + radius))
+        for column in range(max(first, 0), min(last, columns - 1) + 1):
+            top = top_of_disc(centre, radius, column) if corners is None else top_of_polygon(
+                corners / diameter, column)
+            heights[column] = max(heights[column], top)
+    return np.arange(columns) + 0.5, heights
+
+
+def top_of_disc(centre, radius, column):
+    """Highest point with column <= x <= column + 1; 0 when the disc does not reach in."""
+    nearest = min(max(centre[0], column), column + 1.0) - centre[0]
+    return centre[1] + np.sqrt(radius**2 - nearest**2) if abs(nearest) < radius else 0.0
+
+
+def top_of_polygon(corners, column):
+    """The same of a polygon: a corner in the column, or where an edge enters or leaves it."""
+    inside = (corners[:, 0] >= column) & (corners[:, 0] <= column + 1.0)
+    tops = [0.0, *corners[inside, 1]]
+    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0)):
+        tops += [y1 + (y2 - y1) * (x - x1) / (x2 - x1) for x in (column, column + 1.0)
+                 if min(x1, x2) < x < max(x1, x2)]
+    return max(tops)
+
+
+def figure(run, instants):
+    """The surfaces of grain_files.Grains at several times."""
+    result, axes = plt.subplots(figsize=(11.0, 3.6), layout='constrained')
+    colours = plt.get_cmap('viridis')(np.linspace(0.0, 0.9, len(instants)))
+    for grains, colour in zip(instants, colours):
+        axes.plot(*trimmed(*surface(run, grains)), color=colour, linewidth=1.3,
+                  label=rf'$t = {grains.time / run.scale("t_c"):.3g}\,t_c$')
+    decorate(axes)
+    return result
+
+
+def trimmed(x, *heights):
+    """Without the empty columns beyond the last one with grains in the first of `heights`."""
+    reach = np.flatnonzero(heights[0])
+    end = reach[-1] + 2 if len(reach) else 1
+    return (x[:end], *(height[:end] for height in heights))
+
+
+def decorate(axes):
+    curves.decorate(axes, 'Surface', r'$y\,/\,D$')
+    axes.set_xlabel(r'$x\,/\,D$')
+    axes.set_xlim(left=0.0)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(fontsize=8)
+
+
+def last_grains(run):
+    """Grains of the last instant that can be read; None, and a remark, when there is none."""
+    for time, path in reversed(grain_files.grain_series(run)):
+        try:
+            return grain_files.read_grains(time, path)
+        except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
+            run.remarks.append(f'{path.name} cannot be read: {error}')
+    return None
+
+
+def final_surface(run):
+    """(time [t_c], columns, heights) at the end; None without grains or domain."""
+    if 'domain.size' not in run.case or not (run.folder / 'grains/grains.pvd').exists():
+        return None
+    grains = last_grains(run)
+    return None if grains is None else (grains.time / run.scale('t_c'), *surface(run, grains))
