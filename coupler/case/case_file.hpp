@@ -23,6 +23,8 @@ struct ResolvedCase {
     std::vector<GrainState> population;  ///< at rest, run units, in the order of the packing
     ShapeTable shapes;                   ///< GrainState::shape indexes it
     Packing packing;                     ///< the same grains in D
+    std::string grains_csv;              ///< the same grains as a grains file
+    std::string walls_csv;               ///< walls inside the box; empty when there are none
     std::string yaml;                    ///< resolved case; loads to itself
     std::vector<std::string> notes;      ///< what the user should know, one sentence each
     Scales scales;

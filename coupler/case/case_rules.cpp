@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "coupler/case/grain_forms.hpp"
 #include "coupler/case/key_value.hpp"
 #include "coupler/case/scales.hpp"
 #include "coupler/case/transport_schemes.hpp"
@@ -51,6 +52,47 @@ Verdict region_in_box(const Settings& s) {
     return Objection{
         fmt::format("The region lies in the box, domain.size = {} D.", s.text("domain.size")),
         "Make it smaller, or remove it to fill the whole box."};
+}
+
+Verdict vertices_are_convex(const Settings& s) {
+    const std::string fault =
+        outline_fault(real_list("grains.vertices", s.text("grains.vertices")));
+    if (fault.empty()) return std::nullopt;
+    return Objection{fault + ".", "Corners go round a convex polygon, each once."};
+}
+
+bool is_lattice(const Settings& s) {
+    return s.text("grains.generator") == "lattice" && !s.has("grains.file");
+}
+
+Objection lattice_objection(const char* what) {
+    return {fmt::format("The lattice has discs of diameter D only, not {}.", what),
+            "Use grains.generator: random, or give the grains in grains.file."};
+}
+
+Verdict lattice_has_discs(const Settings& s) {
+    if (!is_lattice(s) || s.text("grains.shape") == "disc") return std::nullopt;
+    return lattice_objection("other shapes");
+}
+Verdict lattice_has_radius(const Settings& s) {
+    if (!is_lattice(s) || s.real("grains.radius") == 0.5) return std::nullopt;
+    return lattice_objection("other radii");
+}
+Verdict lattice_has_one_size(const Settings& s) {
+    if (!is_lattice(s) || s.real("grains.size_ratio") == 1.0) return std::nullopt;
+    return lattice_objection("several sizes");
+}
+
+// The fluid's mesh knows the sides of the box only; soft-sphere adapters know no plates.
+Verdict walls_have_an_engine(const Settings& s) {
+    if (s.flag("fluid.enabled"))
+        return Objection{"Walls inside the box are not seen by the fluid.",
+                         "Set fluid.enabled: false, or remove them."};
+    const std::string& adapter = s.text("grains.adapter");
+    if (adapter == "yade-nscd" || adapter == "standalone-nscd") return std::nullopt;
+    return Objection{
+        fmt::format("Walls inside the box need a contact-dynamics adapter, not {}.", adapter),
+        "Use grains.adapter: yade-nscd or standalone-nscd."};
 }
 
 Verdict at_least_one_window(const Settings& s) {
@@ -172,6 +214,11 @@ const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"domain.left", {"domain.right"}, left_right},
         {"domain.bottom", {"domain.top"}, bottom_top},
+        {"domain.walls_file", {"fluid.enabled", "grains.adapter"}, walls_have_an_engine},
+        {"grains.vertices", {}, vertices_are_convex},
+        {"grains.shape", {"grains.generator"}, lattice_has_discs},
+        {"grains.radius", {"grains.generator"}, lattice_has_radius},
+        {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
         {"grains.region", {"domain.size"}, region_in_box},
         {"time.end", {"time.step"}, at_least_one_window},
         {"time.step", {"time.end"}, countable_windows},

@@ -57,7 +57,7 @@ Checked check_integer(const KeySpec& key, const std::string& value, CaseProblem&
 }
 
 Checked check_list(const KeySpec& key, const CaseEntry& entry) {
-    if (entry.items.size() != 2) return std::nullopt;
+    if (key.entries > 0 && static_cast<int>(entry.items.size()) != key.entries) return std::nullopt;
     std::vector<double> values;
     for (const std::string& item : entry.items) {
         const auto number = parse_real(item);

@@ -22,6 +22,9 @@ bool is_physical(const Settings& s) {
 bool needs_reynolds(const Settings& s) {
     return is(s, "fluid.enabled", "true") && !is_physical(s);
 }
+bool is_polygon(const Settings& s) {
+    return is(s, "grains.shape", "polygon");
+}
 bool needs_count(const Settings& s) {
     return is(s, "grains.generator", "random") && !s.has("grains.file");
 }
@@ -36,10 +39,7 @@ std::vector<Choice> generator_choices() {
 std::vector<Choice> shape_choices() {
     std::vector<Choice> choices;
     for (const ShapeEntry& entry : shape_list()) choices.push_back({entry.kind, entry.description});
-    for (const char* later : {"triangle", "sphere"})
-        if (std::none_of(choices.begin(), choices.end(),
-                         [&](const Choice& c) { return c.name == later; }))
-            choices.push_back({later, "convex body", false});
+    choices.push_back({"sphere", "ball in space", false});
     return choices;
 }
 
@@ -93,6 +93,12 @@ std::vector<KeySpec> general_keys() {
         side("right"),
         side("bottom"),
         side("top"),
+        {.name = "domain.walls_file",
+         .type = KeyType::text,
+         .need = Need::optional,
+         .help = "CSV file of walls inside the box, at rest or moving (header "
+                 "id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction]; lengths in D, velocities in "
+                 "u_c, spin in 1/t_c about (px,py); path relative to the case file); dry cases"},
     };
 }
 
@@ -117,7 +123,32 @@ std::vector<KeySpec> grains_keys() {
          .type = KeyType::choice,
          .fallback = "disc",
          .choices = shape_choices(),
-         .help = "shape of every grain"},
+         .help = "shape of every grain; grains.file may say otherwise grain by grain"},
+        {.name = "grains.vertices",
+         .type = KeyType::real_list,
+         .need = Need::conditional,
+         .help = "corners x1, y1, x2, y2, ... of the polygon, in order and in any unit: they are "
+                 "moved to the centre of mass and scaled to circumscribed radius 1",
+         .allowed = "A list x1, y1, x2, y2, ... of at least three corners of a convex polygon.",
+         .remedy = "Write for example vertices: [0, 0, 2, 0, 2, 1, 0, 1].",
+         .entries = 0,
+         .when = "grains.shape: polygon",
+         .required = is_polygon},
+        {.name = "grains.radius",
+         .type = KeyType::real,
+         .unit = "D",
+         .need = Need::optional,
+         .range = positive,
+         .help =
+             "circumscribed radius of every grain, or the mean one; 0.5 unless given, triangles "
+             "0.75"},
+        {.name = "grains.size_ratio",
+         .type = KeyType::real,
+         .fallback = "1",
+         .range = {.lower = 1.0, .upper = 100.0},
+         .help =
+             "largest radius over the smallest (generator random): radii lie between 2 R/(1 + q) "
+             "and 2 R q/(1 + q), uniform, so that grains.radius R stays the mean"},
         {.name = "grains.density_ratio",
          .type = KeyType::real,
          .fallback = "1.5",
@@ -163,8 +194,9 @@ std::vector<KeySpec> grains_keys() {
         {.name = "grains.file",
          .type = KeyType::text,
          .need = Need::optional,
-         .help = "CSV file of the grains (header id,x,y[,z][,radius], lengths in D; path relative "
-                 "to the case file); overrides the generator"},
+         .help =
+             "CSV file of the grains (header id,x,y[,z][,radius][,shape][,angle], lengths in D, "
+             "angles in rad; path relative to the case file); overrides the generator"},
         {.name = "random.seed",
          .type = KeyType::integer,
          .fallback = "1",

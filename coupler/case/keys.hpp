@@ -45,6 +45,7 @@ struct KeySpec {
     std::string help = {};     ///< what it means
     std::string allowed = {};  ///< one sentence, shown when the value is refused; made up if empty
     std::string remedy = {};   ///< one sentence: what to do
+    int entries = 2;           ///< of a list; 0: any number
     std::string when = {};     ///< conditional: in words, when it is required
     bool (*required)(const Settings&) = nullptr;  ///< conditional: the same as a test
     bool available = true;                        ///< false: known, of a later version

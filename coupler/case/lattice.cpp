@@ -140,7 +140,7 @@ PackingResult lattice_packing(const PackingRequest& request) {
 std::int64_t shake(Packing& grains, const PackingRequest& request, const PackingRegion& limits) {
     // A stream of its own, so that displacements do not repeat the numbers that placed the grains.
     RandomNumbers random(request.seed ^ 0x9e3779b97f4a7c15u);
-    NeighbourGrid grid(request.box, 0.5, 0.0);
+    NeighbourGrid grid(request.box, largest_radius(grains), 0.0, request.forms);
     for (const PlacedGrain& grain : grains) grid.insert(grain);
     std::int64_t moved = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/case/grain_forms.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -26,8 +28,9 @@ double nearest_image(double distance, double length, bool periodic) {
 
 }  // namespace
 
-NeighbourGrid::NeighbourGrid(const PackingBox& box, double largest_radius, double reach)
-    : box_(box), cell_(2.0 * largest_radius + reach) {
+NeighbourGrid::NeighbourGrid(const PackingBox& box, double largest_radius, double reach,
+                             const GrainForms* forms)
+    : box_(box), forms_(forms), cell_(2.0 * largest_radius + reach) {
     columns_ = cells_along(box.width, cell_);
     rows_ = cells_along(box.height, cell_);
     cells_.resize(columns_ * rows_);
@@ -54,10 +57,18 @@ void NeighbourGrid::move(std::size_t index, double x, double y) {
     cells_[row(y) * columns_ + column(x)].push_back(index);
 }
 
-double NeighbourGrid::gap(const PlacedGrain& one, const PlacedGrain& other) const {
+double NeighbourGrid::circle_gap(const PlacedGrain& one, const PlacedGrain& other) const {
     const double dx = nearest_image(other.x - one.x, box_.width, box_.periodic_x);
     const double dy = nearest_image(other.y - one.y, box_.height, box_.periodic_y);
     return std::hypot(dx, dy) - one.radius - other.radius;
+}
+
+double NeighbourGrid::gap(const PlacedGrain& one, const PlacedGrain& other) const {
+    if (forms_ == nullptr) return circle_gap(one, other);
+    PlacedGrain image = other;
+    image.x = one.x + nearest_image(other.x - one.x, box_.width, box_.periodic_x);
+    image.y = one.y + nearest_image(other.y - one.y, box_.height, box_.periodic_y);
+    return surface_gap(placed_outline(one, *forms_), placed_outline(image, *forms_));
 }
 
 std::vector<std::size_t> NeighbourGrid::around(std::size_t centre, std::size_t count,
@@ -84,8 +95,10 @@ std::vector<std::size_t> NeighbourGrid::near(double x, double y) const {
 bool NeighbourGrid::is_free(const PlacedGrain& grain, double smallest_gap,
                             std::size_t except) const {
     const auto neighbours = near(grain.x, grain.y);
+    const double least = smallest_gap - touching_tolerance;
     return std::none_of(neighbours.begin(), neighbours.end(), [&](std::size_t other) {
-        return other != except && gap(grain, grains_[other]) < smallest_gap - touching_tolerance;
+        return other != except && circle_gap(grain, grains_[other]) < least &&
+               gap(grain, grains_[other]) < least;
     });
 }
 

@@ -2,7 +2,7 @@
 //
 // Square cells over the box, one grain per centre, so that the neighbours of a grain are found in
 // the nine cells around it: cells are at least as wide as the largest distance at which two grains
-// matter, 2 R_max + reach. Grains of any size; periodic directions use the nearest image.
+// matter, 2 R_max + reach. Grains of any size and form; periodic directions use the nearest image.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,18 @@ namespace turbidite {
 
 class NeighbourGrid {
  public:
-    /// `reach` is the largest gap that will be asked about [D].
-    NeighbourGrid(const PackingBox& box, double largest_radius, double reach);
+    /// `reach` is the largest gap that will be asked about [D]. Grains are discs unless their forms
+    /// are given, which must live as long.
+    NeighbourGrid(const PackingBox& box, double largest_radius, double reach,
+                  const GrainForms* forms = nullptr);
 
     void insert(const PlacedGrain& grain);
     void move(std::size_t index, double x, double y);
 
     const Packing& grains() const { return grains_; }
+
+    /// Distance between circumscribed circles [D].
+    double circle_gap(const PlacedGrain& one, const PlacedGrain& other) const;
 
     /// Surface distance between two grains, negative when they overlap [D].
     double gap(const PlacedGrain& one, const PlacedGrain& other) const;
@@ -38,6 +43,7 @@ class NeighbourGrid {
     std::vector<std::size_t> around(std::size_t centre, std::size_t count, bool periodic) const;
 
     PackingBox box_;
+    const GrainForms* forms_ = nullptr;
     double cell_ = 1.0;
     std::size_t columns_ = 1;
     std::size_t rows_ = 1;

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/case/packing.hpp"
 
+#include <algorithm>
+
 #include "coupler/case/lattice.hpp"
 #include "coupler/case/random_packing.hpp"
 
 namespace turbidite {
+
+double largest_radius(const Packing& grains) {
+    double largest = grains.empty() ? 0.5 : 0.0;
+    for (const PlacedGrain& grain : grains) largest = std::max(largest, grain.radius);
+    return largest;
+}
 
 const std::vector<GeneratorEntry>& generator_list() {
     static const std::vector<GeneratorEntry> generators = {

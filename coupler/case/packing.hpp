@@ -12,11 +12,15 @@
 
 namespace turbidite {
 
+struct GrainForms;
+
 struct PlacedGrain {
     GrainId id = 0;
-    double x = 0.0;       ///< [D]
-    double y = 0.0;       ///< [D]
-    double radius = 0.5;  ///< [D]
+    double x = 0.0;          ///< [D]
+    double y = 0.0;          ///< [D]
+    double radius = 0.5;     ///< circumscribed [D]
+    std::int32_t shape = 0;  ///< index of GrainForms
+    double angle = 0.0;      ///< counter-clockwise [rad]
 };
 using Packing = std::vector<PlacedGrain>;
 
@@ -41,9 +45,14 @@ struct PackingRequest {
     std::int64_t count = 0;  ///< random: number of grains
     double jitter = 0.0;     ///< largest displacement along x and along y [D]
     std::uint64_t seed = 1;
+    const GrainForms* forms = nullptr;  ///< form 0 is placed; discs of radius 0.5 unless given
+    double size_ratio = 1.0;            ///< random: largest radius over the smallest
 
     PackingRegion filled() const { return region ? *region : PackingRegion{box.width, box.height}; }
 };
+
+/// 0.5 for none [D].
+double largest_radius(const Packing& grains);
 
 /// A packing, remarks for the user, or the reason why there is none.
 struct PackingResult {

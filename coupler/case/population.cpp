@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <map>
-#include <stdexcept>
 
-#include "coupler/case/key_value.hpp"
+#include "coupler/case/csv_table.hpp"
 #include "coupler/case/neighbour_grid.hpp"
 
 namespace turbidite {
@@ -18,26 +15,10 @@ namespace {
 // A packing that is wrong everywhere should not scroll the first error away.
 constexpr std::size_t most_problems_of_a_kind = 10;
 
-std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> fields(1);
-    for (const char c : line)
-        if (c == ',')
-            fields.emplace_back();
-        else if (c != ' ' && c != '\t' && c != '\r')
-            fields.back() += c;
-    return fields;
-}
-
-/// A line of a grains file; 0 when there is none.
-struct Place {
-    std::string source;
-    int line;
-};
-
-CaseProblem problem_at(const Place& place, const std::string& fault, const std::string& allowed,
-                       const std::string& remedy) {
-    return {.source = place.source,
-            .line = place.line,
+CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
+                       const std::string& allowed, const std::string& remedy) {
+    return {.source = source,
+            .line = line,
             .key = {},
             .value = {},
             .fault = fault,
@@ -45,78 +26,62 @@ CaseProblem problem_at(const Place& place, const std::string& fault, const std::
             .remedy = remedy};
 }
 
-struct Reader {
-    PopulationFile result;
-    std::vector<std::string> columns;
-    int line = 0;
+const CsvForm& csv_form() {
+    static const CsvForm form = {{"id", "x", "y", "z", "radius", "shape", "angle"},
+                                 {"id", "x", "y"},
+                                 "The first line must read id,x,y[,z][,radius][,shape][,angle], "
+                                 "lengths in D, angles in rad.",
+                                 "grain"};
+    return form;
+}
 
-    void refuse(const std::string& fault, const std::string& allowed, const std::string& remedy) {
-        result.problems.push_back(
-            problem_at({result.source.name, line}, fault, allowed, remedy));
-    }
-};
-
-const std::vector<std::string>& known_columns() {
-    static const std::vector<std::string> names = {"id", "x", "y", "z", "radius"};
+std::string known_kinds(const GrainForms& forms) {
+    std::string names;
+    for (const GrainForm& form : forms.forms)
+        names += (names.empty() ? "" : ", ") + form.record.kind;
     return names;
 }
 
-bool has(const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
+void set_shape(CsvTable& table, int line, const GrainForms& forms, const std::string& text,
+               PlacedGrain& grain) {
+    const std::int32_t index = forms.index_of(text);
+    if (index >= 0)
+        grain.shape = index;
+    else
+        table.refuse(
+            line, fmt::format("shape = {}", text),
+            fmt::format("Known here: {}.", known_kinds(forms)),
+            text == "polygon" ? "Say what it is with grains.vertices." : "Use one of them.");
 }
 
-void read_header(Reader& reader, const std::string& text) {
-    constexpr auto form = "The first line must read id,x,y[,z][,radius], lengths in D.";
-    reader.columns = split(text);
-    for (const std::string& column : reader.columns)
-        if (!has(known_columns(), column))
-            reader.refuse(fmt::format("column \"{}\" is unknown", column), form,
-                          "Rename or remove it.");
-        else if (std::count(reader.columns.begin(), reader.columns.end(), column) > 1)
-            reader.refuse(fmt::format("column \"{}\" is there more than once", column), form,
-                          "Keep one.");
-    for (const std::string required : {"id", "x", "y"})
-        if (!has(reader.columns, required))
-            reader.refuse(fmt::format("column \"{}\" is missing", required), form, "Add it.");
-}
-
-void set_field(Reader& reader, PlacedGrain& grain, const std::string& column,
-               const std::string& text) {
+void set_field(CsvTable& table, int line, const GrainForms& forms, const std::string& column,
+               const std::string& text, PlacedGrain& grain) {
+    if (column == "shape") return set_shape(table, line, forms, text, grain);
     if (column == "id") {
-        const auto id = parse_integer(text);
-        if (!id || *id < 0)
-            reader.refuse(fmt::format("id = {}", text), "An id is a whole number, zero or above.",
-                          "Number the grains 0, 1, 2, ...");
-        grain.id = id.value_or(0);
+        grain.id = whole_number(table, line, column, text).value_or(0);
         return;
     }
-    const auto number = parse_real(text);
-    if (!number || !std::isfinite(*number))
-        return reader.refuse(fmt::format("{} = {}", column, text), "It must be a finite number.",
-                             "Give the length in grain diameters.");
+    const auto number = finite_number(
+        table, line, column, text,
+        column == "angle" ? "Give the angle in radians." : "Give the length in grain diameters.");
+    if (!number) return;
     if (column == "z" && *number != 0.0)
-        reader.refuse(fmt::format("z = {}", text), "In two dimensions z is 0.",
-                      "Set it to 0 or remove the column.");
+        table.refuse(line, fmt::format("z = {}", text), "In two dimensions z is 0.",
+                     "Set it to 0 or remove the column.");
     if (column == "x") grain.x = *number;
     if (column == "y") grain.y = *number;
+    if (column == "angle") grain.angle = *number;
     if (column == "radius") grain.radius = *number;
 }
 
-void read_row(Reader& reader, const std::string& text) {
-    const auto fields = split(text);
-    if (fields.size() != reader.columns.size())
-        return reader.refuse(fmt::format("{} values in \"{}\"", fields.size(), text),
-                             fmt::format("The header names {} columns.", reader.columns.size()),
-                             "Give one value per column.");
+PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const GrainForms& forms) {
     PlacedGrain grain;
-    for (std::size_t i = 0; i < fields.size(); ++i)
-        set_field(reader, grain, reader.columns[i], fields[i]);
-    reader.result.grains.push_back(grain);
-    reader.result.source.lines.push_back(reader.line);
-}
-
-bool is_blank(const std::string& text) {
-    return text.find_first_not_of(" \t\r") == std::string::npos || text.front() == '#';
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+        set_field(table, row.line, forms, table.columns[i], row.fields[i], grain);
+    const auto& columns = table.columns;
+    if (std::find(columns.begin(), columns.end(), "radius") == columns.end())
+        grain.radius = forms.forms[static_cast<std::size_t>(grain.shape)].radius;
+    return grain;
 }
 
 /// Adds to a list up to a number; `finish` says how many were left out.
@@ -129,7 +94,7 @@ class Collector {
              const std::string& remedy) {
         if (++count_ > most_problems_of_a_kind) return;
         const int line = index < source_.lines.size() ? source_.lines[index] : 0;
-        problems_.push_back(problem_at({source_.name, line}, fault, allowed, remedy));
+        problems_.push_back(problem_at(source_.name, line, fault, allowed, remedy));
     }
 
     void finish(const std::string& kind) {
@@ -167,20 +132,22 @@ struct Side {
     double excess;  // how far beyond the side, >= 0 when outside [D]
 };
 
-Side worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSides& walls) {
-    const auto margin = [&](bool wall) { return wall ? grain.radius : 0.0; };
-    const Side sides[] = {{"left", margin(walls.left) - grain.x},
-                          {"right", grain.x + margin(walls.right) - box.width},
-                          {"bottom", margin(walls.bottom) - grain.y},
-                          {"top", grain.y + margin(walls.top) - box.height}};
+Side worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSides& walls,
+                const GrainForms& forms) {
+    const auto [right, left, up, down] = reach(placed_outline(grain, forms));
+    const auto margin = [](bool wall, double extent) { return wall ? extent : 0.0; };
+    const Side sides[] = {{"left", margin(walls.left, left) - grain.x},
+                          {"right", grain.x + margin(walls.right, right) - box.width},
+                          {"bottom", margin(walls.bottom, down) - grain.y},
+                          {"top", grain.y + margin(walls.top, up) - box.height}};
     return *std::max_element(std::begin(sides), std::end(sides),
                              [](const Side& a, const Side& b) { return a.excess < b.excess; });
 }
 
 void check_inside(const Packing& grains, const PackingBox& box, const SolidSides& walls,
-                  Collector problems) {
+                  const GrainForms& forms, Collector problems) {
     for (std::size_t i = 0; i < grains.size(); ++i) {
-        const Side side = worst_side(grains[i], box, walls);
+        const Side side = worst_side(grains[i], box, walls, forms);
         if (side.excess > touching_tolerance)
             problems.add(
                 i,
@@ -193,13 +160,14 @@ void check_inside(const Packing& grains, const PackingBox& box, const SolidSides
     problems.finish("grains outside");
 }
 
-void check_overlaps(const Packing& grains, const PackingBox& box, Collector problems) {
-    double largest = 0.0;
-    for (const PlacedGrain& grain : grains) largest = std::max(largest, grain.radius);
+void check_overlaps(const Packing& grains, const PackingBox& box, const GrainForms& forms,
+                    Collector problems) {
+    const double largest = largest_radius(grains);
     if (largest <= 0.0) return;
-    NeighbourGrid grid(box, largest, 0.0);
+    NeighbourGrid grid(box, largest, 0.0, &forms);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         for (const std::size_t j : grid.near(grains[i].x, grains[i].y)) {
+            if (grid.circle_gap(grains[i], grains[j]) >= -touching_tolerance) continue;
             const double gap = grid.gap(grains[i], grains[j]);
             if (gap < -touching_tolerance)
                 problems.add(i,
@@ -214,52 +182,40 @@ void check_overlaps(const Packing& grains, const PackingBox& box, Collector prob
 
 }  // namespace
 
-PopulationFile read_population_csv(const std::filesystem::path& file) {
-    Reader reader;
-    reader.result.source.name = file.filename().string();
-    std::ifstream input(file);
-    if (!input) {
-        reader.refuse("cannot be read", "A CSV file of grains is needed.",
-                      "Check the path " + file.string() + ".");
-        return reader.result;
+PopulationFile read_population_csv(const std::filesystem::path& file, const GrainForms& forms) {
+    CsvTable table = read_csv(file, csv_form());
+    PopulationFile result;
+    result.source.name = table.name;
+    for (const CsvTable::Row& row : table.rows) {
+        result.grains.push_back(grain_of(table, row, forms));
+        result.source.lines.push_back(row.line);
     }
-    std::string text;
-    while (std::getline(input, text)) {
-        ++reader.line;
-        if (is_blank(text)) continue;
-        if (reader.columns.empty()) {
-            read_header(reader, text);
-            if (!reader.result.problems.empty()) return reader.result;
-        } else {
-            read_row(reader, text);
-        }
-    }
-    if (reader.result.grains.empty() && reader.result.problems.empty())
-        reader.refuse("holds no grain", "At least one line after the header is needed.",
-                      "Add grains.");
-    return reader.result;
+    result.problems = std::move(table.problems);
+    return result;
 }
 
-std::string population_csv(const Packing& grains) {
-    std::string text = "id,x,y,radius\n";
-    for (const PlacedGrain& grain : grains)
-        text += fmt::format("{},{},{},{}\n", grain.id, grain.x, grain.y, grain.radius);
+std::string population_csv(const Packing& grains, const GrainForms& forms) {
+    const bool round = std::all_of(grains.begin(), grains.end(), [&](const PlacedGrain& grain) {
+        return forms.forms[static_cast<std::size_t>(grain.shape)].outline.empty() &&
+               grain.angle == 0.0;
+    });
+    std::string text = round ? "id,x,y,radius\n" : "id,x,y,radius,shape,angle\n";
+    for (const PlacedGrain& grain : grains) {
+        text += fmt::format("{},{},{},{}", grain.id, grain.x, grain.y, grain.radius);
+        const std::string& kind = forms.forms[static_cast<std::size_t>(grain.shape)].record.kind;
+        text += round ? "\n" : fmt::format(",{},{}\n", kind, grain.angle);
+    }
     return text;
 }
 
-void write_population_csv(const Packing& grains, const std::filesystem::path& file) {
-    std::ofstream output(file);
-    output << population_csv(grains);
-    if (!output.flush()) throw std::runtime_error("cannot write " + file.string());
-}
-
 std::vector<CaseProblem> check_population(const Packing& grains, const PopulationSource& source,
-                                          const PackingBox& box, const SolidSides& walls) {
+                                          const PackingBox& box, const SolidSides& walls,
+                                          const GrainForms& forms) {
     std::vector<CaseProblem> problems;
     check_ids(grains, {problems, source});
     check_radii(grains, {problems, source});
-    check_inside(grains, box, walls, {problems, source});
-    check_overlaps(grains, box, {problems, source});
+    check_inside(grains, box, walls, forms, {problems, source});
+    check_overlaps(grains, box, forms, {problems, source});
     return problems;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Grains as a CSV file (header `id,x,y[,z][,radius]`, lengths in D, radius 0.5 unless given), and
-// what must hold for any population: ids once, radii positive, nobody outside, nobody overlapping.
+// Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle]`, lengths in D, angles in rad;
+// `grains.shape` and its radius unless given), and what must hold for any population: ids once,
+// radii positive, nobody outside, nobody overlapping, all by true shapes.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "coupler/case/case_error.hpp"
+#include "coupler/case/grain_forms.hpp"
 #include "coupler/case/packing.hpp"
 
 namespace turbidite {
@@ -25,11 +27,11 @@ struct PopulationFile {
     PopulationSource source;
     std::vector<CaseProblem> problems;
 };
-PopulationFile read_population_csv(const std::filesystem::path& file);
+PopulationFile read_population_csv(const std::filesystem::path& file,
+                                   const GrainForms& forms = plain_discs());
 
-/// Numbers round-trip exactly.
-std::string population_csv(const Packing& grains);
-void write_population_csv(const Packing& grains, const std::filesystem::path& file);
+/// Numbers round-trip exactly. Columns for shape and angle only where a grain is not round.
+std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs());
 
 /// A side that is a wall keeps the whole grain inside; of the others the centre must be inside.
 struct SolidSides {
@@ -37,6 +39,7 @@ struct SolidSides {
 };
 
 std::vector<CaseProblem> check_population(const Packing& grains, const PopulationSource& source,
-                                          const PackingBox& box, const SolidSides& walls);
+                                          const PackingBox& box, const SolidSides& walls,
+                                          const GrainForms& forms = plain_discs());
 
 }  // namespace turbidite

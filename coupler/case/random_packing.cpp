@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <utility>
 
+#include "coupler/case/grain_forms.hpp"
 #include "coupler/case/lattice.hpp"
 #include "coupler/case/neighbour_grid.hpp"
 #include "coupler/case/random_numbers.hpp"
@@ -15,20 +19,51 @@ namespace turbidite {
 namespace {
 
 constexpr std::array gaps{0.1, 0.05, 0.02, 0.005, 0.0};  // [D] tried in this order
+constexpr double least_gap = 0.005;                      // of grains that are no unit discs
 constexpr int attempts_per_grain = 500;
 constexpr int shaking_sweeps = 100;
 constexpr double shaking_distance = 0.2;  // [D]
 
+const GrainForm* form_of(const PackingRequest& request) {
+    return request.forms ? &request.forms->forms[0] : nullptr;
+}
+
+bool has_corners(const PackingRequest& request) {
+    return request.forms && !form_of(request)->outline.empty();
+}
+
+double mean_radius(const PackingRequest& request) {
+    return request.forms ? form_of(request)->radius : 0.5;
+}
+
+bool are_unit_discs(const PackingRequest& request) {
+    return !has_corners(request) && mean_radius(request) == 0.5 && request.size_ratio == 1.0;
+}
+
+/// From the largest to the smallest.
+std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random) {
+    std::vector<double> radii(static_cast<std::size_t>(request.count), mean_radius(request));
+    if (request.size_ratio == 1.0) return radii;
+    const double smallest = 2.0 * mean_radius(request) / (1.0 + request.size_ratio);
+    for (double& radius : radii) radius = random.uniform(smallest, smallest * request.size_ratio);
+    std::sort(radii.begin(), radii.end(), std::greater<>());
+    return radii;
+}
+
 // Walls take the gap as well, so that no grain starts in touch with anything.
-PlacedGrain random_place(const PackingRegion& region, double gap, RandomNumbers& random) {
-    const double edge = 0.5 + gap;
+PlacedGrain random_place(const PackingRegion& region, double edge, RandomNumbers& random) {
     return {.x = random.uniform(edge, region.width - edge),
             .y = random.uniform(edge, region.height - edge)};
 }
 
-bool add_one(NeighbourGrid& grid, const PackingRegion& region, double gap, RandomNumbers& random) {
+bool add_one(NeighbourGrid& grid, const PackingRequest& request, double radius, double gap,
+             RandomNumbers& random) {
+    const PackingRegion region = request.filled();
+    if (region.width < 2.0 * (radius + gap) || region.height < 2.0 * (radius + gap)) return false;
     for (int attempt = 0; attempt < attempts_per_grain; ++attempt) {
-        PlacedGrain grain = random_place(region, gap, random);
+        PlacedGrain grain = random_place(region, radius + gap, random);
+        if (has_corners(request)) grain.angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+        grain.radius = radius;
         grain.id = static_cast<GrainId>(grid.grains().size());
         if (!grid.is_free(grain, gap)) continue;
         grid.insert(grain);
@@ -39,12 +74,11 @@ bool add_one(NeighbourGrid& grid, const PackingRegion& region, double gap, Rando
 
 /// Empty when the grains did not fit with this gap.
 Packing add_one_by_one(const PackingRequest& request, double gap) {
-    const PackingRegion region = request.filled();
-    if (region.width < 1.0 + 2.0 * gap || region.height < 1.0 + 2.0 * gap) return {};
     RandomNumbers random(request.seed);
-    NeighbourGrid grid(request.box, 0.5, gap);
-    for (std::int64_t i = 0; i < request.count; ++i)
-        if (!add_one(grid, region, gap, random)) return {};
+    const std::vector<double> radii = draw_radii(request, random);
+    NeighbourGrid grid(request.box, radii.empty() ? 0.5 : radii.front(), gap, request.forms);
+    for (const double radius : radii)
+        if (!add_one(grid, request, radius, gap, random)) return {};
     return grid.grains();
 }
 
@@ -91,6 +125,12 @@ Packing shaken_sites(const PackingRequest& request) {
 }
 
 std::string does_not_fit(const PackingRequest& request) {
+    if (!are_unit_discs(request))
+        return fmt::format(
+            "A box of {} x {} D has no room for them at random places {} D apart. Ask for fewer "
+            "grains or enlarge {}.",
+            request.filled().width, request.filled().height, least_gap,
+            request.region ? "grains.region" : "domain.size");
     const auto most = lattice_of(request, densest_compacity()).size();
     return fmt::format(
         "A box of {} x {} D holds at most {} grains in the densest lattice. "
@@ -104,6 +144,7 @@ std::string does_not_fit(const PackingRequest& request) {
 PackingResult random_packing(const PackingRequest& request) {
     PackingResult result;
     for (const double gap : gaps) {
+        if (gap < least_gap && !are_unit_discs(request)) break;
         result.grains = add_one_by_one(request, gap);
         if (result.grains.empty()) continue;
         result.notes.push_back(
@@ -111,7 +152,7 @@ PackingResult random_packing(const PackingRequest& request) {
         apply_jitter(result, request);
         return result;
     }
-    result.grains = shaken_sites(request);
+    if (are_unit_discs(request)) result.grains = shaken_sites(request);
     if (result.grains.empty())
         result.refusal = does_not_fit(request);
     else

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "coupler/case/keys.hpp"
-#include "coupler/case/population.hpp"
 #include "coupler/protocol/case_hash.hpp"
 
 namespace turbidite {
@@ -40,10 +39,13 @@ bool is_written(const KeySpec& key, const Settings& settings) {
 
 }  // namespace
 
-std::string resolved_text(const Settings& settings, const Packing& grains) {
+std::string resolved_text(const Settings& settings, std::size_t grains,
+                          const std::string& grains_csv, const std::string& walls_csv) {
     std::string text = fmt::format(
-        "# Resolved case: every key, defaults filled in.\n# {} grains, fingerprint {}\n",
-        grains.size(), case_hash(population_csv(grains)));
+        "# Resolved case: every key, defaults filled in.\n# {} grains, fingerprint {}\n", grains,
+        case_hash(grains_csv));
+    if (!walls_csv.empty())
+        text += fmt::format("# Walls inside the box, fingerprint {}\n", case_hash(walls_csv));
     std::string group;
     for (const KeySpec& key : key_table()) {
         if (!is_written(key, settings)) continue;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The resolved case as YAML: every key in the order of the table, with its unit, and a fingerprint
-// of the grains. Equal cases give equal text; it loads to itself.
+// of the grains and of the walls inside the box. Equal cases give equal text; it loads to itself.
 #pragma once
 
 #include <string>
 
-#include "coupler/case/packing.hpp"
 #include "coupler/protocol/settings.hpp"
 
 namespace turbidite {
 
-std::string resolved_text(const Settings& settings, const Packing& grains);
+/// `walls_csv` is empty when there are none.
+std::string resolved_text(const Settings& settings, std::size_t grains,
+                          const std::string& grains_csv, const std::string& walls_csv);
 
 }  // namespace turbidite

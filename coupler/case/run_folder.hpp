@@ -16,6 +16,7 @@ struct RunFolder {
     std::filesystem::path history() const { return root / "history.csv"; }
     std::filesystem::path grains() const { return root / "grains"; }
     std::filesystem::path initial_grains() const { return grains() / "initial.csv"; }
+    std::filesystem::path walls() const { return grains() / "walls.csv"; }
     std::filesystem::path grains_series() const { return grains() / "grains.pvd"; }
     std::filesystem::path fluid() const { return root / "fluid"; }
     std::filesystem::path logs() const { return root / "logs"; }
@@ -23,8 +24,8 @@ struct RunFolder {
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
 
-    /// Its existence asks the coupler to play one more window, write it, and end the run. Its text is the
-    /// exit code to end with, 130 or 143.
+    /// Its existence asks the coupler to play one more window, write it, and end the run. Its text
+    /// is the exit code to end with, 130 or 143.
     std::filesystem::path stop() const { return root / "STOP"; }
 };
 

@@ -9,7 +9,6 @@
 #include <ctime>
 #include <fstream>
 
-#include "coupler/case/population.hpp"
 #include "coupler/cli/launch_line.hpp"
 #include "coupler/cli/run_json.hpp"
 #include "coupler/protocol/failure.hpp"
@@ -74,6 +73,14 @@ void write_text(const fs::path& file, const std::string& text) {
                       "cannot write " + file.string() + ": is the disk full?");
 }
 
+/// By the index that grains carry; corners as x, y of unit circumscribed radius.
+nlohmann::ordered_json shape_table(const ShapeTable& shapes) {
+    auto table = nlohmann::ordered_json::array();
+    for (const ShapeRecord& shape : shapes)
+        table.push_back({{"kind", shape.kind}, {"vertices", shape.vertices}});
+    return table;
+}
+
 nlohmann::ordered_json first_record(const ResolvedCase& resolved,
                                     const std::vector<std::string>& command) {
     const Scales& scales = resolved.scales;
@@ -94,6 +101,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved,
             {"reynolds", scales.reynolds},
             {"seed", resolved.settings.integer("random.seed")},
             {"grains", resolved.population.size()},
+            {"shapes", shape_table(resolved.shapes)},
             {"windows", resolved.settings.integer("run.windows")},
             {"notes", resolved.notes},
             {"command", shell_line(command)}};
@@ -136,7 +144,8 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command) {
     write_text(folder.resolved_case(), resolved.yaml);
-    write_population_csv(resolved.packing, folder.initial_grains());
+    write_text(folder.initial_grains(), resolved.grains_csv);
+    if (!resolved.walls_csv.empty()) write_text(folder.walls(), resolved.walls_csv);
     write_run_json(folder.record(), first_record(resolved, command));
     if (!resolved.settings.flag("fluid.enabled")) return;
     write_fluid_case(resolved.settings, folder.fluid());

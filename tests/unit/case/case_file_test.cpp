@@ -98,7 +98,7 @@ TEST_F(CaseFile, RunFolderReadsBackTheSameCase) {
     const ResolvedCase box = load("", {"grains.file=grains.csv"});
     const RunFolder run{folder.path() / "run"};
     folder.write("run/case.yaml", box.yaml);
-    folder.write("run/grains/initial.csv", population_csv(box.packing));
+    folder.write("run/grains/initial.csv", box.grains_csv);
     const ResolvedCase again = load_run_folder(run.root);
     EXPECT_EQ(again.settings.entries(), box.settings.entries());
     ASSERT_EQ(again.population.size(), 2u);

@@ -41,7 +41,7 @@ TEST(PopulationFile, WritesWhatItReads) {
     const ScratchFolder folder;
     const Packing grains{{.id = 3, .x = 1.0 / 3.0, .y = 2e-7, .radius = 0.1},
                          {.id = 4000000000, .x = 5.0, .y = 9.9, .radius = 0.5}};
-    write_population_csv(grains, folder.path() / "g.csv");
+    folder.write("g.csv", population_csv(grains));
     const Packing again = read_population_csv(folder.path() / "g.csv").grains;
     ASSERT_EQ(again.size(), 2u);
     EXPECT_EQ(again[0].x, grains[0].x);
