@@ -146,7 +146,7 @@ ContactSituation ContactLaws::situation(const DetectedContacts& contacts, std::s
 ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
                                  std::vector<BodyMobility> mobilities, double step) {
     check_materials(contacts);
-    ContactProblem problem{std::move(mobilities), free, {}};
+    ContactProblem problem{std::move(mobilities), free, {}, 0.0};
     problem.contacts.reserve(contacts.points.size());
     situations_.clear();
     terms_.clear();
@@ -165,8 +165,17 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         pulls = pulls || terms.attraction != 0.0;
         problem.contacts.push_back(contact);
     }
-    if (pulls) problem.free = body_velocities(problem, felt(Impulses(attraction_.size())));
+    if (pulls) pull(problem);
     return problem;
+}
+
+// What holds a pair at rest may cancel with the pull to the last digit.
+void ContactLaws::pull(ContactProblem& problem) const {
+    std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(attraction_.size())));
+    for (std::size_t i = 0; i < pulled.size(); ++i)
+        problem.cancelled =
+            std::max(problem.cancelled, norm(pulled[i].velocity - problem.free[i].velocity));
+    problem.free = std::move(pulled);
 }
 
 Impulses ContactLaws::felt(const Impulses& solution) const {

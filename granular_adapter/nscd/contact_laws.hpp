@@ -55,6 +55,7 @@ class ContactLaws {
                                const Contact& contact, const std::vector<Twist>& free,
                                double step) const;
     Surface surface(const DetectedContacts& contacts, const ContactPoint& point) const;
+    void pull(ContactProblem& problem) const;
     bool is_round(const Bodies& bodies, std::int32_t body) const;
     bool all_round() const;
     void check_shapes() const;
