@@ -44,6 +44,9 @@ struct ContactProblem {
     std::vector<BodyMobility> bodies;
     std::vector<Twist> free;  ///< v_free
     std::vector<Contact> contacts;
+    /// Speeds that may have cancelled in v_free, beyond what is left there: their rounding is
+    /// [m/s].
+    double cancelled = 0.0;
 };
 
 /// t = e_z x n.

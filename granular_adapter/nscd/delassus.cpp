@@ -63,7 +63,7 @@ Delassus::Delassus(const ContactProblem& problem) : problem_(problem) {
 
 Impulses Delassus::apply(const Impulses& r) const {
     const std::vector<Twist> rest(problem_.free.size());
-    const std::vector<Twist> v = body_velocities({problem_.bodies, rest, problem_.contacts}, r);
+    const std::vector<Twist> v = body_velocities({problem_.bodies, rest, problem_.contacts, 0.0}, r);
     Impulses u;
     u.reserve(r.size());
     for (const Contact& contact : problem_.contacts) u.push_back(contact_velocity(contact, v));

@@ -68,7 +68,8 @@ double rounding_floor(const ContactProblem& problem, const Delassus& w) {
     double sum = 0.0;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
         const Contact& contact = problem.contacts[k];
-        double speed = norm(problem.free[contact.b].velocity) + norm(contact.bias);
+        double speed =
+            norm(problem.free[contact.b].velocity) + norm(contact.bias) + problem.cancelled;
         if (contact.a >= 0) speed += norm(problem.free[contact.a].velocity);
         const double impulse = rounding * speed / w.block(k).nn;
         sum += impulse * impulse;

@@ -15,6 +15,7 @@
 #include "granular_adapter/nscd/vec3.hpp"
 #include "granular_adapter/standalone/by_grain.hpp"
 #include "granular_adapter/standalone/contact_records.hpp"
+#include "granular_adapter/standalone/contact_settings.hpp"
 #include "granular_adapter/standalone/free_motion.hpp"
 
 namespace turbidite {
@@ -107,7 +108,7 @@ Hello NscdAdapter::describe() const {
     for (const auto& entry : nscd::wall_detector_list())
         hello.capabilities.shapes.push_back(entry.kind);
     for (const auto& entry : nscd::law_list())
-        hello.capabilities.contact_laws.push_back(entry.name);
+        if (entry.make) hello.capabilities.contact_laws.push_back(entry.name);
     return hello;
 }
 
@@ -227,14 +228,13 @@ NscdAdapter::Positions NscdAdapter::parse_positions(const std::string& text) {
 
 void NscdAdapter::lay_borders(const Settings& settings) {
     const double width = settings.real("run.size_x"), height = settings.real("run.size_y");
-    const double friction = settings.real("contact.friction");
     borders_.clear();
     const auto lay = [&](const std::string& name, const Vec3& point, const Vec3& normal) {
         const std::string key = "domain." + name;
         nscd::Wall plane;
         plane.point = point;
         plane.normal = normal;
-        plane.friction = friction;
+        plane.material = 0;
         plane.key = static_cast<std::int32_t>(borders_.size());
         borders_.push_back({name, parse_side(key, settings.text(key)), plane});
     };
@@ -250,15 +250,8 @@ void NscdAdapter::lay_borders(const Settings& settings) {
 }
 
 nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) const {
-    nscd::EngineSettings result;
+    nscd::EngineSettings result = contact_settings(settings);
     result.gravity = {0.0, -settings.real("run.gravity"), 0.0};
-    result.theta = settings.real("contact.theta");
-    result.friction = settings.real("contact.friction");
-    result.law_settings.recovery_fraction = settings.real("contact.recovery_fraction");
-    result.law_settings.recovery_speed =
-        settings.real("contact.recovery_speed") * settings.real("run.velocity_scale");
-    result.solver_settings.tolerance = settings.real("contact.tolerance");
-    result.solver_settings.max_iterations = settings.integer("contact.iterations");
     if (borders_[0].side == Side::cyclic) result.box.length[0] = settings.real("run.size_x");
     if (borders_[2].side == Side::cyclic) result.box.length[1] = settings.real("run.size_y");
     return result;
