@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coupler/case/key_check.hpp"
+#include "coupler/shapes/polygon_outline.hpp"
 #include "granular_adapter/standalone/contact_settings.hpp"
 #include "granular_adapter/yade/contact_host.hpp"
 
@@ -50,7 +51,9 @@ Settings checked_settings(const python::dict& options) {
     for (const CaseProblem& problem : entries.problems)
         if (problem.key.rfind("contact.", 0) == 0) ours.push_back(problem);
     if (!ours.empty()) throw CaseRefused(ours);
-    settings.set("run.velocity_scale", 1.0);  // speeds are in m/s here
+    // The keys' units in SI: m/s, m, N.
+    for (const char* unit : {"run.velocity_scale", "run.diameter", "run.grain_weight"})
+        settings.set(unit, 1.0);
     return settings;
 }
 
@@ -60,18 +63,21 @@ nscd::EngineSettings engine_settings(const python::dict& options, const python::
     return settings;
 }
 
-ShapeRecord shape_of(const python::object& record) {
-    return {field<std::string>(record, "kind"),
-            vector_of<double>(record["vertices"], [](const python::object& x) {
-                return python::extract<double>(x)();
-            })};
+std::vector<double> numbers(const python::object& list) {
+    return vector_of<double>(list,
+                             [](const python::object& x) { return python::extract<double>(x)(); });
 }
 
+ShapeRecord shape_of(const python::object& record) {
+    return {field<std::string>(record, "kind"), numbers(record["vertices"])};
+}
+
+/// Place and normal are seen from the body's position, in its axes.
 nscd::Wall wall_of(const python::object& record) {
     nscd::Wall wall;
     wall.point = triple(record["point"]);
     wall.normal = triple(record["normal"]);
-    wall.friction = field<double>(record, "friction");
+    wall.material = field<std::int32_t>(record, "material");
     const python::object half_length = record["half_length"];  // None: a half-plane
     if (!half_length.is_none()) wall.half_length = python::extract<double>(half_length);
     wall.key = field<std::int32_t>(record, "key");
@@ -82,6 +88,7 @@ nscd::Body body_of(const python::object& record) {
     nscd::Body body;
     body.id = field<GrainId>(record, "id");
     body.shape = field<std::int32_t>(record, "shape");
+    body.material = field<std::int32_t>(record, "material");
     body.radius = field<double>(record, "radius");
     body.density = field<double>(record, "density");
     body.mass = field<double>(record, "mass");
@@ -104,13 +111,14 @@ Turn turn_of(const python::object& rotation) {
 Layout layout_of(const python::object& scene) {
     Layout layout;
     layout.shapes = vector_of<ShapeRecord>(scene["shapes"], shape_of);
-    layout.walls = vector_of<nscd::Wall>(scene["walls"], wall_of);
+    layout.frictions = numbers(scene["frictions"]);
+    layout.walls = HostedWalls(vector_of<nscd::Wall>(scene["walls"], wall_of),
+                               BodyStates(scene["wall_states"]));
     layout.bodies = vector_of<nscd::Body>(scene["bodies"], body_of);
     layout.states = BodyStates(scene["states"]);
     layout.turns = vector_of<Turn>(scene["turns"], turn_of);
     layout.box.length = triple(scene["period"]);
-    layout.watch = SceneWatch(field<std::size_t>(scene, "count"), scene["watched"], layout.states,
-                              BodyStates(scene["wall_states"]));
+    layout.watch = SceneWatch(field<std::size_t>(scene, "count"), scene["watched"], layout.states);
     return layout;
 }
 
@@ -128,6 +136,11 @@ python::dict report_dict(const nscd::StepReport& report) {
 
 std::vector<Vec3> triples(const python::object& list) {
     return vector_of<Vec3>(list, triple);
+}
+
+/// Throws std::invalid_argument naming the vertex at fault.
+void check_outline(const python::object& vertices) {
+    normalised_outline(numbers(vertices));
 }
 
 class ContactEngine {
@@ -187,8 +200,11 @@ class ContactEngine {
 }  // namespace turbidite::yade
 
 BOOST_PYTHON_MODULE(turbidite_contact_engine) {
+    using turbidite::yade::check_outline;
     using turbidite::yade::ContactEngine;
     namespace python = boost::python;
+    python::def("check_outline", check_outline,
+                "check_outline([x, y, ...]): ValueError unless it is a convex polygon.");
     python::class_<ContactEngine, boost::noncopyable>(
         "ContactEngine",
         "The contact engine over bodies of YADE.\n\n"

@@ -14,35 +14,28 @@ namespace {
 using nscd::operator+;
 using nscd::operator*;
 
-Quaternion product(const Quaternion& p, const Quaternion& q) {
-    return {p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-            p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-            p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-            p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
+/// Contact memory of an engine without its walls, whose number may change.
+std::vector<char> memory_of(nscd::Engine& engine) {
+    const std::vector<nscd::Wall> walls = std::exchange(engine.walls(), {});
+    std::vector<char> bytes = engine.save_memory();
+    engine.walls() = walls;
+    return bytes;
 }
 
-Quaternion conjugate(const Quaternion& q) {
-    return {q[0], -q[1], -q[2], -q[3]};
+void restore_memory_of(nscd::Engine& engine, const std::vector<char>& bytes) {
+    const std::vector<nscd::Wall> walls = std::exchange(engine.walls(), {});
+    engine.restore_memory(bytes);
+    engine.walls() = walls;
 }
 
-bool is_identity(const Quaternion& q) {
-    return q == Quaternion{1.0, 0.0, 0.0, 0.0};
+std::runtime_error at_fault(GrainId body, const std::string& fault, const char* when) {
+    return std::runtime_error("turbidite_contact: body " + std::to_string(body) + fault + ", " +
+                              when + "; use a smaller O.dt");
 }
 
-/// The part of a rotation about z; what is left is rounding of YADE's principal axes.
-Quaternion about_z(const Quaternion& q) {
-    if (q[1] == 0.0 && q[2] == 0.0) return q;
-    const double length = std::hypot(q[0], q[3]);
-    return {q[0] / length, 0.0, 0.0, q[3] / length};
-}
-
-Quaternion outline_orientation(const Quaternion& yade, const Turn& turn) {
-    if (!turn.planar) return yade;
-    return about_z(is_identity(turn.rotation) ? yade : product(yade, conjugate(turn.rotation)));
-}
-
-Quaternion yade_orientation(const Quaternion& outline, const Turn& turn) {
-    return is_identity(turn.rotation) ? outline : product(outline, turn.rotation);
+bool is_finite(const nscd::Bodies& bodies, std::size_t i) {
+    return nscd::is_finite(bodies.position[i]) && nscd::is_finite(bodies.twist[i].velocity) &&
+           nscd::is_finite(bodies.twist[i].spin);
 }
 
 }  // namespace
@@ -51,14 +44,26 @@ ContactHost::ContactHost(const nscd::EngineSettings& settings) : settings_(setti
     lay_out({});
 }
 
+std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
+    nscd::EngineSettings settings = settings_;
+    settings.box = layout.box;
+    if (!layout.frictions.empty()) {
+        settings.surfaces.assign(layout.frictions.size(), settings_.surfaces.at(0));
+        for (std::size_t i = 0; i < layout.frictions.size(); ++i)
+            settings.surfaces[i].friction = layout.frictions[i];
+    }
+    auto engine = std::make_unique<nscd::Engine>(settings, layout.shapes, layout.walls.read());
+    for (const nscd::Body& body : layout.bodies) engine->bodies().add(body);
+    return engine;
+}
+
 void ContactHost::lay_out(Layout layout) {
-    settings_.box = layout.box;
-    auto next = std::make_unique<nscd::Engine>(settings_, layout.shapes, std::move(layout.walls));
-    for (const nscd::Body& body : layout.bodies) next->bodies().add(body);
-    if (engine_) next->restore_memory(engine_->save_memory());
+    auto next = new_engine(layout);
+    if (engine_) restore_memory_of(*next, memory_of(*engine_));
     engine_ = std::move(next);
     states_ = std::move(layout.states);
     turns_ = std::move(layout.turns);
+    walls_ = std::move(layout.walls);
     watch_ = std::move(layout.watch);
     read_bodies();
     check_bodies("at the start");
@@ -73,12 +78,22 @@ nscd::StepReport ContactHost::step(double dt, const Loads& loads) {
     engine_->move(dt);
     check_bodies("after the step");
     write_bodies();
+    walls_.advance(dt);
     last_step_ = dt;
     return report;
 }
 
+std::vector<char> ContactHost::memory() const {
+    return memory_of(*engine_);
+}
+
+void ContactHost::restore_memory(const std::vector<char>& bytes) {
+    restore_memory_of(*engine_, bytes);
+}
+
 std::vector<ContactForce> ContactHost::contacts() const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
+    const std::vector<nscd::Wall>& walls = std::as_const(*engine_).walls();
     const auto& points = engine_->points();
     std::vector<ContactForce> result;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -88,7 +103,7 @@ std::vector<ContactForce> ContactHost::contacts() const {
         const auto b = static_cast<std::size_t>(point.b);
         ContactForce contact;
         contact.wall = point.wall >= 0;
-        contact.first = contact.wall ? engine_->walls()[static_cast<std::size_t>(point.wall)].key
+        contact.first = contact.wall ? walls[static_cast<std::size_t>(point.wall)].key
                                      : bodies.id[static_cast<std::size_t>(point.a)];
         contact.second = bodies.id[b];
         contact.point = solved_positions_[b] + point.arm_b;
@@ -114,6 +129,7 @@ void ContactHost::read_bodies() {
         bodies.twist[i] = {{motion.velocity[0], motion.velocity[1], 0.0},
                            {0.0, 0.0, motion.angular_velocity[2]}};
     }
+    engine_->walls() = walls_.read();
 }
 
 void ContactHost::take_loads(const Loads& loads) {
@@ -122,14 +138,18 @@ void ContactHost::take_loads(const Loads& loads) {
     bodies.torque = loads.torque.empty() ? std::vector<Vec3>(bodies.size()) : loads.torque;
 }
 
+/// Finite, and no centre behind a half-plane.
 void ContactHost::check_bodies(const char* when) const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (!nscd::is_finite(bodies.position[i]) || !nscd::is_finite(bodies.twist[i].velocity) ||
-            !nscd::is_finite(bodies.twist[i].spin))
-            throw std::runtime_error("turbidite_contact: body " + std::to_string(bodies.id[i]) +
-                                     " has a position or velocity that is not a number, " + when +
-                                     "; use a smaller O.dt");
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (!is_finite(bodies, i))
+            throw at_fault(bodies.id[i], " has a position or velocity that is not a number", when);
+        if (bodies.fixed[i]) continue;
+        for (const nscd::Wall& wall : std::as_const(*engine_).walls())
+            if (!std::isfinite(wall.half_length) && signed_distance(wall, bodies.position[i]) < 0.0)
+                throw at_fault(bodies.id[i],
+                               " has its centre behind wall " + std::to_string(wall.key), when);
+    }
 }
 
 void ContactHost::write_bodies() const {

@@ -6,29 +6,25 @@
 // ids and the keys of its walls. The engine's plane is z = 0, wherever YADE's bodies lie.
 #pragma once
 
-#include <boost/python/object.hpp>
 #include <memory>
 #include <vector>
 
 #include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/yade/hosted_walls.hpp"
 #include "granular_adapter/yade/scene_watch.hpp"
+#include "granular_adapter/yade/turn.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
 
 namespace turbidite::yade {
 
-/// From YADE's axes of a body to those of its shape here; discs have none.
-struct Turn {
-    bool planar = false;  ///< an outline: only its rotation about z counts
-    Quaternion rotation{1.0, 0.0, 0.0, 0.0};
-};
-
 /// What a scene holds, in the engine's terms.
 struct Layout {
     ShapeTable shapes;
-    std::vector<nscd::Wall> walls;
+    std::vector<double> frictions;   ///< mu by material of bodies and walls
     std::vector<nscd::Body> bodies;  ///< motions are read from `states`
     BodyStates states;               ///< of `bodies`, in their order
     std::vector<Turn> turns;         ///< the same
+    HostedWalls walls;
     nscd::PeriodicBox box;
     SceneWatch watch;
 };
@@ -55,29 +51,31 @@ struct ContactForce {
 
 class ContactHost {
  public:
-    /// Throws std::invalid_argument like nscd::Engine.
+    /// `settings.surfaces` has one entry; materials of the scene have its values and their own
+    /// friction. Throws std::invalid_argument like nscd::Engine.
     explicit ContactHost(const nscd::EngineSettings& settings);
 
-    /// Takes this scene from now on; contact impulses of pairs that remain are kept.
+    /// Takes this scene from now on; what contacts of known pairs remember is kept.
     void lay_out(Layout layout);
 
     /// Whether the scene, of `count` bodies, is no longer the one laid out.
     bool outdated(std::size_t count) const { return watch_.changed(count, states_); }
 
     /// Reads motions, solves the contacts, moves, writes motions. Throws std::runtime_error naming
-    /// a body whose motion is not finite.
+    /// a body whose motion is not finite or whose centre is behind a wall.
     nscd::StepReport step(double dt, const Loads& loads);
 
     const nscd::Engine& engine() const { return *engine_; }
 
-    /// Impulses and states of the contacts, for the next process.
-    std::vector<char> memory() const { return engine_->save_memory(); }
-    void restore_memory(const std::vector<char>& bytes) { engine_->restore_memory(bytes); }
+    /// Impulses and states of the contacts, for the next process; walls are YADE's to keep.
+    std::vector<char> memory() const;
+    void restore_memory(const std::vector<char>& bytes);
 
-    /// Of the last step, those with an impulse.
+    /// Of the last step, those with a force.
     std::vector<ContactForce> contacts() const;
 
  private:
+    std::unique_ptr<nscd::Engine> new_engine(Layout& layout) const;
     void read_bodies();
     void take_loads(const Loads& loads);
     void check_bodies(const char* when) const;
@@ -87,6 +85,7 @@ class ContactHost {
     std::unique_ptr<nscd::Engine> engine_;
     BodyStates states_;
     std::vector<Turn> turns_;
+    HostedWalls walls_;
     std::vector<double> heights_;  ///< z in YADE
     SceneWatch watch_;
     std::vector<Vec3> solved_positions_;  ///< at which the last contacts were solved

@@ -2,7 +2,6 @@
 #include "granular_adapter/yade/scene_watch.hpp"
 
 #include <boost/python.hpp>
-#include <utility>
 
 namespace turbidite::yade {
 
@@ -19,15 +18,13 @@ long id_of(const python::object& body) {
 
 }  // namespace
 
-SceneWatch::SceneWatch(std::size_t count, const python::object& bodies, const BodyStates& states,
-                       BodyStates walls)
-    : count_(count), walls_(std::move(walls)) {
+SceneWatch::SceneWatch(std::size_t count, const python::object& bodies, const BodyStates& states)
+    : count_(count) {
     for (python::ssize_t i = 0; i < python::len(bodies); ++i) {
         bodies_.push_back(bodies[i]);
         ids_.push_back(id_of(bodies_.back()));
     }
     for (std::size_t i = 0; i < states.size(); ++i) inertias_.push_back(states.inertia(i));
-    for (std::size_t i = 0; i < walls_.size(); ++i) wall_motions_.push_back(walls_.read(i));
 }
 
 bool SceneWatch::changed(std::size_t count, const BodyStates& states) const {
@@ -36,8 +33,6 @@ bool SceneWatch::changed(std::size_t count, const BodyStates& states) const {
         if (id_of(bodies_[i]) != ids_[i]) return true;
     for (std::size_t i = 0; i < states.size(); ++i)
         if (!(states.inertia(i) == inertias_[i])) return true;
-    for (std::size_t i = 0; i < walls_.size(); ++i)
-        if (!(walls_.read(i) == wall_motions_[i])) return true;
     return false;
 }
 

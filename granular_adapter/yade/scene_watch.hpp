@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whether a scene is still the one that was laid out: bodies added or erased, masses, moments or
-// blocked degrees of freedom changed, walls put elsewhere.
+// blocked degrees of freedom changed.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -16,9 +16,8 @@ class SceneWatch {
     SceneWatch() = default;
 
     /// `count`: len(O.bodies); `bodies`: all of them; `states` of those that are bodies of the
-    /// engine, `walls` of the others. Remembers how they are now.
-    SceneWatch(std::size_t count, const boost::python::object& bodies, const BodyStates& states,
-               BodyStates walls);
+    /// engine. Remembers how they are now.
+    SceneWatch(std::size_t count, const boost::python::object& bodies, const BodyStates& states);
 
     /// With len(O.bodies) now and the same `states`.
     bool changed(std::size_t count, const BodyStates& states) const;
@@ -28,8 +27,6 @@ class SceneWatch {
     std::vector<boost::python::object> bodies_;
     std::vector<long> ids_;
     std::vector<BodyInertia> inertias_;
-    BodyStates walls_;
-    std::vector<BodyMotion> wall_motions_;
 };
 
 }  // namespace turbidite::yade

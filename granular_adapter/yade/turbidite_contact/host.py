@@ -6,7 +6,7 @@ from yade.wrapper import Omega
 
 from . import display, memory
 from .refusal import Refused
-from .scene import body_of_key, read_scene
+from .scene import read_scene
 
 O = Omega()
 YADE_DEFAULT_STEP = 1e-8
@@ -30,8 +30,7 @@ class Contact:
     """One contact point; vectors of the plane with z."""
 
     def __init__(self, record):
-        first, self.id2, point, normal, self.gap, pushing, dragging, self.rolling_moment, self.wall = record
-        self.id1 = body_of_key(first) if self.wall else first
+        self.id1, self.id2, point, normal, self.gap, pushing, dragging, self.rolling_moment, self.wall = record
         self.point, self.normal = Vector3(*point), Vector3(*normal)
         self.normal_force = pushing * self.normal
         self.shear_force = dragging * Vector3(-normal[1], normal[0], 0)

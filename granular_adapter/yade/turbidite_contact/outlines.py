@@ -2,6 +2,7 @@
 """Shapes of YADE that are prisms or triangles in space, seen in the plane of motion."""
 import math
 
+from turbidite_contact_engine import check_outline
 from yade.minieigenHP import Quaternion, Vector3
 
 from .refusal import refuse
@@ -34,6 +35,7 @@ def prism_outline(body):
     ends = split_by_level([turn * corner for corner in corners], body)
     vertices = anticlockwise(ends[1])
     check_prism(body, ends, vertices)
+    check_convex(body, vertices)
     radius = max(math.hypot(x, y) for x, y in vertices)
     return Outline([c / radius for vertex in vertices for c in vertex], radius, TURNS[axis], axis[0])
 
@@ -79,20 +81,30 @@ def check_prism(body, ends, vertices):
             refuse(body, 'is no prism along z: its ends differ', 'extrude the polygon along z')
 
 
+def check_convex(body, vertices):
+    try:
+        check_outline([coordinate for vertex in vertices for coordinate in vertex])
+    except ValueError as error:
+        refuse(body, f'is no convex polygon ({error})', 'give it other vertices')
+
+
 def facet_segment(body, plane):
-    """Ends ((x, y), (x, y)) of the line in which a facet crosses z = plane."""
-    state = body.state
-    corners = [state.pos + state.ori * corner for corner in body.shape.vertices]
-    points = []
+    """Ends ((x, y), (x, y)) of the line in which a facet crosses z = plane, in the facet's axes."""
+    level = plane - body.state.pos[2]
+    normal = body.state.ori * Vector3.UnitZ
+    if normal[0] != 0 or normal[1] != 0:
+        refuse(body, 'is tilted', 'its orientation may be a rotation about z only; move the vertices instead')
+    corners = list(body.shape.vertices)
+    rounding = TILT * max(corner.norm() for corner in corners)
+    points = set()
     for a, b in zip(corners, corners[1:] + corners[:1]):
-        below, above = a[2] - plane, b[2] - plane
-        if below == 0:
-            points.append((a[0], a[1]))
-        elif below * above < 0:
+        below, above = a[2] - level, b[2] - level
+        if abs(below) <= rounding:
+            points.add((a[0], a[1]))
+        elif abs(above) > rounding and below * above < 0:
             share = below / (below - above)
-            points.append((a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])))
-    distinct = sorted(set(points))
-    if len(distinct) != 2:
+            points.add((a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])))
+    if len(points) != 2:
         refuse(body, f'does not cross the plane of motion z = {plane:g} in a line',
                'use facets that stand on the plane')
-    return distinct
+    return sorted(points)

@@ -84,9 +84,10 @@ class Builder:
         self.shape_numbers = {}
 
     def scene(self, period):
-        layout = {'shapes': self.shapes, 'bodies': self.bodies, 'states': self.states, 'turns': self.turns,
-                  'walls': self.walls, 'wall_states': self.wall_states, 'period': period,
-                  'count': len(O.bodies), 'watched': list(O.bodies)}
+        layout = {'shapes': self.shapes, 'frictions': self.materials.frictions, 'bodies': self.bodies,
+                  'states': self.states, 'turns': self.turns, 'walls': self.walls,
+                  'wall_states': self.wall_states, 'period': period, 'count': len(O.bodies),
+                  'watched': list(O.bodies)}
         return Scene(layout, [record['id'] for record in self.bodies], self.materials)
 
     # ---- bodies ----
@@ -103,7 +104,7 @@ class Builder:
         self.bodies.append({
             'id': body.id, 'shape': self.shape_number(outline), 'radius': radius,
             'density': body.mat.density, 'mass': body.state.mass, 'inertia': body.state.inertia[axis],
-            'friction': self.materials.friction(body), 'fixed': blocked == FIXED,
+            'material': self.materials.number(body), 'fixed': blocked == FIXED,
             'rotation_blocked': 'Z' in blocked})
         if blocked != FIXED:
             self.check_inertia(body, self.bodies[-1])
@@ -155,36 +156,34 @@ class Builder:
     # ---- walls ----
 
     def add_wall(self, body):
+        """Place and normal are seen from the body's position, in its axes."""
         self.check_mask(body)
-        if body.state.blockedDOFs != 'xyzXYZ':
-            refuse(body, f'is free to move (blockedDOFs = {body.state.blockedDOFs!r})',
-                   'walls and facets must be fixed')
-        if any(x != 0 for x in (*body.state.vel, *body.state.angVel)):
-            refuse(body, 'moves', 'walls and facets must be at rest; use a Box or Polyhedra that is driven')
-        if type(body.shape).__name__ == 'Wall':
-            self.add_half_plane(body)
-        else:
-            self.add_segment(body)
-        self.wall_states.append(body.state)
+        state = body.state
+        if state.blockedDOFs != 'xyzXYZ':
+            refuse(body, f'is free to move (blockedDOFs = {state.blockedDOFs!r})',
+                   'walls and facets must be fixed or driven by their velocity')
+        if any(speed != 0 for speed in (state.vel[2], state.angVel[0], state.angVel[1])):
+            refuse(body, 'moves out of the plane (vel[2], angVel[0], angVel[1])', 'set these to zero')
+        record = self.half_plane(body) if type(body.shape).__name__ == 'Wall' else self.segment(body)
+        self.walls.append({**record, 'key': body.id, 'material': self.materials.number(body)})
+        self.wall_states.append(state)
 
-    def add_half_plane(self, body):
-        axis = body.shape.axis
+    def half_plane(self, body):
+        axis, state = body.shape.axis, body.state
         if axis == 2:
             refuse(body, 'has its normal along z', 'the motion is in the plane; use axis 0 or 1')
-        place = body.state.pos[axis]
+        if state.angVel[2] != 0:
+            refuse(body, 'rotates', 'a Wall keeps its axis; use a Facet')
         normal = [0.0, 0.0, 0.0]
-        normal[axis] = float(body.shape.sense or self.side_of(body, axis, place))
-        point = [0.0, 0.0, 0.0]
-        point[axis] = place
-        for record, state in zip(self.bodies, self.states):
-            if not record['fixed'] and (state.pos[axis] - place) * normal[axis] < 0:
+        normal[axis] = float(body.shape.sense or self.side_of(body, axis))
+        for record, other in zip(self.bodies, self.states):
+            if not record['fixed'] and (other.pos[axis] - state.pos[axis]) * normal[axis] < 0:
                 refuse(body, f'has the centre of body {record["id"]} behind it', 'move the body or the wall')
-        self.walls.append({'point': point, 'normal': normal, 'half_length': None, 'key': body.id,
-                           'friction': self.materials.friction(body)})
+        return {'point': [0.0, 0.0, 0.0], 'normal': normal, 'half_length': None}
 
-    def side_of(self, wall, axis, place):
+    def side_of(self, wall, axis):
         """+1 or -1: where all bodies are that move."""
-        sides = {}
+        sides, place = {}, wall.state.pos[axis]
         for record, state in zip(self.bodies, self.states):
             if not record['fixed']:
                 sides.setdefault(1 if state.pos[axis] >= place else -1, record['id'])
@@ -193,22 +192,8 @@ class Builder:
                    'give it a sense, or use a Facet or Box')
         return next(iter(sides), 1)
 
-    def add_segment(self, body):
+    def segment(self, body):
         a, b = outlines.facet_segment(body, self.plane[0] if self.plane else 0.0)
         length = math.dist(a, b)
-        normal = ((a[1] - b[1]) / length, (b[0] - a[0]) / length)
-        middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0]
-        for side in (1, -1):  # facets have two faces
-            self.walls.append({'point': middle, 'normal': [side * normal[0], side * normal[1], 0.0],
-                               'half_length': 0.5 * length, 'key': side_key(body.id, side),
-                               'friction': self.materials.friction(body)})
-
-
-def side_key(body, side):
-    """The name of a face in the contact memory: the body's id, or -1 - id for the other face."""
-    return body if side > 0 else -1 - body
-
-
-def body_of_key(key):
-    """The inverse."""
-    return key if key >= 0 else -1 - key
+        return {'point': [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0],
+                'normal': [(a[1] - b[1]) / length, (b[0] - a[0]) / length, 0.0], 'half_length': 0.5 * length}
