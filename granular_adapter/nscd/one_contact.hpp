@@ -52,7 +52,7 @@ inline Plane solve_contact(const Block& w, const Plane& b, double friction) {
 /// Nearest point of the cone |t| <= mu n.
 inline Plane project_on_cone(const Plane& x, double friction) {
     const double n = x[0], t = std::abs(x[1]);
-    if (t <= friction * n) return x;
+    if (n >= 0.0 && t <= friction * n) return x;  // mu = 0: the second alone holds for any n
     if (friction * t <= -n) return {0.0, 0.0};
     const double on_edge = (n + friction * t) / (1.0 + friction * friction);
     return {on_edge, std::copysign(friction * on_edge, x[1])};
