@@ -13,6 +13,7 @@
 #include "granular_adapter/nscd/vec3.hpp"
 #include "granular_adapter/standalone/by_grain.hpp"
 #include "granular_adapter/standalone/case_bodies.hpp"
+#include "granular_adapter/standalone/contact_records.hpp"
 
 namespace turbidite {
 namespace {
@@ -125,10 +126,12 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     nscd::Bodies told = at_protocol_positions();
     std::vector<Load> loads;
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
-    const SubstepReport run = host_.run(substeps(window), loads);
+    SubstepReport run = host_.run(substeps(window), loads);
     host_.read(bodies_);
     check_inside(bodies_, borders_, in_window(window) + " after contacts");
     book_contacts(before, run, window.step);
+    contacts_.reset();
+    if (window.write_output) contacts_ = std::move(run.touching);
     told.twist = bodies_.twist;
     told.contact_impulse = bodies_.contact_impulse;
     told.contact_angular_impulse = bodies_.contact_angular_impulse;
@@ -173,7 +176,9 @@ Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kick
     check_inside(bodies_, borders_, in_window(window) + " after the kick");
     remove_leavers();
     report_.wall_seconds = seconds_since(start);
-    return motion(at_protocol_positions());
+    Motion result = motion(at_protocol_positions());
+    result.contacts = std::exchange(contacts_, std::nullopt);
+    return result;
 }
 
 void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks) {
@@ -200,9 +205,14 @@ void MdAdapter::remove_leavers() {
     report_.removed = std::count(stays.begin(), stays.end(), 0);
     if (report_.removed == 0) return;
     std::vector<Held> kept;
+    std::vector<GrainId> gone;
     for (std::size_t i = 0; i < stays.size(); ++i)
-        if (stays[i]) kept.push_back(held_[i]);
+        if (stays[i])
+            kept.push_back(held_[i]);
+        else
+            gone.push_back(bodies_.id[i]);
     held_ = std::move(kept);
+    if (contacts_) drop_contacts_of(gone, *contacts_);
     bodies_.keep(stays);
     host_.keep(stays);
 }

@@ -28,6 +28,7 @@
 // fluid.hydrodynamic_radius.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,8 @@ class MdAdapter final : public GrainsAdapter {
     std::vector<Border> borders_;
     nscd::Bodies bodies_;  ///< at the host's positions
     std::vector<Held> held_;
-    std::vector<std::uint8_t> touched_;  ///< in this window
+    std::vector<std::uint8_t> touched_;                   ///< in this window
+    std::optional<std::vector<ContactRecord>> contacts_;  ///< of this window, if it has output
     bool advanced_ = false;
     ContactReport report_;  ///< of this window
 };

@@ -25,8 +25,8 @@ struct Load {
 
 struct Substeps {
     std::int64_t count = 1;
-    double step = 0.0;        ///< delta [s]
-    bool sum_forces = false;  ///< contact impulses are wanted, body by body
+    double step = 0.0;      ///< delta [s]
+    bool detailed = false;  ///< impulses body by body and contacts one by one are wanted
 };
 
 /// What the host saw over the sub-steps of one window.
@@ -34,8 +34,10 @@ struct SubstepReport {
     std::int64_t contacts = 0;     ///< with a force at the end
     double max_penetration = 0.0;  ///< deepest overlap at any probe, >= 0 [m]
     /// Sum over the sub-steps of delta times all forces but gravity, one per body, moments alike;
-    /// empty unless they were wanted. [N s], [N m s]
+    /// only if wanted. [N s], [N m s]
     std::vector<Vec3> impulses, angular_impulses;
+    /// After the last sub-step, impulses being its forces times the window; only if wanted.
+    std::vector<ContactRecord> touching;
 };
 
 class MdHost {

@@ -25,7 +25,7 @@ class Scene:
 
     def __init__(self):
         self.body_of = {}   # grain id -> body id
-        self.walls = []     # body ids
+        self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top
         self.largest = 0.0  # radius
 
     def create(self, settings, grains):
@@ -65,10 +65,10 @@ class Scene:
     def _create_walls(self, settings):
         sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
                  'bottom': (1, 0.0, 1), 'top': (1, float(settings['run.size_y']), -1)}
-        for side, (axis, position, sense) in sides.items():
+        for number, (side, (axis, position, sense)) in enumerate(sides.items()):
             if settings['domain.' + side] == 'wall':
-                self.walls.append(O.bodies.append(
-                    utils.wall(position, axis, sense=sense, material=self._material(0.0))))
+                self.walls[O.bodies.append(
+                    utils.wall(position, axis, sense=sense, material=self._material(0.0)))] = number
 
     def _engines(self, gravity):
         return [
@@ -99,6 +99,27 @@ class Scene:
     def contacts(self):
         """How many touch."""
         return O.interactions.countReal()
+
+    def touching(self):
+        """The last step's contacts: (side of the domain or -1, grain, grain, does it slide, overlap, point,
+        normal from the first to the second, force on the second, branch between the centres or from a wall)."""
+        grain_of = {body: grain for grain, body in self.body_of.items()}
+        return [self._contact(contact, grain_of) for contact in O.interactions if contact.isReal]
+
+    def _contact(self, contact, grain_of):
+        """The smaller grain id, or the wall, comes first."""
+        geom, phys = contact.geom, contact.phys
+        first, second, sense = contact.id1, contact.id2, 1.0
+        if second in self.walls or first not in self.walls and grain_of[first] > grain_of[second]:
+            first, second, sense = second, first, -1.0
+        wall = self.walls.get(first, -1)
+        force, normal = sense * (phys.normalForce + phys.shearForce), sense * geom.normal
+        place = O.bodies[second].state.pos
+        branch = place - (geom.contactPoint if wall >= 0 else O.bodies[first].state.pos)
+        slides = phys.shearForce.norm() >= (1.0 - 1e-9) * phys.tangensOfFrictionAngle * phys.normalForce.norm()
+        return (wall, 0 if wall >= 0 else grain_of[first], grain_of[second], bool(slides), geom.penetrationDepth,
+                geom.contactPoint[0], geom.contactPoint[1], normal[0], normal[1], force[0], force[1],
+                branch[0], branch[1])
 
     def deepest_overlap(self):
         """Of the last step's contacts; between discs of different sizes a bound from above."""

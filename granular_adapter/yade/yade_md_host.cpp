@@ -92,7 +92,7 @@ void YadeMdHost::add_forces(SubstepReport& report, double step) const {
 
 SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>& loads) {
     SubstepReport report;
-    if (substeps.sum_forces) {
+    if (substeps.detailed) {
         report.impulses.assign(ids_.size(), Vec3{});
         report.angular_impulses.assign(ids_.size(), Vec3{});
     }
@@ -101,13 +101,40 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
     const std::int64_t stride = std::max<std::int64_t>(1, substeps.count / probes_per_window);
     for (std::int64_t i = 1; i <= substeps.count; ++i) {
         step();
-        if (substeps.sum_forces) add_forces(report, substeps.step);
+        if (substeps.detailed) add_forces(report, substeps.step);
         if (i % stride == 0 || i == substeps.count)
             report.max_penetration =
                 std::max<double>(report.max_penetration, python::extract<double>(overlap()));
     }
     report.contacts = python::extract<long>(scene_.attr("contacts")());
+    if (substeps.detailed)
+        report.touching = touching(substeps.step * static_cast<double>(substeps.count));
     return report;
+}
+
+/// YADE's contacts one by one: (body, grain or wall; body, grain; sliding; overlap, point, normal,
+/// force on the second body).
+std::vector<ContactRecord> YadeMdHost::touching(double window) const {
+    using nscd::operator-;
+    const python::object list = scene_.attr("touching")();
+    std::vector<ContactRecord> records;
+    for (python::ssize_t i = 0; i < python::len(list); ++i) {
+        const python::object contact = list[i];
+        const auto number = [&](int k) -> double { return python::extract<double>(contact[k]); };
+        ContactRecord record;
+        record.wall = python::extract<int>(contact[0]);
+        record.a = python::extract<GrainId>(contact[1]);
+        record.b = python::extract<GrainId>(contact[2]);
+        record.status = python::extract<bool>(contact[3]) ? ContactStatus::sliding : 0;
+        record.gap = -number(4);
+        record.point = {number(5), number(6), 0.0};
+        record.normal = {number(7), number(8), 0.0};
+        record.impulse = window * Vec3{number(9), number(10), 0.0};
+        record.branch = {number(11), number(12), 0.0};
+        records.push_back(record);
+    }
+    std::sort(records.begin(), records.end(), contact_before);
+    return records;
 }
 
 void YadeMdHost::keep(const std::vector<std::uint8_t>& mask) {

@@ -18,7 +18,7 @@ namespace turbidite::yade {
 class YadeMdHost final : public MdHost {
  public:
     /// `scene` has create(settings, grains), which returns body ids; states(bodies); erase(bodies);
-    /// step(), one sub-step; contacts(); deepest_overlap(); save() and restore(bytes).
+    /// step(), one sub-step; contacts(); touching(); deepest_overlap(); save() and restore(bytes).
     YadeMdHost(boost::python::object scene, std::string yade_version);
 
     std::string code() const override { return "YADE " + version_; }
@@ -33,6 +33,7 @@ class YadeMdHost final : public MdHost {
  private:
     void fetch_states();
     void set_loads(const std::vector<Load>& loads);
+    std::vector<ContactRecord> touching(double window) const;
     void add_forces(SubstepReport& report, double step) const;
 
     boost::python::object scene_;

@@ -45,7 +45,7 @@ class LeapFrogHost final : public MdHost {
                     moments[i][axis] += substeps.step * all.torque[axis];
                 }
             }
-        if (substeps.sum_forces) report.impulses = impulses, report.angular_impulses = moments;
+        if (substeps.detailed) report.impulses = impulses, report.angular_impulses = moments;
         return report;
     }
 

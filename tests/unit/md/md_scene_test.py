@@ -114,6 +114,22 @@ class MdScene(unittest.TestCase):
         mass = self.states[0].mass
         self.assertAlmostEqual(self.states[0].vel[1], O.dt * (0.25 / mass - 1.0), delta=1e-16)
 
+    def test_tells_its_contacts_one_by_one(self):
+        # Disc 9 lies under disc 5 on the floor: the pair is told as (5, 9) whatever YADE's order is.
+        gravity = 1.0
+        self.build([disc(9, 5.0, 0.5), disc(5, 5.0, 1.5)], run_gravity=gravity, run_md_damping=1.0)
+        self.play(12000)
+        weight = self.states[0].mass * gravity
+        on_floor, pair = sorted(self.scene.touching(), key=lambda contact: -contact[0])
+        self.assertEqual((on_floor[0], on_floor[2]), (2, 9))
+        self.assertEqual(pair[:3], (-1, 5, 9))
+        self.assertAlmostEqual(on_floor[10], 2 * weight, delta=1e-6)
+        self.assertAlmostEqual(pair[10], -weight, delta=1e-6)  # on disc 9, downwards
+        self.assertAlmostEqual(pair[8], -1.0, delta=1e-9)
+        self.assertAlmostEqual(pair[12], -1.0, delta=1e-4)
+        self.assertAlmostEqual(on_floor[12], 0.5, delta=1e-4)
+        self.assertGreater(pair[4], 0.0)
+
     def test_erased_discs_are_gone(self):
         self.build([disc(1, 3.0, 5.0), disc(2, 3.9, 5.0)])
         self.play(2)
