@@ -352,7 +352,7 @@ std::vector<KeySpec> contact_keys() {
          .need = Need::optional,
          .range = positive,
          .help = "yade-md: speed of approach that the stiffness is made for; otherwise 2 with a "
-                 "fluid, 1.5 times the speed of a fall from the top of the packing without",
+                 "fluid, twice the speed of a fall from the top of the packing without",
          .remedy = "Leave it out, or use for example 2."},
         {.name = "contact.md_stiffness",
          .type = KeyType::real,

@@ -12,7 +12,7 @@
 //     impact    (f v)^2/(2 g D d^2)    two grains that approach at v = contact.md_speed; f is
 //                           the deepest overlap of a bounce over v/w (1 undamped, 1/e critical)
 //
-// Unless given, v is 2 u_c in a fluid, which limits it; dry it is 1.5 sqrt(2 g h), above the speed
+// Unless given, v is 2 u_c in a fluid, which limits it; dry it is 2 sqrt(2 g h), above the speed
 // of a fall from the top since whole rows of grains arrive together (docs/md.md has the
 // measurement).
 //

@@ -71,10 +71,10 @@ TEST(SoftContact, IsMadeForTheSpeedOfTheCase) {
     Settings fast = settings();
     fast.set("contact.md_speed", 4.0);
     EXPECT_NEAR(soft_contact(fast, 1.0).frequency, 24000.0, 1e-6);
-    // Dry: 1.5 sqrt(2 g h) with h = 16 D = 8.
+    // Dry: 2 sqrt(2 g h) with h = 16 D = 8.
     Settings dry = settings();
     dry.set("fluid.enabled", false);
-    EXPECT_NEAR(soft_contact(dry, 16.0).frequency, 1.5 * std::sqrt(32.0) / 5e-4, 1e-6);
+    EXPECT_NEAR(soft_contact(dry, 16.0).frequency, 2.0 * std::sqrt(32.0) / 5e-4, 1e-6);
     // Critically damped, the bounce is 1/e as deep.
     Settings damped = settings();
     damped.set("contact.restitution", 0.0);
