@@ -65,8 +65,8 @@ def step():
     """One step of O.dt: what the PyRunner of engines() calls."""
     global _present
     store = memory.find()
-    if _present is None or _present.stamp != store.iterLast:
-        _present = _host.Host(*memory.read(store), store.iterLast)
+    if _present is None or not memory.is_marked(store, _present.mark):
+        _present = _host.Host(*memory.read(store), memory.mark(store))
     _present.step(store)
 
 
@@ -95,10 +95,11 @@ def show():
 def refresh():
     """Reads shapes and states anew before the next step: after a script exchanged a body's state or changed
     the shape of one. Additions, erasures, masses, degrees of freedom, materials and walls are noticed anyway."""
-    _stepped().scene = None
+    if _present is not None:
+        _present.scene = None
 
 
 def _stepped():
-    if _present is None:
-        raise Refused('turbidite_contact: no step has been made yet')
+    if _present is None or not memory.is_marked(memory.find(), _present.mark):
+        raise Refused('turbidite_contact: no step of this scene has been made yet')
     return _present
