@@ -8,7 +8,7 @@
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.size_x    run.size_y  run.size_z                    domain [m]
-//     run.hash                                                hash of the resolved case
+//     run.hash      run.walls                   hash of the resolved case, walls inside the box
 //
 // Valid C++17.
 #pragma once

@@ -15,6 +15,7 @@
 #include "granular_adapter/nscd/vec3.hpp"
 #include "granular_adapter/standalone/by_grain.hpp"
 #include "granular_adapter/standalone/free_motion.hpp"
+#include "granular_adapter/standalone/inner_walls.hpp"
 
 namespace turbidite {
 namespace {
@@ -120,6 +121,8 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     std::vector<nscd::Wall> walls;
     for (const Border& border : borders_)
         if (border.side == Side::wall) walls.push_back(border.plane);
+    for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
+        walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
     add_grains(settings, shapes, grains);
     nscd::check_periods(bodies().radius, engine().settings().box);
