@@ -27,6 +27,9 @@ struct ContactPoint {
     Vec3 arm_a{};              ///< centre of a to the contact point [m]
     Vec3 arm_b{};
     double length = 0.0;  ///< of the face that the point stands for; 0 for points [m]
+    /// The normal stands on a side of a or of the wall (1), or of b (2), and turns with it; 0: on
+    /// none, as between discs and between corners.
+    std::int32_t turns_with = 0;
 };
 
 /// Two bodies; `offset` is b - a by the nearest image.

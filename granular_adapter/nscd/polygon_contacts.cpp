@@ -112,7 +112,8 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
                               normal,
                               Vec3{},
                               {polygon.x[k], polygon.y[k], 0.0},
-                              length});
+                              length,
+                              1});
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ void disc_polygon(const PairView& view, std::vector<ContactPoint>& points) {
     if (!(gap < view.alert)) return;
     const Vec3 arm_a = (-radius - 0.5 * gap) * to_disc.normal;
     points.push_back({view.a, view.b, -1, to_disc.feature, gap, -1.0 * to_disc.normal, arm_a,
-                      arm_a - view.offset, 0.0});
+                      arm_a - view.offset, 0.0, to_disc.feature % 2 == 0 ? 2 : 0});
 }
 
 void polygon_wall(const WallView& view, std::vector<ContactPoint>& points) {
