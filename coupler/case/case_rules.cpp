@@ -210,6 +210,48 @@ Verdict limits_in_order(const Settings& s) {
                      "Enlarge it."};
 }
 
+Verdict sliding_holds_less(const Settings& s) {
+    if (s.real("contact.static_friction") >= s.real("contact.friction")) return std::nullopt;
+    return Objection{fmt::format("Contacts that stick hold at least as much as those that slide, "
+                                 "and contact.friction = {}.",
+                                 s.text("contact.friction")),
+                     "Enlarge it."};
+}
+
+// With restitution e an impact feeds energy in unless theta <= 1/(1 + e).
+Verdict theta_makes_no_energy(const Settings& s) {
+    const double e =
+        std::max(s.real("contact.restitution"), s.real("contact.restitution_tangential"));
+    const double most = 1.0 / (1.0 + e);
+    if (s.real("contact.theta") <= most * (1.0 + 1e-12)) return std::nullopt;
+    return Objection{fmt::format("With a restitution e = {} impacts make energy beyond "
+                                 "theta = 1/(1 + e) = {}.",
+                                 real_text(e), real_text(most)),
+                     "Use 0.5, which is right for every restitution."};
+}
+
+Verdict moreau_has_one_restitution(const Settings& s) {
+    if (s.text("contact.impact") != "moreau" || s.real("contact.restitution_tangential") == 0.0)
+        return std::nullopt;
+    return Objection{"With contact.impact: moreau one restitution serves both directions.",
+                     "Remove it, or use contact.impact: newton."};
+}
+
+Verdict only_discs_resist_rolling(const Settings& s) {
+    if (s.real("contact.rolling_friction") == 0.0 || s.text("grains.shape") == "disc")
+        return std::nullopt;
+    return Objection{fmt::format("Rolling resistance is for discs, and grains.shape = {}: faces "
+                                 "resist rolling by themselves.",
+                                 s.text("grains.shape")),
+                     "Use 0."};
+}
+
+Verdict range_of_neighbours(const Settings& s) {
+    if (s.text("contact.adhesion") == "none") return std::nullopt;
+    if (s.real("contact.adhesion_range") <= 1.0) return std::nullopt;
+    return Objection{"Adhesion acts between neighbours: up to 1 D.", "Use a smaller range."};
+}
+
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"domain.left", {"domain.right"}, left_right},
@@ -231,6 +273,13 @@ const std::vector<Rule>& rules() {
          ranks_have_cells},
         {"fluid.reynolds", {"scales.kind"}, reynolds_follows},
         {"limits.stall_hard", {"limits.stall_soft"}, limits_in_order},
+        {"contact.static_friction", {"contact.friction"}, sliding_holds_less},
+        {"contact.theta",
+         {"contact.restitution", "contact.restitution_tangential"},
+         theta_makes_no_energy},
+        {"contact.restitution_tangential", {"contact.impact"}, moreau_has_one_restitution},
+        {"contact.rolling_friction", {"grains.shape"}, only_discs_resist_rolling},
+        {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours},
     };
     return table;
 }
@@ -274,6 +323,31 @@ void check_rules(const Settings& settings, CaseEntries& entries) {
     }
 }
 
+namespace {
+
+/// Keys of laws that were not chosen.
+void add_law_notes(const Settings& s, std::vector<std::string>& notes) {
+    const auto without = [&](const char* key, bool used, const char* law) {
+        if (s.has(key) && !used)
+            notes.push_back(fmt::format("{} has no effect without {}", key, law));
+    };
+    const std::string& adhesion = s.text("contact.adhesion");
+    without("contact.static_friction", s.text("contact.law") == "static-dynamic",
+            "contact.law: static-dynamic");
+    without("contact.adhesion_force", adhesion != "none", "contact.adhesion");
+    without("contact.adhesion_range", adhesion != "none", "contact.adhesion");
+    without("contact.adhesion_length", adhesion == "capillary", "contact.adhesion: capillary");
+    without("contact.adhesion_shear", adhesion == "cohesion", "contact.adhesion: cohesion");
+    if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
+        s.real("contact.friction") > 0.0)
+        notes.push_back(
+            "contact.impact: newton with friction may make energy where several contacts of a "
+            "grain "
+            "answer at once; contact.impact: moreau never does");
+}
+
+}  // namespace
+
 std::vector<std::string> rule_notes(const Settings& settings) {
     std::vector<std::string> notes;
     const double step = settings.real("time.step");
@@ -289,6 +363,7 @@ std::vector<std::string> rule_notes(const Settings& settings) {
     add_scheme_notes(settings, notes);
     if (settings.has("grains.region") && settings.has("grains.file"))
         notes.push_back("grains.region has no effect with grains.file");
+    add_law_notes(settings, notes);
     if (const auto limit = step_limit_exceeded(settings, SchemeKind::biased))
         notes.push_back(fmt::format(
             "fluid.transport_scheme = {}: its explicit transport may grow beyond "

@@ -309,7 +309,8 @@ std::vector<KeySpec> contact_keys() {
          .type = KeyType::real,
          .fallback = "0.3",
          .range = not_negative,
-         .help = "Coulomb friction coefficient, grains and walls",
+         .help = "Coulomb friction coefficient, grains and walls; law static-dynamic: of sliding "
+                 "contacts",
          .allowed = "A friction coefficient must be zero or positive.",
          .remedy = "Use 0 for smooth grains."},
         {.name = "contact.theta",
@@ -339,6 +340,113 @@ std::vector<KeySpec> contact_keys() {
          .fallback = "0.5",
          .range = not_negative,
          .help = "fastest such push"},
+    };
+}
+
+// Forces are in weights of one grain, m g with the density of the grains: the same physical force
+// with and without a fluid.
+std::vector<KeySpec> law_keys() {
+    return {
+        {.name = "contact.law",
+         .type = KeyType::choice,
+         .fallback = "coulomb",
+         .choices = {{"coulomb", "one coefficient"},
+                     {"static-dynamic", "contact.static_friction for contacts that stick"}},
+         .help = "friction law"},
+        {.name = "contact.static_friction",
+         .type = KeyType::real,
+         .need = Need::conditional,
+         .range = not_negative,
+         .help = "friction coefficient of contacts that stick, at least contact.friction",
+         .remedy = "Write for example static_friction: 0.5.",
+         .when = "contact.law: static-dynamic",
+         .required = [](const Settings& s) { return is(s, "contact.law", "static-dynamic"); }},
+        {.name = "contact.impact",
+         .type = KeyType::choice,
+         .fallback = "newton",
+         .choices = {{"newton", "normal and tangential velocity of a contact are restored"},
+                     {"moreau", "the averaged velocity obeys the law; never makes energy"}},
+         .help = "impact law; without restitution both are the same"},
+        {.name = "contact.restitution",
+         .type = KeyType::real,
+         .fallback = "0",
+         .range = {.lower = 0.0, .upper = 1.0},
+         .help = "e: share of the approach velocity with which grains part",
+         .allowed = "A restitution lies between 0 (no rebound) and 1 (no loss).",
+         .remedy = "Use 0 for grains that do not bounce."},
+        {.name = "contact.restitution_tangential",
+         .type = KeyType::real,
+         .fallback = "0",
+         .range = {.lower = 0.0, .upper = 1.0},
+         .help = "the same along the contact (impact newton)",
+         .allowed = "A restitution lies between 0 and 1.",
+         .remedy = "Use 0."},
+        {.name = "contact.restitution_speed",
+         .type = KeyType::real,
+         .unit = "u_c",
+         .fallback = "0.001",
+         .range = not_negative,
+         .help = "grains that approach slower do not bounce"},
+        {.name = "contact.rolling_friction",
+         .type = KeyType::real,
+         .fallback = "0",
+         .range = not_negative,
+         .help = "slope up to which a disc does not roll: its rolling resistance over R r_n",
+         .allowed = "A coefficient of rolling resistance must be zero or positive.",
+         .remedy = "Use 0 for grains that roll freely."},
+    };
+}
+
+bool adheres(const Settings& s) {
+    return s.has("contact.adhesion") && !is(s, "contact.adhesion", "none");
+}
+
+std::vector<KeySpec> adhesion_keys() {
+    return {
+        {.name = "contact.adhesion",
+         .type = KeyType::choice,
+         .fallback = "none",
+         .choices = {{"none", "dry"},
+                     {"cohesion", "bonds of the first window, broken for ever"},
+                     {"wet", "constant pull within contact.adhesion_range"},
+                     {"wet-irreversible", "the same, lost beyond the range"},
+                     {"capillary", "bridges that form on contact and break at the range"}},
+         .help = "what pulls grains together"},
+        {.name = "contact.adhesion_force",
+         .type = KeyType::real,
+         .unit = "m g",
+         .need = Need::conditional,
+         .range = positive,
+         .help = "pull that parts two touching grains of diameter D",
+         .remedy = "Write for example adhesion_force: 1.",
+         .when = "contact.adhesion",
+         .required = adheres},
+        {.name = "contact.adhesion_range",
+         .type = KeyType::real,
+         .unit = "D",
+         .need = Need::conditional,
+         .range = positive,
+         .help = "gap up to which it acts; cohesion: up to which the first window makes bonds",
+         .remedy = "Write for example adhesion_range: 0.05; for cohesion 0.001.",
+         .when = "contact.adhesion",
+         .required = adheres},
+        {.name = "contact.adhesion_length",
+         .type = KeyType::real,
+         .unit = "D",
+         .need = Need::conditional,
+         .range = positive,
+         .help = "decay of a bridge's force over the gap",
+         .remedy = "Write for example adhesion_length: 0.02.",
+         .when = "contact.adhesion: capillary",
+         .required = [](const Settings& s) { return is(s, "contact.adhesion", "capillary"); }},
+        {.name = "contact.adhesion_shear",
+         .type = KeyType::real,
+         .need = Need::conditional,
+         .range = positive,
+         .help = "strength of a bond in shear over that in traction",
+         .remedy = "Write for example adhesion_shear: 1.",
+         .when = "contact.adhesion: cohesion",
+         .required = [](const Settings& s) { return is(s, "contact.adhesion", "cohesion"); }},
     };
 }
 
@@ -450,8 +558,8 @@ std::vector<KeySpec> limit_keys() {
 
 std::vector<KeySpec> all_keys() {
     std::vector<KeySpec> table;
-    for (auto* group : {general_keys, grains_keys, fluid_keys, contact_keys, scheme_keys,
-                        scales_keys, limit_keys})
+    for (auto* group : {general_keys, grains_keys, fluid_keys, contact_keys, law_keys,
+                        adhesion_keys, scheme_keys, scales_keys, limit_keys})
         for (KeySpec& key : group()) table.push_back(std::move(key));
     return table;
 }

@@ -26,5 +26,6 @@ CommandAction declare_compare(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
 CommandAction declare_bench(CLI::App& options);
+CommandAction declare_yade(CLI::App& options);
 
 }  // namespace turbidite

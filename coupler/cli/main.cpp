@@ -34,6 +34,7 @@ const std::vector<Command>& commands() {
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"test", "run the tests", declare_test},
         {"bench", "time this software beside others", declare_bench},
+        {"yade", "run a script of your own in YADE with the contact engine", declare_yade},
     };
     return table;
 }

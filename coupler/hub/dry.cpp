@@ -14,7 +14,8 @@ class Dry final : public Scheme {
         WindowResult result;
         cast.watch.wait_for(cast.grains, Kind::state);
         result.state = cast.plan.gather(cast.grains.take<Motion>(Kind::state));
-        result.motion = result.state;
+        result.motion.grains = result.state.grains;
+        result.motion.report = result.state.report;
         result.motion.report.wall_seconds = 0.0;  // counted once, in the state
         return result;
     }

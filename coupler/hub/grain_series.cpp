@@ -1,112 +1,115 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/grain_series.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ostream.h>
-
-#include <fstream>
-#include <string_view>
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
-
-#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
 
-std::string triple(const Vec3& v) {
-    return fmt::format("{:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]);
-}
-
-template <class Value>
-void data_array(std::ostream& out, const char* head, const std::vector<GrainState>& grains,
-                Value value) {
-    fmt::print(out, "<DataArray {} format=\"ascii\">\n", head);
-    for (const GrainState& grain : grains) out << value(grain);
-    out << "</DataArray>\n";
-}
-
-// Written beside and renamed: a reader never meets half a file.
-template <class Content>
-void write_whole(const std::filesystem::path& file, Content content) {
-    const std::filesystem::path part = file.string() + ".part";
-    {
-        std::ofstream out(part);
-        content(out);
-        out.flush();
-        if (!out)
-            throw Failure(ExitCode::participant_failed,
-                          "cannot write " + file.string() + ": is the disk full?");
-    }
-    std::filesystem::rename(part, file);
+std::filesystem::path made(std::filesystem::path folder) {
+    std::filesystem::create_directories(folder);
+    return folder;
 }
 
 Vec3 divided(const Vec3& v, double by) {
     return {v[0] / by, v[1] / by, v[2] / by};
 }
 
+/// A point of the body frame of unit circumradius, in the plane.
+Vec3 in_space(const GrainState& grain, const std::array<double, 2>& vertex) {
+    const Quaternion& q = grain.orientation;
+    const double cosine = 1.0 - 2.0 * q[3] * q[3], sine = 2.0 * q[0] * q[3];
+    const double x = grain.radius * vertex[0], y = grain.radius * vertex[1];
+    return {grain.position[0] + cosine * x - sine * y, grain.position[1] + sine * x + cosine * y,
+            0.0};
+}
+
 }  // namespace
 
-GrainSeries::GrainSeries(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::filesystem::create_directories(folder_);
-    collection_.open(folder_ / "grains.pvd", std::ios::out | std::ios::trunc);
-    collection_
-        << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes)
+    : folder_(made(std::move(folder))), collection_(folder_ / "grains.pvd") {
+    for (const ShapeRecord& shape : shapes) {
+        Outline& outline = outlines_.emplace_back();
+        for (std::size_t k = 0; k + 1 < shape.vertices.size(); k += 2)
+            outline.push_back({shape.vertices[k], shape.vertices[k + 1]});
+    }
 }
 
 void GrainSeries::write(double time, std::int64_t step, double window, const Motion& state,
                         const std::vector<Kick>& kicks) {
+    std::vector<std::string> parts = {fmt::format("grains_{:08d}.vtp", step)};
+    write_points(parts[0], window, state, kicks);
+    const auto cornered = [](const Outline& outline) { return !outline.empty(); };
+    if (std::any_of(outlines_.begin(), outlines_.end(), cornered)) {
+        parts.push_back(fmt::format("outlines_{:08d}.vtp", step));
+        write_outlines(parts[1], state);
+    }
+    collection_.add(time, parts);
+}
+
+void GrainSeries::write_points(const std::string& name, double window, const Motion& state,
+                               const std::vector<Kick>& kicks) const {
     std::unordered_map<GrainId, Vec3> forces;
     for (const Kick& kick : kicks) forces[kick.id] = kick.force;
     const auto force = [&](const GrainState& g) {
         const auto at = forces.find(g.id);
-        return triple(at == forces.end() ? Vec3{} : at->second);
+        return at == forces.end() ? Vec3{} : at->second;
     };
+    using Grain = const GrainState&;
     const auto& grains = state.grains;
-    const std::string name = fmt::format("grains_{:08d}.vtp", step);
-    write_whole(folder_ / name, [&](std::ostream& out) {
-        fmt::print(out,
-                   "<?xml version=\"1.0\"?>\n"
-                   "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-                   "<PolyData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\">\n<Points>\n",
-                   grains.size());
-        data_array(out, "type=\"Float64\" NumberOfComponents=\"3\"", grains,
-                   [](const GrainState& g) { return triple(g.position); });
+    const vtk::PieceSize size{.points = grains.size(), .vertices = grains.size()};
+    vtk::write_poly_data(folder_ / name, size, [&](std::ostream& out) {
+        out << "<Points>\n";
+        vtk::vectors(out, "position", grains, [](Grain g) { return g.position; });
         out << "</Points>\n<Verts>\n";
-        std::size_t vertex = 0, offset = 0;
-        data_array(out, "type=\"Int64\" Name=\"connectivity\"", grains,
-                   [&](const GrainState&) { return fmt::format("{}\n", vertex++); });
-        data_array(out, "type=\"Int64\" Name=\"offsets\"", grains,
-                   [&](const GrainState&) { return fmt::format("{}\n", ++offset); });
+        vtk::consecutive_cells(out, std::vector<std::size_t>(grains.size(), 1));
         out << "</Verts>\n<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
-        data_array(out, "type=\"Int64\" Name=\"id\"", grains,
-                   [](const GrainState& g) { return fmt::format("{}\n", g.id); });
-        data_array(out, "type=\"Float64\" Name=\"radius\"", grains,
-                   [](const GrainState& g) { return fmt::format("{:.9g}\n", g.radius); });
-        data_array(out, "type=\"Float64\" Name=\"density\"", grains,
-                   [](const GrainState& g) { return fmt::format("{:.9g}\n", g.density); });
-        data_array(out, "type=\"Float64\" Name=\"velocity\" NumberOfComponents=\"3\"", grains,
-                   [](const GrainState& g) { return triple(g.velocity); });
-        data_array(out, "type=\"Float64\" Name=\"angular_velocity\" NumberOfComponents=\"3\"",
-                   grains, [](const GrainState& g) { return triple(g.angular_velocity); });
-        data_array(out, "type=\"Float64\" Name=\"force\" NumberOfComponents=\"3\"", grains, force);
-        data_array(out, "type=\"Float64\" Name=\"contact_force\" NumberOfComponents=\"3\"", grains,
-                   [&](const GrainState& g) { return triple(divided(g.contact_impulse, window)); });
-        out << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+        vtk::integers(out, "id", grains, [](Grain g) { return g.id; });
+        vtk::integers(out, "shape", grains, [](Grain g) { return g.shape; });
+        vtk::scalars(out, "radius", grains, [](Grain g) { return g.radius; });
+        vtk::scalars(out, "density", grains, [](Grain g) { return g.density; });
+        vtk::data_array(out, "type=\"Float64\" Name=\"orientation\" NumberOfComponents=\"4\"",
+                        grains, [](Grain g) {
+                            const Quaternion& q = g.orientation;
+                            return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", q[0], q[1], q[2],
+                                               q[3]);
+                        });
+        vtk::vectors(out, "velocity", grains, [](Grain g) { return g.velocity; });
+        vtk::vectors(out, "angular_velocity", grains, [](Grain g) { return g.angular_velocity; });
+        vtk::vectors(out, "force", grains, force);
+        vtk::vectors(out, "contact_force", grains,
+                     [&](Grain g) { return divided(g.contact_impulse, window); });
+        out << "</PointData>\n";
     });
-    add_to_collection(time, name);
 }
 
-// The end tags are overwritten by the next entry and its end tags, in one write.
-void GrainSeries::add_to_collection(double time, const std::string& name) {
-    constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
-    collection_ << fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n{}", time,
-                               name, end_tags)
-                << std::flush;
-    if (!collection_)
-        throw Failure(ExitCode::participant_failed,
-                      "cannot write " + (folder_ / "grains.pvd").string() + ": is the disk full?");
-    collection_.seekp(-static_cast<std::streamoff>(end_tags.size()), std::ios::end);
+void GrainSeries::write_outlines(const std::string& name, const Motion& state) const {
+    std::vector<const GrainState*> grains;
+    std::vector<std::size_t> corners;
+    std::vector<Vec3> points;
+    for (const GrainState& grain : state.grains) {
+        const Outline& outline = outlines_.at(static_cast<std::size_t>(grain.shape));
+        if (outline.empty()) continue;
+        grains.push_back(&grain);
+        corners.push_back(outline.size());
+        for (const auto& vertex : outline) points.push_back(in_space(grain, vertex));
+    }
+    using Grain = const GrainState*;
+    const vtk::PieceSize size{.points = points.size(), .polygons = grains.size()};
+    vtk::write_poly_data(folder_ / name, size, [&](std::ostream& out) {
+        out << "<Points>\n";
+        vtk::vectors(out, "position", points, [](const Vec3& point) { return point; });
+        out << "</Points>\n<Polys>\n";
+        vtk::consecutive_cells(out, corners);
+        out << "</Polys>\n<CellData Scalars=\"id\" Vectors=\"velocity\">\n";
+        vtk::integers(out, "id", grains, [](Grain g) { return g->id; });
+        vtk::integers(out, "shape", grains, [](Grain g) { return g->shape; });
+        vtk::vectors(out, "velocity", grains, [](Grain g) { return g->velocity; });
+        vtk::vectors(out, "angular_velocity", grains, [](Grain g) { return g->angular_velocity; });
+        out << "</CellData>\n";
+    });
 }
 
 }  // namespace turbidite

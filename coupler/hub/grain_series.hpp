@@ -1,32 +1,41 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The grains as a ParaView series: grains/grains.pvd over one VTK PolyData file per output. Apply a
-// glyph (sphere, scaled by `radius` with factor 2) to see them.
+// The grains as a ParaView series: grains/grains.pvd over one VTK PolyData file per output with a
+// point per grain. Apply a glyph (sphere, scaled by `radius` with factor 2) to see discs. When a
+// shape has corners, a second part of the same series, outlines_<step>.vtp, holds the grains that
+// have it as polygons.
 #pragma once
 
+#include <array>
 #include <filesystem>
-#include <fstream>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "coupler/hub/vtk_files.hpp"
 #include "coupler/protocol/records.hpp"
 
 namespace turbidite {
 
 class GrainSeries {
  public:
-    explicit GrainSeries(std::filesystem::path folder);
+    GrainSeries(std::filesystem::path folder, const ShapeTable& shapes);
 
-    /// Points in run units with id, radius, density, velocity, angular_velocity, force,
-    /// contact_force. The series file is complete after every call. `time` is in run units.
+    /// Points in run units with id, shape, radius, density, orientation (quaternion w, x, y, z),
+    /// velocity, angular_velocity, force, contact_force. The series file is complete after every
+    /// call. `time` is in run units, `window` the step over which contact impulses were summed.
     void write(double time, std::int64_t step, double window, const Motion& state,
                const std::vector<Kick>& kicks);
 
  private:
-    void add_to_collection(double time, const std::string& name);
+    using Outline = std::vector<std::array<double, 2>>;  ///< of unit circumradius, body frame
+
+    void write_points(const std::string& name, double window, const Motion& state,
+                      const std::vector<Kick>& kicks) const;
+    void write_outlines(const std::string& name, const Motion& state) const;
 
     std::filesystem::path folder_;
-    std::ofstream collection_;
+    std::vector<Outline> outlines_;  ///< per shape; empty for round ones
+    vtk::Collection collection_;
 };
 
 }  // namespace turbidite

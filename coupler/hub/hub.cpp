@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "coupler/hub/domain.hpp"
 #include "coupler/hub/handshake.hpp"
 
 namespace turbidite {
@@ -38,13 +39,6 @@ std::string scheme_name(const Settings& settings) {
     return settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
 }
 
-Vec3 periods(const Settings& settings) {
-    const auto period = [&](const char* side, const char* size) {
-        return settings.text(side) == "cyclic" ? settings.real(size) : 0.0;
-    };
-    return {period("domain.left", "run.size_x"), period("domain.bottom", "run.size_y"), 0.0};
-}
-
 double routing_margin(const Settings& settings) {
     return stencil_cells * settings.real("run.diameter") /
            settings.real("fluid.cells_per_diameter");
@@ -68,7 +62,8 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid)
       scheme_(make_scheme(scheme_name(case_.settings), case_.settings)),
       ledger_(case_.settings, case_.population.size()),
       history_(files_.history, case_.settings, kick_rule_),
-      series_(files_.series) {}
+      grain_series_(files_.series, case_.shapes),
+      contact_series_(files_.series) {}
 
 Hub::~Hub() = default;
 
@@ -142,14 +137,14 @@ void Hub::start() {
         watch_.wait_for(*fluid_, Kind::domain);
         boxes = fluid_->take<Box>(Kind::domain);
     }
-    plan_.emplace(std::move(boxes), routing_margin(case_.settings), periods(case_.settings));
+    plan_.emplace(std::move(boxes), routing_margin(case_.settings), domain_periods(case_.settings));
     watch_.wait_for(grains_, Kind::state);
     state_ = plan_->gather(grains_.take<Motion>(Kind::state));
     ledger_.check_start(state_);
     Row row;
     row.state = &state_;
     history_.append(row);
-    series_.write(0.0, 0, 1.0, state_, {});
+    grain_series_.write(0.0, 0, 1.0, state_, {});
 }
 
 Window Hub::window(std::int64_t index) const {
@@ -203,22 +198,21 @@ void Hub::account(const Window& window, WindowResult result) {
     row.fluid = fluid_ ? &fluid : nullptr;
     row.joint = result.joint ? &*result.joint : nullptr;
     if (fluid_) row.grain_balance = balance;
-    if (window.write_output)
-        series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);
-
-    ++windows_since_row_;
-    const double step = since(window_start_);
-    wall_since_row_.step += step;
-    wall_since_row_.fluid += fluid.wall_seconds;
-    wall_since_row_.grains += result.motion.report.wall_seconds + state_.report.wall_seconds;
-    wall_since_row_.coupling += std::max(0.0, step - watch_.take_waited());
     if (window.write_output) {
-        const double n = static_cast<double>(windows_since_row_);
-        const WallTimes& sum = wall_since_row_;
-        row.wall = WallTimes{sum.step / n, sum.fluid / n, sum.grains / n, sum.coupling / n};
+        grain_series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);
+        contact_series_.write(row.time, row.step, window.step, state_);
+    }
+
+    WallTimes spent;
+    spent.step = since(window_start_);
+    spent.fluid = fluid.wall_seconds;
+    spent.grains = result.motion.report.wall_seconds + state_.report.wall_seconds;
+    spent.coupling = std::max(0.0, spent.step - watch_.take_waited());
+    since_row_.take_in(spent, result.motion.report.converged);
+    if (window.write_output) {
+        row.since = since_row_;
         history_.append(row);
-        wall_since_row_ = {};
-        windows_since_row_ = 0;
+        since_row_ = {};
     }
     progress_.show(row, case_.settings, window.write_output);
 }

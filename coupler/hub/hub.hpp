@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 
+#include "coupler/hub/contact_series.hpp"
 #include "coupler/hub/grain_series.hpp"
 #include "coupler/hub/ledger.hpp"
 #include "coupler/hub/progress.hpp"
@@ -63,10 +64,10 @@ class Hub {
     std::unique_ptr<Scheme> scheme_;
     Ledger ledger_;
     History history_;
-    GrainSeries series_;
+    GrainSeries grain_series_;
+    ContactSeries contact_series_;
     Motion state_;
-    WallTimes wall_since_row_;
-    std::int64_t windows_since_row_ = 0;
+    SinceRow since_row_;
     RunStatus status_;
     std::chrono::steady_clock::time_point window_start_;
 };

@@ -29,6 +29,16 @@ void demand_finite(const Motion& motion, const std::string& when) {
                 g.velocity[1], g.velocity[2]));
 }
 
+void demand_finite(const std::vector<ContactRecord>& contacts, std::int64_t window) {
+    for (const ContactRecord& c : contacts)
+        if (!finite(c.point) || !finite(c.normal) || !finite(c.branch) || !finite(c.impulse) ||
+            !finite(c.rolling_impulse) || !std::isfinite(c.gap))
+            throw PhysicsRefused(fmt::format(
+                "a contact of grain {} is not finite in window {}: impulse ({}, {}, {}), gap {}. "
+                "Try a smaller time.step.",
+                c.b, window, c.impulse[0], c.impulse[1], c.impulse[2], c.gap));
+}
+
 void demand_finite(const std::vector<Kick>& kicks, std::int64_t window) {
     for (const Kick& k : kicks)
         if (!finite(k.velocity) || !finite(k.angular_velocity) || !finite(k.multiplier_impulse))
@@ -55,6 +65,7 @@ void Ledger::check(const Window& window, const WindowResult& result) {
     demand_finite(result.motion, fmt::format("after the contacts of window {}", window.index));
     demand_finite(result.kicks.kicks, window.index);
     demand_finite(result.state, fmt::format("after the move of window {}", window.index));
+    if (result.state.contacts) demand_finite(*result.state.contacts, window.index);
     removed_ += static_cast<std::size_t>(result.state.report.removed);
     check_count(result.state);
     check_overlap(result.state);
@@ -72,10 +83,11 @@ void Ledger::check_count(const Motion& state) const {
 void Ledger::check_overlap(const Motion& state) const {
     const double overlap = state.report.max_penetration / diameter_;
     if (overlap <= penetration_limit_) return;
-    throw PhysicsRefused(fmt::format(
-        "grains overlap by {:.3g} D, limits.penetration = {:.3g} D. Use a smaller time.step, or more "
-        "contact.iterations.",
-        overlap, penetration_limit_));
+    throw PhysicsRefused(
+        fmt::format("grains overlap by {:.3g} D, limits.penetration = {:.3g} D. Use a smaller "
+                    "time.step, or more "
+                    "contact.iterations.",
+                    overlap, penetration_limit_));
 }
 
 void Ledger::check_divergence(const FluidReport& report) {

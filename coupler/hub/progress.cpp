@@ -23,9 +23,10 @@ double mean_fall(const Motion& state) {
 std::string residuals(const Row& row, double velocity) {
     std::string text;
     if (row.contact)
-        text += fmt::format("  contacts {} ({} sweeps, {:.0e}{})", row.contact->contacts,
-                            row.contact->iterations, row.contact->residual,
-                            row.contact->converged ? "" : " NOT CONVERGED");
+        text += fmt::format(
+            "  contacts {} ({} sweeps{}{})", row.contact->contacts, row.contact->iterations,
+            row.contact->residual ? fmt::format(", {:.0e}", *row.contact->residual) : "",
+            row.contact->converged ? "" : " NOT CONVERGED");
     if (row.fluid)
         text += fmt::format("  multipliers {} its, {:.0e}", row.fluid->multiplier_iterations,
                             row.fluid->multiplier_residual / velocity);

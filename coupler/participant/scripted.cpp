@@ -70,7 +70,18 @@ void ScriptedGrains::touch_floor(GrainState& grain, double mass, double step) {
     const double impulse = std::max(0.0, -mass * (grain.velocity[1] + gap / step));
     grain.velocity[1] += impulse / mass;
     grain.contact_impulse = {0.0, impulse, 0.0};
-    if (impulse > 0.0) ++motion_.report.contacts;
+    if (impulse == 0.0) return;
+    ++motion_.report.contacts;
+    ContactRecord contact;
+    contact.b = grain.id;
+    contact.wall = 2;
+    contact.status = ContactStatus::sliding;
+    contact.gap = gap;
+    contact.point = {grain.position[0], grain.position[1] - grain.radius, 0.0};
+    contact.normal = {0.0, 1.0, 0.0};
+    contact.branch = {0.0, grain.radius, 0.0};
+    contact.impulse = grain.contact_impulse;
+    contacts_.push_back(contact);
 }
 
 Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeResponse>& responses) {
@@ -79,6 +90,8 @@ Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeRespo
     for (const FreeResponse& response : responses) by_id[response.id] = &response;
     motion_.report = {};
     motion_.report.iterations = 1;
+    motion_.contacts.reset();
+    contacts_.clear();
     contact_velocities_.clear();
     for (GrainState& grain : motion_.grains) {
         const ImmersedBody body = bodies_.body(grain);
@@ -112,6 +125,7 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
         const double overlap = floor_ - (grain.position[1] - grain.radius);
         motion_.report.max_penetration = std::max(motion_.report.max_penetration, overlap);
     }
+    if (window.write_output) motion_.contacts = contacts_;
     return motion_;
 }
 

@@ -64,6 +64,7 @@ class ScriptedGrains : public GrainsAdapter {
     double floor_;
     bool joint_ = false;
     std::vector<Vec3> contact_velocities_;
+    std::vector<ContactRecord> contacts_;  ///< of the last advance
     Fault fault_;
 };
 

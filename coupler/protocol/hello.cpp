@@ -56,6 +56,9 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
     report.demand(hello.protocol_major == protocol_major, "protocol version",
                   version(hello.protocol_minor, hello.protocol_major),
                   std::to_string(protocol_major) + ".x");
+    report.demand(hello.protocol_major != protocol_major || hello.protocol_minor >= oldest_minor,
+                  "protocol version", version(hello.protocol_minor),
+                  version(oldest_minor) + " or later (rebuild the adapter)");
     report.demand(hello.role == expected.role, "role", role_name(hello.role),
                   role_name(expected.role));
     report.demand(expected.adapter.empty() || hello.adapter == expected.adapter, "adapter",
@@ -70,8 +73,6 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
     const bool joint = expected.scheme == "joint";
     report.demand(!joint || hello.capabilities.effective_inertia, "knowledge of scheme joint",
                   "absent", "it for coupling.scheme: joint (or use split)");
-    report.demand(!joint || hello.protocol_minor >= joint_since_minor, "protocol version",
-                  version(hello.protocol_minor), version(joint_since_minor) + " for joint");
     for (const std::string& shape : expected.shapes)
         report.demand(contains(hello.capabilities.shapes, shape), "list of shapes",
                       joined(hello.capabilities.shapes), shape);

@@ -10,12 +10,13 @@
 
 namespace turbidite {
 
-/// Major versions must be equal; of the minor ones the smaller rules.
+/// Major versions must be equal; of the minor ones the smaller rules, down to `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 1;
+inline constexpr std::int32_t protocol_minor = 2;
 
-/// The first minor version whose `joint` has rounds.
-inline constexpr std::int32_t joint_since_minor = 1;
+/// The oldest minor version that is understood: since then a Motion may carry contacts, and a
+/// contact report leaves out what its adapter does not have.
+inline constexpr std::int32_t oldest_minor = 2;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 

@@ -12,7 +12,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace turbidite {
@@ -94,21 +96,61 @@ struct Window {
     bool write_checkpoint = false;  ///< states are due at its end
 };
 
-/// How the contact side fared.
+/// How the contact side fared. What an adapter does not have stays empty: codes with springs know
+/// no residual.
 struct ContactReport {
-    std::int64_t contacts = 0;    ///< with an impulse
-    std::int64_t iterations = 0;  ///< sweeps of the contact solver
-    double residual = 0.0;        ///< scaled natural map
+    std::int64_t contacts = 0;       ///< with an impulse
+    std::int64_t iterations = 0;     ///< sweeps of the contact solver; sub-steps of native_substeps
+    std::optional<double> residual;  ///< scaled natural map
     bool converged = true;
     double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
     std::int64_t removed = 0;      ///< grains that left through a free side in this window
     double wall_seconds = 0.0;     ///< time in the adapter's own work
+    std::optional<double>
+        quad;                   ///< mean change by one more update of every contact (nscd/residual)
+    std::optional<double> max;  ///< its largest
 };
+
+/// Bits of ContactRecord::status; none of them: both surfaces stick.
+struct ContactStatus {
+    static constexpr std::int32_t sliding = 1;  ///< friction is at its limit
+    static constexpr std::int32_t rolling = 2;  ///< the rolling moment is at its limit
+};
+
+/// One contact point with an impulse, where and as it was found in the window: at q^n for adapters
+/// that solve once, in the last sub-step for others.
+///
+/// A pair that touches along an edge has several records, told apart by `feature`. With several
+/// grains ranks the one that owns b tells it. What pulls (cohesion) has impulse . normal < 0.
+struct ContactRecord {
+    GrainId a = 0;           ///< the smaller id; without meaning at a wall
+    GrainId b = 0;           ///< the larger id, or the grain at the wall
+    std::int32_t wall = -1;  ///< of a: 0 left, 1 right, 2 bottom, 3 top, others follow; -1: a grain
+    std::int32_t feature = 0;  ///< which of the pair's points
+    std::int32_t status = 0;   ///< bits of ContactStatus
+    double gap = 0.0;          ///< negative: overlap [m]
+    Vec3 point{};              ///< [m]
+    Vec3 normal{};             ///< unit, from a to b
+    Vec3 branch{};   ///< centre of b minus that of a, nearest image; at a wall minus `point` [m]
+    Vec3 impulse{};  ///< on b over the window, -impulse on a [N s]
+    Vec3 rolling_impulse{};  ///< moment on b beside that of `impulse`, its negative on a [N m s]
+};
+
+/// The order in which contacts are kept; records that are equal in it are the same contact.
+inline bool contact_before(const ContactRecord& x, const ContactRecord& y) {
+    const auto key = [](const ContactRecord& c) {
+        return std::make_tuple(c.wall, c.wall < 0 ? c.a : 0, c.b, c.feature);
+    };
+    return key(x) < key(y);
+}
 
 /// What a grains rank sends: its grains and how the contact side fared.
 struct Motion {
     std::vector<GrainState> grains;
     ContactReport report;
+    /// Told with the state at the end of windows with output, by adapters that know them; otherwise
+    /// empty, which is not the same as none.
+    std::optional<std::vector<ContactRecord>> contacts = {};
 };
 
 /// How the fluid side fared.

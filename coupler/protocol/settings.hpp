@@ -6,6 +6,8 @@
 //
 //     run.diameter  run.velocity_scale  run.time_scale        D, u_c, t_c
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
+//     run.grain_weight                                        m g of a disc of diameter D in air,
+//                                                             unit of forces in contact laws
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.size_x    run.size_y  run.size_z                    domain [m]
 //     run.hash      run.walls                   hash of the resolved case, walls inside the box

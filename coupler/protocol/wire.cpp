@@ -60,6 +60,20 @@ void list(Reader& code, std::vector<Record>& records, Visit visit) {
     for (Record& record : records) visit(code, record);
 }
 
+template <class Value, class Visit>
+void maybe(Writer& code, const std::optional<Value>& value, Visit visit) {
+    code(value.has_value());
+    if (value) visit(code, *value);
+}
+
+template <class Value, class Visit>
+void maybe(Reader& code, std::optional<Value>& value, Visit visit) {
+    bool given = false;
+    code(given);
+    value.reset();
+    if (given) visit(code, value.emplace());
+}
+
 constexpr auto plain = [](auto& code, auto& value) { code(value); };
 
 constexpr auto visit_grain = [](auto& code, auto& g) {
@@ -71,13 +85,25 @@ constexpr auto visit_grain = [](auto& code, auto& g) {
 };
 
 constexpr auto visit_contact_report = [](auto& code, auto& r) {
-    code(r.contacts), code(r.iterations), code(r.residual), code(r.converged);
+    code(r.contacts), code(r.iterations), maybe(code, r.residual, plain), code(r.converged);
     code(r.max_penetration), code(r.removed), code(r.wall_seconds);
+    maybe(code, r.quad, plain), maybe(code, r.max, plain);
+};
+
+constexpr auto visit_contact = [](auto& code, auto& c) {
+    code(c.a), code(c.b), code(c.wall), code(c.feature), code(c.status), code(c.gap);
+    array(code, c.point), array(code, c.normal), array(code, c.branch);
+    array(code, c.impulse), array(code, c.rolling_impulse);
+};
+
+constexpr auto visit_contacts = [](auto& code, auto& contacts) {
+    list(code, contacts, visit_contact);
 };
 
 constexpr auto visit_motion = [](auto& code, auto& motion) {
     list(code, motion.grains, visit_grain);
     visit_contact_report(code, motion.report);
+    maybe(code, motion.contacts, visit_contacts);
 };
 
 constexpr auto visit_kick = [](auto& code, auto& k) {

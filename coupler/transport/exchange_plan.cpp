@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,14 +28,45 @@ bool touches(const GrainState& grain, const Box& box, double margin, const Vec3&
     return true;
 }
 
+std::optional<double> largest_given(std::optional<double> a, std::optional<double> b) {
+    return a && b ? largest(*a, *b) : a ? a : b;
+}
+
 void add(ContactReport& total, const ContactReport& share) {
     total.contacts += share.contacts;
     total.iterations = std::max(total.iterations, share.iterations);
-    total.residual = largest(total.residual, share.residual);
+    total.residual = largest_given(total.residual, share.residual);
+    total.quad = largest_given(total.quad, share.quad);
+    total.max = largest_given(total.max, share.max);
     total.converged = total.converged && share.converged;
     total.max_penetration = largest(total.max_penetration, share.max_penetration);
     total.removed += share.removed;
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
+}
+
+std::string name_of(const ContactRecord& contact) {
+    const std::string first = contact.wall < 0 ? "grain " + std::to_string(contact.a)
+                                               : "wall " + std::to_string(contact.wall);
+    return "the contact of " + first + " and grain " + std::to_string(contact.b) + " (point " +
+           std::to_string(contact.feature) + ")";
+}
+
+std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>& shares) {
+    const auto tells = [](const Motion& share) { return share.contacts.has_value(); };
+    if (std::none_of(shares.begin(), shares.end(), tells)) return std::nullopt;
+    if (!std::all_of(shares.begin(), shares.end(), tells))
+        throw PhysicsRefused("only some grains ranks told their contacts");
+    std::vector<ContactRecord> all;
+    for (const Motion& share : shares)
+        all.insert(all.end(), share.contacts->begin(), share.contacts->end());
+    std::sort(all.begin(), all.end(), contact_before);
+    const auto twice = std::adjacent_find(
+        all.begin(), all.end(),
+        [](const ContactRecord& x, const ContactRecord& y) { return !contact_before(x, y); });
+    if (twice != all.end())
+        throw PhysicsRefused(name_of(*twice) +
+                             " was sent twice: the rank that owns the second grain tells it");
+    return all;
 }
 
 }  // namespace
@@ -53,6 +85,11 @@ Motion ExchangePlan::gather(const std::vector<Motion>& shares) {
         all.grains.insert(all.grains.end(), shares[rank].grains.begin(), shares[rank].grains.end());
         add(all.report, shares[rank].report);
     }
+    all.contacts = all_contacts(shares);
+    for (const ContactRecord& contact : all.contacts.value_or(std::vector<ContactRecord>{}))
+        for (const GrainId id : {contact.b, contact.wall < 0 ? contact.a : contact.b})
+            if (owner_.count(id) == 0)
+                throw PhysicsRefused(name_of(contact) + " names a grain that nobody sent");
     return all;
 }
 

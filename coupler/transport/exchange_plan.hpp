@@ -19,8 +19,10 @@ class ExchangePlan {
     /// points). `period` [m] per axis: 0 where the domain is not cyclic.
     ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period);
 
-    /// One list from what the grains ranks sent; remembers who owns what. Throws PhysicsRefused
-    /// when an id comes twice.
+    /// One list from what the grains ranks sent; remembers who owns what. Contacts are in the order
+    /// of contact_before, however many ranks there are. Throws PhysicsRefused when an id or a
+    /// contact comes twice, a contact names a grain that nobody sent, or only some ranks tell
+    /// contacts.
     Motion gather(const std::vector<Motion>& shares);
 
     /// For every fluid rank the grains that touch its box.

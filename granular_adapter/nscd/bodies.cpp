@@ -21,6 +21,7 @@ void Bodies::add(const Body& body) {
     demand_positive(body, body.inertia, "inertia");
     id.push_back(body.id);
     shape.push_back(body.shape);
+    material.push_back(body.material);
     radius.push_back(body.radius);
     density.push_back(body.density);
     mass.push_back(body.mass);

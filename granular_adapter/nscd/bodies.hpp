@@ -28,9 +28,10 @@ struct Twist {
 /// One body, as it is added.
 struct Body {
     GrainId id = 0;
-    std::int32_t shape = 0;  ///< index into the ShapeTable
-    double radius = 0.0;     ///< circumscribed [m]
-    double density = 0.0;    ///< [kg/m3]
+    std::int32_t shape = 0;     ///< index into the ShapeTable
+    std::int32_t material = 0;  ///< index into the SurfaceTable
+    double radius = 0.0;        ///< circumscribed [m]
+    double density = 0.0;       ///< [kg/m3]
     double mass = 0.0;
     double inertia = 0.0;
     double weight_mass = 0.0;
@@ -45,6 +46,7 @@ struct Body {
 struct Bodies {
     std::vector<GrainId> id;
     std::vector<std::int32_t> shape;
+    std::vector<std::int32_t> material;
     std::vector<double> radius;
     std::vector<double> density;
     std::vector<double> mass;
@@ -77,7 +79,8 @@ struct Bodies {
     /// more line here, and removal and restart know it.
     template <class Self, class Visit>
     static void for_each_array(Self& self, Visit&& visit) {
-        visit(self.id), visit(self.shape), visit(self.radius), visit(self.density);
+        visit(self.id), visit(self.shape), visit(self.material), visit(self.radius),
+            visit(self.density);
         visit(self.mass), visit(self.inertia), visit(self.weight_mass);
         visit(self.position), visit(self.orientation), visit(self.twist);
         visit(self.force), visit(self.torque), visit(self.fixed), visit(self.rotation_blocked);

@@ -10,9 +10,9 @@ Vec3 point_velocity(const Twist& twist, const Vec3& arm) {
     return twist.velocity + cross(twist.spin, arm);
 }
 
-/// Impulse p at the end of `arm`.
-void push(Twist& twist, const BodyMobility& body, const Vec3& arm, const Vec3& p) {
-    const PlanarVector change = body * PlanarVector{p[0], p[1], cross(arm, p)[2]};
+/// Impulse p at the end of `arm` and moment impulse m.
+void push(Twist& twist, const BodyMobility& body, const Vec3& arm, const Vec3& p, double m) {
+    const PlanarVector change = body * PlanarVector{p[0], p[1], cross(arm, p)[2] + m};
     twist.velocity[0] += change.x;
     twist.velocity[1] += change.y;
     twist.spin[2] += change.spin;
@@ -26,8 +26,12 @@ Vec3 tangent_of(const Vec3& normal) {
 
 Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v) {
     Vec3 relative = point_velocity(v[contact.b], contact.arm_b);
-    if (contact.a >= 0) relative = relative - point_velocity(v[contact.a], contact.arm_a);
-    return {dot(contact.normal, relative), dot(contact.tangent, relative), 0.0};
+    double spin = v[contact.b].spin[2];
+    if (contact.a >= 0) {
+        relative = relative - point_velocity(v[contact.a], contact.arm_a);
+        spin -= v[contact.a].spin[2];
+    }
+    return {dot(contact.normal, relative), dot(contact.tangent, relative), spin};
 }
 
 Vec3 world_impulse(const Contact& contact, const Vec3& r) {
@@ -39,8 +43,9 @@ std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses
     for (std::size_t k = 0; k < r.size(); ++k) {
         const Contact& contact = problem.contacts[k];
         const Vec3 p = world_impulse(contact, r[k]);
-        push(v[contact.b], problem.bodies[contact.b], contact.arm_b, p);
-        if (contact.a >= 0) push(v[contact.a], problem.bodies[contact.a], contact.arm_a, -1.0 * p);
+        push(v[contact.b], problem.bodies[contact.b], contact.arm_b, p, r[k][2]);
+        if (contact.a >= 0)
+            push(v[contact.a], problem.bodies[contact.a], contact.arm_a, -1.0 * p, -r[k][2]);
     }
     return v;
 }

@@ -44,18 +44,21 @@ struct ContactProblem {
     std::vector<BodyMobility> bodies;
     std::vector<Twist> free;  ///< v_free
     std::vector<Contact> contacts;
+    /// Speeds that may have cancelled in v_free, beyond what is left there: their rounding is
+    /// [m/s].
+    double cancelled = 0.0;
 };
 
 /// t = e_z x n.
 Vec3 tangent_of(const Vec3& normal);
 
-/// H_k^T v of one contact, bias left out.
+/// H_k^T v of one contact, bias left out: (u_n, u_t, w).
 Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v);
 
 /// v_free + M^-1 H r.
 std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r);
 
-/// H_k r_k of one contact as a vector [N s].
+/// The force part of H_k r_k as a vector [N s]; the moment impulse r[2] comes on top.
 Vec3 world_impulse(const Contact& contact, const Vec3& r);
 
 }  // namespace turbidite::nscd

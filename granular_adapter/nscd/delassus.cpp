@@ -26,27 +26,44 @@ void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobi
     w.tt += dot(along_t, answer);
 }
 
+/// The same for a unit moment: (0, 0, 1).
+void add_rolling_share(Block& w, const Contact& contact, const Vec3& arm,
+                       const BodyMobility& body) {
+    const double n = cross(arm, contact.normal)[2], t = cross(arm, contact.tangent)[2];
+    const PlanarVector answer = body * PlanarVector{0.0, 0.0, 1.0};
+    w.nr += dot(PlanarVector{contact.normal[0], contact.normal[1], n}, answer);
+    w.tr += dot(PlanarVector{contact.tangent[0], contact.tangent[1], t}, answer);
+    w.rr += answer.spin;
+}
+
 /// n and t rounded leave about 1e-17 of an exact zero.
 void drop_rounding(Block& w) {
     if (std::abs(w.nt) < 1e-14 * std::min(w.nn, w.tt)) w.nt = 0.0;
+    if (w.nr * w.nr < 1e-28 * w.nn * w.rr) w.nr = 0.0;
+}
+
+Block block_of(const ContactProblem& problem, const Contact& contact) {
+    Block w;
+    const auto add = [&](const Vec3& arm, const BodyMobility& body) {
+        add_share(w, contact, arm, body);
+        if (contact.rolling > 0.0) add_rolling_share(w, contact, arm, body);
+    };
+    add(contact.arm_b, problem.bodies[contact.b]);
+    if (contact.a >= 0) add(contact.arm_a, problem.bodies[contact.a]);
+    drop_rounding(w);
+    return w;
 }
 
 }  // namespace
 
 Delassus::Delassus(const ContactProblem& problem) : problem_(problem) {
     blocks_.reserve(problem.contacts.size());
-    for (const Contact& contact : problem.contacts) {
-        Block w;
-        add_share(w, contact, contact.arm_b, problem.bodies[contact.b]);
-        if (contact.a >= 0) add_share(w, contact, contact.arm_a, problem.bodies[contact.a]);
-        drop_rounding(w);
-        blocks_.push_back(w);
-    }
+    for (const Contact& contact : problem.contacts) blocks_.push_back(block_of(problem, contact));
 }
 
 Impulses Delassus::apply(const Impulses& r) const {
     const std::vector<Twist> rest(problem_.free.size());
-    const std::vector<Twist> v = body_velocities({problem_.bodies, rest, problem_.contacts}, r);
+    const std::vector<Twist> v = body_velocities({problem_.bodies, rest, problem_.contacts, 0.0}, r);
     Impulses u;
     u.reserve(r.size());
     for (const Contact& contact : problem_.contacts) u.push_back(contact_velocity(contact, v));
@@ -55,9 +72,13 @@ Impulses Delassus::apply(const Impulses& r) const {
 
 bool Delassus::diagonal() const {
     return std::all_of(blocks_.begin(), blocks_.end(),
-                       [](const Block& w) { return w.nt == 0.0; }) &&
+                       [](const Block& w) { return w.nt == 0.0 && w.nr == 0.0; }) &&
            std::all_of(problem_.bodies.begin(), problem_.bodies.end(),
                        [](const BodyMobility& body) { return body.isotropic(); });
+}
+
+bool Delassus::rolling() const {
+    return std::any_of(blocks_.begin(), blocks_.end(), [](const Block& w) { return w.rr > 0.0; });
 }
 
 }  // namespace turbidite::nscd

@@ -4,8 +4,9 @@
 // velocity that they cause, u = H^T v_free + b + W r. [1/kg]
 //
 // Differs from the paper: r is an impulse, not a force, so W carries no dt. W is applied, never
-// assembled; only its diagonal blocks are stored. For discs the arms are parallel to n, hence
-// W_nt = 0 in every block, unless a body's mobility prefers a direction or couples it to spin.
+// assembled; only its diagonal blocks are stored, in (n, t, roll). For discs the arms are parallel
+// to n, hence W_nt = 0 in every block, unless a body's mobility prefers a direction or couples it
+// to spin.
 #pragma once
 
 #include <vector>
@@ -22,11 +23,15 @@ class Delassus {
 
     const Block& block(std::size_t contact) const { return blocks_[contact]; }
 
-    /// W r.
+    /// W r: (u_n, u_t, w) of every contact.
     Impulses apply(const Impulses& r) const;
 
-    /// True when no block couples normal and tangent, and every mobility is isotropic.
+    /// True when no block couples the normal to the rest, and every mobility is isotropic.
     bool diagonal() const;
+
+    /// True when some contact resists rolling. Blocks have a third row only where one does, and a
+    /// zero one where neither body can turn: then no moment acts.
+    bool rolling() const;
 
  private:
     const ContactProblem& problem_;

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "granular_adapter/nscd/broad_phase.hpp"
-#include "granular_adapter/nscd/byte_stream.hpp"
-#include "granular_adapter/nscd/law_list.hpp"
+#include "granular_adapter/nscd/corner_turn.hpp"
+#include "granular_adapter/nscd/engine_state.hpp"
 #include "granular_adapter/nscd/solver_list.hpp"
 #include "granular_adapter/nscd/theta_scheme.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
@@ -18,8 +18,9 @@ namespace {
 // by rounding does not flicker. Larger only costs time.
 constexpr double alert_share = 0.02;
 
-constexpr std::uint64_t bodies_format = 0x324445534354ULL;
-constexpr std::uint64_t memory_format = 0x324d454d4354ULL;
+// A step is solved again while turning polygons would overlap by more than this share of a radius.
+constexpr double turn_share = 1e-5;
+constexpr int turn_rounds = 2;
 
 /// Upper bound of |u_rel| between any two bodies or a body and a wall: the diagonal of the box that
 /// holds all velocities and zero.
@@ -62,67 +63,15 @@ std::vector<BodyMobility> mobilities(const Bodies& bodies) {
     return result;
 }
 
-void check_settings(const EngineSettings& settings) {
-    if (!(settings.theta >= 0.5 && settings.theta <= 1.0))
-        throw std::invalid_argument("theta = " + std::to_string(settings.theta) +
-                                    " must lie in [0.5, 1]: below, the scheme is unstable");
-    if (!(settings.friction >= 0.0))
-        throw std::invalid_argument("contact friction must be zero or positive");
+SurfaceTable surface_table(const EngineSettings& settings) {
+    if (!settings.surfaces.empty()) return SurfaceTable(settings.surfaces, settings.surface_pairs);
+    Surface only;
+    only.friction = settings.friction;
+    return SurfaceTable({only});
 }
 
 void check_step(double dt) {
     if (!(dt > 0.0)) throw std::invalid_argument("the time step must be positive");
-}
-
-/// Where a wall is and how it moves; the rest comes from the settings.
-template <class Visit, class AnyWall>
-void for_each_state(AnyWall& wall, Visit&& visit) {
-    visit(wall.point), visit(wall.normal), visit(wall.velocity), visit(wall.spin);
-    visit(wall.pivot);
-}
-
-void write_memory(ByteWriter& out, const ContactMemory& memory, const std::vector<Wall>& walls) {
-    out.value(memory_format);
-    out.array(memory.contacts());
-    out.value(static_cast<std::uint64_t>(walls.size()));
-    for (const Wall& wall : walls)
-        for_each_state(wall, [&out](const auto& value) { out.value(value); });
-}
-
-struct SavedMemory {
-    std::vector<RememberedContact> contacts;
-    std::vector<Wall> walls;
-};
-
-/// Takes what does not move from the present walls.
-SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
-    if (in.value<std::uint64_t>() != memory_format)
-        throw std::invalid_argument("saved contact impulses: these bytes are something else");
-    SavedMemory saved{in.array<RememberedContact>(), walls};
-    if (in.value<std::uint64_t>() != walls.size())
-        throw std::invalid_argument("saved contact state: it has another number of walls");
-    for (Wall& wall : saved.walls)
-        for_each_state(wall,
-                       [&in](auto& value) { value = in.value<std::decay_t<decltype(value)>>(); });
-    return saved;
-}
-
-Bodies read_bodies(ByteReader& in) {
-    if (in.value<std::uint64_t>() != bodies_format)
-        throw std::invalid_argument("saved contact state: these bytes are something else");
-    Bodies bodies;
-    Bodies::for_each_array(bodies, [&in](auto& array) {
-        array = in.array<typename std::decay_t<decltype(array)>::value_type>();
-    });
-    Bodies::for_each_array(bodies, [&bodies](const auto& array) {
-        if (array.size() != bodies.size())
-            throw std::invalid_argument("saved contact state: arrays of different lengths");
-    });
-    return bodies;
-}
-
-void demand_end(const ByteReader& in) {
-    if (!in.at_end()) throw std::invalid_argument("saved contact state: it is too long");
 }
 
 }  // namespace
@@ -131,10 +80,16 @@ Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::ve
     : settings_(settings),
       narrow_phase_(shapes),
       walls_(std::move(walls)),
-      law_(make_law(settings.law, settings.law_settings)),
+      laws_(settings.law, settings.law_settings, surface_table(settings), shapes),
       solver_(make_solver(settings.solver)) {
-    check_settings(settings_);
+    check_theta(settings_.theta, laws_.surfaces().largest_restitution());
     for (const Wall& wall : walls_) check_wall(wall);
+}
+
+void Engine::set_surfaces(std::vector<Surface> surfaces, std::vector<SurfacePair> pairs) {
+    ContactLaws next = laws_.with(SurfaceTable(std::move(surfaces), std::move(pairs)));
+    check_theta(settings_.theta, next.surfaces().largest_restitution());
+    laws_ = std::move(next);
 }
 
 StepReport Engine::step(double dt) {
@@ -154,15 +109,18 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
             "a contact step needs one free velocity and one mobility per "
             "body");
     check_periods(bodies_.radius, settings_.box);
-    points_ = detect(reach(free, dt), alert_share);
-    problem_ = build(free, std::move(mobilities), dt);
+    points_ = detect(std::max(reach(free, dt), laws_.law().range()), alert_share);
     const std::vector<ContactKey> names = keys();
+    const DetectedContacts contacts{points_, names, bodies_, walls_};
+    problem_ = laws_.pose(contacts, free, std::move(mobilities), dt);
     guess_.clear();
     for (const ContactKey& name : names) guess_.push_back(memory_.guess(name, dt));
-    SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
+    SolverResult result = solve(dt);
     memory_.remember(names, result.impulses, dt);
-    hand_out(result);
-    impulses_ = std::move(result.impulses);
+    laws_.find_states(contacts, result.impulses);
+    impulses_ = laws_.felt(result.impulses);
+    solution_ = std::move(result.impulses);
+    hand_out(result.velocities);
     StepReport report{static_cast<std::int64_t>(points_.size()),
                       static_cast<std::int64_t>(memory_.contacts().size()),
                       result.iterations,
@@ -170,6 +128,41 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
                       result.change,
                       result.converged};
     return report;
+}
+
+/// Where polygons turn fast, again with the gaps that the turn leaves (corner_turn.hpp); sweeps are
+/// those of all solves.
+SolverResult Engine::solve(double dt) {
+    SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
+    if (!narrow_phase_.has_corners()) return result;
+    std::vector<double> shortfalls(points_.size(), 0.0);
+    for (int round = 0; round < turn_rounds; ++round) {
+        if (!(take_turns(result.velocities, shortfalls, dt) > turn_share)) break;
+        SolverResult next = solver_->solve(problem_, result.impulses, settings_.solver_settings);
+        next.iterations += result.iterations;
+        result = std::move(next);
+    }
+    return result;
+}
+
+/// Moves the biases to the shortfalls of these velocities. Returns the largest change that matters,
+/// over the body's radius: of contacts that would end with an overlap.
+double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
+                          double dt) {
+    const std::vector<double> found = gap_shortfalls(
+        {points_, problem_.contacts, bodies_, walls_, velocities, dt}, narrow_phase_.polygons());
+    double largest = 0.0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        Contact& contact = problem_.contacts[k];
+        const double wanted = std::max(0.0, found[k]), change = wanted - shortfalls[k];
+        const double u = contact_velocity(contact, velocities)[0] + contact.bias[0];
+        if (dt * u < change)
+            largest =
+                std::max(largest, change / bodies_.radius[static_cast<std::size_t>(contact.b)]);
+        contact.bias[0] -= change / dt;
+        shortfalls[k] = wanted;
+    }
+    return largest;
 }
 
 void Engine::move(double dt) {
@@ -180,6 +173,7 @@ void Engine::move(double dt, const std::vector<Twist>& velocities) {
     check_step(dt);
     nscd::move(bodies_, velocities, dt, settings_.box);
     for (Wall& wall : walls_) nscd::move(wall, dt);
+    laws_.states().accept();
 }
 
 double Engine::max_penetration() const {
@@ -190,44 +184,50 @@ double Engine::max_penetration() const {
 
 void Engine::keep(const std::vector<std::uint8_t>& mask) {
     bodies_.keep(mask);
+    forget_step();
+}
+
+void Engine::forget_step() {
     points_.clear();
     problem_ = {};
+    solution_.clear();
     impulses_.clear();
 }
 
 std::vector<char> Engine::save() const {
     ByteWriter out;
-    out.value(bodies_format);
-    Bodies::for_each_array(bodies_, [&out](const auto& array) { out.array(array); });
-    write_memory(out, memory_, walls_);
+    write_bodies(out, bodies_);
+    write_memory(out, {memory_.contacts(), laws_.states().saved(), walls_});
     return out.take();
 }
 
 void Engine::restore(const std::vector<char>& state) {
     ByteReader in(state);
     Bodies bodies = read_bodies(in);
-    SavedMemory saved = read_memory(in, walls_);
+    SavedMemory memory = read_memory(in, walls_);
     demand_end(in);
     bodies_ = std::move(bodies);
-    memory_.replace(std::move(saved.contacts));
-    walls_ = std::move(saved.walls);
-    points_.clear();
-    problem_ = {};
-    impulses_.clear();
+    take_memory(std::move(memory));
+    forget_step();
 }
 
 std::vector<char> Engine::save_memory() const {
     ByteWriter out;
-    write_memory(out, memory_, walls_);
+    write_memory(out, {memory_.contacts(), laws_.states().saved(), walls_});
     return out.take();
 }
 
 void Engine::restore_memory(const std::vector<char>& state) {
     ByteReader in(state);
-    SavedMemory saved = read_memory(in, walls_);
+    SavedMemory memory = read_memory(in, walls_);
     demand_end(in);
-    memory_.replace(std::move(saved.contacts));
-    walls_ = std::move(saved.walls);
+    take_memory(std::move(memory));
+}
+
+void Engine::take_memory(SavedMemory memory) {
+    memory_.replace(std::move(memory.contacts));
+    laws_.states().replace(std::move(memory.states));
+    walls_ = std::move(memory.walls);
 }
 
 /// How far surfaces may approach each other in a step.
@@ -277,36 +277,6 @@ void Engine::order_top_down(std::vector<ContactPoint>& points) const {
     points = std::move(sorted);
 }
 
-ContactProblem Engine::build(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
-                             double dt) const {
-    ContactProblem problem{std::move(mobilities), free, {}};
-    problem.contacts.reserve(points_.size());
-    for (const ContactPoint& p : points_) {
-        const double friction =
-            p.wall < 0 ? settings_.friction : walls_[static_cast<std::size_t>(p.wall)].friction;
-        const LawTerms terms = law_->terms({p.gap, dt, friction});
-        problem.contacts.push_back({p.a,
-                                    p.b,
-                                    p.normal,
-                                    tangent_of(p.normal),
-                                    p.arm_a,
-                                    p.arm_b,
-                                    terms.friction,
-                                    {terms.normal_bias, terms.tangential_bias, 0.0}});
-        if (p.wall >= 0) add_wall_motion(problem.contacts.back(), p);
-    }
-    return problem;
-}
-
-/// A wall is no body of the problem: what it moves at the contact goes into the bias.
-void Engine::add_wall_motion(Contact& contact, const ContactPoint& point) const {
-    const Wall& wall = walls_[static_cast<std::size_t>(point.wall)];
-    if (!is_moving(wall)) return;
-    const Vec3 v = velocity_at(wall, bodies_.position[point.b] + point.arm_b);
-    contact.bias[0] -= dot(contact.normal, v);
-    contact.bias[1] -= dot(contact.tangent, v);
-}
-
 ContactKey Engine::key(const ContactPoint& point) const {
     if (point.wall >= 0)
         return {walls_[static_cast<std::size_t>(point.wall)].key, bodies_.id[point.b], 1,
@@ -322,21 +292,22 @@ std::vector<ContactKey> Engine::keys() const {
 }
 
 /// Velocities and, per body, the sums of contact impulses and of their moments.
-void Engine::hand_out(const SolverResult& result) {
-    bodies_.twist = result.velocities;
+void Engine::hand_out(const std::vector<Twist>& velocities) {
+    bodies_.twist = velocities;
     std::fill(bodies_.contact_impulse.begin(), bodies_.contact_impulse.end(), Vec3{});
     std::fill(bodies_.contact_angular_impulse.begin(), bodies_.contact_angular_impulse.end(),
               Vec3{});
-    const auto add = [this](std::int32_t body, const Vec3& arm, const Vec3& p) {
+    const auto add = [this](std::int32_t body, const Vec3& arm, const Vec3& p, double moment) {
         bodies_.contact_impulse[body] = bodies_.contact_impulse[body] + p;
-        bodies_.contact_angular_impulse[body] =
-            bodies_.contact_angular_impulse[body] + cross(arm, p);
+        Vec3& sum = bodies_.contact_angular_impulse[body];
+        sum = sum + cross(arm, p);
+        sum[2] += moment;
     };
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const Contact& contact = problem_.contacts[k];
-        const Vec3 p = world_impulse(contact, result.impulses[k]);
-        add(contact.b, contact.arm_b, p);
-        if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p);
+        const Vec3 p = world_impulse(contact, impulses_[k]);
+        add(contact.b, contact.arm_b, p, impulses_[k][2]);
+        if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -impulses_[k][2]);
     }
 }
 

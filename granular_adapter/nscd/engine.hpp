@@ -21,8 +21,9 @@
 #include <vector>
 
 #include "granular_adapter/nscd/bodies.hpp"
+#include "granular_adapter/nscd/contact_laws.hpp"
 #include "granular_adapter/nscd/contact_problem.hpp"
-#include "granular_adapter/nscd/law.hpp"
+#include "granular_adapter/nscd/engine_state.hpp"
 #include "granular_adapter/nscd/narrow_phase.hpp"
 #include "granular_adapter/nscd/periodic_box.hpp"
 #include "granular_adapter/nscd/solver.hpp"
@@ -32,10 +33,12 @@
 namespace turbidite::nscd {
 
 struct EngineSettings {
-    Vec3 gravity{};         ///< [m/s2]
-    double theta = 0.5;     ///< of the theta-scheme, [1/2, 1]
-    double friction = 0.3;  ///< mu between bodies
-    std::string law = "coulomb";
+    Vec3 gravity{};                          ///< [m/s2]
+    double theta = 0.5;                      ///< of the theta-scheme, [1/2, 1]
+    double friction = 0.3;                   ///< mu of the only material, where `surfaces` is empty
+    std::vector<Surface> surfaces;           ///< by Bodies::material and Wall::material
+    std::vector<SurfacePair> surface_pairs;  ///< where the pair rule of surface.hpp does not hold
+    LawChoice law;
     LawSettings law_settings;
     std::string solver = "nlgs";
     SolverSettings solver_settings;
@@ -53,7 +56,8 @@ struct StepReport {
 
 class Engine {
  public:
-    /// Throws std::invalid_argument on unknown names, bad parameters or shapes without contacts.
+    /// Throws std::invalid_argument on unknown names, on parameters that are missing or out of
+    /// range, and on shapes without contacts or without the law.
     Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls);
 
     Bodies& bodies() { return bodies_; }
@@ -63,6 +67,11 @@ class Engine {
     std::vector<Wall>& walls() { return walls_; }
     const EngineSettings& settings() const { return settings_; }
 
+    /// Surfaces of a host that knows its materials late; same laws, what contacts remember is kept.
+    /// Throws as the constructor does and then changes nothing.
+    void set_surfaces(std::vector<Surface> surfaces, std::vector<SurfacePair> pairs = {});
+    const SurfaceTable& surfaces() const { return laws_.surfaces(); }
+
     /// Solves contacts at the present configuration; positions stay. Starts from free fall.
     StepReport step(double dt);
 
@@ -71,11 +80,12 @@ class Engine {
 
     /// The same with mobilities that somebody else knows, taken as they are: masses, moments and
     /// flags of the bodies do not enter. May be repeated before the move; each time the solver
-    /// starts from the last impulses.
+    /// starts from the last impulses, and laws from what they remembered at the last move.
     StepReport step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
                          double dt);
 
-    /// Moves with the bodies' present velocities; walls follow their own.
+    /// Moves with the bodies' present velocities, walls with their own, and accepts the step: what
+    /// laws found in it is what they remember in the next.
     void move(double dt);
 
     /// Moves with given ones; the bodies keep theirs.
@@ -84,10 +94,15 @@ class Engine {
     /// Deepest overlap at the present configuration, >= 0 [m].
     double max_penetration() const;
 
-    /// Contact points of the last step, their problem and its solution.
+    /// Contact points of the last step and the impulses that bodies felt there. With a law that
+    /// pulls, a normal impulse may be negative.
     const std::vector<ContactPoint>& points() const { return points_; }
-    const ContactProblem& problem() const { return problem_; }
     const Impulses& impulses() const { return impulses_; }
+
+    /// The problem of the last step and its solution, r~ of law.hpp: the impulses, but for what a
+    /// law pulls, which is in the problem's free velocities.
+    const ContactProblem& problem() const { return problem_; }
+    const Impulses& solution() const { return solution_; }
 
     /// What the last step's solver started from.
     const Impulses& guess() const { return guess_; }
@@ -106,26 +121,29 @@ class Engine {
     void restore_memory(const std::vector<char>& state);
 
  private:
+    SolverResult solve(double dt);
+    double take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
+                      double dt);
     double reach(const std::vector<Twist>& free, double dt) const;
     std::vector<ContactPoint> detect(double reach, double share) const;
     void order_top_down(std::vector<ContactPoint>& points) const;
-    ContactProblem build(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
-                         double dt) const;
-    void add_wall_motion(Contact& contact, const ContactPoint& point) const;
     ContactKey key(const ContactPoint& point) const;
     std::vector<ContactKey> keys() const;
-    void hand_out(const SolverResult& result);
+    void hand_out(const std::vector<Twist>& velocities);
+    void forget_step();
+    void take_memory(SavedMemory memory);
 
     EngineSettings settings_;
     NarrowPhase narrow_phase_;
     std::vector<Wall> walls_;
-    std::unique_ptr<const ContactLaw> law_;
+    ContactLaws laws_;
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;
     ContactMemory memory_;
     std::vector<ContactPoint> points_;
     ContactProblem problem_;
     Impulses guess_;
+    Impulses solution_;
     Impulses impulses_;
 };
 

@@ -3,32 +3,61 @@
 
 #include <stdexcept>
 
+#include "granular_adapter/nscd/capillary.hpp"
+#include "granular_adapter/nscd/cohesion.hpp"
 #include "granular_adapter/nscd/coulomb.hpp"
+#include "granular_adapter/nscd/moreau.hpp"
+#include "granular_adapter/nscd/newton.hpp"
+#include "granular_adapter/nscd/rolling_resistance.hpp"
+#include "granular_adapter/nscd/signorini.hpp"
+#include "granular_adapter/nscd/static_dynamic.hpp"
+#include "granular_adapter/nscd/wet.hpp"
 
 namespace turbidite::nscd {
 namespace {
 
-template <class Law>
-std::unique_ptr<const ContactLaw> make(const LawSettings& settings) {
-    return std::make_unique<Law>(settings);
+template <class Part>
+std::unique_ptr<const LawPart> make(const LawSettings& settings, const SurfaceTable& surfaces) {
+    return std::make_unique<Part>(settings, surfaces);
 }
 
 }  // namespace
 
 const std::vector<LawEntry>& law_list() {
+    using enum LawSlot;
     static const std::vector<LawEntry> laws = {
-        {"coulomb", "dry friction, no restitution", make<Coulomb>},
+        {gap, "signorini", "no overlap; what there is is taken back slowly", make<Signorini>},
+        {friction, "coulomb", "dry friction, one coefficient", make<Coulomb>},
+        {friction, "static-dynamic", "contacts that stick hold more", make<StaticDynamic>},
+        {adhesion, "none", "nothing pulls", nullptr},
+        {adhesion, "cohesion", "bonds of the first step, broken for ever", make<Cohesion>},
+        {adhesion, "wet", "constant pull within a distance", make<Wet>},
+        {adhesion, "wet-irreversible", "the same, lost beyond the distance", make<WetOnce>},
+        {adhesion, "capillary", "liquid bridges that form on contact", make<Capillary>},
+        {impact, "newton", "normal and tangential restitution", make<Newton>},
+        {impact, "moreau", "restitution of the averaged velocity", make<Moreau>},
+        {rolling, "resistance", "a moment up to a lever times r_n", make<RollingResistance>},
     };
     return laws;
 }
 
-std::unique_ptr<const ContactLaw> make_law(const std::string& name, const LawSettings& settings) {
+std::string slot_name(LawSlot slot) {
+    static const char* const names[law_slots] = {"gap", "friction", "adhesion", "impact",
+                                                 "rolling"};
+    return names[static_cast<std::size_t>(slot)];
+}
+
+std::unique_ptr<const LawPart> make_law_part(LawSlot slot, const std::string& name,
+                                             const LawSettings& settings,
+                                             const SurfaceTable& surfaces) {
     std::string known;
     for (const LawEntry& entry : law_list()) {
-        if (entry.name == name) return entry.make(settings);
+        if (entry.slot != slot) continue;
+        if (entry.name == name) return entry.make ? entry.make(settings, surfaces) : nullptr;
         known += (known.empty() ? "" : ", ") + entry.name;
     }
-    throw std::invalid_argument("unknown contact law \"" + name + "\"; known: " + known);
+    throw std::invalid_argument("unknown contact law \"" + name + "\" (" + slot_name(slot) +
+                                "); known: " + known);
 }
 
 }  // namespace turbidite::nscd

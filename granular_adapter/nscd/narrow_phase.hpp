@@ -77,6 +77,7 @@ class NarrowPhase {
     /// Corners at their places, once per configuration; what views of it are given.
     PlacedPolygons place(const Bodies& bodies) const { return {polygons_, bodies}; }
     bool has_corners() const { return polygons_.any(); }
+    const PolygonShapes& polygons() const { return polygons_; }
 
     void pair(const PairView& view, std::vector<ContactPoint>& points) const;
     void wall(const WallView& view, std::vector<ContactPoint>& points) const;

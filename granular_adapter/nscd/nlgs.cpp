@@ -2,190 +2,28 @@
 #include "granular_adapter/nscd/nlgs.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "granular_adapter/nscd/delassus.hpp"
 #include "granular_adapter/nscd/residual.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweep_train.hpp"
 
 namespace turbidite::nscd {
 namespace {
 
-// All that a sweep touches: four doubles per body, one flat row per contact, nothing indirect
-// beside the two bodies. Static partners are the body after the last one, which nothing moves.
-struct PlaneBody {
-    double x = 0.0, y = 0.0, spin = 0.0;
-    double inverse_mass = 0.0;  ///< read where mobilities are isotropic
-};
+// A tail below this share of the contacts is not worth a second order of contacts.
+constexpr double least_tail = 0.1;
+// More contacts of the tail awake than this share of the head: sweep all of them in order again.
+constexpr double most_awake = 0.02;
 
-/// What rows of both kinds share. Moment arms are (arm x d)_z for d = n, t [m].
-struct RowBase {
-    std::int32_t a, b;
-    double nx, ny;
-    double bias_n, bias_t;
-    double friction;
-    double rn, rt;
-};
+// Fewer contacts than this are swept faster by one thread (docs/performance.md).
+constexpr std::size_t threaded_contacts = 4000;
 
-/// W_nt = 0 and isotropic bodies: discs, and whatever touches with arms along the normal.
-struct DiagonalRow : RowBase {
-    double arm_a, arm_b;    ///< tangential
-    double turn_a, turn_b;  ///< the same over the moment of inertia
-    double inverse_nn, inverse_tt;
-
-    DiagonalRow(const RowBase& base, const Contact& contact, const Block& w, const BodyMobility& a,
-                const BodyMobility& b)
-        : RowBase(base),
-          arm_a(cross(contact.arm_a, contact.tangent)[2]),
-          arm_b(cross(contact.arm_b, contact.tangent)[2]),
-          turn_a(a.ss * arm_a),
-          turn_b(b.ss * arm_b),
-          inverse_nn(1.0 / w.nn),
-          inverse_tt(1.0 / w.tt) {}
-
-    double rho() const { return inverse_nn; }
-
-    Plane velocity(const PlaneBody& va, const PlaneBody& vb) const {
-        const double dx = vb.x - va.x, dy = vb.y - va.y;
-        return {nx * dx + ny * dy + bias_n,
-                nx * dy - ny * dx + arm_b * vb.spin - arm_a * va.spin + bias_t};
-    }
-
-    /// Exact: with W_nt = 0 the normal does not feel the tangent, and friction is a clamp.
-    Plane solve(const Plane& u) const {
-        const double n = std::max(0.0, rn - u[0] * inverse_nn);
-        const double limit = friction * n;
-        return {n, std::min(limit, std::max(-limit, rt - u[1] * inverse_tt))};
-    }
-
-    /// v += M^-1 H d.
-    void push(PlaneBody& va, PlaneBody& vb, const Plane& d) const {
-        const double px = nx * d[0] - ny * d[1], py = ny * d[0] + nx * d[1];
-        va.x -= va.inverse_mass * px;
-        va.y -= va.inverse_mass * py;
-        vb.x += vb.inverse_mass * px;
-        vb.y += vb.inverse_mass * py;
-        va.spin -= turn_a * d[1];
-        vb.spin += turn_b * d[1];
-    }
-};
-
-/// Any W, any mobility. What a unit impulse along n or t does to each body is known before the
-/// sweeps, so that a push is one multiplication and addition per component and direction.
-struct FullRow : RowBase {
-    Plane arm_a, arm_b;
-    PlanarVector a_n, a_t, b_n, b_t;  ///< M^-1 (d, arm x d), d = n, t
-    Block w;
-
-    FullRow(const RowBase& base, const Contact& contact, const Block& block, const BodyMobility& a,
-            const BodyMobility& b)
-        : RowBase(base),
-          arm_a{cross(contact.arm_a, contact.normal)[2], cross(contact.arm_a, contact.tangent)[2]},
-          arm_b{cross(contact.arm_b, contact.normal)[2], cross(contact.arm_b, contact.tangent)[2]},
-          a_n(a * PlanarVector{nx, ny, arm_a[0]}),
-          a_t(a * PlanarVector{-ny, nx, arm_a[1]}),
-          b_n(b * PlanarVector{nx, ny, arm_b[0]}),
-          b_t(b * PlanarVector{-ny, nx, arm_b[1]}),
-          w(block) {}
-
-    double rho() const { return 1.0 / w.nn; }
-
-    Plane velocity(const PlaneBody& va, const PlaneBody& vb) const {
-        const double dx = vb.x - va.x, dy = vb.y - va.y;
-        return {nx * dx + ny * dy + arm_b[0] * vb.spin - arm_a[0] * va.spin + bias_n,
-                nx * dy - ny * dx + arm_b[1] * vb.spin - arm_a[1] * va.spin + bias_t};
-    }
-
-    Plane solve(const Plane& u) const {
-        return solve_contact(w, {u[0] - w.nn * rn - w.nt * rt, u[1] - w.nt * rn - w.tt * rt},
-                             friction);
-    }
-
-    /// v += M^-1 H d.
-    void push(PlaneBody& va, PlaneBody& vb, const Plane& d) const {
-        va.x -= a_n.x * d[0] + a_t.x * d[1];
-        va.y -= a_n.y * d[0] + a_t.y * d[1];
-        va.spin -= a_n.spin * d[0] + a_t.spin * d[1];
-        vb.x += b_n.x * d[0] + b_t.x * d[1];
-        vb.y += b_n.y * d[0] + b_t.y * d[1];
-        vb.spin += b_n.spin * d[0] + b_t.spin * d[1];
-    }
-};
-
-/// sum |natural map|^2 and sum |r|^2 of a pass.
-struct PassSums {
-    double error = 0.0;
-    double size = 0.0;
-
-    template <class Row>
-    void add(const Row& row, const Plane& u) {
-        const Plane f = natural_map({row.rn, row.rt}, u, row.friction, row.rho());
-        error += f[0] * f[0] + f[1] * f[1];
-        size += row.rn * row.rn + row.rt * row.rt;
-    }
-};
-
-template <bool measure, class Row>
-PassSums sweep(std::vector<Row>& rows, std::vector<PlaneBody>& bodies) {
-    PassSums sums;
-    for (Row& row : rows) {
-        PlaneBody& va = bodies[row.a];
-        PlaneBody& vb = bodies[row.b];
-        const Plane u = row.velocity(va, vb);
-        if constexpr (measure) sums.add(row, u);
-        const Plane r = row.solve(u);
-        row.push(va, vb, {r[0] - row.rn, r[1] - row.rt});
-        row.rn = r[0];
-        row.rt = r[1];
-    }
-    return sums;
-}
-
-/// Bodies in the order in which contacts meet them, so that a sweep walks through memory: slot of
-/// each body, -1 if nothing touches it. The slot after the last is the body at rest.
-struct Slots {
-    std::vector<std::int32_t> of_body;
-    std::int32_t at_rest = 0;
-
-    explicit Slots(const ContactProblem& problem) : of_body(problem.bodies.size(), -1) {
-        const auto meet = [this](std::int32_t body) {
-            if (body >= 0 && of_body[body] < 0) of_body[body] = at_rest++;
-        };
-        for (const Contact& contact : problem.contacts) meet(contact.a), meet(contact.b);
-    }
-
-    std::int32_t operator()(std::int32_t body) const { return body < 0 ? at_rest : of_body[body]; }
-};
-
-std::vector<PlaneBody> pack_bodies(const ContactProblem& problem, const Slots& slots,
-                                   const Impulses& guess) {
-    const std::vector<Twist> start = body_velocities(problem, guess);
-    std::vector<PlaneBody> bodies(static_cast<std::size_t>(slots.at_rest) + 1);
-    for (std::size_t i = 0; i < start.size(); ++i)
-        if (slots.of_body[i] >= 0)
-            bodies[slots.of_body[i]] = {start[i].velocity[0], start[i].velocity[1],
-                                        start[i].spin[2], problem.bodies[i].xx};
-    return bodies;
-}
-
-template <class Row>
-std::vector<Row> pack_rows(const ContactProblem& problem, const Delassus& w, const Slots& slots,
-                           const Impulses& guess) {
-    std::vector<Row> rows;
-    rows.reserve(guess.size());
-    for (std::size_t k = 0; k < guess.size(); ++k) {
-        const Contact& c = problem.contacts[k];
-        const RowBase base{slots(c.a), slots(c.b), c.normal[0], c.normal[1], c.bias[0],
-                           c.bias[1],  c.friction, guess[k][0], guess[k][1]};
-        const BodyMobility a = c.a < 0 ? BodyMobility() : problem.bodies[c.a];
-        rows.emplace_back(base, c, w.block(k), a, problem.bodies[c.b]);
-    }
-    return rows;
-}
-
-template <class Row>
-void unpack(const std::vector<Row>& rows, Impulses& r) {
-    for (std::size_t k = 0; k < rows.size(); ++k) r[k] = {rows[k].rn, rows[k].rt, 0.0};
+int useful_threads(const SolverSettings& settings, std::size_t contacts) {
+    return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);
 }
 
 /// Early sweeps are looked at often, since a warm start may be done at once.
@@ -195,38 +33,148 @@ bool check_due(std::int64_t sweep_number, const SolverSettings& settings) {
            (sweep_number < settings.check_interval && power_of_two);
 }
 
-template <class Row>
-SolverResult iterate(const ContactProblem& problem, const Delassus& w, const Impulses& guess,
-                     const SolverSettings& settings) {
-    const Slots slots(problem);
-    std::vector<PlaneBody> bodies = pack_bodies(problem, slots, guess);
-    std::vector<Row> rows = pack_rows<Row>(problem, w, slots, guess);
-    const double floor = rounding_floor(problem);
-    const double target = settings.tolerance * settings.tolerance;
-    SolverResult result;
-    result.impulses = guess;
-    result.converged = false;
-    while (!result.converged && result.iterations < settings.max_iterations) {
-        if (!check_due(++result.iterations, settings)) {
-            sweep<false>(rows, bodies);
-            continue;
-        }
-        const PassSums sums = sweep<true>(rows, bodies);
-        const bool last = result.iterations == settings.max_iterations;
-        if (!last && !(sums.error <= target * (sums.size + floor))) continue;
-        unpack(rows, result.impulses);
-        result.residual = natural_map_residual(problem, result.impulses);
-        result.change = change_measures(problem, result.impulses);
-        result.converged = result.residual <= settings.tolerance;
+/// Which contacts come first: those with an impulse or about to have one, or all of them.
+struct Order {
+    std::vector<std::int32_t> contacts;
+    std::size_t head = 0;
+
+    explicit Order(std::size_t count) : contacts(count), head(count) {
+        std::iota(contacts.begin(), contacts.end(), 0);
     }
-    result.velocities = body_velocities(problem, result.impulses);
-    return result;
+
+    template <class Active>
+    void split(const Active& active) {
+        const auto tail = std::stable_partition(contacts.begin(), contacts.end(), active);
+        const auto first = static_cast<std::size_t>(tail - contacts.begin());
+        if (static_cast<double>(contacts.size() - first) <
+            least_tail * static_cast<double>(contacts.size()))
+            std::iota(contacts.begin(), contacts.end(), 0);
+        else
+            head = first;
+    }
+};
+
+/// What solve() is asked.
+struct Call {
+    const ContactProblem& problem;
+    const Delassus& w;
+    const Impulses& guess;
+    const SolverSettings& settings;
+    Instructions instructions;
+};
+
+template <class Rows>
+class Iteration {
+ public:
+    explicit Iteration(const Call& call)
+        : problem_(call.problem),
+          w_(call.w),
+          settings_(call.settings),
+          sweeps_(sweeps<Rows>(call.instructions)),
+          pairs_(moved_pairs(call.problem)),
+          team_(useful_threads(call.settings, call.guess.size())),
+          floor_(rounding_floor(call.problem, call.w)) {
+        result_.impulses = call.guess;
+        result_.converged = false;
+    }
+
+    SolverResult run() {
+        lay_out(true);
+        while (!result_.converged && result_.iterations < settings_.max_iterations) {
+            sweep_until_check();
+            if (looks_good() || result_.iterations == settings_.max_iterations)
+                look();
+            else
+                adapt();
+        }
+        result_.change = change_measures(problem_, w_, result_.velocities, result_.impulses);
+        return std::move(result_);
+    }
+
+ private:
+    bool split() const { return layout_->schedule.head < layout_->schedule.all; }
+
+    void lay_out(bool may_split) {
+        result_.velocities = body_velocities(problem_, result_.impulses);
+        Order order(pairs_.size());
+        if (may_split) order.split([this](std::int32_t k) { return active(k); });
+        const ScheduleSettings shape{.width = Rows::width};
+        layout_.emplace(
+            problem_, w_, pairs_, result_.impulses, result_.velocities,
+            make_schedule(pairs_, order.contacts, order.head, problem_.bodies.size(), shape));
+        train_.emplace(sweeps_, layout_->rows, layout_->bodies, layout_->schedule,
+                       make_blocks(layout_->schedule, pairs_, problem_.bodies.size(), Rows::width));
+        laid_out_at_ = result_.iterations;
+    }
+
+    /// Has an impulse, or closes with the present velocities.
+    bool active(std::int32_t contact) const {
+        const auto k = static_cast<std::size_t>(contact);
+        if (result_.impulses[k][0] > 0.0) return true;
+        const Contact& c = problem_.contacts[k];
+        return contact_velocity(c, result_.velocities)[0] + c.bias[0] < 0.0;
+    }
+
+    void sweep_until_check() {
+        std::vector<Wagon> wagons;
+        do wagons.push_back({!split(), false});
+        while (!check_due(++result_.iterations, settings_));
+        wagons.back() = {true, true};
+        train_->run(wagons, team_);
+    }
+
+    bool looks_good() const {
+        const auto& head = train_->head_sums();
+        const auto& tail = train_->tail_sums();
+        const double error = total(head.error) + total(tail.error);
+        const double size = total(head.size) + total(tail.size);
+        return error <= settings_.tolerance * settings_.tolerance * (size + floor_);
+    }
+
+    /// The published residual, of one consistent state.
+    void look() {
+        layout_->collect(result_.impulses);
+        result_.velocities = body_velocities(problem_, result_.impulses);
+        result_.residual =
+            natural_map_residual(problem_, w_, result_.velocities, result_.impulses, floor_);
+        result_.converged = result_.residual <= settings_.tolerance;
+    }
+
+    /// The tail stays alone while it sleeps. A layout costs a few sweeps, so the tail is sought
+    /// again only after as many sweeps as there were before.
+    void adapt() {
+        const double head = total(train_->head_sums().loaded);
+        const double tail = total(train_->tail_sums().loaded);
+        const bool due = result_.iterations >= 2 * laid_out_at_;
+        const bool may_split = !split() && due && head < (1.0 - least_tail) * pairs_.size();
+        if (!may_split && !(tail > most_awake * head)) return;
+        layout_->collect(result_.impulses);
+        lay_out(may_split);
+    }
+
+    const ContactProblem& problem_;
+    const Delassus& w_;
+    const SolverSettings& settings_;
+    Sweeps<Rows> sweeps_;
+    std::vector<MovedPair> pairs_;
+    ThreadTeam team_;
+    double floor_;
+    SolverResult result_;
+    std::optional<SweepLayout<Rows>> layout_;
+    std::optional<SweepTrain<Rows>> train_;
+    std::int64_t laid_out_at_ = 0;
+};
+
+template <class Rows>
+SolverResult iterate(const Call& call) {
+    return Iteration<Rows>(call).run();
 }
 
 void check_settings(const SolverSettings& settings) {
-    if (!(settings.tolerance > 0.0) || settings.max_iterations < 1 || settings.check_interval < 1)
+    if (!(settings.tolerance > 0.0) || settings.max_iterations < 1 || settings.check_interval < 1 ||
+        settings.threads < 1)
         throw std::invalid_argument(
-            "contact solver: tolerance, iterations and check interval must be positive");
+            "contact solver: tolerance, iterations, check interval and threads must be positive");
 }
 
 }  // namespace
@@ -236,8 +184,10 @@ SolverResult Nlgs::solve(const ContactProblem& problem, const Impulses& guess,
     check_settings(settings);
     if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, {}, true};
     const Delassus w(problem);
-    if (w.diagonal()) return iterate<DiagonalRow>(problem, w, guess, settings);
-    return iterate<FullRow>(problem, w, guess, settings);
+    const Call call{problem, w, guess, settings, instructions_};
+    if (w.diagonal())
+        return w.rolling() ? iterate<RollingDiscRows<4>>(call) : iterate<DiscRows<4>>(call);
+    return w.rolling() ? iterate<GeneralRollingRows<1>>(call) : iterate<GeneralRows<4>>(call);
 }
 
 }  // namespace turbidite::nscd

@@ -7,16 +7,27 @@
 // until the scaled natural map falls below the tolerance. Every few sweeps the natural map is
 // accumulated in the pass itself, where velocities are half old and half new; when that looks good
 // the published residual, of one consistent state, decides.
+//
+// Contacts without an impulse that are not closing (the tail) are visited in the measured sweeps
+// only; when too many of them wake up all contacts are swept again in the order given.
+//
+// How it is done fast, with the same bits: contact_schedule.hpp, sweep_kernel.hpp, sweep_train.hpp.
 #pragma once
 
 #include "granular_adapter/nscd/solver.hpp"
+#include "granular_adapter/nscd/sweep_rows.hpp"
 
 namespace turbidite::nscd {
 
 class Nlgs final : public ContactSolver {
  public:
+    explicit Nlgs(Instructions instructions = best_instructions()) : instructions_(instructions) {}
+
     SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                        const SolverSettings& settings) const override;
+
+ private:
+    Instructions instructions_;
 };
 
 }  // namespace turbidite::nscd

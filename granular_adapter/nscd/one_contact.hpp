@@ -24,11 +24,15 @@
 
 namespace turbidite::nscd {
 
-/// Diagonal block of W [1/kg].
+/// Diagonal block of W [1/kg]. Its third row belongs to moments and spins (rolling_contact.hpp) and
+/// is zero where nothing resists rolling [1/(kg m), 1/(kg m2)].
 struct Block {
     double nn = 0.0;
     double nt = 0.0;
     double tt = 0.0;
+    double nr = 0.0;
+    double tr = 0.0;
+    double rr = 0.0;
 };
 
 /// (n, t) of an impulse or a velocity.
@@ -48,7 +52,7 @@ inline Plane solve_contact(const Block& w, const Plane& b, double friction) {
 /// Nearest point of the cone |t| <= mu n.
 inline Plane project_on_cone(const Plane& x, double friction) {
     const double n = x[0], t = std::abs(x[1]);
-    if (t <= friction * n) return x;
+    if (n >= 0.0 && t <= friction * n) return x;  // mu = 0: the second alone holds for any n
     if (friction * t <= -n) return {0.0, 0.0};
     const double on_edge = (n + friction * t) / (1.0 + friction * friction);
     return {on_edge, std::copysign(friction * on_edge, x[1])};

@@ -14,11 +14,16 @@
 //     quad = sqrt(mean |du|^2) / sqrt(mean |W_kk R|^2),      max = max |du| / the same
 //
 // A slowly converging packing passes those far from the solution: they are for comparison only.
+//
+// Where a contact resists rolling the natural map projects (n, t, roll) on |r_t| <= mu r_n, |m| <=
+// rho r_n (rolling_contact.hpp). Moments are divided, spins multiplied, by sqrt(W_nn/W_rr).
 #pragma once
 
 #include "granular_adapter/nscd/contact_problem.hpp"
 
 namespace turbidite::nscd {
+
+class Delassus;
 
 double natural_map_residual(const ContactProblem& problem, const Impulses& r);
 
@@ -30,5 +35,13 @@ struct ChangeMeasures {
     double max = 0.0;
 };
 ChangeMeasures change_measures(const ContactProblem& problem, const Impulses& r);
+
+/// The same where the caller has the operator of this problem, v = body_velocities(problem, r), and
+/// the floor at hand.
+double rounding_floor(const ContactProblem& problem, const Delassus& w);
+double natural_map_residual(const ContactProblem& problem, const Delassus& w,
+                            const std::vector<Twist>& v, const Impulses& r, double floor);
+ChangeMeasures change_measures(const ContactProblem& problem, const Delassus& w,
+                               const std::vector<Twist>& v, const Impulses& r);
 
 }  // namespace turbidite::nscd

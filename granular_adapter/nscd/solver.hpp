@@ -19,6 +19,8 @@ struct SolverSettings {
     std::int64_t max_iterations = 2000;
     /// Sweeps between two looks at the residual; smaller is wasted time, larger wasted sweeps.
     std::int64_t check_interval = 8;
+    /// Of this solve; the result does not depend on it. Small problems use one (nlgs.cpp).
+    std::int64_t threads = 1;
 };
 
 struct SolverResult {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/theta_scheme.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include "granular_adapter/nscd/vec3.hpp"
 
 namespace turbidite::nscd {
@@ -13,6 +16,18 @@ Quaternion normalized(Quaternion q) {
 }
 
 }  // namespace
+
+void check_theta(double theta, double restitution) {
+    if (!(theta >= 0.5 && theta <= 1.0))
+        throw std::invalid_argument("theta = " + std::to_string(theta) +
+                                    " must lie in [0.5, 1]: below, the scheme is unstable");
+    // 1/2 is meant to pass with e = 1 however the division rounds.
+    const double most = 1.0 / (1.0 + restitution);
+    if (theta > most * (1.0 + 1e-12))
+        throw std::invalid_argument(
+            "theta = " + std::to_string(theta) + " makes energy with restitution " +
+            std::to_string(restitution) + ": at most 1/(1 + e) = " + std::to_string(most));
+}
 
 std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, double step) {
     std::vector<Twist> free = bodies.twist;

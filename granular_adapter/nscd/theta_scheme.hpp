@@ -11,6 +11,9 @@
 // and x is computed only where somebody asks for it. Contacts are posed at q with the full step:
 // u_n + g(q)/dt >= 0. Loads are constant over a step, so F^k = F^{k+1} and theta drops out of
 // U_free.
+//
+// theta = 1/2 takes or gives no energy of its own. With restitution e an impact can feed energy in
+// unless theta <= 1/(1 + e) (Acary 2014).
 #pragma once
 
 #include <vector>
@@ -19,6 +22,9 @@
 #include "granular_adapter/nscd/periodic_box.hpp"
 
 namespace turbidite::nscd {
+
+/// Throws std::invalid_argument unless 1/2 <= theta <= 1/(1 + restitution).
+void check_theta(double theta, double restitution);
 
 /// U_free = U + dt M^-1 (weight + loads), spin alike. Fixed bodies keep their velocity.
 std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, double step);

@@ -21,12 +21,14 @@ namespace turbidite::nscd {
 struct Wall {
     Vec3 point{};                ///< on the wall; the middle of a segment [m]
     Vec3 normal{0.0, 1.0, 0.0};  ///< inward, unit
-    double friction = 0.0;       ///< mu of contacts with this wall
+    double friction = 0.0;       ///< mu of contacts with this wall, where it has no material
     double half_length = std::numeric_limits<double>::infinity();  ///< of a segment [m]
     std::int32_t key = 0;  ///< names the wall in the contact memory; distinct per wall
-    Vec3 velocity{};       ///< of the pivot [m/s]
-    double spin = 0.0;     ///< about the pivot [rad/s]
-    Vec3 pivot{};          ///< moves with `velocity` [m]
+    /// Index into the SurfaceTable; -1: the surface of the body that touches, with `friction`.
+    std::int32_t material = -1;
+    Vec3 velocity{};    ///< of the pivot [m/s]
+    double spin = 0.0;  ///< about the pivot [rad/s]
+    Vec3 pivot{};       ///< moves with `velocity` [m]
 };
 
 bool is_moving(const Wall& wall);

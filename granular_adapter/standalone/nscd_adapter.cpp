@@ -14,6 +14,8 @@
 #include "granular_adapter/nscd/law_list.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
 #include "granular_adapter/standalone/by_grain.hpp"
+#include "granular_adapter/standalone/contact_records.hpp"
+#include "granular_adapter/standalone/contact_settings.hpp"
 #include "granular_adapter/standalone/free_motion.hpp"
 #include "granular_adapter/standalone/inner_walls.hpp"
 
@@ -107,7 +109,7 @@ Hello NscdAdapter::describe() const {
     for (const auto& entry : nscd::wall_detector_list())
         hello.capabilities.shapes.push_back(entry.kind);
     for (const auto& entry : nscd::law_list())
-        hello.capabilities.contact_laws.push_back(entry.name);
+        if (entry.make) hello.capabilities.contact_laws.push_back(entry.name);
     return hello;
 }
 
@@ -145,6 +147,8 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     report_.contacts = step.contacts;
     report_.iterations = step.iterations;
     report_.residual = step.residual;
+    report_.quad = step.change.quad;
+    report_.max = step.change.max;
     report_.converged = step.converged;
     report_.wall_seconds = watch.seconds();
     return motion();
@@ -177,6 +181,8 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
         throw std::logic_error("apply_kick needs an advance of the same window before it");
     if (fluid_ || !kicks.empty()) take_velocities(window, kicks);
     check_grains(in_window(window) + " after the kick");
+    std::optional<std::vector<ContactRecord>> contacts;
+    if (window.write_output) contacts = contact_records(engine());
     const bool with_contact = joint_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     contact_twists_.clear();
@@ -184,8 +190,11 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     check_grains(in_window(window) + " after motion");
     report_.removed = static_cast<std::int64_t>(removed_.size());
     report_.max_penetration = engine().max_penetration();
-    report_.wall_seconds = watch.seconds();
-    return motion();
+    Motion result = motion();
+    if (contacts) drop_contacts_of(removed_, *contacts);
+    result.contacts = std::move(contacts);
+    result.report.wall_seconds = report_.wall_seconds = watch.seconds();
+    return result;
 }
 
 SavedState NscdAdapter::save() const {
@@ -222,14 +231,13 @@ NscdAdapter::Positions NscdAdapter::parse_positions(const std::string& text) {
 
 void NscdAdapter::lay_borders(const Settings& settings) {
     const double width = settings.real("run.size_x"), height = settings.real("run.size_y");
-    const double friction = settings.real("contact.friction");
     borders_.clear();
     const auto lay = [&](const std::string& name, const Vec3& point, const Vec3& normal) {
         const std::string key = "domain." + name;
         nscd::Wall plane;
         plane.point = point;
         plane.normal = normal;
-        plane.friction = friction;
+        plane.material = 0;
         plane.key = static_cast<std::int32_t>(borders_.size());
         borders_.push_back({name, parse_side(key, settings.text(key)), plane});
     };
@@ -245,15 +253,8 @@ void NscdAdapter::lay_borders(const Settings& settings) {
 }
 
 nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) const {
-    nscd::EngineSettings result;
+    nscd::EngineSettings result = contact_settings(settings);
     result.gravity = {0.0, -settings.real("run.gravity"), 0.0};
-    result.theta = settings.real("contact.theta");
-    result.friction = settings.real("contact.friction");
-    result.law_settings.recovery_fraction = settings.real("contact.recovery_fraction");
-    result.law_settings.recovery_speed =
-        settings.real("contact.recovery_speed") * settings.real("run.velocity_scale");
-    result.solver_settings.tolerance = settings.real("contact.tolerance");
-    result.solver_settings.max_iterations = settings.integer("contact.iterations");
     if (borders_[0].side == Side::cyclic) result.box.length[0] = settings.real("run.size_x");
     if (borders_[2].side == Side::cyclic) result.box.length[1] = settings.real("run.size_y");
     return result;

@@ -59,6 +59,51 @@ TEST(ExchangePlan, AReportThatIsNotANumberStaysOne) {
     EXPECT_TRUE(std::isnan(plan.gather(shares).report.max_penetration));
 }
 
+ContactRecord contact(GrainId a, GrainId b, int feature = 0) {
+    ContactRecord c;
+    c.a = a;
+    c.b = b;
+    c.feature = feature;
+    return c;
+}
+
+// However the grains are shared out, contacts are the same list.
+TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
+    ExchangePlan plan({}, 0.0, {});
+    ContactRecord floor = contact(77, 2);  // the id of a says nothing at a wall
+    floor.wall = 2;
+    const std::vector<ContactRecord> left = {floor, contact(1, 2, 1), contact(1, 2)};
+    const Motion all = plan.gather({{{grain(1, 0), grain(2, 1)}, {}, left},
+                                    {{grain(3, 2)}, {}, std::vector{contact(1, 3)}}});
+    ASSERT_EQ(all.contacts->size(), 4u);
+    EXPECT_EQ(all.contacts->at(0).feature, 0);
+    EXPECT_EQ(all.contacts->at(1).feature, 1);
+    EXPECT_EQ(all.contacts->at(2).b, 3);
+    EXPECT_EQ(all.contacts->at(3).wall, 2);
+    EXPECT_FALSE(plan.gather({{{grain(1, 0)}, {}}, {{grain(2, 1)}, {}}}).contacts);
+}
+
+TEST(ExchangePlan, AContactTwiceOrOfAStrangerOrByHalfTheRanksIsRefused) {
+    ExchangePlan plan({}, 0.0, {});
+    const std::vector<ContactRecord> one = {contact(1, 2)};
+    const auto gather = [&](Motion first, Motion second) { plan.gather({first, second}); };
+    const Motion left{{grain(1, 0)}, {}, one}, right{{grain(2, 1)}, {}, one};
+    EXPECT_THROW(gather(left, right), PhysicsRefused);
+    EXPECT_THROW(gather(left, {{grain(2, 1)}, {}}), PhysicsRefused);
+    EXPECT_THROW(gather(left, {{grain(3, 1)}, {}, std::vector<ContactRecord>{}}), PhysicsRefused);
+    EXPECT_NO_THROW(gather(left, {{grain(2, 1)}, {}, std::vector<ContactRecord>{}}));
+}
+
+// An adapter without a residual leaves it to the others, and all of them leave it empty.
+TEST(ExchangePlan, EmptyMeasuresStayEmpty) {
+    ExchangePlan plan({}, 0.0, {});
+    std::vector<Motion> shares(2);
+    shares[1].report.quad = 0.25;
+    const ContactReport report = plan.gather(shares).report;
+    EXPECT_FALSE(report.residual);
+    EXPECT_EQ(report.quad, 0.25);
+}
+
 TEST(ExchangePlan, AMissingADoubleAndAForeignAnswerAreRefused) {
     ExchangePlan plan({}, 0.0, {});
     plan.gather({{{grain(1, 0), grain(2, 1)}, {}}});

@@ -21,7 +21,7 @@ std::string slurp(const std::filesystem::path& file) {
 // file so far.
 TEST(GrainSeries, IsCompleteAfterEveryWrite) {
     const TestFolder folder("series");
-    GrainSeries series(folder.path());
+    GrainSeries series(folder.path(), {{"disc", {}}});
     const Motion state{test_population(), {}};
     for (int step = 0; step < 3; ++step) {
         series.write(0.5 * step, 10 * step, 0.01, state, {});

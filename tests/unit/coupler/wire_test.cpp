@@ -32,7 +32,7 @@ GrainState grain() {
 TEST(Wire, MotionComesBackBitForBit) {
     Motion motion;
     motion.grains = {grain(), grain()};
-    motion.report = {41, 12, awkward, false, tiny, 2, 0.25};
+    motion.report = {41, 12, awkward, false, tiny, 2, 0.25, 1e-5, awkward};
     const auto back = decode<Motion>(encode(motion));
     ASSERT_EQ(back.grains.size(), 2u);
     const GrainState& a = motion.grains[1];
@@ -56,6 +56,52 @@ TEST(Wire, MotionComesBackBitForBit) {
     EXPECT_EQ(back.report.max_penetration, tiny);
     EXPECT_EQ(back.report.removed, 2);
     EXPECT_EQ(back.report.wall_seconds, 0.25);
+    EXPECT_EQ(back.report.quad, 1e-5);
+    EXPECT_EQ(back.report.max, awkward);
+    EXPECT_FALSE(back.contacts) << "not told is not the same as none";
+}
+
+TEST(Wire, ContactsComeBackBitForBit) {
+    Motion motion;
+    motion.contacts.emplace();
+    EXPECT_TRUE(decode<Motion>(encode(motion)).contacts.has_value());
+    ContactRecord c;
+    c.a = 9'007'199'254'740'993;
+    c.b = 12;
+    c.wall = 3;
+    c.feature = 1;
+    c.status = ContactStatus::rolling;
+    c.gap = -tiny;
+    c.point = {awkward, 2, 3};
+    c.normal = {4, 5, 6};
+    c.branch = {7, 8, 9};
+    c.impulse = {10, 11, awkward};
+    c.rolling_impulse = {12, 13, 14};
+    motion.contacts = {ContactRecord{}, c};
+    const auto back = decode<Motion>(encode(motion));
+    ASSERT_EQ(back.contacts->size(), 2u);
+    const ContactRecord& d = back.contacts->at(1);
+    EXPECT_EQ(d.a, c.a);
+    EXPECT_EQ(d.b, c.b);
+    EXPECT_EQ(d.wall, c.wall);
+    EXPECT_EQ(d.feature, c.feature);
+    EXPECT_EQ(d.status, c.status);
+    EXPECT_EQ(d.gap, c.gap);
+    EXPECT_EQ(d.point, c.point);
+    EXPECT_EQ(d.normal, c.normal);
+    EXPECT_EQ(d.branch, c.branch);
+    EXPECT_EQ(d.impulse, c.impulse);
+    EXPECT_EQ(d.rolling_impulse, c.rolling_impulse);
+    EXPECT_EQ(back.contacts->at(0).wall, -1);
+}
+
+TEST(Wire, WhatAnAdapterDoesNotHaveStaysEmpty) {
+    Motion motion;
+    motion.report.max = 0.5;
+    const auto back = decode<Motion>(encode(motion));
+    EXPECT_FALSE(back.report.residual);
+    EXPECT_FALSE(back.report.quad);
+    EXPECT_EQ(back.report.max, 0.5);
 }
 
 TEST(Wire, KicksComeBack) {

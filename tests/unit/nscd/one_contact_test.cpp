@@ -97,5 +97,14 @@ TEST(OneContact, ProjectsOnTheCone) {
     EXPECT_EQ(project_on_cone({0.0, -2.0}, 1.0), (Plane{1.0, -1.0}));
 }
 
+// mu = 0: the cone is the half-line t = 0, n >= 0. An open contact without tangential velocity is
+// solved by no impulse, however fast it opens.
+TEST(OneContact, TheSmoothConeIsAHalfLine) {
+    EXPECT_EQ(project_on_cone({-2.0, 0.0}, 0.0), (Plane{0.0, 0.0}));
+    EXPECT_EQ(project_on_cone({2.0, 0.0}, 0.0), (Plane{2.0, 0.0}));
+    EXPECT_EQ(project_on_cone({2.0, -1.0}, 0.0), (Plane{2.0, 0.0}));
+    EXPECT_EQ(natural_map({0.0, 0.0}, {3.0, 0.0}, 0.0, 1.0), (Plane{0.0, 0.0}));
+}
+
 }  // namespace
 }  // namespace turbidite::nscd

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -244,6 +245,38 @@ TEST(NscdAdapter, RemovesAndCountsGrainsPastAFreeSide) {
     EXPECT_EQ(adapter.advance(window(2), {}).report.removed, 0);
 }
 
+// Two discs on top of each other, the upper one thrown out through the right side: contacts are told when output
+// is due, as they were solved, and without the one that left.
+TEST(NscdAdapter, TellsContactsInWindowsWithOutput) {
+    Settings settings = box_settings();
+    settings.set("domain.right", std::string("free"));
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(7, 5, 1.5), grain_at(3, 5, 0.5)});
+    Window now = window(0);
+    Motion motion = adapter.advance(now, {});
+    EXPECT_FALSE(adapter.apply_kick(now, same_velocities(motion)).contacts);
+    now = window(1);
+    now.write_output = true;
+    motion = adapter.advance(now, {});
+    EXPECT_FALSE(motion.contacts) << "the fluid has no use for them";
+    motion = adapter.apply_kick(now, same_velocities(motion));
+    ASSERT_EQ(motion.contacts->size(), 2u);
+    EXPECT_EQ(motion.contacts->at(0).a, 3);
+    EXPECT_EQ(motion.contacts->at(0).b, 7);
+    EXPECT_EQ(motion.contacts->at(1).wall, 2) << "0 left, 1 right, 2 bottom, 3 top";
+    ASSERT_TRUE(motion.report.quad && motion.report.max && motion.report.residual);
+    EXPECT_LE(*motion.report.quad, *motion.report.max);
+    EXPECT_LT(*motion.report.max, 1e-6) << "solved to 1e-10";
+
+    now.index = 2;
+    std::vector<Kick> kicks = same_velocities(adapter.advance(now, {}));
+    kicks[0].velocity = {1000.0, 0.0, 0.0};
+    motion = adapter.apply_kick(now, kicks);
+    EXPECT_EQ(motion.report.removed, 1);
+    ASSERT_EQ(motion.contacts->size(), 1u);
+    EXPECT_EQ(motion.contacts->at(0).wall, 2);
+}
+
 // Period 10: from 9.99 at speed 2 over 0.01 to 0.01.
 TEST(NscdAdapter, WrapsCyclicSides) {
     Settings settings = box_settings();
@@ -331,7 +364,9 @@ TEST(NscdAdapter, SaysWhatItIs) {
     EXPECT_FALSE(hello.adapter_version.empty());
     EXPECT_EQ(hello.role, Role::grains);
     EXPECT_EQ(hello.capabilities.shapes, std::vector<std::string>{"disc"});
-    EXPECT_EQ(hello.capabilities.contact_laws, std::vector<std::string>{"coulomb"});
+    const std::vector<std::string>& laws = hello.capabilities.contact_laws;
+    for (const char* law : {"coulomb", "static-dynamic", "moreau", "capillary"})
+        EXPECT_NE(std::find(laws.begin(), laws.end(), law), laws.end()) << law;
     EXPECT_TRUE(hello.capabilities.effective_inertia);
 }
 
@@ -454,6 +489,57 @@ TEST(NscdAdapter, JointWithoutFluidIsDry) {
     adapter.initialise(settings, discs, {grain_at(4, 5, 10)});
     adapter.advance(window(0), {});
     EXPECT_NEAR(adapter.apply_kick(window(0), {}).grains[0].velocity[1], -0.01, 1e-16);
+}
+
+/// Wet grains: c = 0.6 weights in air, which is 1.8 of the buoyant ones (rho_s = 1.5).
+Settings wet_settings() {
+    Settings settings = box_settings();
+    settings.set("run.diameter", 1.0);
+    settings.set("run.grain_weight", 1.5 * std::numbers::pi / 4);
+    settings.set("contact.adhesion", std::string("wet"));
+    settings.set("contact.adhesion_force", 0.6);
+    settings.set("contact.adhesion_range", 0.05);
+    return settings;
+}
+
+// Thresholds are physical forces of the system that the contact problem has, (cM, cMg): under a
+// grain that is held hangs another one of buoyant weight 1/3 m g. A pull of 0.6 m g holds it, one
+// of 0.33 does not; what it felt balances its weight.
+TEST(NscdAdapter, AdhesionHoldsBuoyantWeights) {
+    for (const double strength : {0.34, 0.33}) {
+        Settings settings = wet_settings();
+        settings.set("contact.adhesion_force", strength);
+        NscdAdapter adapter;
+        adapter.initialise(settings, discs, {grain_at(1, 5, 10), grain_at(2, 5, 9)});
+        adapter.bodies().fixed[0] = 1;
+        const GrainState low = adapter.advance(window(0), {}).grains[1];
+        const double mass = 0.5 * std::numbers::pi / 4;
+        EXPECT_EQ(low.velocity[1] < -1e-9, strength < 1.0 / 3.0);
+        EXPECT_NEAR(low.contact_impulse[1], mass * (low.velocity[1] + 0.01), 1e-14);
+        EXPECT_GT(low.contact_impulse[1], 0.9 * 0.01 * mass);
+    }
+}
+
+// Rounds of a window repeat the solve: what was found in one counts for the next window only.
+TEST(NscdAdapter, JointBalancesWhatGrainsFeelUnderAdhesion) {
+    Settings settings = wet_settings();
+    settings.set("coupling.scheme", std::string("joint"));
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(1, 5, 0.51), grain_at(2, 5.3, 1.54)});
+    const std::vector<FreeResponse> responses = {falling_at(1, 0.001), falling_at(2, 0.002)};
+    for (int round = 0; round < 2; ++round) {
+        const Motion motion = adapter.advance(window(0), responses);
+        for (int k = 0; k < 2; ++k) {
+            const GrainState& grain = motion.grains[k];
+            const double fall = grain.velocity[1] - responses[k].velocity[1];
+            EXPECT_NEAR(grain.contact_impulse[0], 2.0 * grain.velocity[0], 1e-13);
+            EXPECT_NEAR(grain.contact_impulse[1], 3.0 * fall + 0.5 * grain.angular_velocity[2],
+                        1e-13);
+            EXPECT_NEAR(grain.contact_angular_impulse[2], 0.5 * fall + grain.angular_velocity[2],
+                        1e-13);
+        }
+        EXPECT_GT(std::abs(motion.grains[1].contact_impulse[1]), 1e-4) << "something must pull";
+    }
 }
 
 TEST(NscdAdapter, RefusesTheSameIdTwice) {

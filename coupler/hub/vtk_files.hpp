@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Files of ParaView's series: VTK PolyData with ascii arrays, and the collection (.pvd) that puts
+// them on a time axis. A reader may come at any moment: no file is ever half there.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite::vtk {
+
+/// How many of each a PolyData piece has.
+struct PieceSize {
+    std::size_t points = 0;
+    std::size_t vertices = 0;
+    std::size_t lines = 0;
+    std::size_t polygons = 0;
+};
+
+/// Writes a file of one piece; `content` writes what stands inside <Piece>. Throws Failure when the
+/// disk is full; a file that was there before stays.
+void write_poly_data(const std::filesystem::path& file, const PieceSize& size,
+                     const std::function<void(std::ostream&)>& content);
+
+/// "x y z\n" and "x\n", nine digits.
+std::string triple(const Vec3& v);
+std::string scalar(double value);
+
+/// One <DataArray>; `head` holds its attributes but the format, `text` makes each entry.
+template <class Range, class Text>
+void data_array(std::ostream& out, const char* head, const Range& range, Text text) {
+    out << "<DataArray " << head << " format=\"ascii\">\n";
+    for (const auto& entry : range) out << text(entry);
+    out << "</DataArray>\n";
+}
+
+/// The same for numbers per entry, vectors per entry, and whole numbers per entry.
+template <class Range, class Value>
+void scalars(std::ostream& out, const std::string& name, const Range& range, Value value) {
+    data_array(out, ("type=\"Float64\" Name=\"" + name + "\"").c_str(), range,
+               [&](const auto& entry) { return scalar(value(entry)); });
+}
+template <class Range, class Value>
+void vectors(std::ostream& out, const std::string& name, const Range& range, Value value) {
+    data_array(out, ("type=\"Float64\" Name=\"" + name + "\" NumberOfComponents=\"3\"").c_str(),
+               range, [&](const auto& entry) { return triple(value(entry)); });
+}
+template <class Range, class Value>
+void integers(std::ostream& out, const std::string& name, const Range& range, Value value) {
+    data_array(out, ("type=\"Int64\" Name=\"" + name + "\"").c_str(), range,
+               [&](const auto& entry) { return fmt::format("{}\n", value(entry)); });
+}
+
+/// The body of <Verts>, <Lines> or <Polys> whose cells use the points in order; `sizes` says how
+/// many points each cell has.
+void consecutive_cells(std::ostream& out, const std::vector<std::size_t>& sizes);
+
+/// The series file: complete after every call.
+class Collection {
+ public:
+    /// Starts an empty one.
+    explicit Collection(std::filesystem::path file);
+
+    /// One instant of one or more files (parts), named relative to the series file. Throws Failure
+    /// when the disk is full.
+    void add(double time, const std::vector<std::string>& parts);
+
+ private:
+    std::filesystem::path file_;
+    std::ofstream out_;
+};
+
+}  // namespace turbidite::vtk

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The loops over groups of rows (sweep_rows.hpp), for the instructions that are switched on where
+// this is included: once per file, inside a namespace of that name. Values are vectors of four or
+// single doubles; each operation rounds lane by lane, so neither the width nor the instructions
+// change a bit.
+//
+//     u = H_k^T v + b_k,   r_k' = exact solution of the contact alone,   v += M^-1 H_k (r_k' - r_k)
+
+#define TURBIDITE_INLINE [[gnu::always_inline]] inline
+
+using Four = double __attribute__((vector_size(32)));
+
+template <int width>
+struct RealOf {
+    using Type = Four;
+};
+template <>
+struct RealOf<1> {
+    using Type = double;
+};
+template <int width>
+using Real = typename RealOf<width>::Type;
+
+template <int width>
+TURBIDITE_INLINE Real<width> load(const Lanes<width>& lanes) {
+    Real<width> value;
+    __builtin_memcpy(&value, lanes.v, sizeof value);
+    return value;
+}
+
+template <int width>
+TURBIDITE_INLINE void store(Lanes<width>& lanes, const Real<width>& value) {
+    __builtin_memcpy(lanes.v, &value, sizeof value);
+}
+
+// Ternaries mean std::max and std::min here: the second where the comparison fails.
+template <class R>
+TURBIDITE_INLINE R larger(const R& a, const R& b) {
+    return a > b ? a : b;
+}
+template <class R>
+TURBIDITE_INLINE R smaller(const R& a, const R& b) {
+    return a < b ? a : b;
+}
+template <class R>
+TURBIDITE_INLINE R clamped(const R& x, const R& limit) {
+    return smaller(larger(x, R(-limit)), limit);
+}
+template <class R>
+TURBIDITE_INLINE R magnitude(const R& x) {
+    return larger(x, R(-x));
+}
+
+template <class R>
+struct BodyValues {
+    R x, y, spin, inverse_mass;
+};
+
+TURBIDITE_INLINE Four body_at(const PlaneBody* bodies, std::int32_t at) {
+    Four value;
+    __builtin_memcpy(&value, __builtin_assume_aligned(bodies + at, 32), sizeof value);
+    return value;
+}
+
+TURBIDITE_INLINE void put(PlaneBody* bodies, std::int32_t at, const Four& value) {
+    __builtin_memcpy(__builtin_assume_aligned(bodies + at, 32), &value, sizeof value);
+}
+
+TURBIDITE_INLINE BodyValues<Four> gather(const PlaneBody* bodies, const std::int32_t (&at)[4]) {
+    const Four b0 = body_at(bodies, at[0]), b1 = body_at(bodies, at[1]);
+    const Four b2 = body_at(bodies, at[2]), b3 = body_at(bodies, at[3]);
+    const Four xs01 = __builtin_shufflevector(b0, b1, 0, 4, 2, 6);
+    const Four ym01 = __builtin_shufflevector(b0, b1, 1, 5, 3, 7);
+    const Four xs23 = __builtin_shufflevector(b2, b3, 0, 4, 2, 6);
+    const Four ym23 = __builtin_shufflevector(b2, b3, 1, 5, 3, 7);
+    return {__builtin_shufflevector(xs01, xs23, 0, 1, 4, 5),
+            __builtin_shufflevector(ym01, ym23, 0, 1, 4, 5),
+            __builtin_shufflevector(xs01, xs23, 2, 3, 6, 7),
+            __builtin_shufflevector(ym01, ym23, 2, 3, 6, 7)};
+}
+
+TURBIDITE_INLINE void scatter(PlaneBody* bodies, const std::int32_t (&at)[4],
+                              const BodyValues<Four>& v) {
+    const Four xy02 = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6);
+    const Four xy13 = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);
+    const Four sm02 = __builtin_shufflevector(v.spin, v.inverse_mass, 0, 4, 2, 6);
+    const Four sm13 = __builtin_shufflevector(v.spin, v.inverse_mass, 1, 5, 3, 7);
+    put(bodies, at[0], __builtin_shufflevector(xy02, sm02, 0, 1, 4, 5));
+    put(bodies, at[1], __builtin_shufflevector(xy13, sm13, 0, 1, 4, 5));
+    put(bodies, at[2], __builtin_shufflevector(xy02, sm02, 2, 3, 6, 7));
+    put(bodies, at[3], __builtin_shufflevector(xy13, sm13, 2, 3, 6, 7));
+}
+
+TURBIDITE_INLINE BodyValues<double> gather(const PlaneBody* bodies, const std::int32_t (&at)[1]) {
+    const PlaneBody& body = bodies[at[0]];
+    return {body.x, body.y, body.spin, body.inverse_mass};
+}
+
+TURBIDITE_INLINE void scatter(PlaneBody* bodies, const std::int32_t (&at)[1],
+                              const BodyValues<double>& v) {
+    bodies[at[0]] = {v.x, v.y, v.spin, v.inverse_mass};
+}
+
+/// Adds |natural map|^2 (rolling_contact.hpp; in the plane without moments) and |r|^2.
+template <int width, class R>
+TURBIDITE_INLINE void add_map(PassSums<width>& sums, const R& rn, const R& rt, const R& un,
+                              const R& ut, const R& mu, const R& rho) {
+    const R one = R{} + 1.0;
+    const R n = rn - rho * (un + mu * magnitude(ut)), t = rt - rho * ut;
+    const R slid = (n + mu * magnitude(t)) / (one + mu * mu);
+    const R on = larger(larger(n, slid), R{});
+    const R fn = rn - on, ft = rt - clamped(t, R(mu * on));
+    store(sums.error, R(load(sums.error) + (fn * fn + ft * ft)));
+    store(sums.size, R(load(sums.size) + (rn * rn + rt * rt)));
+}
+
+/// Counts contacts whose new impulse is not zero.
+template <int width, class R>
+TURBIDITE_INLINE void count_loaded(PassSums<width>& sums, const R& rn) {
+    const R one = R{} + 1.0;
+    store(sums.loaded, R(load(sums.loaded) + (rn > R{} ? one : R{})));
+}
+
+/// What the update of any row starts from.
+template <class Rows>
+struct Met {
+    using R = Real<Rows::width>;
+    BodyValues<R> a, b;
+    R nx, ny, dx, dy, rn, rt, mu;
+
+    TURBIDITE_INLINE Met(const Rows& row, const PlaneBody* bodies)
+        : a(gather(bodies, row.a)),
+          b(gather(bodies, row.b)),
+          nx(load(row.nx)),
+          ny(load(row.ny)),
+          dx(b.x - a.x),
+          dy(b.y - a.y),
+          rn(load(row.rn)),
+          rt(load(row.rt)),
+          mu(load(row.friction)) {}
+
+    TURBIDITE_INLINE void keep(Rows& row, const R& n, const R& t, PlaneBody* bodies) const {
+        store(row.rn, n);
+        store(row.rt, t);
+        scatter(bodies, row.a, a);
+        scatter(bodies, row.b, b);
+    }
+};
+
+template <class Rows, class R>
+TURBIDITE_INLINE R tangential_velocity(const Rows& row, const Met<Rows>& met) {
+    return met.nx * met.dy - met.ny * met.dx + load(row.arm_b) * met.b.spin -
+           load(row.arm_a) * met.a.spin + load(row.bias_t);
+}
+
+/// v += M^-1 H d of isotropic bodies, d along (n, t).
+template <class Rows, class R>
+TURBIDITE_INLINE void push(const Rows& row, Met<Rows>& met, const R& dn, const R& dt) {
+    const R px = met.nx * dn - met.ny * dt, py = met.ny * dn + met.nx * dt;
+    met.a.x -= met.a.inverse_mass * px;
+    met.a.y -= met.a.inverse_mass * py;
+    met.b.x += met.b.inverse_mass * px;
+    met.b.y += met.b.inverse_mass * py;
+    met.a.spin -= load(row.turn_a) * dt;
+    met.b.spin += load(row.turn_b) * dt;
+}
+
+/// Exact: with W_nt = 0 the normal does not feel the tangent, and friction is a clamp.
+template <bool measure, int width>
+TURBIDITE_INLINE void update(DiscRows<width>& row, PlaneBody* bodies, PassSums<width>& sums) {
+    using R = Real<width>;
+    Met<DiscRows<width>> met(row, bodies);
+    const R un = met.nx * met.dx + met.ny * met.dy + load(row.bias_n);
+    const R ut = tangential_velocity<DiscRows<width>, R>(row, met);
+    if constexpr (measure) add_map(sums, met.rn, met.rt, un, ut, met.mu, load(row.inverse_nn));
+    const R n = larger(R(met.rn - un * load(row.inverse_nn)), R{});
+    const R t = clamped(R(met.rt - ut * load(row.inverse_tt)), R(met.mu * n));
+    if constexpr (measure) count_loaded(sums, n);
+    push(row, met, R(n - met.rn), R(t - met.rt));
+    met.keep(row, n, t, bodies);
+}
+
+/// The same as add_map with the moment.
+template <int width, class R>
+TURBIDITE_INLINE void add_rolling_map(const RollingDiscRows<width>& row, PassSums<width>& sums,
+                                      const Met<RollingDiscRows<width>>& met, const R& un,
+                                      const R& ut, const R& w) {
+    const R one = R{} + 1.0, s = load(row.inverse_nn), mu = met.mu;
+    const R length = load(row.length), lever = load(row.rolling), lean = lever / length;
+    const R moment = load(row.roll) / length;
+    const R xn = met.rn - s * (un + mu * magnitude(ut) + lever * magnitude(w));
+    const R xt = met.rt - s * ut, xm = moment - s * (w * length);
+    const R t = mu * magnitude(xt), m = lean * magnitude(xm);
+    const R both = (xn + t + m) / (one + mu * mu + lean * lean);
+    const R single = larger(R((xn + t) / (one + mu * mu)), R((xn + m) / (one + lean * lean)));
+    const R on = larger(larger(larger(xn, single), both), R{});
+    const R fn = met.rn - on, ft = met.rt - clamped(xt, R(mu * on));
+    const R fm = moment - clamped(xm, R(lean * on));
+    store(sums.error, R(load(sums.error) + (fn * fn + ft * ft + fm * fm)));
+    store(sums.size, R(load(sums.size) + (met.rn * met.rn + met.rt * met.rt + moment * moment)));
+}
+
+/// Exact: the normal first, then solve_on_box() of rolling_contact.hpp.
+template <bool measure, int width>
+TURBIDITE_INLINE void update(RollingDiscRows<width>& row, PlaneBody* bodies,
+                             PassSums<width>& sums) {
+    using R = Real<width>;
+    Met<RollingDiscRows<width>> met(row, bodies);
+    const R un = met.nx * met.dx + met.ny * met.dy + load(row.bias_n);
+    const R ut = tangential_velocity<RollingDiscRows<width>, R>(row, met);
+    const R w = met.b.spin - met.a.spin, roll = load(row.roll);
+    if constexpr (measure) add_rolling_map(row, sums, met, un, ut, w);
+    const R n = larger(R(met.rn - un * load(row.inverse_nn)), R{});
+    const R tr = load(row.tr), limit_m = load(row.rolling) * n;
+    const R bt = ut - load(row.tt) * met.rt - tr * roll;
+    const R br = w - tr * met.rt - load(row.rr) * roll;
+    const R held = magnitude(tr) * limit_m, inverse_tt = load(row.inverse_tt);
+    const R low = -(bt + held) * inverse_tt, high = -(bt - held) * inverse_tt;
+    const R free = -(bt - tr * br * load(row.inverse_rr)) * load(row.inverse_a);
+    const R t = clamped(smaller(larger(free, low), high), R(met.mu * n));
+    const R m = clamped(R(-(br + tr * t) * load(row.inverse_rr)), limit_m);
+    if constexpr (measure) count_loaded(sums, n);
+    push(row, met, R(n - met.rn), R(t - met.rt));
+    met.a.spin -= load(row.spin_a) * (m - roll);
+    met.b.spin += load(row.spin_b) * (m - roll);
+    store(row.roll, m);
+    met.keep(row, n, t, bodies);
+}
+
+template <class Rows>
+TURBIDITE_INLINE Real<Rows::width> general_normal_velocity(const Rows& row, const Met<Rows>& met) {
+    return met.nx * met.dx + met.ny * met.dy + load(row.arm_bn) * met.b.spin -
+           load(row.arm_an) * met.a.spin + load(row.bias_n);
+}
+
+template <class Rows>
+TURBIDITE_INLINE Real<Rows::width> general_tangential_velocity(const Rows& row,
+                                                               const Met<Rows>& met) {
+    return met.nx * met.dy - met.ny * met.dx + load(row.arm_bt) * met.b.spin -
+           load(row.arm_at) * met.a.spin + load(row.bias_t);
+}
+
+template <class Rows, class R>
+TURBIDITE_INLINE void general_push(const Rows& row, Met<Rows>& met, const R& dn, const R& dt) {
+    met.a.x -= load(row.a_nx) * dn + load(row.a_tx) * dt;
+    met.a.y -= load(row.a_ny) * dn + load(row.a_ty) * dt;
+    met.a.spin -= load(row.a_ns) * dn + load(row.a_ts) * dt;
+    met.b.x += load(row.b_nx) * dn + load(row.b_tx) * dt;
+    met.b.y += load(row.b_ny) * dn + load(row.b_ty) * dt;
+    met.b.spin += load(row.b_ns) * dn + load(row.b_ts) * dt;
+}
+
+/// solve_contact() of one_contact.hpp, both branches and a choice.
+template <bool measure, int width>
+TURBIDITE_INLINE void update(GeneralRows<width>& row, PlaneBody* bodies, PassSums<width>& sums) {
+    using R = Real<width>;
+    Met<GeneralRows<width>> met(row, bodies);
+    const R un = general_normal_velocity(row, met), ut = general_tangential_velocity(row, met);
+    const R nt = load(row.nt), inverse_nn = load(row.inverse_nn);
+    if constexpr (measure) add_map(sums, met.rn, met.rt, un, ut, met.mu, inverse_nn);
+    const R bn = un - load(row.nn) * met.rn - nt * met.rt;
+    const R bt = ut - nt * met.rn - load(row.tt) * met.rt;
+    const R trial = -(bt - nt * bn * inverse_nn) * load(row.inverse_a);
+    const R held = -(bn + nt * trial) * inverse_nn;
+    const R zero{}, minus = -met.mu;
+    const R inverse = trial < zero ? load(row.inverse_backward) : load(row.inverse_forward);
+    const R side = trial < zero ? minus : met.mu;
+    const R slid = -bn * inverse;
+    const auto sticks = magnitude(trial) <= met.mu * held;
+    const R closed_n = sticks ? held : slid, closed_t = sticks ? trial : R(side * slid);
+    const R n = bn < zero ? closed_n : zero, t = bn < zero ? closed_t : zero;
+    if constexpr (measure) count_loaded(sums, n);
+    general_push(row, met, R(n - met.rn), R(t - met.rt));
+    met.keep(row, n, t, bodies);
+}
+
+template <bool measure>
+TURBIDITE_INLINE void update(GeneralRollingRows<1>& row, PlaneBody* bodies, PassSums<1>& sums) {
+    Met<GeneralRollingRows<1>> met(row, bodies);
+    const Vec3 r{met.rn, met.rt, row.roll};
+    const Vec3 u{general_normal_velocity(row, met), general_tangential_velocity(row, met),
+                 met.b.spin - met.a.spin};
+    if constexpr (measure) {
+        const Vec3 f =
+            rolling_natural_map(r, u, met.mu, row.rolling, load(row.inverse_nn), row.length);
+        const double moment = row.roll / row.length;
+        sums.error.v[0] += f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        sums.size.v[0] += r[0] * r[0] + r[1] * r[1] + moment * moment;
+    }
+    const Block& w = row.w;
+    const Vec3 b{u[0] - w.nn * r[0] - w.nt * r[1] - w.nr * r[2],
+                 u[1] - w.nt * r[0] - w.tt * r[1] - w.tr * r[2],
+                 u[2] - w.nr * r[0] - w.tr * r[1] - w.rr * r[2]};
+    const Vec3 next = row.rolling > 0.0 ? solve_rolling_contact(w, b, met.mu, row.rolling)
+                                        : without_rolling(w, b, met.mu);
+    if constexpr (measure) count_loaded(sums, next[0]);
+    general_push(row, met, next[0] - r[0], next[1] - r[1]);
+    const double dm = next[2] - r[2];
+    met.a.x -= row.a_rx * dm, met.a.y -= row.a_ry * dm, met.a.spin -= row.a_rs * dm;
+    met.b.x += row.b_rx * dm, met.b.y += row.b_ry * dm, met.b.spin += row.b_rs * dm;
+    row.roll = next[2];
+    met.keep(row, next[0], next[1], bodies);
+}
+
+template <class Rows>
+void sweep_plain(Rows* begin, Rows* end, PlaneBody* bodies) {
+    PassSums<Rows::width> unused;
+    for (Rows* row = begin; row != end; ++row) update<false>(*row, bodies, unused);
+}
+
+template <class Rows>
+void sweep_measured(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width>& sums) {
+    for (Rows* row = begin; row != end; ++row) update<true>(*row, bodies, sums);
+}
+
+template <class Rows>
+Sweeps<Rows> sweeps() {
+    return {sweep_plain<Rows>, sweep_measured<Rows>};
+}
+
+#undef TURBIDITE_INLINE

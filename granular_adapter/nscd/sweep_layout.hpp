@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A contact problem laid out for sweeps: schedule, rows, and the bodies in the order in which the
+// schedule meets them, so that a sweep walks through memory.
+#pragma once
+
+#include <vector>
+
+#include "granular_adapter/nscd/contact_schedule.hpp"
+#include "granular_adapter/nscd/delassus.hpp"
+#include "granular_adapter/nscd/sweep_pack.hpp"
+
+namespace turbidite::nscd {
+
+/// Bodies without mobility do not count: any number of contacts may share one at a time.
+std::vector<MovedPair> moved_pairs(const ContactProblem& problem);
+
+/// Places in memory of the bodies of a schedule. A moved body has one; everything else (a wall, an
+/// immovable body, the body of an empty lane) has one per contact, so that no update ever waits for
+/// another one on its account.
+class BodySlots {
+ public:
+    BodySlots(std::size_t bodies, const std::vector<Twist>& velocities,
+              const std::vector<BodyMobility>& mobilities)
+        : slot_(bodies, -1), velocities_(velocities), mobilities_(mobilities) {}
+
+    /// `body` -1: at rest.
+    std::int32_t meet(std::int32_t body, bool moved) {
+        if (moved && slot_[static_cast<std::size_t>(body)] >= 0)
+            return slot_[static_cast<std::size_t>(body)];
+        const auto slot = static_cast<std::int32_t>(bodies.size());
+        if (moved) slot_[static_cast<std::size_t>(body)] = slot;
+        bodies.push_back(body < 0 ? PlaneBody{} : plane_body(static_cast<std::size_t>(body)));
+        return slot;
+    }
+
+    std::vector<PlaneBody> bodies;
+
+ private:
+    PlaneBody plane_body(std::size_t i) const {
+        const Twist& v = velocities_[i];
+        return {v.velocity[0], v.velocity[1], v.spin[2], mobilities_[i].xx};
+    }
+
+    std::vector<std::int32_t> slot_;
+    const std::vector<Twist>& velocities_;
+    const std::vector<BodyMobility>& mobilities_;
+};
+
+template <class Rows>
+struct SweepLayout {
+    Schedule schedule;
+    std::vector<PlaneBody> bodies;
+    std::vector<Rows> rows;
+
+    SweepLayout(const ContactProblem& problem, const Delassus& w,
+                const std::vector<MovedPair>& pairs, const Impulses& r,
+                const std::vector<Twist>& velocities, Schedule laid)
+        : schedule(std::move(laid)) {
+        BodySlots slots(problem.bodies.size(), velocities, problem.bodies);
+        rows.resize(static_cast<std::size_t>(schedule.all));
+        for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
+            Rows& row = rows[i / Rows::width];
+            const int lane = static_cast<int>(i % Rows::width);
+            if (schedule.lanes[i] < 0) {
+                fill_empty(row, lane, slots.meet(-1, false));
+                continue;
+            }
+            const auto k = static_cast<std::size_t>(schedule.lanes[i]);
+            const Contact& c = problem.contacts[k];
+            const std::int32_t slot_a = slots.meet(c.a, pairs[k].a >= 0);
+            const std::int32_t slot_b = slots.meet(c.b, pairs[k].b >= 0);
+            fill(row, lane,
+                 {c, w.block(k), c.a < 0 ? BodyMobility() : problem.bodies[c.a],
+                  problem.bodies[c.b], r[k], slot_a, slot_b});
+        }
+        bodies = std::move(slots.bodies);
+    }
+
+    void collect(Impulses& r) const {
+        for (std::size_t i = 0; i < schedule.lanes.size(); ++i)
+            if (schedule.lanes[i] >= 0)
+                r[static_cast<std::size_t>(schedule.lanes[i])] =
+                    impulse(rows[i / Rows::width], static_cast<int>(i % Rows::width));
+    }
+};
+
+}  // namespace turbidite::nscd

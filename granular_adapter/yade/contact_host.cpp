@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "granular_adapter/yade/contact_host.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "granular_adapter/nscd/vec3.hpp"
+
+namespace turbidite::yade {
+namespace {
+
+using nscd::operator+;
+using nscd::operator*;
+
+/// Contact memory of an engine without its walls, whose number may change.
+std::vector<char> memory_of(nscd::Engine& engine) {
+    const std::vector<nscd::Wall> walls = std::exchange(engine.walls(), {});
+    std::vector<char> bytes = engine.save_memory();
+    engine.walls() = walls;
+    return bytes;
+}
+
+void restore_memory_of(nscd::Engine& engine, const std::vector<char>& bytes) {
+    const std::vector<nscd::Wall> walls = std::exchange(engine.walls(), {});
+    engine.restore_memory(bytes);
+    engine.walls() = walls;
+}
+
+std::runtime_error at_fault(GrainId body, const std::string& fault, const char* when) {
+    return std::runtime_error("turbidite_contact: body " + std::to_string(body) + fault + ", " +
+                              when + "; use a smaller O.dt");
+}
+
+bool is_finite(const nscd::Bodies& bodies, std::size_t i) {
+    return nscd::is_finite(bodies.position[i]) && nscd::is_finite(bodies.twist[i].velocity) &&
+           nscd::is_finite(bodies.twist[i].spin);
+}
+
+}  // namespace
+
+ContactHost::ContactHost(const nscd::EngineSettings& settings) : settings_(settings) {
+    lay_out({});
+}
+
+std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
+    nscd::EngineSettings settings = settings_;
+    settings.box = layout.box;
+    if (!layout.frictions.empty()) {
+        settings.surfaces.assign(layout.frictions.size(), settings_.surfaces.at(0));
+        for (std::size_t i = 0; i < layout.frictions.size(); ++i)
+            settings.surfaces[i].friction = layout.frictions[i];
+    }
+    auto engine = std::make_unique<nscd::Engine>(settings, layout.shapes, layout.walls.read());
+    for (const nscd::Body& body : layout.bodies) engine->bodies().add(body);
+    return engine;
+}
+
+void ContactHost::lay_out(Layout layout) {
+    auto next = new_engine(layout);
+    if (engine_) restore_memory_of(*next, memory_of(*engine_));
+    engine_ = std::move(next);
+    states_ = std::move(layout.states);
+    turns_ = std::move(layout.turns);
+    walls_ = std::move(layout.walls);
+    watch_ = std::move(layout.watch);
+    read_bodies();
+    check_bodies("at the start");
+}
+
+nscd::StepReport ContactHost::step(double dt, const Loads& loads) {
+    read_bodies();
+    take_loads(loads);
+    check_bodies("before the step");
+    solved_positions_ = engine_->bodies().position;
+    const nscd::StepReport report = engine_->step(dt);
+    engine_->move(dt);
+    check_bodies("after the step");
+    write_bodies();
+    walls_.advance(dt);
+    last_step_ = dt;
+    return report;
+}
+
+std::vector<char> ContactHost::memory() const {
+    return memory_of(*engine_);
+}
+
+void ContactHost::restore_memory(const std::vector<char>& bytes) {
+    restore_memory_of(*engine_, bytes);
+}
+
+std::vector<ContactForce> ContactHost::contacts() const {
+    const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
+    const std::vector<nscd::Wall>& walls = std::as_const(*engine_).walls();
+    const auto& points = engine_->points();
+    std::vector<ContactForce> result;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Vec3 force = (1.0 / last_step_) * engine_->impulses()[k];
+        if (force == Vec3{}) continue;
+        const nscd::ContactPoint& point = points[k];
+        const auto b = static_cast<std::size_t>(point.b);
+        ContactForce contact;
+        contact.wall = point.wall >= 0;
+        contact.first = contact.wall ? walls[static_cast<std::size_t>(point.wall)].key
+                                     : bodies.id[static_cast<std::size_t>(point.a)];
+        contact.second = bodies.id[b];
+        contact.point = solved_positions_[b] + point.arm_b;
+        contact.point[2] = heights_[b];
+        contact.normal = point.normal;
+        contact.gap = point.gap;
+        contact.normal_force = force[0];
+        contact.tangential_force = force[1];
+        contact.rolling_moment = force[2];
+        result.push_back(contact);
+    }
+    return result;
+}
+
+void ContactHost::read_bodies() {
+    nscd::Bodies& bodies = engine_->bodies();
+    heights_.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const BodyMotion motion = states_.read(i);
+        heights_[i] = motion.position[2];
+        bodies.position[i] = {motion.position[0], motion.position[1], 0.0};
+        bodies.orientation[i] = outline_orientation(motion.orientation, turns_[i]);
+        bodies.twist[i] = {{motion.velocity[0], motion.velocity[1], 0.0},
+                           {0.0, 0.0, motion.angular_velocity[2]}};
+    }
+    engine_->walls() = walls_.read();
+}
+
+void ContactHost::take_loads(const Loads& loads) {
+    nscd::Bodies& bodies = engine_->bodies();
+    bodies.force = loads.force.empty() ? std::vector<Vec3>(bodies.size()) : loads.force;
+    bodies.torque = loads.torque.empty() ? std::vector<Vec3>(bodies.size()) : loads.torque;
+}
+
+/// Finite, and no centre behind a half-plane.
+void ContactHost::check_bodies(const char* when) const {
+    const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (!is_finite(bodies, i))
+            throw at_fault(bodies.id[i], " has a position or velocity that is not a number", when);
+        if (bodies.fixed[i]) continue;
+        for (const nscd::Wall& wall : std::as_const(*engine_).walls())
+            if (!std::isfinite(wall.half_length) && signed_distance(wall, bodies.position[i]) < 0.0)
+                throw at_fault(bodies.id[i],
+                               " has its centre behind wall " + std::to_string(wall.key), when);
+    }
+}
+
+void ContactHost::write_bodies() const {
+    const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Vec3& x = bodies.position[i];
+        states_.write(i, {{x[0], x[1], heights_[i]},
+                          yade_orientation(bodies.orientation[i], turns_[i]),
+                          bodies.twist[i].velocity,
+                          bodies.twist[i].spin});
+    }
+}
+
+}  // namespace turbidite::yade

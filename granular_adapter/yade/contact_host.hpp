@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact engine over YADE's bodies, for a script of its own: no coupling, no MPI. Before each
+// contact problem motions and loads are read from YADE, after the move motions are written back, so
+// that whatever a script does to a body in between counts. YADE's body ids are the engine's grain
+// ids and the keys of its walls. The engine's plane is z = 0, wherever YADE's bodies lie.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/yade/hosted_walls.hpp"
+#include "granular_adapter/yade/scene_watch.hpp"
+#include "granular_adapter/yade/turn.hpp"
+#include "granular_adapter/yade/yade_bodies.hpp"
+
+namespace turbidite::yade {
+
+/// What a scene holds, in the engine's terms.
+struct Layout {
+    ShapeTable shapes;
+    std::vector<double> frictions;   ///< mu by material of bodies and walls
+    std::vector<nscd::Body> bodies;  ///< motions are read from `states`
+    BodyStates states;               ///< of `bodies`, in their order
+    std::vector<Turn> turns;         ///< the same
+    HostedWalls walls;
+    nscd::PeriodicBox box;
+    SceneWatch watch;
+};
+
+/// Forces and torques that a script put on bodies (O.forces), in the order of the layout's bodies;
+/// empty: none [N, N m].
+struct Loads {
+    std::vector<Vec3> force;
+    std::vector<Vec3> torque;
+};
+
+/// Force of one contact point, on `second`.
+struct ContactForce {
+    GrainId first = 0;  ///< body, or the wall's key
+    GrainId second = 0;
+    bool wall = false;              ///< `first` is a wall
+    Vec3 point{};                   ///< [m]
+    Vec3 normal{};                  ///< unit, from first to second
+    double gap = 0.0;               ///< negative: overlap [m]
+    double normal_force = 0.0;      ///< J_n/dt [N]
+    double tangential_force = 0.0;  ///< J_t/dt along e_z x normal [N]
+    double rolling_moment = 0.0;    ///< [N m]
+};
+
+class ContactHost {
+ public:
+    /// `settings.surfaces` has one entry; materials of the scene have its values and their own
+    /// friction. Throws std::invalid_argument like nscd::Engine.
+    explicit ContactHost(const nscd::EngineSettings& settings);
+
+    /// Takes this scene from now on; what contacts of known pairs remember is kept.
+    void lay_out(Layout layout);
+
+    /// Whether the scene, of `count` bodies, is no longer the one laid out.
+    bool outdated(std::size_t count) const { return watch_.changed(count, states_); }
+
+    /// Reads motions, solves the contacts, moves, writes motions. Throws std::runtime_error naming
+    /// a body whose motion is not finite or whose centre is behind a wall.
+    nscd::StepReport step(double dt, const Loads& loads);
+
+    const nscd::Engine& engine() const { return *engine_; }
+
+    /// Impulses and states of the contacts, for the next process; walls are YADE's to keep.
+    std::vector<char> memory() const;
+    void restore_memory(const std::vector<char>& bytes);
+
+    /// Of the last step, those with a force.
+    std::vector<ContactForce> contacts() const;
+
+ private:
+    std::unique_ptr<nscd::Engine> new_engine(Layout& layout) const;
+    void read_bodies();
+    void take_loads(const Loads& loads);
+    void check_bodies(const char* when) const;
+    void write_bodies() const;
+
+    nscd::EngineSettings settings_;
+    std::unique_ptr<nscd::Engine> engine_;
+    BodyStates states_;
+    std::vector<Turn> turns_;
+    HostedWalls walls_;
+    std::vector<double> heights_;  ///< z in YADE
+    SceneWatch watch_;
+    std::vector<Vec3> solved_positions_;  ///< at which the last contacts were solved
+    double last_step_ = 0.0;
+};
+
+}  // namespace turbidite::yade

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigid grains by non-smooth contact dynamics in a YADE script of your own, without coupling:
+
+    import turbidite_contact
+    O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0), theta=0.5)
+
+docs/yade.md says what bodies, materials and forces mean here, and how results reach YADE's tools.
+"""
+from yade.minieigenHP import Vector3
+from yade.wrapper import ForceResetter, NewtonIntegrator, Omega, PyRunner
+
+from . import host as _host
+from . import memory as _memory
+from .parts import disc, make_disc, polygon
+from .refusal import Refused
+
+__all__ = ['Refused', 'attach', 'contact_force', 'contacts', 'disc', 'engines', 'make_disc', 'polygon', 'refresh',
+           'report', 'show', 'step']
+
+O = Omega()
+_STEP = 'import turbidite_contact; turbidite_contact.step()'
+_present = None  # the host of the scene that stepped last
+
+
+def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
+    """What O.engines needs: a list that begins with ForceResetter and ends with the store of impulses.
+
+    gravity  [m/s2], in the plane: no z component
+    show     every so many steps O.interactions and O.forces show the contacts (0: never); recorders that want
+             them run at multiples of it, behind these engines
+    contact  theta, tolerance, iterations, law, solver, ...: the keys of `turbidite keys` in the group contact,
+             in SI units, except friction, which is that of the bodies' materials
+
+    Engines that add forces (O.forces.addF) belong behind the first, all others behind the last of the list.
+    Raises Refused or RuntimeError, naming the key, when a setting is not allowed.
+    """
+    settings = _host.settings(gravity, show, contact)
+    return [
+        ForceResetter(),
+        # Steps nothing: unbalancedForce and its like look for gravity there.
+        NewtonIntegrator(gravity=Vector3(*settings['gravity']), damping=0.0, dead=True),
+        PyRunner(command=_STEP, iterPeriod=1, initRun=True, label='turbidite_contact'),
+        _memory.holder(settings),
+    ]
+
+
+def attach(gravity=(0.0, -9.81, 0.0), show=0, **contact):
+    """Sets O.engines to engines(...) followed by those of the present ones that neither collide nor integrate."""
+    replaced = ('ForceResetter', 'InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator',
+                'GlobalStiffnessTimeStepper')
+    kept = [engine for engine in O.engines
+            if type(engine).__name__ not in replaced and not engine.label.startswith('turbidite_contact')]
+    O.engines = engines(gravity, show, **contact) + kept
+
+
+def step():
+    """One step of O.dt: what the PyRunner of engines() calls."""
+    global _present
+    store = _memory.find()
+    if _present is None or _present.stamp != store.iterLast:
+        _present = _host.Host(*_memory.read(store), store.iterLast)
+    _present.step(store)
+
+
+def report():
+    """How the last step's solver fared: contacts, iterations, residual, converged, quad, max, candidates, and
+    unconverged_steps since the script started or loaded a scene."""
+    return dict(_stepped().report)
+
+
+def contacts():
+    """Contact points of the last step that carry a force: objects with id1, id2, point, normal (from id1 to
+    id2), gap, normal_force, shear_force (on id2), rolling_moment."""
+    return _stepped().contacts()
+
+
+def contact_force(body):
+    """Sum of the contact forces of the last step on a body or wall, by its id [N]."""
+    return _stepped().contact_force(body)
+
+
+def show():
+    """Puts the last step's contacts into O.interactions and O.forces now."""
+    _stepped().show()
+
+
+def refresh():
+    """Reads shapes and states anew before the next step: after a script exchanged a body's state or changed
+    the shape of one. Additions, erasures, masses, degrees of freedom, materials and walls are noticed anyway."""
+    _stepped().scene = None
+
+
+def _stepped():
+    if _present is None:
+        raise Refused('turbidite_contact: no step has been made yet')
+    return _present

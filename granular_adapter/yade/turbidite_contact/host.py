@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One scene's contact engine: notices what the script did, steps, keeps the memory up to date."""
+import turbidite_contact_engine
+from yade.minieigenHP import Vector3
+from yade.wrapper import Omega
+
+from . import display, memory
+from .refusal import Refused
+from .scene import read_scene
+
+O = Omega()
+YADE_DEFAULT_STEP = 1e-8
+
+
+def settings(gravity, show, contact):
+    """Checked settings in JSON types: gravity, show, options (texts by key of the group contact)."""
+    if len(gravity) != 3 or gravity[2] != 0:
+        raise Refused(f'turbidite_contact: gravity = {tuple(gravity)} must be (x, y, 0): motion is in the plane')
+    if int(show) != show or show < 0:
+        raise Refused(f'turbidite_contact: show = {show} must be a whole number of steps, or 0')
+    if 'friction' in contact:
+        raise Refused('turbidite_contact: friction is that of the materials (FrictMat.frictionAngle) of the bodies')
+    options = {key: str(value) for key, value in contact.items()}
+    result = {'gravity': [float(g) for g in gravity], 'show': int(show), 'options': options}
+    turbidite_contact_engine.ContactEngine(options, result['gravity'])  # raises what it does not accept
+    return result
+
+
+class Contact:
+    """One contact point; vectors of the plane with z."""
+
+    def __init__(self, record):
+        self.id1, self.id2, point, normal, self.gap, pushing, dragging, self.rolling_moment, self.wall = record
+        self.point, self.normal = Vector3(*point), Vector3(*normal)
+        self.normal_force = pushing * self.normal
+        self.shear_force = dragging * Vector3(-normal[1], normal[0], 0)
+        self.force = self.normal_force + self.shear_force
+
+
+class Host:
+    """`settings` as above; `stamp` names the text in the store that this engine is up to date with."""
+
+    def __init__(self, settings, remembered, stamp):
+        self.settings, self.stamp = settings, stamp
+        self.engine = turbidite_contact_engine.ContactEngine(settings['options'], settings['gravity'])
+        if remembered:
+            self.engine.restore_memory(remembered)
+        self.scene = None
+        self.report = {}
+        self.unconverged_steps = 0
+        self.dt = None
+        self.shown = False
+        self.sync_count = -1
+
+    def step(self, store):
+        check_loop()
+        self.follow_scene()
+        self.dt = O.dt
+        self.report = self.engine.step(self.dt, *self.loads())
+        self.count_unconverged()
+        self.stamp = memory.write(store, self.settings, self.engine.memory())
+        every = self.settings['show']
+        if every and O.iter % every == 0:
+            self.show()
+        elif self.shown:
+            display.clear()
+            self.shown = False
+        self.sync_count = O.forces.syncCount
+
+    def follow_scene(self):
+        """Lays the engine out anew when bodies were added, erased or changed."""
+        if self.scene is None or self.scene.materials.changed() or self.engine.outdated(len(O.bodies)):
+            self.scene = read_scene()
+            self.engine.lay_out(self.scene.layout)
+
+    def loads(self):
+        """(forces, torques) of O.forces by body, empty when nobody set any in this step.
+
+        The container counts how often it summed up the forces of its threads: no new sum since the last step,
+        and no permanent forces, means that there are none.
+        """
+        ids = self.scene.ids
+        if not ids:
+            return [], []
+        O.forces.f(ids[0], True)
+        if O.forces.syncCount == self.sync_count and not O.forces.getPermForceUsed():
+            return [], []
+        return [O.forces.f(i) for i in ids], [O.forces.t(i) for i in ids]
+
+    def count_unconverged(self):
+        if not self.report['converged']:
+            self.unconverged_steps += 1
+            if self.unconverged_steps == 1:
+                print(f'turbidite_contact: step {O.iter} did not converge (residual '
+                      f'{self.report["residual"]:.2g} after {self.report["iterations"]} sweeps); '
+                      'report()["unconverged_steps"] counts such steps', flush=True)
+        self.report['unconverged_steps'] = self.unconverged_steps
+
+    def contacts(self):
+        return [Contact(record) for record in self.engine.contacts()]
+
+    def contact_force(self, body):
+        """On a wall: the reaction."""
+        for number, impulse, _ in self.engine.impulses():
+            if number == body:
+                return Vector3(*impulse) / self.dt
+        forces = (-contact.force for contact in self.contacts() if contact.wall and contact.id1 == body)
+        return sum(forces, Vector3.Zero)
+
+    def show(self):
+        display.show(self.contacts(), self.engine.impulses(), self.dt)
+        self.shown = True
+
+
+def check_loop():
+    """Nobody else moves the bodies, and forces of the last step are gone."""
+    if O.dt == YADE_DEFAULT_STEP or not O.dt > 0:
+        raise Refused(f'turbidite_contact: O.dt = {O.dt} s; set the time step, usually 1e-3 to 1e-2 of sqrt(D/g)')
+    resetter = False
+    for engine in O.engines:
+        name = type(engine).__name__
+        if engine.dead:
+            continue
+        if name == 'NewtonIntegrator':
+            raise Refused('turbidite_contact: a NewtonIntegrator in O.engines would move the bodies a second time; '
+                          'take it out (the dead one of turbidite_contact.engines() tells gravity)')
+        resetter = resetter or name == 'ForceResetter'
+        if engine.label == 'turbidite_contact' and not resetter:
+            raise Refused('turbidite_contact: no ForceResetter before it in O.engines; forces would add up from '
+                          'step to step. Keep the one of turbidite_contact.engines()')

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The engine's settings, contact impulses and law states in a YADE object, so that O.save keeps them.
+
+The object is a dead PyRunner at the end of O.engines, whose command is a comment:
+
+    # turbidite_contact {settings as JSON} {contact memory, base64}
+
+A scene that YADE loaded brings another text than the one last written here. To see that without
+comparing texts, every text is stamped: the holder's iterLast, which YADE keeps and a dead engine
+never uses, is the same random number on both sides.
+"""
+import binascii
+import itertools
+import json
+import random
+
+from yade.wrapper import Omega, PyRunner
+
+from .refusal import Refused
+
+LABEL = 'turbidite_contact_state'
+MARK = '# turbidite_contact'
+_stamps = itertools.count(random.SystemRandom().getrandbits(60))
+
+
+def holder(settings):
+    """A new holder with these settings (JSON types) and no impulses."""
+    runner = PyRunner(command='', dead=True, label=LABEL)
+    write(runner, settings, b'')
+    return runner
+
+
+def find():
+    """The holder of the present scene."""
+    for engine in Omega().engines:
+        if engine.label == LABEL:
+            return engine
+    raise Refused('turbidite_contact: O.engines has no engine labelled '
+                  f'{LABEL}; keep all that turbidite_contact.engines() returns')
+
+
+def write(runner, settings, contacts):
+    """Stores settings and contact memory; returns the stamp."""
+    text = binascii.b2a_base64(contacts, newline=False).decode('ascii')
+    runner.command = f'{MARK} {json.dumps(settings)} {text}'
+    runner.iterLast = next(_stamps)
+    return runner.iterLast
+
+
+def read(runner):
+    """(settings, contact memory)."""
+    mark, text = runner.command[:len(MARK)], runner.command[len(MARK):].strip()
+    try:
+        if mark != MARK:
+            raise ValueError('it begins with something else')
+        settings, end = json.JSONDecoder().raw_decode(text)
+        return settings, binascii.a2b_base64(text[end:].strip())
+    except ValueError as error:
+        raise Refused(f'turbidite_contact: the command of the engine labelled {LABEL} was changed ({error}); '
+                      'it holds settings and contact impulses') from error

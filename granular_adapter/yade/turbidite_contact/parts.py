@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies of YADE that move in the plane: discs and convex polygons of a given thickness along z."""
+import math
+
+from yade import utils
+from yade.minieigenHP import Vector3
+from yade.wrapper import Body, Polyhedra
+
+from .refusal import Refused
+
+PLANAR = 'zXY'
+
+
+def disc(center, radius, thickness=1.0, fixed=False, **kw):
+    """A Sphere with mass and moment of inertia of a disc (rho pi R^2 t, m R^2 / 2) that moves in the plane.
+
+    Other arguments are those of utils.sphere.
+    """
+    return make_disc(utils.sphere(center, radius, fixed=fixed, **kw), thickness)
+
+
+def make_disc(body, thickness=1.0):
+    """Gives a Sphere the mass, moment and degrees of freedom of a disc; fixed ones stay fixed."""
+    radius, state = body.shape.radius, body.state
+    state.mass = body.mat.density * math.pi * radius**2 * thickness
+    state.inertia = Vector3(1, 1, 2) * (0.25 * state.mass * radius**2)
+    if state.blockedDOFs != 'xyzXYZ':
+        state.blockedDOFs = PLANAR
+    return body
+
+
+def polygon(vertices, thickness=None, z=0.0, fixed=False, material=-1, color=None, **kw):
+    """A convex polygon as a Polyhedra: the prism of the vertices (x, y), which YADE draws.
+
+    Mass and moment are those of the prism; its position is the centre of mass. Without `thickness` it is a
+    tenth of the largest extent, thin enough for YADE to keep z as an axis of the body.
+    """
+    if len(vertices) < 3:
+        raise Refused(f'turbidite_contact: a polygon has at least 3 vertices, not {len(vertices)}')
+    extent = max(math.dist(a, b) for a in vertices for b in vertices)
+    half = 0.5 * (0.1 * extent if thickness is None else thickness)
+    corners = [Vector3(x, y, z + level) for level in (-half, half) for x, y in vertices]
+    body = Body()
+    body.shape = Polyhedra(v=corners, color=color if color else utils.randomColor(), **kw)
+    centre, axes = body.shape.GetCentroid(), body.shape.GetOri()
+    utils._commonBodySetup(body, body.shape.GetVolume(), body.shape.GetInertia(), material, pos=centre, fixed=fixed)
+    body.state.ori = body.state.refOri = axes
+    body.aspherical = True
+    if not fixed:
+        body.state.blockedDOFs = PLANAR
+    return body

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Keys of contact laws: what is missing or impossible is refused by name before anything starts.
+#include <gtest/gtest.h>
+
+#include "coupler/case/case_file.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+class LawKeys : public ::testing::Test {
+ protected:
+    ScratchFolder folder;
+
+    ResolvedCase load(const std::vector<std::string>& set) {
+        return load_case(folder.write("dry.yaml",
+                                      "domain: {size: [12, 24]}\ngrains: {count: 20}\n"
+                                      "fluid: {enabled: false}\ntime: {step: 0.01, end: 1}\n"),
+                         set);
+    }
+
+    std::string refusal(const std::vector<std::string>& set) {
+        try {
+            load(set);
+        } catch (const CaseRefused& refused) {
+            return refused.what();
+        }
+        return "";
+    }
+
+    std::string notes(const std::vector<std::string>& set) {
+        std::string all;
+        for (const std::string& note : load(set).notes) all += note + "\n";
+        return all;
+    }
+};
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(LawKeys, ALawThatLacksAParameter) {
+    EXPECT_SAYS(refusal({"contact.law=static-dynamic"}),
+                "contact.static_friction is missing (needed with contact.law: static-dynamic)");
+    const std::string wet = refusal({"contact.adhesion=wet"});
+    EXPECT_SAYS(wet, "contact.adhesion_force is missing");
+    EXPECT_SAYS(wet, "contact.adhesion_range is missing");
+    const std::vector<std::string> force = {"contact.adhesion_force=1",
+                                            "contact.adhesion_range=0.05"};
+    const auto with = [&](const std::string& law) {
+        std::vector<std::string> set = force;
+        set.push_back("contact.adhesion=" + law);
+        return set;
+    };
+    EXPECT_EQ(refusal(with("wet")), "");
+    EXPECT_EQ(refusal(with("wet-irreversible")), "");
+    EXPECT_SAYS(refusal(with("capillary")), "contact.adhesion_length is missing");
+    EXPECT_SAYS(refusal(with("cohesion")), "contact.adhesion_shear is missing");
+}
+
+TEST_F(LawKeys, UnknownLaws) {
+    EXPECT_SAYS(refusal({"contact.law=glue"}), "contact.law = glue");
+    EXPECT_SAYS(refusal({"contact.adhesion=glue"}), "none, cohesion, wet");
+    EXPECT_SAYS(refusal({"contact.impact=poisson"}), "newton, moreau");
+}
+
+TEST_F(LawKeys, ValuesOutOfRange) {
+    EXPECT_SAYS(refusal({"contact.restitution=1.1"}), "contact.restitution = 1.1");
+    EXPECT_SAYS(refusal({"contact.restitution=-0.1"}), "between 0 (no rebound) and 1 (no loss)");
+    EXPECT_SAYS(refusal({"contact.restitution_tangential=2"}),
+                "contact.restitution_tangential = 2");
+    EXPECT_SAYS(refusal({"contact.rolling_friction=-1"}), "must be zero or positive");
+    EXPECT_SAYS(refusal({"contact.adhesion=wet", "contact.adhesion_force=-1",
+                         "contact.adhesion_range=0.05"}),
+                "contact.adhesion_force = -1");
+    EXPECT_SAYS(
+        refusal({"contact.adhesion=wet", "contact.adhesion_force=1", "contact.adhesion_range=1.5"}),
+        "contact.adhesion_range = 1.5");
+    EXPECT_SAYS(refusal({"contact.law=static-dynamic", "contact.static_friction=0.2"}),
+                "contact.static_friction = 0.2");
+}
+
+// theta <= 1/(1 + e); 1/2 serves every e.
+TEST_F(LawKeys, ThetaThatWouldMakeEnergy) {
+    EXPECT_EQ(refusal({"contact.restitution=1"}), "");
+    EXPECT_EQ(refusal({"contact.restitution=0.6", "contact.theta=0.625"}), "");
+    const std::string text = refusal({"contact.restitution=0.6", "contact.theta=0.63"});
+    EXPECT_SAYS(text, "contact.theta = 0.63");
+    EXPECT_SAYS(text, "1/(1 + e) = 0.625");
+    EXPECT_SAYS(refusal({"contact.restitution_tangential=0.6", "contact.theta=0.63"}),
+                "contact.theta = 0.63");
+}
+
+TEST_F(LawKeys, MoreauHasOneRestitution) {
+    EXPECT_SAYS(refusal({"contact.impact=moreau", "contact.restitution_tangential=0.1"}),
+                "contact.restitution_tangential = 0.1");
+}
+
+TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
+    EXPECT_SAYS(notes({"contact.adhesion_force=1"}),
+                "contact.adhesion_force has no effect without contact.adhesion");
+    EXPECT_SAYS(notes({"contact.static_friction=0.5"}), "without contact.law: static-dynamic");
+    EXPECT_EQ(notes({}).find("contact."), std::string::npos);
+    EXPECT_SAYS(notes({"contact.restitution=0.5"}), "contact.impact: moreau never does");
+    EXPECT_EQ(notes({"contact.restitution=0.5", "contact.impact=moreau"}).find("contact."),
+              std::string::npos);
+}
+
+// pi/4 rho_s g D^2 with rho_r = 1.5 and D = g = rho_f = 1, dry or wet; sedimentation: g of Eq. 21.
+TEST_F(LawKeys, UnitOfForcesIsTheWeightOfAGrainInAir) {
+    EXPECT_DOUBLE_EQ(load({}).settings.real("run.grain_weight"), 1.1780972450961724);
+    EXPECT_DOUBLE_EQ(
+        load({"fluid.enabled=true", "fluid.reynolds=36"}).settings.real("run.grain_weight"),
+        1.1780972450961724);
+    const Settings slow = load({"scales.kind=sedimentation"}).settings;
+    EXPECT_DOUBLE_EQ(slow.real("run.grain_weight"), 1.1780972450961724 * slow.real("run.gravity"));
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Static and sliding friction, on a block (a disc that cannot turn) on a tilted plane: mu_s = 0.5,
+// mu_d = 0.3, g = 1.
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+constexpr double mu_s = 0.5, mu_d = 0.3, dt = 0.01;
+
+Engine block_on_slope(double slope, double speed) {
+    EngineSettings settings = scenes::exact(mu_d, 1e-13);
+    settings.gravity = scenes::tilted(std::atan(slope));
+    settings.law.friction = "static-dynamic";
+    Surface surface;
+    surface.friction = mu_d;
+    surface.static_friction = mu_s;
+    settings.surfaces = {surface};
+    Wall plane = scenes::floor(0.0);
+    plane.material = 0;
+    Engine engine(settings, scenes::discs, {plane});
+    engine.bodies().add(scenes::disc(1, 0.0, 0.5));
+    engine.bodies().rotation_blocked[0] = 1;
+    engine.bodies().twist[0].velocity = {speed, 0.0, 0.0};
+    return engine;
+}
+
+double speed_after(Engine& engine, double time) {
+    EXPECT_TRUE(scenes::run(engine, time, dt));
+    return engine.bodies().twist[0].velocity[0];
+}
+
+TEST(StaticDynamic, HoldsUpToTheStaticCoefficient) {
+    Engine engine = block_on_slope(0.999 * mu_s, 0.0);
+    EXPECT_NEAR(speed_after(engine, 1.0), 0.0, 1e-13);
+}
+
+// Gives way: one step with the static coefficient, all others with the sliding one.
+TEST(StaticDynamic, SlidesWithTheLowerOneOnceItGaveWay) {
+    const double slope = 1.001 * mu_s, alpha = std::atan(slope);
+    Engine engine = block_on_slope(slope, 0.0);
+    const double first = std::sin(alpha) - mu_s * std::cos(alpha);
+    const double later = std::sin(alpha) - mu_d * std::cos(alpha);
+    EXPECT_NEAR(speed_after(engine, 1.0), dt * (first + 99 * later), 1e-12);
+}
+
+// The same slope, moving when it comes: it never stops.
+TEST(StaticDynamic, AMovingBlockDoesNotStopBetweenTheTwo) {
+    const double alpha = std::atan(0.4);
+    Engine engine = block_on_slope(0.4, 0.01);
+    EXPECT_NEAR(speed_after(engine, 1.0), 0.01 + std::sin(alpha) - mu_d * std::cos(alpha), 1e-12);
+}
+
+// Level: slows down at mu_d g from 0.1, stops after 1/3, and then withstands a push of 0.49
+// weights.
+TEST(StaticDynamic, SticksAgainAfterItStopped) {
+    Engine engine = block_on_slope(0.0, 0.1);
+    EXPECT_NEAR(speed_after(engine, 0.2), 0.1 - 0.2 * mu_d, 1e-12);
+    EXPECT_NEAR(speed_after(engine, 0.3), 0.0, 1e-13);
+    engine.bodies().force[0] = {0.49 * engine.bodies().mass[0], 0.0, 0.0};
+    EXPECT_NEAR(speed_after(engine, 1.0), 0.0, 1e-13);
+    engine.bodies().force[0] = {0.51 * engine.bodies().mass[0], 0.0, 0.0};
+    EXPECT_NEAR(speed_after(engine, 1.0), 0.01 * (0.51 - mu_s) + 0.99 * (0.51 - mu_d), 1e-12);
+}
+
+// Whether it sticks is part of the state.
+TEST(StaticDynamic, StateSurvivesARestart) {
+    Engine engine = block_on_slope(0.4, 0.01);
+    scenes::run(engine, 0.1, dt);
+    Engine second = block_on_slope(0.4, 0.0);
+    second.restore(engine.save());
+    EXPECT_EQ(speed_after(second, 0.5), speed_after(engine, 0.5));
+    Engine stuck = block_on_slope(0.4, 0.0);
+    stuck.restore(engine.save());
+    stuck.bodies().twist[0] = {};
+    const double alpha = std::atan(0.4);
+    EXPECT_NEAR(speed_after(stuck, dt), dt * (std::sin(alpha) - mu_d * std::cos(alpha)), 1e-13)
+        << "it slid in the last step, so the first step has the lower coefficient";
+}
+
+TEST(StaticDynamic, RefusesAStaticCoefficientBelowTheOther) {
+    EngineSettings settings;
+    settings.law.friction = "static-dynamic";
+    Surface surface;
+    surface.friction = 0.3;
+    settings.surfaces = {surface};
+    EXPECT_THROW(Engine(settings, scenes::discs, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace turbidite::nscd

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/rolling_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "granular_adapter/nscd/delassus.hpp"
+#include "granular_adapter/nscd/nlgs.hpp"
+#include "granular_adapter/nscd/residual.hpp"
+#include "granular_adapter/nscd/vec3.hpp"
+#include "scenes.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+Vec3 velocity(const Block& w, const Vec3& b, const Vec3& r) {
+    return {b[0] + w.nn * r[0] + w.nt * r[1] + w.nr * r[2],
+            b[1] + w.nt * r[0] + w.tt * r[1] + w.tr * r[2],
+            b[2] + w.nr * r[0] + w.tr * r[1] + w.rr * r[2]};
+}
+
+/// The law itself, term by term; relative to what the numbers allow.
+void expect_solved(const Block& w, const Vec3& b, const Vec3& r, double mu, double rho) {
+    const Vec3 u = velocity(w, b, r);
+    const double scale = norm(b) + 1e-300, size = std::max(norm(r), 1e-300);
+    const double eps = 1e-10 * scale;
+    EXPECT_GE(r[0], 0.0);
+    EXPECT_GE(u[0], -eps);
+    EXPECT_LE(std::abs(u[0] * r[0]), eps * size);
+    EXPECT_LE(std::abs(r[1]), mu * r[0] * (1.0 + 1e-15));
+    EXPECT_LE(std::abs(r[2]), rho * r[0] * (1.0 + 1e-15));
+    EXPECT_NEAR(r[1] * u[1], -mu * r[0] * std::abs(u[1]), eps * size) << "friction opposes slip";
+    EXPECT_NEAR(r[2] * u[2], -rho * r[0] * std::abs(u[2]), eps * size) << "rolling alike";
+}
+
+class RollingContact : public ::testing::Test {
+ protected:
+    double any() { return uniform_(random_); }
+
+    /// Positive definite; discs: n apart.
+    Block random_block(bool disc) {
+        Eigen::Matrix3d a;
+        for (int i = 0; i < 9; ++i) a(i) = any();
+        const Eigen::Matrix3d s = a * a.transpose() + 0.02 * Eigen::Matrix3d::Identity();
+        if (disc) return {s(0, 0), 0.0, s(1, 1), 0.0, s(1, 2), s(2, 2)};
+        return {s(0, 0), s(0, 1), s(1, 1), s(0, 2), s(1, 2), s(2, 2)};
+    }
+
+    std::mt19937_64 random_{5};
+    std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+};
+
+TEST_F(RollingContact, DiscsAreSolvedExactly) {
+    for (int i = 0; i < 100000; ++i) {
+        const Block w = random_block(true);
+        const Vec3 b{any() - 0.5, any(), any()};
+        const double mu = 1.0 + any(), rho = 0.5 * (1.0 + any());
+        expect_solved(w, b, solve_rolling_contact(w, b, mu, rho), mu, rho);
+        if (HasFailure()) FAIL() << "case " << i;
+    }
+}
+
+TEST_F(RollingContact, AnyWIsSolvedExactly) {
+    for (int i = 0; i < 100000; ++i) {
+        const Block w = random_block(false);
+        const Vec3 b{any() - 0.5, any(), any()};
+        const double mu = 1.0 + any(), rho = 0.5 * (1.0 + any());
+        expect_solved(w, b, solve_rolling_contact(w, b, mu, rho), mu, rho);
+        if (HasFailure()) FAIL() << "case " << i;
+    }
+}
+
+// Without friction of either kind, without rolling resistance: what the other routine says.
+TEST_F(RollingContact, IsCoulombWithoutResistance) {
+    for (int i = 0; i < 1000; ++i) {
+        const Block w = random_block(i % 2 == 0);
+        const Vec3 b{any() - 0.5, any(), any()};
+        const double mu = 1.0 + any();
+        const Plane plane = solve_contact(w, {b[0], b[1]}, mu);
+        const Vec3 r = solve_rolling_contact(w, b, mu, 0.0);
+        // With strong coupling two solutions may exist: then this one must be as good.
+        if (std::abs(r[0] - plane[0]) > 1e-9 * (1.0 + plane[0]))
+            expect_solved({w.nn, w.nt, w.tt}, {b[0], b[1], 0.0}, {r[0], r[1], 0.0}, mu, 0.0);
+        EXPECT_EQ(r[2], 0.0);
+    }
+}
+
+// The projection is the nearest point: no other point of the pyramid is closer.
+TEST_F(RollingContact, ProjectionIsTheNearestPoint) {
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 x{2.0 * any(), 2.0 * any(), 2.0 * any()};
+        const double mu = 1.0 + any(), rho = 1.0 + any();
+        const Vec3 p = project_on_pyramid(x, mu, rho);
+        EXPECT_LE(std::abs(p[1]), mu * p[0] * (1 + 1e-15) + 1e-300);
+        EXPECT_LE(std::abs(p[2]), rho * p[0] * (1 + 1e-15) + 1e-300);
+        // Moreau: x - p is normal to p and in the polar cone.
+        const Vec3 q = x - p;
+        EXPECT_NEAR(dot(p, q), 0.0, 1e-12);
+        EXPECT_LE(q[0] + mu * std::abs(q[1]) + rho * std::abs(q[2]), 1e-12);
+    }
+}
+
+// A disc on a plane with friction that holds: it rolls iff tan(alpha) > rho/R.
+TEST(RollingResistance, HoldsADiscOnASlopeBelowItsAngle) {
+    for (const double tangent : {0.09, 0.11}) {
+        const double lever = 0.05;  // R = 1/2: limit 0.1
+        ContactProblem problem;
+        const Body body = scenes::disc(1, 0.0, 0.5);
+        problem.bodies = {{1.0 / body.mass, 1.0 / body.inertia}};
+        const Vec3 g = scenes::tilted(std::atan(tangent));
+        problem.free = {{0.01 * g, {}}};
+        Contact contact;
+        contact.b = 0;
+        contact.normal = {0, 1, 0};
+        contact.tangent = tangent_of(contact.normal);
+        contact.arm_b = {0, -0.5, 0};
+        contact.friction = 0.5;
+        contact.rolling = lever;
+        problem.contacts = {contact};
+        SolverSettings settings;
+        settings.tolerance = 1e-12;
+        const SolverResult result = Nlgs().solve(problem, Impulses(1), settings);
+        ASSERT_TRUE(result.converged);
+        const double speed = result.velocities[0].velocity[0];
+        if (tangent < 0.1) {
+            EXPECT_NEAR(speed, 0.0, 1e-15);
+            EXPECT_NEAR(result.impulses[0][2], 0.5 * body.mass * 0.01 * g[0], 1e-12)
+                << "the moment that weight has about the contact";
+        } else {
+            // (m + I/R2) a = m g sin - rho m g cos / R
+            const double rolls = 0.01 * (g[0] + lever / 0.5 * g[1]) / 1.5;
+            EXPECT_NEAR(speed, rolls, 1e-14);
+            EXPECT_NEAR(result.velocities[0].spin[2], -rolls / 0.5, 1e-13);
+        }
+        EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-12);
+        EXPECT_LE(change_measures(problem, result.impulses).max, 1e-10);
+    }
+}
+
+TEST(RollingResistance, DelassusHasTheRowOfMoments) {
+    ContactProblem problem;
+    problem.bodies = {{0.5, 1.0}, {0.25, 0.125}};
+    problem.free.resize(2);
+    Contact contact;
+    contact.a = 0, contact.b = 1;
+    contact.normal = {0.6, 0.8, 0.0};
+    contact.tangent = tangent_of(contact.normal);
+    contact.arm_a = {0.3, 0.4, 0.0};
+    contact.arm_b = {-0.5, -0.1, 0.0};
+    contact.rolling = 0.1;
+    problem.contacts = {contact};
+    const Delassus w(problem);
+    for (int d = 0; d < 3; ++d) {
+        Impulses unit(1);
+        unit[0][d] = 1.0;
+        const Vec3 u = w.apply(unit)[0];
+        const Block& block = w.block(0);
+        const double row[3][3] = {{block.nn, block.nt, block.nr},
+                                  {block.nt, block.tt, block.tr},
+                                  {block.nr, block.tr, block.rr}};
+        for (int e = 0; e < 3; ++e) EXPECT_NEAR(u[e], row[e][d], 1e-15);
+    }
+    EXPECT_TRUE(w.rolling());
+}
+
+}  // namespace
+}  // namespace turbidite::nscd
