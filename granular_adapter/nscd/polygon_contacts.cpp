@@ -83,7 +83,7 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
         // Seen from behind, the plate's corners change places.
         const int corner = !p.of_second && sign < 0.0 ? 1 - p.corner : p.corner;
         points.push_back({-1, view.body, view.wall_index, feature_of(corner, p.of_second), p.gap,
-                          normal, Vec3{}, arm, p.length});
+                          normal, Vec3{}, arm, p.length, p.turns_with});
     }
 }
 
@@ -137,7 +137,8 @@ void polygon_polygon(const PairView& view, std::vector<ContactPoint>& points) {
                           {sign * p.nx, sign * p.ny, 0.0},
                           in_order ? from_first : from_second,
                           in_order ? from_second : from_first,
-                          p.length});
+                          p.length,
+                          in_order || p.turns_with == 0 ? p.turns_with : 3 - p.turns_with});
     }
 }
 
