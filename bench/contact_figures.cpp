@@ -2,6 +2,7 @@
 #include "bench/contact_figures.hpp"
 
 #include "bench/contact_rate.hpp"
+#include "bench/md_over_nscd.hpp"
 
 namespace turbidite::bench {
 
@@ -23,6 +24,11 @@ std::vector<Figure> contact_figures() {
          "ratio",
          {Kind::at_most, 2.0},
          contact_cost_growth},
+        {"md_over_nscd_dry_column",
+         "wall time of yade-md over yade-nscd, dry column of 1397 discs over 20 t_c",
+         "ratio",
+         {Kind::at_least, 2.0},
+         md_over_nscd_dry_column},
     };
 }
 

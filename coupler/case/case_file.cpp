@@ -20,6 +20,7 @@
 #include "coupler/case/population.hpp"
 #include "coupler/case/resolved_text.hpp"
 #include "coupler/case/run_folder.hpp"
+#include "coupler/case/soft_contact.hpp"
 #include "coupler/protocol/case_hash.hpp"
 
 namespace turbidite {
@@ -210,6 +211,21 @@ std::vector<GrainState> grain_states(const Packing& grains, const Settings& sett
     return states;
 }
 
+double height_of(const Packing& grains) {
+    double height = 0.0;
+    for (const PlacedGrain& grain : grains) height = std::max(height, grain.y + grain.radius);
+    return height;
+}
+
+/// What molecular dynamics takes its contacts and sub-steps from.
+void set_soft_contact(Settings& settings, const Packing& grains) {
+    if (settings.text("grains.adapter") != "yade-md") return;
+    const SoftContact contact = soft_contact(settings, height_of(grains));
+    settings.set("run.md_frequency", contact.frequency);
+    settings.set("run.md_damping", contact.damping);
+    settings.set("run.md_substeps", contact.substeps);
+}
+
 ResolvedCase finish(Settings settings, Population population, std::vector<InnerWall> walls,
                     const GrainForms& forms) {
     ResolvedCase result;
@@ -223,10 +239,11 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
     for (std::string& note : rule_notes(settings)) result.notes.push_back(std::move(note));
     result.shapes = used_shapes(population.grains, forms);
     result.population = grain_states(population.grains, settings, result.scales);
-    result.packing = std::move(population.grains);
     set_run_values(settings, result.scales);
     settings.set("run.walls",
                  walls_setting(walls, result.scales, settings.real("contact.friction")));
+    set_soft_contact(settings, population.grains);
+    result.packing = std::move(population.grains);
     settings.set("run.hash", case_hash(result.yaml));
     result.settings = std::move(settings);
     return result;

@@ -7,26 +7,15 @@
 #include <cmath>
 #include <optional>
 
+#include "coupler/case/case_rule.hpp"
 #include "coupler/case/grain_forms.hpp"
 #include "coupler/case/key_value.hpp"
+#include "coupler/case/md_rules.hpp"
 #include "coupler/case/scales.hpp"
 #include "coupler/case/transport_schemes.hpp"
 
 namespace turbidite {
 namespace {
-
-/// What is wrong with `key`, or nothing.
-struct Objection {
-    std::string allowed;
-    std::string remedy;
-};
-using Verdict = std::optional<Objection>;
-
-struct Rule {
-    const char* key;                 ///< the one that is blamed
-    std::vector<const char*> reads;  ///< the others
-    Verdict (*check)(const Settings&);
-};
 
 bool is_cyclic(const Settings& s, const char* key) {
     return s.text(key) == "cyclic";
@@ -316,11 +305,12 @@ void add_scheme_notes(const Settings& settings, std::vector<std::string>& notes)
 }  // namespace
 
 void check_rules(const Settings& settings, CaseEntries& entries) {
-    for (const Rule& rule : rules()) {
-        if (!has_all(settings, rule)) continue;
-        if (const Verdict objection = rule.check(settings))
-            entries.problems.push_back(blame(rule, *objection, settings, entries));
-    }
+    for (const auto* list : {&rules(), &md_rules()})
+        for (const Rule& rule : *list) {
+            if (!has_all(settings, rule)) continue;
+            if (const Verdict objection = rule.check(settings))
+                entries.problems.push_back(blame(rule, *objection, settings, entries));
+        }
 }
 
 namespace {
@@ -364,6 +354,7 @@ std::vector<std::string> rule_notes(const Settings& settings) {
     if (settings.has("grains.region") && settings.has("grains.file"))
         notes.push_back("grains.region has no effect with grains.file");
     add_law_notes(settings, notes);
+    add_md_notes(settings, notes);
     if (const auto limit = step_limit_exceeded(settings, SchemeKind::biased))
         notes.push_back(fmt::format(
             "fluid.transport_scheme = {}: its explicit transport may grow beyond "

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "coupler/case/key_value.hpp"
 
 namespace turbidite {
@@ -17,6 +19,18 @@ std::string fluid_line(const ResolvedCase& resolved) {
                        size[1] * cells, resolved.scales.reynolds);
 }
 
+std::string md_line(const Settings& settings) {
+    if (!settings.has("run.md_substeps")) return "";
+    const double frequency = settings.real("run.md_frequency");
+    const double fall = settings.real("run.gravity") / settings.real("run.diameter");
+    return fmt::format(
+        "  molecular dynamics: stiffness {:.3g} m g/D, damping {:.3g} of critical, contact time "
+        "{:.3g} t_c, {} sub-steps per window\n",
+        frequency * frequency / (2.0 * fall), settings.real("run.md_damping"),
+        std::numbers::pi / frequency / settings.real("run.time_scale"),
+        settings.integer("run.md_substeps"));
+}
+
 }  // namespace
 
 std::string case_summary(const ResolvedCase& resolved) {
@@ -28,6 +42,7 @@ std::string case_summary(const ResolvedCase& resolved) {
     text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
                         settings.integer("run.windows"), settings.text("time.step"),
                         resolved.scales.time, resolved.scales.velocity);
+    text += md_line(settings);
     for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
     return text;
 }

@@ -24,6 +24,10 @@ Arguments yade_nscd(const Programs& programs, const std::string& run) {
     return {programs.yade(), "-n", "-x", programs.yade_nscd(), run};
 }
 
+Arguments yade_md(const Programs& programs, const std::string& run) {
+    return {programs.yade(), "-n", "-x", programs.yade_md(), run};
+}
+
 /// Every granular adapter that can be started, by its name in `grains.adapter`.
 struct GrainsProgram {
     const char* adapter;
@@ -36,6 +40,10 @@ const std::vector<GrainsProgram>& grains_programs() {
         {"yade-nscd", yade_nscd,
          [](const Programs& p) {
              return std::vector{p.yade(), p.yade_nscd(), p.yade_extension()};
+         }},
+        {"yade-md", yade_md,
+         [](const Programs& p) {
+             return std::vector{p.yade(), p.yade_md(), p.yade_extension()};
          }},
         {"standalone-nscd", standalone_nscd,
          [](const Programs& p) { return std::vector{p.grains()}; }},
@@ -61,10 +69,8 @@ std::string python_path(const LaunchSite& site) {
 
 // mpirun exports -x to the program of the same part only, so every part repeats it.
 Arguments part(std::int64_t ranks, const LaunchSite& site, const Arguments& command) {
-    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam,
-                   "-x", "OMP_NUM_THREADS=1",
-                   "-x", "PYTHONPATH=" + python_path(site),
-                   "-n", std::to_string(ranks)};
+    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam, "-x", "OMP_NUM_THREADS=1",
+                   "-x", "PYTHONPATH=" + python_path(site), "-n", std::to_string(ranks)};
     append(part, command);
     return part;
 }

@@ -22,6 +22,7 @@ struct Programs {
     std::filesystem::path yade_folder() const { return library / "yade"; }
     std::filesystem::path yade_extension() const { return yade_folder() / "turbidite_yade.so"; }
     std::filesystem::path yade_nscd() const { return yade_folder() / "turbidite_yade_nscd.py"; }
+    std::filesystem::path yade_md() const { return yade_folder() / "turbidite_yade_md.py"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "coupler/cli/report/report.py"; }
     std::filesystem::path compare() const { return source / "coupler/cli/report/compare.py"; }

@@ -24,7 +24,8 @@ std::string residuals(const Row& row, double velocity) {
     std::string text;
     if (row.contact)
         text += fmt::format(
-            "  contacts {} ({} sweeps{}{})", row.contact->contacts, row.contact->iterations,
+            "  contacts {} ({} {}{}{})", row.contact->contacts, row.contact->iterations,
+            row.contact->residual ? "sweeps" : "sub-steps",
             row.contact->residual ? fmt::format(", {:.0e}", *row.contact->residual) : "",
             row.contact->converged ? "" : " NOT CONVERGED");
     if (row.fluid)

@@ -9,12 +9,7 @@
 // Walls inside the box (run.walls) are plates that hold grains on both sides, at rest or moving.
 //
 // Reads: contact.*, coupling.scheme, coupling.positions, domain.{left,right,bottom,top},
-// fluid.enabled, fluid.hydrodynamic_radius, run.*. The domain is [0, run.size_x] x [0, run.size_y],
-// gravity along -y.
-//
-//     wall     a straight wall with the grains' friction; a centre beyond it ends the run
-//     free     grains whose centre is more than R past the side are removed and counted
-//     cyclic   positions wrap, neighbours are nearest images
+// fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
 #pragma once
 
 #include <memory>
@@ -23,6 +18,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/standalone/borders.hpp"
 
 namespace turbidite {
 
@@ -67,27 +63,13 @@ class NscdAdapter final : public GrainsAdapter {
     const std::vector<GrainId>& removed() const { return removed_; }
 
  private:
-    enum class Side { wall, free, cyclic };
     enum class Positions { corrected, contact };
 
-    /// One side of the domain: its name, what it is, and the inward half-plane.
-    struct Border {
-        std::string name;
-        Side side;
-        nscd::Wall plane;
-    };
-
-    static Side parse_side(const std::string& key, const std::string& text);
     static Positions parse_positions(const std::string& text);
-    void lay_borders(const Settings& settings);
     nscd::EngineSettings engine_settings(const Settings& settings) const;
-    void add_grains(const Settings& settings, const ShapeTable& shapes,
-                    const std::vector<GrainState>& grains);
-    void check_grains(const std::string& when) const;
     void begin_round();
     nscd::StepReport solve_contacts(const Window& window,
                                     const std::vector<FreeResponse>& responses);
-    void take_velocities(const Window& window, const std::vector<Kick>& kicks);
     void remove_leavers();
     Motion motion() const;
 

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "coupler/participant/participant.hpp"
+#include "granular_adapter/md/md_adapter.hpp"
 #include "granular_adapter/yade/yade_adapter.hpp"
+#include "granular_adapter/yade/yade_md_host.hpp"
 
 namespace turbidite::yade {
 namespace {
@@ -38,41 +40,44 @@ auto guarded(Action action) {
 }
 
 class GuardedAdapter final : public GrainsAdapter {
-   public:
-    explicit GuardedAdapter(YadeAdapter& inner) : inner_(inner) {}
+ public:
+    explicit GuardedAdapter(std::unique_ptr<GrainsAdapter> inner) : inner_(std::move(inner)) {}
 
-    Hello describe() const override { return inner_.describe(); }
+    Hello describe() const override { return inner_->describe(); }
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override {
-        return guarded([&] { return inner_.initialise(settings, shapes, grains); });
+        return guarded([&] { return inner_->initialise(settings, shapes, grains); });
     }
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override {
-        return guarded([&] { return inner_.advance(window, responses); });
+        return guarded([&] { return inner_->advance(window, responses); });
     }
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override {
-        return guarded([&] { return inner_.apply_kick(window, kicks); });
+        return guarded([&] { return inner_->apply_kick(window, kicks); });
     }
-    SavedState save() const override { return inner_.save(); }
+    SavedState save() const override {
+        return guarded([&] { return inner_->save(); });
+    }
     void restore(const SavedState& state) override {
-        guarded([&] { return inner_.restore(state), 0; });
+        guarded([&] { return inner_->restore(state), 0; });
     }
 
-   private:
-    YadeAdapter& inner_;
+ private:
+    std::unique_ptr<GrainsAdapter> inner_;
 };
 
 /// One YADE process in the job.
 class Participant {
-   public:
-    /// `communicator`: handle of mpy's communicator. Output goes to RUN/logs/grains.log from here on.
-    Participant(const std::string& run_folder, std::uintptr_t communicator, python::object scene,
-                const std::string& yade_version)
-        : adapter_(scene, yade_version), guarded_(adapter_) {
+ public:
+    /// `communicator`: handle of mpy's communicator. Output goes to RUN/logs/grains.log from here
+    /// on.
+    Participant(std::unique_ptr<GrainsAdapter> adapter, const std::string& run_folder,
+                std::uintptr_t communicator)
+        : adapter_(std::move(adapter)) {
         Launch launch;
         launch.run_folder = run_folder;
         launch.communicator = communicator;
         membership_ = std::make_unique<Membership>(Role::grains, launch);
-        session_ = make_session(guarded_, membership_->channel(), membership_->identity());
+        session_ = make_session(adapter_, membership_->channel(), membership_->identity());
     }
 
     bool start() {
@@ -83,7 +88,7 @@ class Participant {
     }
     int leave() { return membership_->leave(session_->outcome()); }
 
-   private:
+ private:
     // What a session throws is no matter for Python, whose exit would hang: it ends the job.
     template <class Action>
     bool answered(Action action) {
@@ -94,25 +99,80 @@ class Participant {
         }
     }
 
-    YadeAdapter adapter_;
-    GuardedAdapter guarded_;
+    GuardedAdapter adapter_;
     std::unique_ptr<Membership> membership_;
     std::unique_ptr<Session> session_;
 };
+
+/// The contact engine with YADE's bodies.
+class NscdParticipant final : public Participant {
+ public:
+    NscdParticipant(const std::string& run_folder, std::uintptr_t communicator,
+                    python::object scene, const std::string& yade_version)
+        : Participant(std::make_unique<YadeAdapter>(scene, yade_version), run_folder,
+                      communicator) {}
+};
+
+/// A host and the adapter that drives it.
+class YadeMdAdapter final : public GrainsAdapter {
+ public:
+    YadeMdAdapter(python::object scene, const std::string& yade_version)
+        : host_(std::move(scene), yade_version), adapter_("yade-md", host_) {}
+
+    Hello describe() const override { return adapter_.describe(); }
+    Motion initialise(const Settings& settings, const ShapeTable& shapes,
+                      const std::vector<GrainState>& grains) override {
+        return adapter_.initialise(settings, shapes, grains);
+    }
+    Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override {
+        return adapter_.advance(window, responses);
+    }
+    Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override {
+        return adapter_.apply_kick(window, kicks);
+    }
+    SavedState save() const override { return adapter_.save(); }
+    void restore(const SavedState& state) override { adapter_.restore(state); }
+
+ private:
+    YadeMdHost host_;
+    MdAdapter adapter_;
+};
+
+/// YADE's own engines.
+class MdParticipant final : public Participant {
+ public:
+    MdParticipant(const std::string& run_folder, std::uintptr_t communicator, python::object scene,
+                  const std::string& yade_version)
+        : Participant(std::make_unique<YadeMdAdapter>(scene, yade_version), run_folder,
+                      communicator) {}
+};
+
+template <class Kind>
+void export_participant(const char* name, const char* documentation) {
+    python::class_<Kind, boost::noncopyable>(
+        name, documentation,
+        python::init<std::string, std::uintptr_t, python::object, std::string>())
+        .def("start", &Participant::start,
+             "Handshake and initial state; False when the run is over.")
+        .def("step", &Participant::step, "One window; False when the run is over.")
+        .def("leave", &Participant::leave, "The exit code of the run, after the last window.");
+}
 
 }  // namespace
 }  // namespace turbidite::yade
 
 BOOST_PYTHON_MODULE(turbidite_yade) {
-    using turbidite::yade::Participant;
-    namespace python = boost::python;
-    python::class_<Participant, boost::noncopyable>(
+    using namespace turbidite::yade;
+    export_participant<NscdParticipant>(
         "Participant",
-        "One YADE process in a coupled job.\n\n"
-        "Participant(run_folder, communicator, scene, yade_version): scene has create(settings, grains),\n"
-        "which returns the states of the bodies it built, and erase(ids).",
-        python::init<std::string, std::uintptr_t, python::object, std::string>())
-        .def("start", &Participant::start, "Handshake and initial state; False when the run is over.")
-        .def("step", &Participant::step, "One window; False when the run is over.")
-        .def("leave", &Participant::leave, "The exit code of the run, after the last window.");
+        "One YADE process in a coupled job, with the contact engine.\n\n"
+        "Participant(run_folder, communicator, scene, yade_version): scene has create(settings, "
+        "grains),\n"
+        "which returns the states of the bodies it built, and erase(ids).");
+    export_participant<MdParticipant>(
+        "MdParticipant",
+        "One YADE process in a coupled job, with YADE's own engines.\n\n"
+        "MdParticipant(run_folder, communicator, scene, yade_version): what scene must have stands "
+        "in\n"
+        "granular_adapter/yade/yade_md_host.hpp.");
 }

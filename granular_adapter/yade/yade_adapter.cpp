@@ -6,6 +6,8 @@
 #include <chrono>
 #include <utility>
 
+#include "granular_adapter/yade/yade_grains.hpp"
+
 namespace turbidite::yade {
 
 namespace python = boost::python;
@@ -18,30 +20,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-python::dict settings_dict(const Settings& settings) {
-    python::dict dict;
-    for (const auto& [key, value] : settings.entries()) dict[key] = value;
-    return dict;
-}
-
-python::tuple triple(const Vec3& v) {
-    return python::make_tuple(v[0], v[1], v[2]);
-}
-
-// What the Python side needs to build one YADE body.
-python::dict grain_dict(const nscd::Bodies& bodies, std::size_t i) {
-    python::dict grain;
-    grain["id"] = bodies.id[i];
-    grain["radius"] = bodies.radius[i];
-    grain["density"] = bodies.density[i];
-    grain["mass"] = bodies.mass[i];
-    grain["inertia"] = bodies.inertia[i];
-    grain["position"] = triple(bodies.position[i]);
-    grain["velocity"] = triple(bodies.twist[i].velocity);
-    grain["angular_velocity"] = triple(bodies.twist[i].spin);
-    return grain;
-}
-
 }  // namespace
 
 YadeAdapter::YadeAdapter(python::object scene, std::string yade_version)
@@ -51,9 +29,7 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
                                const std::vector<GrainState>& grains) {
     Motion motion = engine_.initialise(settings, shapes, grains);
     const nscd::Bodies& bodies = std::as_const(engine_).bodies();
-    python::list list;
-    for (std::size_t i = 0; i < bodies.size(); ++i) list.append(grain_dict(bodies, i));
-    states_ = BodyStates(scene_.attr("create")(settings_dict(settings), list));
+    states_ = BodyStates(scene_.attr("create")(settings_dict(settings), grain_list(bodies)));
     if (states_.size() != bodies.size())
         throw Failure(ExitCode::participant_failed,
                       "YADE's scene has " + std::to_string(states_.size()) + " grains, the case " +

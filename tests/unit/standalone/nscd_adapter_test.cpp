@@ -363,7 +363,8 @@ TEST(NscdAdapter, SaysWhatItIs) {
     EXPECT_EQ(hello.host_code, "YADE 2023.02a");
     EXPECT_FALSE(hello.adapter_version.empty());
     EXPECT_EQ(hello.role, Role::grains);
-    EXPECT_EQ(hello.capabilities.shapes, std::vector<std::string>{"disc"});
+    EXPECT_EQ(hello.capabilities.shapes,
+              (std::vector<std::string>{"disc", "polygon", "triangle"}));
     const std::vector<std::string>& laws = hello.capabilities.contact_laws;
     for (const char* law : {"coulomb", "static-dynamic", "moreau", "capillary"})
         EXPECT_NE(std::find(laws.begin(), laws.end(), law), laws.end()) << law;

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/md/md_adapter.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "granular_adapter/nscd/byte_stream.hpp"
+#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/theta_scheme.hpp"
+#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/standalone/by_grain.hpp"
+#include "granular_adapter/standalone/case_bodies.hpp"
+#include "granular_adapter/standalone/contact_records.hpp"
+
+namespace turbidite {
+namespace {
+
+using nscd::operator+;
+using nscd::operator-;
+using nscd::operator*;
+using nscd::norm;
+using Clock = std::chrono::steady_clock;
+
+// A contact impulse below this part of what a grain's momentum is made of is round-off.
+constexpr double round_off = 1e-11;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string in_window(const Window& window) {
+    return "in window " + std::to_string(window.index);
+}
+
+void refuse_cyclic(const std::vector<Border>& borders) {
+    for (const Border& border : borders)
+        if (border.side == Side::cyclic)
+            throw std::invalid_argument("domain." + border.name +
+                                        " = cyclic, which molecular dynamics does not know in this "
+                                        "version; allowed: wall, free");
+}
+
+void refuse_other_shapes(const ShapeTable& shapes) {
+    for (const ShapeRecord& shape : shapes)
+        if (shape.kind != "disc")
+            throw std::invalid_argument("shape \"" + shape.kind +
+                                        "\" is unknown to molecular dynamics; allowed: disc");
+}
+
+double deepest_overlap(const nscd::Bodies& bodies, const ShapeTable& shapes,
+                       const std::vector<nscd::Wall>& walls) {
+    nscd::Engine engine({}, shapes, walls);
+    engine.bodies() = bodies;
+    return engine.max_penetration();
+}
+
+}  // namespace
+
+MdAdapter::MdAdapter(std::string adapter_name, MdHost& host)
+    : adapter_name_(std::move(adapter_name)), host_(host) {}
+
+Hello MdAdapter::describe() const {
+    Hello hello;
+    hello.role = Role::grains;
+    hello.adapter = adapter_name_;
+    hello.adapter_version = TURBIDITE_VERSION;
+    hello.host_code = host_.code();
+    hello.dimension = 2;
+    hello.capabilities.saves_state = true;
+    hello.capabilities.serialises_state = true;
+    hello.capabilities.native_substeps = true;
+    hello.capabilities.shapes = {"disc"};
+    hello.capabilities.contact_laws = {"linear-spring-dashpot"};
+    return hello;
+}
+
+Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
+                             const std::vector<GrainState>& grains) {
+    const auto start = Clock::now();
+    fluid_ = settings.flag("fluid.enabled");
+    hold_ = settings.flag("coupling.md_hold");
+    gravity_ = settings.real("run.gravity");
+    step_ = settings.real("run.step");
+    substep_count_ = settings.integer("run.md_substeps");
+    borders_ = lay_borders(settings);
+    refuse_cyclic(borders_);
+    refuse_other_shapes(shapes);
+    add_grains(bodies_, settings, shapes, grains);
+    nscd::move(bodies_, bodies_.twist, -lead(), {});
+    check_inside(bodies_, borders_, "at the start");
+    held_.assign(bodies_.size(), {});
+    host_.create(settings, bodies_);
+    report_ = {};
+    report_.max_penetration = deepest_overlap(bodies_, shapes, walls_of(borders_));
+    report_.wall_seconds = seconds_since(start);
+    return motion(at_protocol_positions());
+}
+
+/// What the protocol's positions are ahead of the host's, in time.
+double MdAdapter::lead() const {
+    return 0.5 * (step_ - step_ / static_cast<double>(substep_count_));
+}
+
+Substeps MdAdapter::substeps(const Window& window) const {
+    const double count = static_cast<double>(substep_count_);
+    return {substep_count_, window.step / count, window.write_output};
+}
+
+/// The host's gravity moves every body alike; the difference to its own weight is a load.
+Load MdAdapter::load(std::size_t i, double dt) const {
+    const Vec3 buoyant{0.0, (bodies_.mass[i] - bodies_.weight_mass[i]) * gravity_, 0.0};
+    return {(1.0 / dt) * held_[i].impulse + buoyant, (1.0 / dt) * held_[i].angular_impulse};
+}
+
+Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
+    const auto start = Clock::now();
+    if (!responses.empty())
+        throw std::runtime_error("responses of the fluid came " + in_window(window) +
+                                 ", but molecular dynamics takes none: use coupling.scheme split");
+    host_.read(bodies_);
+    check_inside(bodies_, borders_, in_window(window) + " before contacts");
+    const nscd::Bodies before = bodies_;
+    nscd::Bodies told = at_protocol_positions();
+    std::vector<Load> loads;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
+    SubstepReport run = host_.run(substeps(window), loads);
+    host_.read(bodies_);
+    check_inside(bodies_, borders_, in_window(window) + " after contacts");
+    book_contacts(before, run, window.step);
+    contacts_.reset();
+    if (window.write_output) contacts_ = std::move(run.touching);
+    told.twist = bodies_.twist;
+    told.contact_impulse = bodies_.contact_impulse;
+    told.contact_angular_impulse = bodies_.contact_angular_impulse;
+    report_ = {};
+    report_.contacts = run.contacts;
+    report_.iterations = substep_count_;
+    report_.max_penetration = run.max_penetration;
+    report_.wall_seconds = seconds_since(start);
+    advanced_ = true;
+    return motion(told);
+}
+
+/// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed it up.
+void MdAdapter::book_contacts(const nscd::Bodies& before, const SubstepReport& run, double dt) {
+    touched_.assign(bodies_.size(), 0);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Vec3 weight{0.0, -bodies_.weight_mass[i] * gravity_ * dt, 0.0};
+        const Vec3 gained =
+            bodies_.mass[i] * (bodies_.twist[i].velocity - before.twist[i].velocity);
+        const Vec3 turned = bodies_.inertia[i] * (bodies_.twist[i].spin - before.twist[i].spin);
+        const Held& held = held_[i];
+        Vec3& impulse = bodies_.contact_impulse[i];
+        Vec3& angular = bodies_.contact_angular_impulse[i];
+        impulse = gained - held.impulse - weight;
+        angular = turned - held.angular_impulse;
+        const double scale = norm(held.impulse) + norm(weight) +
+                             bodies_.mass[i] * (norm(before.twist[i].velocity) + norm(gained));
+        touched_[i] = norm(impulse) > round_off * scale;
+        if (run.impulses.empty()) continue;
+        const Load given = load(i, dt);
+        impulse = run.impulses[i] - dt * given.force;
+        angular = run.angular_impulses[i] - dt * given.torque;
+    }
+}
+
+Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
+    const auto start = Clock::now();
+    if (!advanced_)
+        throw std::logic_error("apply_kick needs an advance of the same window before it");
+    advanced_ = false;
+    if (fluid_ || !kicks.empty()) take_kicks(window, kicks);
+    check_inside(bodies_, borders_, in_window(window) + " after the kick");
+    remove_leavers();
+    report_.wall_seconds = seconds_since(start);
+    Motion result = motion(at_protocol_positions());
+    result.contacts = std::exchange(contacts_, std::nullopt);
+    return result;
+}
+
+void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks) {
+    const std::vector<nscd::Twist> with_contact = bodies_.twist;
+    const auto ordered = by_grain(bodies_.id, kicks, "kick", in_window(window));
+    take_velocities(bodies_, kicks, in_window(window));
+    const double lag = 0.5 * (window.step + window.step / static_cast<double>(substep_count_));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const nscd::Twist& now = bodies_.twist[i];
+        if (!touched_[i]) {
+            bodies_.position[i] =
+                bodies_.position[i] + lag * (now.velocity - with_contact[i].velocity);
+            bodies_.orientation[i] =
+                nscd::rotated(bodies_.orientation[i], lag * (now.spin - with_contact[i].spin));
+        }
+        if (hold_)
+            held_[i] = {ordered[i]->multiplier_impulse, ordered[i]->multiplier_angular_impulse};
+    }
+    host_.write(bodies_);
+}
+
+void MdAdapter::remove_leavers() {
+    const std::vector<std::uint8_t> stays = those_inside(at_protocol_positions(), borders_);
+    report_.removed = std::count(stays.begin(), stays.end(), 0);
+    if (report_.removed == 0) return;
+    std::vector<Held> kept;
+    std::vector<GrainId> gone;
+    for (std::size_t i = 0; i < stays.size(); ++i)
+        if (stays[i])
+            kept.push_back(held_[i]);
+        else
+            gone.push_back(bodies_.id[i]);
+    held_ = std::move(kept);
+    if (contacts_) drop_contacts_of(gone, *contacts_);
+    bodies_.keep(stays);
+    host_.keep(stays);
+}
+
+nscd::Bodies MdAdapter::at_protocol_positions() const {
+    nscd::Bodies told = bodies_;
+    nscd::move(told, told.twist, lead(), {});
+    return told;
+}
+
+Motion MdAdapter::motion(const nscd::Bodies& bodies) const {
+    Motion result{grain_states(bodies), report_};
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+        result.grains[i].announced_impulse = held_[i].impulse;
+        result.grains[i].announced_angular_impulse = held_[i].angular_impulse;
+    }
+    return result;
+}
+
+SavedState MdAdapter::save() const {
+    nscd::ByteWriter writer;
+    nscd::Bodies::for_each_array(bodies_, [&](const auto& array) { writer.array(array); });
+    writer.array(held_);
+    writer.array(host_.save());
+    return writer.take();
+}
+
+void MdAdapter::restore(const SavedState& state) {
+    nscd::ByteReader reader(state);
+    nscd::Bodies::for_each_array(bodies_, [&](auto& array) {
+        array = reader.array<typename std::decay_t<decltype(array)>::value_type>();
+    });
+    held_ = reader.array<Held>();
+    host_.restore(reader.array<char>());
+    advanced_ = false;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE's bodies and engines for molecular dynamics of the grains of a case.
+
+Contacts, forces and motion are YADE's own; a window of a coupled run is many of YADE's steps. What a user's
+script adds to O.engines runs in every one of them.
+"""
+import math
+import os
+import tempfile
+
+from yade import *
+from yade import utils
+
+# Stiffness and damping across a contact over those along it: the share that makes both oscillate alike. An
+# impulse moves the touching point of a disc three times as far along the contact as across it.
+TANGENTIAL = 1.0 / 3.0
+
+# How far bounding boxes reach beyond a disc, over the smallest radius: further means fewer searches for pairs
+# and more pairs in vain.
+VERLET = 0.1
+
+
+class Scene:
+    """YADE's bodies and engines for the grains of a case."""
+
+    def __init__(self):
+        self.body_of = {}   # grain id -> body id
+        self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top
+        self.largest = 0.0  # radius
+
+    def create(self, settings, grains):
+        """Adds walls and one disc per grain; returns the discs' body ids in the order of `grains`."""
+        self.frequency = float(settings['run.md_frequency'])
+        self.damping = float(settings['run.md_damping'])
+        self.friction_angle = math.atan(float(settings['contact.friction']))
+        self._create_walls(settings)
+        self.largest = max((grain['radius'] for grain in grains), default=0.0)
+        self.body_of = {grain['id']: self._create_disc(grain) for grain in grains}
+        O.dt = float(settings['run.step']) / int(settings['run.md_substeps'])
+        O.engines = self._engines(float(settings['run.gravity']))
+        return list(self.body_of.values())
+
+    def _material(self, mass):
+        """Springs in series have k = k1 k2/(k1 + k2): with k_i = m_i w^2 every pair has its reduced mass times
+        w^2, and a wall, which has none, leaves the disc's own."""
+        label = 'mass %r' % mass
+        if label not in [material.label for material in O.materials]:
+            spring, dashpot = mass * self.frequency**2, 2.0 * self.damping * mass * self.frequency
+            O.materials.append(ViscElMat(
+                kn=spring, cn=dashpot, ks=TANGENTIAL * spring, cs=TANGENTIAL * dashpot,
+                frictionAngle=self.friction_angle, label=label))
+        return label
+
+    def _create_disc(self, grain):
+        body = utils.sphere(grain['position'], grain['radius'], material=self._material(grain['mass']))
+        state = body.state
+        # A disc per unit length, not YADE's sphere.
+        state.mass = grain['mass']
+        state.inertia = (grain['inertia'],) * 3
+        state.blockedDOFs = 'zXY'
+        state.vel = grain['velocity']
+        state.angVel = grain['angular_velocity']
+        return O.bodies.append(body)
+
+    def _create_walls(self, settings):
+        sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
+                 'bottom': (1, 0.0, 1), 'top': (1, float(settings['run.size_y']), -1)}
+        for number, (side, (axis, position, sense)) in enumerate(sides.items()):
+            if settings['domain.' + side] == 'wall':
+                self.walls[O.bodies.append(
+                    utils.wall(position, axis, sense=sense, material=self._material(0.0)))] = number
+
+    def _engines(self, gravity):
+        return [
+            ForceResetter(),
+            InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=-VERLET),
+            InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
+                            [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
+                            [Law2_ScGeom_ViscElPhys_Basic()]),
+            NewtonIntegrator(gravity=(0, -gravity, 0), damping=0),
+        ]
+
+    def states(self, bodies):
+        return [O.bodies[body].state for body in bodies]
+
+    def erase(self, bodies):
+        gone = set(bodies)
+        self.body_of = {grain: body for grain, body in self.body_of.items() if body not in gone}
+        for body in bodies:
+            O.bodies.erase(body)
+
+    def forces(self):
+        return O.forces
+
+    def step(self):
+        """One sub-step. O.run(n, wait=True) would look every 40 ms only whether it is through."""
+        O.step()
+
+    def contacts(self):
+        """How many touch."""
+        return O.interactions.countReal()
+
+    def touching(self):
+        """The last step's contacts: (side of the domain or -1, grain, grain, does it slide, overlap, point,
+        normal from the first to the second, force on the second, branch between the centres or from a wall)."""
+        grain_of = {body: grain for grain, body in self.body_of.items()}
+        return [self._contact(contact, grain_of) for contact in O.interactions if contact.isReal]
+
+    def _contact(self, contact, grain_of):
+        """The smaller grain id, or the wall, comes first."""
+        geom, phys = contact.geom, contact.phys
+        first, second, sense = contact.id1, contact.id2, 1.0
+        if second in self.walls or first not in self.walls and grain_of[first] > grain_of[second]:
+            first, second, sense = second, first, -1.0
+        wall = self.walls.get(first, -1)
+        force, normal = sense * (phys.normalForce + phys.shearForce), sense * geom.normal
+        place = O.bodies[second].state.pos
+        branch = place - (geom.contactPoint if wall >= 0 else O.bodies[first].state.pos)
+        slides = phys.shearForce.norm() >= (1.0 - 1e-9) * phys.tangensOfFrictionAngle * phys.normalForce.norm()
+        return (wall, 0 if wall >= 0 else grain_of[first], grain_of[second], bool(slides), geom.penetrationDepth,
+                geom.contactPoint[0], geom.contactPoint[1], normal[0], normal[1], force[0], force[1],
+                branch[0], branch[1])
+
+    def deepest_overlap(self):
+        """Of the last step's contacts; between discs of different sizes a bound from above."""
+        between_discs = utils.maxOverlapRatio() * self.largest
+        with_walls = [contact.geom.penetrationDepth for wall in self.walls
+                      for contact in O.interactions.withBody(wall) if contact.isReal]
+        return max([0.0, between_discs] + with_walls)
+
+    def save(self):
+        """The whole simulation as bytes, contacts with their springs included."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'scene.yade')
+            O.save(file, quiet=True)
+            with open(file, 'rb') as saved:
+                return saved.read()
+
+    def restore(self, bytes):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'scene.yade')
+            with open(file, 'wb') as saved:
+                saved.write(bytes)
+            O.load(file, quiet=True)

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the Python side needs to build YADE's bodies.
+#pragma once
+
+#include <boost/python/dict.hpp>
+#include <boost/python/list.hpp>
+
+#include "coupler/protocol/settings.hpp"
+#include "granular_adapter/nscd/bodies.hpp"
+
+namespace turbidite::yade {
+
+/// Keys and values as text.
+boost::python::dict settings_dict(const Settings& settings);
+
+/// One dict per body: id, radius, density, mass, inertia, position, velocity, angular_velocity.
+boost::python::list grain_list(const nscd::Bodies& bodies);
+
+}  // namespace turbidite::yade

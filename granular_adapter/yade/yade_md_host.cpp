@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "granular_adapter/yade/yade_md_host.hpp"
+
+#include <algorithm>
+#include <boost/python.hpp>
+#include <utility>
+
+#include "granular_adapter/nscd/byte_stream.hpp"
+#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/yade/yade_forces.hpp"
+#include "granular_adapter/yade/yade_grains.hpp"
+
+namespace turbidite::yade {
+
+namespace python = boost::python;
+using nscd::operator+;
+using nscd::operator*;
+
+namespace {
+
+// Overlaps are looked for this often in a window, and after its last sub-step. A contact lasts
+// many sub-steps, so that its deepest point is missed by little.
+constexpr std::int64_t probes_per_window = 8;
+
+python::list list_of(const std::vector<int>& ids) {
+    python::list list;
+    for (const int id : ids) list.append(id);
+    return list;
+}
+
+std::vector<int> ids_of(const python::object& list) {
+    std::vector<int> ids;
+    for (python::ssize_t i = 0; i < python::len(list); ++i)
+        ids.push_back(python::extract<int>(list[i]));
+    return ids;
+}
+
+bool is_zero(const Load& load) {
+    return load.force == Vec3{} && load.torque == Vec3{};
+}
+
+}  // namespace
+
+YadeMdHost::YadeMdHost(python::object scene, std::string yade_version)
+    : scene_(std::move(scene)), version_(std::move(yade_version)) {}
+
+void YadeMdHost::create(const Settings& settings, const nscd::Bodies& bodies) {
+    ids_ = ids_of(scene_.attr("create")(settings_dict(settings), grain_list(bodies)));
+    if (ids_.size() != bodies.size())
+        throw Failure(ExitCode::participant_failed,
+                      "YADE's scene has " + std::to_string(ids_.size()) + " grains, the case " +
+                          std::to_string(bodies.size()));
+    fetch_states();
+}
+
+void YadeMdHost::fetch_states() {
+    states_ = BodyStates(scene_.attr("states")(list_of(ids_)));
+}
+
+void YadeMdHost::read(nscd::Bodies& bodies) const {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const BodyMotion motion = states_.read(i);
+        bodies.position[i] = motion.position;
+        bodies.orientation[i] = motion.orientation;
+        bodies.twist[i] = {motion.velocity, motion.angular_velocity};
+    }
+}
+
+void YadeMdHost::write(const nscd::Bodies& bodies) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        states_.write(i, {bodies.position[i], bodies.orientation[i], bodies.twist[i].velocity,
+                          bodies.twist[i].spin});
+}
+
+/// YADE keeps loads until they are set again.
+void YadeMdHost::set_loads(const std::vector<Load>& loads) {
+    const bool any = !std::all_of(loads.begin(), loads.end(), is_zero);
+    if (!any && !loaded_) return;
+    const Forces forces(scene_.attr("forces")());
+    for (std::size_t i = 0; i < loads.size(); ++i)
+        forces.load(ids_[i], loads[i].force, loads[i].torque);
+    loaded_ = any;
+}
+
+void YadeMdHost::add_forces(SubstepReport& report, double step) const {
+    const Forces forces(scene_.attr("forces")());
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+        report.impulses[i] = report.impulses[i] + step * forces.force(ids_[i]);
+        report.angular_impulses[i] = report.angular_impulses[i] + step * forces.torque(ids_[i]);
+    }
+}
+
+SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>& loads) {
+    SubstepReport report;
+    if (substeps.detailed) {
+        report.impulses.assign(ids_.size(), Vec3{});
+        report.angular_impulses.assign(ids_.size(), Vec3{});
+    }
+    set_loads(loads);
+    const python::object step = scene_.attr("step"), overlap = scene_.attr("deepest_overlap");
+    const std::int64_t stride = std::max<std::int64_t>(1, substeps.count / probes_per_window);
+    for (std::int64_t i = 1; i <= substeps.count; ++i) {
+        step();
+        if (substeps.detailed) add_forces(report, substeps.step);
+        if (i % stride == 0 || i == substeps.count)
+            report.max_penetration =
+                std::max<double>(report.max_penetration, python::extract<double>(overlap()));
+    }
+    report.contacts = python::extract<long>(scene_.attr("contacts")());
+    if (substeps.detailed)
+        report.touching = touching(substeps.step * static_cast<double>(substeps.count));
+    return report;
+}
+
+/// YADE's contacts one by one: (body, grain or wall; body, grain; sliding; overlap, point, normal,
+/// force on the second body).
+std::vector<ContactRecord> YadeMdHost::touching(double window) const {
+    using nscd::operator-;
+    const python::object list = scene_.attr("touching")();
+    std::vector<ContactRecord> records;
+    for (python::ssize_t i = 0; i < python::len(list); ++i) {
+        const python::object contact = list[i];
+        const auto number = [&](int k) -> double { return python::extract<double>(contact[k]); };
+        ContactRecord record;
+        record.wall = python::extract<int>(contact[0]);
+        record.a = python::extract<GrainId>(contact[1]);
+        record.b = python::extract<GrainId>(contact[2]);
+        record.status = python::extract<bool>(contact[3]) ? ContactStatus::sliding : 0;
+        record.gap = -number(4);
+        record.point = {number(5), number(6), 0.0};
+        record.normal = {number(7), number(8), 0.0};
+        record.impulse = window * Vec3{number(9), number(10), 0.0};
+        record.branch = {number(11), number(12), 0.0};
+        records.push_back(record);
+    }
+    std::sort(records.begin(), records.end(), contact_before);
+    return records;
+}
+
+void YadeMdHost::keep(const std::vector<std::uint8_t>& mask) {
+    std::vector<int> kept, gone;
+    for (std::size_t i = 0; i < ids_.size(); ++i) (mask[i] ? kept : gone).push_back(ids_[i]);
+    scene_.attr("erase")(list_of(gone));
+    ids_ = std::move(kept);
+    states_.keep(mask);
+}
+
+SavedState YadeMdHost::save() const {
+    const python::object bytes = scene_.attr("save")();
+    char* first = nullptr;
+    Py_ssize_t size = 0;
+    if (PyBytes_AsStringAndSize(bytes.ptr(), &first, &size) != 0) python::throw_error_already_set();
+    nscd::ByteWriter writer;
+    writer.array(ids_);
+    writer.value(loaded_);
+    writer.array(std::vector<char>(first, first + size));
+    return writer.take();
+}
+
+void YadeMdHost::restore(const SavedState& state) {
+    nscd::ByteReader reader(state);
+    ids_ = reader.array<int>();
+    loaded_ = reader.value<bool>();
+    const std::vector<char> bytes = reader.array<char>();
+    const python::object copy(
+        python::handle<>(PyBytes_FromStringAndSize(bytes.data(), Py_ssize_t(bytes.size()))));
+    scene_.attr("restore")(copy);
+    fetch_states();
+}
+
+}  // namespace turbidite::yade

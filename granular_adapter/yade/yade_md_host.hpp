@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// YADE's own engines as a host of molecular dynamics: spheres with the mass and inertia of discs,
+// held in the plane, ViscElMat contacts (linear spring and dashpot, no attraction, Coulomb),
+// NewtonIntegrator without numerical damping. The scene is the Python object that has them
+// (turbidite_yade_md.py); forces and motion are read here.
+#pragma once
+
+#include <boost/python/object.hpp>
+#include <string>
+#include <vector>
+
+#include "granular_adapter/md/md_host.hpp"
+#include "granular_adapter/yade/yade_bodies.hpp"
+
+namespace turbidite::yade {
+
+class YadeMdHost final : public MdHost {
+ public:
+    /// `scene` has create(settings, grains), which returns body ids; states(bodies); erase(bodies);
+    /// step(), one sub-step; contacts(); touching(); deepest_overlap(); save() and restore(bytes).
+    YadeMdHost(boost::python::object scene, std::string yade_version);
+
+    std::string code() const override { return "YADE " + version_; }
+    void create(const Settings& settings, const nscd::Bodies& bodies) override;
+    void read(nscd::Bodies& bodies) const override;
+    void write(const nscd::Bodies& bodies) override;
+    SubstepReport run(const Substeps& substeps, const std::vector<Load>& loads) override;
+    void keep(const std::vector<std::uint8_t>& mask) override;
+    SavedState save() const override;
+    void restore(const SavedState& state) override;
+
+ private:
+    void fetch_states();
+    void set_loads(const std::vector<Load>& loads);
+    std::vector<ContactRecord> touching(double window) const;
+    void add_forces(SubstepReport& report, double step) const;
+
+    boost::python::object scene_;
+    std::string version_;
+    std::vector<int> ids_;  ///< of YADE's bodies, in the order of the grains
+    BodyStates states_;
+    bool loaded_ = false;  ///< YADE holds forces from an earlier window
+};
+
+}  // namespace turbidite::yade

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// grains.adapter: yade-md as a user meets it, beside yade-nscd where both must agree.
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string program = TURBIDITE_PROGRAM;
+
+using Columns = std::map<std::string, std::vector<double>>;
+
+/// Empty cells are not-a-number.
+Columns columns_of(const std::string& history) {
+    std::istringstream lines(history);
+    std::string line, cell;
+    std::getline(lines, line);
+    std::vector<std::string> names;
+    for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
+    Columns columns;
+    while (std::getline(lines, line)) {
+        std::istringstream row(line + ",");
+        for (std::size_t i = 0; i < names.size() && std::getline(row, cell, ','); ++i)
+            columns[names[i]].push_back(cell.empty() ? NAN : std::stod(cell));
+    }
+    return columns;
+}
+
+double largest(const std::vector<double>& values) {
+    double result = 0.0;
+    for (const double value : values) result = std::max(result, std::abs(value));
+    return result;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    double result = 0.0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        result = std::max(result, std::abs(a[i] - b[i]));
+    return result;
+}
+
+class MolecularDynamics : public ShellTest {
+ protected:
+    /// Plays the case and returns its history.
+    Columns play(const std::string& name, const std::string& options) const {
+        const fs::path out = scratch.path() / name;
+        const Answer answer = shell(program + " run " + (scratch.path() / "case.yaml").string() +
+                                    " --out " + out.string() + options);
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        maxima = nlohmann::json::parse(text(out / "run.json")).at("maxima");
+        return columns_of(text(out / "history.csv"));
+    }
+
+    Answer check(const std::string& options) const {
+        return shell(program + " check " + (scratch.path() / "case.yaml").string() + options);
+    }
+
+    /// A closed box of liquid with the grains of a CSV file.
+    void wet(const std::string& size, const std::string& grains, const std::string& end) {
+        scratch.write("grains.csv", "id,x,y\n" + grains);
+        scratch.write("case.yaml", "domain:\n  size: " + size +
+                                       "\ngrains:\n  adapter: yade-md\n  file: grains.csv\n"
+                                       "fluid:\n  reynolds: 36\n  cells_per_diameter: 8\n"
+                                       "  multiplier_tolerance: 1e-9\n"
+                                       "coupling:\n  scheme: split\n"
+                                       "time:\n  step: 0.0125\n  end: " +
+                                       end + "\noutput:\n  interval: 0.05\n");
+    }
+
+    mutable nlohmann::json maxima;
+};
+
+TEST_F(MolecularDynamics, ChecksItsKeys) {
+    wet("[4, 4]", "1,2,2\n", "0.1");
+    const Answer good = check("");
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_SAYS(good.out, "sub-steps per window");
+    const Answer joint = check(" --set coupling.scheme=joint");
+    EXPECT_EQ(joint.code, 2);
+    EXPECT_SAYS(joint.err, "coupling.scheme = joint");
+    EXPECT_SAYS(joint.err, "yade-md");
+    const Answer cyclic = check(" --set domain.left=cyclic --set domain.right=cyclic");
+    EXPECT_EQ(cyclic.code, 2);
+    EXPECT_SAYS(cyclic.err, "yade-md knows no cyclic sides");
+    const Answer coarse = check(" --set contact.md_substeps=5");
+    EXPECT_EQ(coarse.code, 2);
+    EXPECT_SAYS(coarse.err, "contact.md_substeps = 5");
+    const Answer idle = check(" --set contact.tolerance=1e-5 --set coupling.positions=contact");
+    EXPECT_EQ(idle.code, 0) << idle.err;
+    EXPECT_SAYS(idle.out, "contact.tolerance has no effect with grains.adapter: yade-md");
+    EXPECT_SAYS(idle.out, "coupling.positions has no effect");
+    const Answer other = check(" --set grains.adapter=yade-nscd --set contact.md_stiffness=1e5");
+    EXPECT_SAYS(other.out, "contact.md_stiffness has no effect with grains.adapter: yade-nscd");
+}
+
+// k = S m g/D: the contact time of two grains is pi sqrt(D/(2 S g)) = 0.00702 t_c for S = 1e5, so a
+// window of 0.0125 t_c takes 35.6 sub-steps of a twentieth.
+TEST_F(MolecularDynamics, StepsAsItsStiffnessAsks) {
+    wet("[4, 4]", "1,2,2\n", "0.1");
+    EXPECT_SAYS(check(" --set contact.md_stiffness=1e5").out,
+                "contact time 0.00702 t_c, 36 sub-steps per window");
+}
+
+// Without contacts both move a grain alike, whether or not the last hydrodynamic impulse is held
+// over the sub-steps: what was announced is not counted twice.
+TEST_F(MolecularDynamics, ASettlingDiscMovesAsUnderContactDynamics) {
+    wet("[4, 5]", "1,2.03,3.4\n", "0.6");
+    const Columns nscd = play("nscd", " --set grains.adapter=yade-nscd");
+    EXPECT_LT(nscd.at("mean_velocity_y").back(), -0.1);
+    for (const std::string hold : {"true", "false"}) {
+        const Columns md = play("md-" + hold, " --set coupling.md_hold=" + hold);
+        for (const char* name :
+             {"mean_velocity_x", "mean_velocity_y", "mean_position_x", "mean_position_y"})
+            EXPECT_LT(largest_difference(md.at(name), nscd.at(name)), 1e-7) << name << hold;
+        EXPECT_LT(maxima.at("grain_balance"), 1e-10);
+        EXPECT_LT(maxima.at("fluid_balance"), 1e-6);
+        EXPECT_TRUE(std::isnan(md.at("contact_residual").back()));
+        EXPECT_GT(md.at("contact_iterations").back(), 1.0);
+    }
+}
+
+// Three discs above each other at rest: they sink into their springs and stay, and what holds them
+// is balanced in every window with output, where YADE's forces are summed up body by body.
+TEST_F(MolecularDynamics, ABedAtRestIsQuietAndBalanced) {
+    wet("[4, 5]", "1,2,0.5\n2,2,1.5\n3,2,2.5\n", "1");
+    const Columns md = play("md", "");
+    EXPECT_EQ(md.at("contacts").back(), 3.0);
+    EXPECT_LT(md.at("mean_speed").back(), 1e-5);
+    EXPECT_LT(largest(md.at("max_penetration")), 1e-3);
+    EXPECT_GT(largest(md.at("max_penetration")), 0.0);
+    EXPECT_LT(maxima.at("grain_balance"), 1e-10);
+    EXPECT_LT(maxima.at("fluid_balance"), 1e-6);
+}
+
+// A small column without fluid collapses by both.
+TEST_F(MolecularDynamics, ADryColumnCollapsesAsUnderContactDynamics) {
+    std::string grains = "id,x,y\n";
+    for (int row = 0, id = 0; row < 8; ++row)
+        for (int k = 0; k < 5; ++k, ++id)
+            grains += std::to_string(id) + "," + std::to_string(0.501 + 1.2 * k + 0.6 * (row % 2)) +
+                      "," + std::to_string(0.501 + 0.802 * row) + "\n";
+    scratch.write("grains.csv", grains);
+    scratch.write("case.yaml",
+                  "domain:\n  size: [40, 10]\n  right: free\n  top: free\n"
+                  "grains:\n  adapter: yade-md\n  file: grains.csv\n"
+                  "fluid:\n  enabled: false\n"
+                  "time:\n  step: 0.01\n  end: 4\noutput:\n  interval: 0.1\n");
+    const Columns md = play("md", "");
+    const double overlap = maxima.at("penetration");
+    EXPECT_GT(overlap, 0.0);
+    EXPECT_LT(overlap, 1e-3);
+    const Columns nscd = play("nscd", " --set grains.adapter=yade-nscd");
+    const double scale = largest(nscd.at("mean_velocity_norm"));
+    EXPECT_GT(scale, 0.5);
+    EXPECT_LT(largest_difference(md.at("mean_velocity_norm"), nscd.at("mean_velocity_norm")),
+              0.1 * scale);
+}
+
+}  // namespace
+}  // namespace turbidite
