@@ -3,6 +3,7 @@
 
 #include "bench/contact_rate.hpp"
 #include "bench/md_over_nscd.hpp"
+#include "bench/polygon_rate.hpp"
 
 namespace turbidite::bench {
 
@@ -29,6 +30,11 @@ std::vector<Figure> contact_figures() {
          "ratio",
          {Kind::at_least, 2.0},
          md_over_nscd_dry_column},
+        {"polygon_detections_per_second",
+         "pairs of dense triangles that the narrow phase tests per second, one core",
+         "1/s",
+         {Kind::at_least, 5e6},
+         polygon_detections_per_second},
     };
 }
 

@@ -10,7 +10,7 @@
 //                                                             unit of forces in contact laws
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.size_x    run.size_y  run.size_z                    domain [m]
-//     run.hash      run.md_*                                  of the resolved case; soft_contact.hpp
+//     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
 //
 // Valid C++17.
 #pragma once

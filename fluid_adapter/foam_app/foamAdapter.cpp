@@ -184,7 +184,7 @@ Hello FoamAdapter::describe() const {
     hello.capabilities.saves_state = true;
     hello.capabilities.serialises_state = true;
     hello.capabilities.effective_inertia = true;
-    hello.capabilities.shapes = {"disc"};
+    hello.capabilities.shapes = {"disc", "triangle", "polygon"};
     return hello;
 }
 

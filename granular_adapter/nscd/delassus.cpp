@@ -42,6 +42,11 @@ void drop_rounding(Block& w) {
     if (w.nr * w.nr < 1e-28 * w.nn * w.rr) w.nr = 0.0;
 }
 
+/// To rounding: then a spin, whatever drives it, moves nothing along n.
+bool is_along_normal(const Contact& contact, const Vec3& arm) {
+    return std::abs(cross(arm, contact.normal)[2]) <= 1e-14 * norm(arm);
+}
+
 Block block_of(const ContactProblem& problem, const Contact& contact) {
     Block w;
     const auto add = [&](const Vec3& arm, const BodyMobility& body) {
@@ -63,15 +68,21 @@ Delassus::Delassus(const ContactProblem& problem) : problem_(problem) {
 
 Impulses Delassus::apply(const Impulses& r) const {
     const std::vector<Twist> rest(problem_.free.size());
-    const std::vector<Twist> v = body_velocities({problem_.bodies, rest, problem_.contacts, 0.0}, r);
+    const std::vector<Twist> v =
+        body_velocities({problem_.bodies, rest, problem_.contacts, 0.0}, r);
     Impulses u;
     u.reserve(r.size());
     for (const Contact& contact : problem_.contacts) u.push_back(contact_velocity(contact, v));
     return u;
 }
 
+// Blocks alone do not tell: shares of two bodies may cancel, and a driven body has none.
 bool Delassus::diagonal() const {
-    return std::all_of(blocks_.begin(), blocks_.end(),
+    return std::all_of(problem_.contacts.begin(), problem_.contacts.end(),
+                       [](const Contact& c) {
+                           return is_along_normal(c, c.arm_b) && is_along_normal(c, c.arm_a);
+                       }) &&
+           std::all_of(blocks_.begin(), blocks_.end(),
                        [](const Block& w) { return w.nt == 0.0 && w.nr == 0.0; }) &&
            std::all_of(problem_.bodies.begin(), problem_.bodies.end(),
                        [](const BodyMobility& body) { return body.isotropic(); });

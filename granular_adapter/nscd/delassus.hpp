@@ -26,7 +26,7 @@ class Delassus {
     /// W r: (u_n, u_t, w) of every contact.
     Impulses apply(const Impulses& r) const;
 
-    /// True when no block couples the normal to the rest, and every mobility is isotropic.
+    /// True when arms are along the normals, no block couples and every mobility is isotropic.
     bool diagonal() const;
 
     /// True when some contact resists rolling. Blocks have a third row only where one does, and a

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "granular_adapter/nscd/broad_phase.hpp"
+#include "granular_adapter/nscd/corner_turn.hpp"
 #include "granular_adapter/nscd/engine_state.hpp"
 #include "granular_adapter/nscd/solver_list.hpp"
 #include "granular_adapter/nscd/theta_scheme.hpp"
@@ -16,6 +17,10 @@ namespace {
 // Contacts within this share of both radii are always in the problem, so that a contact which opens
 // by rounding does not flicker. Larger only costs time.
 constexpr double alert_share = 0.02;
+
+// A step is solved again while turning polygons would overlap by more than this share of a radius.
+constexpr double turn_share = 1e-5;
+constexpr int turn_rounds = 2;
 
 /// Upper bound of |u_rel| between any two bodies or a body and a wall: the diagonal of the box that
 /// holds all velocities and zero.
@@ -110,7 +115,7 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
     problem_ = laws_.pose(contacts, free, std::move(mobilities), dt);
     guess_.clear();
     for (const ContactKey& name : names) guess_.push_back(memory_.guess(name, dt));
-    SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
+    SolverResult result = solve(dt);
     memory_.remember(names, result.impulses, dt);
     laws_.find_states(contacts, result.impulses);
     impulses_ = laws_.felt(result.impulses);
@@ -123,6 +128,41 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
                       result.change,
                       result.converged};
     return report;
+}
+
+/// Where polygons turn fast, again with the gaps that the turn leaves (corner_turn.hpp); sweeps are
+/// those of all solves.
+SolverResult Engine::solve(double dt) {
+    SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
+    if (!narrow_phase_.has_corners()) return result;
+    std::vector<double> shortfalls(points_.size(), 0.0);
+    for (int round = 0; round < turn_rounds; ++round) {
+        if (!(take_turns(result.velocities, shortfalls, dt) > turn_share)) break;
+        SolverResult next = solver_->solve(problem_, result.impulses, settings_.solver_settings);
+        next.iterations += result.iterations;
+        result = std::move(next);
+    }
+    return result;
+}
+
+/// Moves the biases to the shortfalls of these velocities. Returns the largest change that matters,
+/// over the body's radius: of contacts that would end with an overlap.
+double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
+                          double dt) {
+    const std::vector<double> found = gap_shortfalls(
+        {points_, problem_.contacts, bodies_, walls_, velocities, dt}, narrow_phase_.polygons());
+    double largest = 0.0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        Contact& contact = problem_.contacts[k];
+        const double wanted = std::max(0.0, found[k]), change = wanted - shortfalls[k];
+        const double u = contact_velocity(contact, velocities)[0] + contact.bias[0];
+        if (dt * u < change)
+            largest =
+                std::max(largest, change / bodies_.radius[static_cast<std::size_t>(contact.b)]);
+        contact.bias[0] -= change / dt;
+        shortfalls[k] = wanted;
+    }
+    return largest;
 }
 
 void Engine::move(double dt) {

@@ -121,6 +121,9 @@ class Engine {
     void restore_memory(const std::vector<char>& state);
 
  private:
+    SolverResult solve(double dt);
+    double take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
+                      double dt);
     double reach(const std::vector<Twist>& free, double dt) const;
     std::vector<ContactPoint> detect(double reach, double share) const;
     void order_top_down(std::vector<ContactPoint>& points) const;

@@ -54,6 +54,7 @@ void swap_bodies(ContactPoint& point) {
     std::swap(point.a, point.b);
     std::swap(point.arm_a, point.arm_b);
     point.normal = -1.0 * point.normal;
+    if (point.turns_with != 0) point.turns_with = 3 - point.turns_with;
 }
 
 WallDetector find_wall_detector(const std::string& kind) {

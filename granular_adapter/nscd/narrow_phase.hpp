@@ -27,6 +27,9 @@ struct ContactPoint {
     Vec3 arm_a{};              ///< centre of a to the contact point [m]
     Vec3 arm_b{};
     double length = 0.0;  ///< of the face that the point stands for; 0 for points [m]
+    /// The normal stands on a side of a or of the wall (1), or of b (2), and turns with it; 0: on
+    /// none, as between discs and between corners.
+    std::int32_t turns_with = 0;
 };
 
 /// Two bodies; `offset` is b - a by the nearest image.
@@ -74,6 +77,7 @@ class NarrowPhase {
     /// Corners at their places, once per configuration; what views of it are given.
     PlacedPolygons place(const Bodies& bodies) const { return {polygons_, bodies}; }
     bool has_corners() const { return polygons_.any(); }
+    const PolygonShapes& polygons() const { return polygons_; }
 
     void pair(const PairView& view, std::vector<ContactPoint>& points) const;
     void wall(const WallView& view, std::vector<ContactPoint>& points) const;

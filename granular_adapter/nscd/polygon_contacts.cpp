@@ -83,7 +83,7 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
         // Seen from behind, the plate's corners change places.
         const int corner = !p.of_second && sign < 0.0 ? 1 - p.corner : p.corner;
         points.push_back({-1, view.body, view.wall_index, feature_of(corner, p.of_second), p.gap,
-                          normal, Vec3{}, arm, p.length});
+                          normal, Vec3{}, arm, p.length, p.turns_with});
     }
 }
 
@@ -112,7 +112,8 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
                               normal,
                               Vec3{},
                               {polygon.x[k], polygon.y[k], 0.0},
-                              length});
+                              length,
+                              1});
 }
 
 }  // namespace
@@ -136,7 +137,8 @@ void polygon_polygon(const PairView& view, std::vector<ContactPoint>& points) {
                           {sign * p.nx, sign * p.ny, 0.0},
                           in_order ? from_first : from_second,
                           in_order ? from_second : from_first,
-                          p.length});
+                          p.length,
+                          in_order || p.turns_with == 0 ? p.turns_with : 3 - p.turns_with});
     }
 }
 
@@ -151,7 +153,7 @@ void disc_polygon(const PairView& view, std::vector<ContactPoint>& points) {
     if (!(gap < view.alert)) return;
     const Vec3 arm_a = (-radius - 0.5 * gap) * to_disc.normal;
     points.push_back({view.a, view.b, -1, to_disc.feature, gap, -1.0 * to_disc.normal, arm_a,
-                      arm_a - view.offset, 0.0});
+                      arm_a - view.offset, 0.0, to_disc.feature % 2 == 0 ? 2 : 0});
 }
 
 void polygon_wall(const WallView& view, std::vector<ContactPoint>& points) {

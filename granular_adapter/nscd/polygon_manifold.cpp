@@ -112,6 +112,7 @@ struct Facing {
         p.gap = h;
         p.corner = corner;
         p.of_second = of_incident != flip;
+        p.turns_with = flip ? 2 : 1;
         return p;
     }
 
@@ -134,6 +135,7 @@ ManifoldPoint beyond_end(const Facing& f, double end, double t, double h, int en
     p.nx = sign * (h * f.nx - along * f.ny);
     p.ny = sign * (h * f.ny + along * f.nx);
     p.gap = distance;
+    p.turns_with = 0;
     return p;
 }
 

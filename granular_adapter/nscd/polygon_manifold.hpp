@@ -34,6 +34,7 @@ struct ManifoldPoint {
     double length = 0.0;        ///< of the common side: half of it for each of two points, else 0
     int corner = 0;             ///< the corner that names the point
     bool of_second = false;     ///< of the second polygon
+    int turns_with = 0;         ///< the normal: 1 with the first's side, 2 the second's, 0 neither
 };
 
 struct Manifold {

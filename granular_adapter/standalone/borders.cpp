@@ -27,7 +27,8 @@ std::string place(const Vec3& x) {
 
 void check_pairs(const std::vector<Border>& borders) {
     for (std::size_t low = 0; low < borders.size(); low += 2)
-        if ((borders[low].side == BorderKind::cyclic) != (borders[low + 1].side == BorderKind::cyclic))
+        if ((borders[low].side == BorderKind::cyclic) !=
+            (borders[low + 1].side == BorderKind::cyclic))
             throw std::invalid_argument("domain." + borders[low].name + " and domain." +
                                         borders[low + 1].name + " must both be cyclic, or neither");
 }

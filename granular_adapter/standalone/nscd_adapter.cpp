@@ -11,6 +11,7 @@
 #include "granular_adapter/standalone/contact_records.hpp"
 #include "granular_adapter/standalone/contact_settings.hpp"
 #include "granular_adapter/standalone/free_motion.hpp"
+#include "granular_adapter/standalone/inner_walls.hpp"
 
 namespace turbidite {
 namespace {
@@ -64,7 +65,10 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     joint_ = fluid_ && settings.text("coupling.scheme") == "joint";
     positions_ = parse_positions(settings.text("coupling.positions"));
     borders_ = lay_borders(settings);
-    engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls_of(borders_));
+    std::vector<nscd::Wall> walls = walls_of(borders_);
+    for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
+        walls.push_back(wall);
+    engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
     add_grains(bodies(), settings, shapes, grains);
     nscd::check_periods(bodies().radius, engine().settings().box);
     check_inside(bodies(), borders_, "at the start");

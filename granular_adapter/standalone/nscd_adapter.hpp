@@ -6,6 +6,8 @@
 // fluid's, advance may be repeated within a window, and grains move with the contact velocities.
 // Hosts such as YADE wrap it: they overwrite bodies() before a call and read them after.
 //
+// Walls inside the box (run.walls) are plates that hold grains on both sides, at rest or moving.
+//
 // Reads: contact.*, coupling.scheme, coupling.positions, domain.{left,right,bottom,top},
 // fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
 #pragma once

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Shapes, sizes and inner walls of a case, and what is refused by name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "coupler/case/case_file.hpp"
+#include "coupler/case/grain_forms.hpp"
+#include "coupler/case/inner_walls.hpp"
+#include "coupler/case/random_packing.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr auto dry_case =
+    "domain: {size: [12, 24]}\n"
+    "fluid: {enabled: false}\n"
+    "time: {step: 0.01, end: 1}\n";
+
+class ShapeCase : public ::testing::Test {
+ protected:
+    ScratchFolder folder;
+
+    ResolvedCase load(const std::string& more, const std::vector<std::string>& set = {}) {
+        return load_case(folder.write("box.yaml", dry_case + more), set);
+    }
+    std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) {
+        try {
+            load(more, set);
+        } catch (const CaseRefused& refused) {
+            return refused.what();
+        }
+        return "";
+    }
+    void write_run(const ResolvedCase& resolved) {
+        folder.write("run/case.yaml", resolved.yaml);
+        folder.write("run/grains/initial.csv", resolved.grains_csv);
+        folder.write("run/grains/walls.csv", resolved.walls_csv);
+    }
+};
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(ShapeCase, TrianglesHaveThePapersSizeAndRandomAngles) {
+    const ResolvedCase box = load("grains: {shape: triangle, count: 40}\n");
+    ASSERT_EQ(box.shapes.size(), 1u);
+    EXPECT_EQ(box.shapes[0].kind, "triangle");
+    EXPECT_EQ(box.shapes[0].vertices.size(), 6u);
+    std::set<double> angles;
+    for (const GrainState& grain : box.population) {
+        EXPECT_EQ(grain.radius, 0.75);
+        EXPECT_EQ(grain.shape, 0);
+        EXPECT_NEAR(std::hypot(grain.orientation[0], grain.orientation[3]), 1.0, 1e-15);
+        angles.insert(grain.orientation[3]);
+    }
+    EXPECT_EQ(angles.size(), 40u);
+}
+
+// A right triangle with legs of 3: its centre is (1, 1), its circumscribed radius about it sqrt 5.
+TEST_F(ShapeCase, PolygonsAreMovedAndScaled) {
+    const ResolvedCase box =
+        load("grains: {shape: polygon, vertices: [0, 0, 3, 0, 0, 3], radius: 0.6, count: 5}\n");
+    ASSERT_EQ(box.shapes[0].vertices.size(), 6u);
+    EXPECT_NEAR(box.shapes[0].vertices[0], -1.0 / std::sqrt(5.0), 1e-15);
+    EXPECT_EQ(box.population[0].radius, 0.6);
+    EXPECT_TRUE(std::any_of(box.notes.begin(), box.notes.end(), [](const std::string& note) {
+        return note.find("moved by (-1, -1)") != std::string::npos;
+    }));
+    const ResolvedCase again = load_case(folder.write("again.yaml", box.yaml));
+    EXPECT_EQ(again.yaml, box.yaml);
+    EXPECT_EQ(again.shapes[0].vertices, box.shapes[0].vertices);
+}
+
+TEST_F(ShapeCase, BadPolygonsAreRefusedByVertex) {
+    const auto with = [this](const std::string& vertices) {
+        return refusal("grains: {shape: polygon, count: 5, vertices: [" + vertices + "]}\n");
+    };
+    EXPECT_SAYS(with("0, 0, 2, 0, 1, 0.5, 2, 2, 0, 2"), "vertex 3 (1, 0.5) makes it concave");
+    EXPECT_SAYS(with("0, 0, 1, 0, 1, 1, 1, 0"), "vertex 4 (1, 0) is the same as vertex 2");
+    EXPECT_SAYS(with("0, 0, 1, 1, 2, 2"), "area is zero");
+    EXPECT_SAYS(with("0, 0, 1, 1"), "at least 3");
+    EXPECT_SAYS(with("0, 0, 1, x, 2, 2"), "A list x1, y1, x2, y2");
+    EXPECT_SAYS(refusal("grains: {shape: polygon, count: 5}\n"), "grains.vertices is missing");
+    EXPECT_SAYS(refusal("grains: {shape: hexagon, count: 5}\n"), "disc, triangle, polygon");
+}
+
+TEST_F(ShapeCase, LatticesHoldEqualDiscsOnly) {
+    const std::string lattice = "grains: {generator: lattice, ";
+    EXPECT_SAYS(refusal(lattice + "shape: triangle}\n"), "grains.shape = triangle");
+    EXPECT_SAYS(refusal(lattice + "radius: 0.4}\n"), "grains.radius = 0.4");
+    EXPECT_SAYS(refusal(lattice + "size_ratio: 2}\n"), "grains.size_ratio = 2");
+    EXPECT_EQ(refusal(lattice + "radius: 0.5}\n"), "");
+}
+
+// Ratio 3 about R = 0.5: radii from 0.25 to 0.75, mean 0.5 with a scatter of 0.144/sqrt(60).
+TEST_F(ShapeCase, SizesSpreadAboutTheMean) {
+    const ResolvedCase box = load("grains: {count: 60, size_ratio: 3}\n");
+    double sum = 0.0, least = 1.0, most = 0.0;
+    for (const GrainState& grain : box.population) {
+        sum += grain.radius;
+        least = std::min(least, grain.radius), most = std::max(most, grain.radius);
+    }
+    EXPECT_GE(least, 0.25);
+    EXPECT_LE(most, 0.75);
+    EXPECT_LT(least, 0.3);
+    EXPECT_GT(most, 0.7);
+    EXPECT_NEAR(sum / 60.0, 0.5, 0.06);
+}
+
+TEST_F(ShapeCase, TooManyGrainsAreRefused) {
+    EXPECT_SAYS(refusal("grains: {shape: triangle, count: 600}\n"), "grains.count = 600");
+    EXPECT_SAYS(refusal("grains: {count: 3, radius: 7}\n"), "has no room");
+}
+
+TEST_F(ShapeCase, FilesMixShapes) {
+    folder.write("g.csv",
+                 "id,x,y,shape,angle\n4,2,2,triangle,0.5\n5,6,2,disc,0\n6,6,6,polygon,1\n");
+    const std::string vertices = "vertices: [0, 0, 1, 0, 1, 1, 0, 1]";
+    const ResolvedCase box = load("grains: {file: g.csv, " + vertices + "}\n");
+    ASSERT_EQ(box.shapes.size(), 3u);
+    const auto kind = [&](std::size_t i) {
+        return box.shapes[static_cast<std::size_t>(box.population[i].shape)].kind;
+    };
+    EXPECT_EQ(kind(0), "triangle");
+    EXPECT_EQ(kind(1), "disc");
+    EXPECT_EQ(kind(2), "polygon");
+    EXPECT_EQ(box.population[0].radius, 0.75);
+    EXPECT_EQ(box.population[2].radius, 0.5);
+    EXPECT_NEAR(box.population[0].orientation[3], std::sin(0.25), 1e-15);
+    write_run(box);
+    const ResolvedCase again = load_run_folder(folder.path() / "run");
+    EXPECT_EQ(again.settings.entries(), box.settings.entries());
+    EXPECT_EQ(again.population[2].orientation, box.population[2].orientation);
+    EXPECT_EQ(again.population[2].shape, box.population[2].shape);
+}
+
+// Only shapes that are there are asked of the programs: a file of discs needs no polygons.
+TEST_F(ShapeCase, TheTableHoldsWhatIsUsed) {
+    folder.write("g.csv", "id,x,y,shape\n4,2,2,triangle\n");
+    const ResolvedCase box = load("grains: {file: g.csv}\n");
+    ASSERT_EQ(box.shapes.size(), 1u);
+    EXPECT_EQ(box.shapes[0].kind, "triangle");
+    EXPECT_EQ(box.population[0].shape, 0);
+}
+
+TEST_F(ShapeCase, FilesWithUnknownShapesAreRefused) {
+    folder.write("g.csv", "id,x,y,shape\n4,2,2,hexagon\n5,5,5,polygon\n");
+    const std::string text = refusal("grains: {file: g.csv}\n");
+    EXPECT_SAYS(text, "g.csv line 2: shape = hexagon");
+    EXPECT_SAYS(text, "g.csv line 3: shape = polygon");
+    EXPECT_SAYS(text, "grains.vertices");
+}
+
+// Circles of radius 0.75 about centres 1.2 apart overlap; triangles with facing sides need only
+// 0.75 apart, and one that points at the other's side 1.125.
+TEST_F(ShapeCase, OverlapsAreThoseOfTheShapes) {
+    folder.write("apart.csv", "id,x,y,shape,angle\n1,3,3,triangle,0\n2,3,1.8,triangle,0\n");
+    EXPECT_EQ(refusal("grains: {file: apart.csv}\n"), "");
+    folder.write("deep.csv", "id,x,y,shape,angle\n1,3,3,triangle,0\n2,3,2,triangle,0\n");
+    EXPECT_SAYS(refusal("grains: {file: deep.csv}\n"), "grains 1 and 2 overlap by 0.125 D");
+}
+
+// A triangle at angle 0 reaches 0.375 down from its centre and 0.75 up.
+TEST_F(ShapeCase, GrainsOutsideAreJudgedByTheirShapes) {
+    folder.write("in.csv", "id,x,y,shape\n1,3,0.38,triangle\n");
+    EXPECT_EQ(refusal("grains: {file: in.csv}\n"), "");
+    folder.write("out.csv", "id,x,y,shape\n1,3,0.3,triangle\n2,3,23.3,triangle\n");
+    const std::string text = refusal("grains: {file: out.csv}\n");
+    EXPECT_SAYS(text, "0.075 D beyond its bottom side");
+    EXPECT_SAYS(text, "0.05 D beyond its top side");
+}
+
+TEST(ShapePacking, TrianglesKeepTheirDistance) {
+    Settings settings;
+    settings.set("grains.shape", std::string("triangle"));
+    const GrainForms forms = make_grain_forms(settings);
+    const PackingRequest request{
+        .box = {.width = 12.0, .height = 20.0}, .count = 110, .seed = 3, .forms = &forms};
+    const Packing grains = random_packing(request).grains;
+    ASSERT_EQ(grains.size(), 110u);  // denser than circumscribed circles can be: 0.81
+    double least = 1e9;
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            least = std::min(least, surface_gap(placed_outline(grains[i], forms),
+                                                placed_outline(grains[j], forms)));
+    EXPECT_GE(least, 0.005 - 1e-9);
+}
+
+class WallsFile : public ShapeCase {
+ protected:
+    const std::string grains = "grains: {count: 5, adapter: standalone-nscd}\n";
+
+    std::string refused(const std::string& csv) {
+        folder.write("walls.csv", csv);
+        return refusal(grains, {"domain.walls_file=walls.csv"});
+    }
+};
+
+TEST_F(WallsFile, IsHandedOnInTheRunsUnits) {
+    folder.write("grains.csv", "id,x,y\n0,3,20\n");
+    folder.write("walls.csv", "id,x1,y1,x2,y2,vx,vy,spin\n1,0,5,8,5,0.5,0,0\n7,2,9,4,9,0,0,0.1\n");
+    const ResolvedCase box = load("grains: {file: grains.csv, adapter: standalone-nscd}\n",
+                                  {"domain.walls_file=walls.csv", "contact.friction=0.4"});
+    EXPECT_EQ(box.settings.text("run.walls"),
+              "1 0 5 8 5 0.5 0 0 4 5 0.4;7 2 9 4 9 0 0 0.1 3 9 0.4");
+    EXPECT_EQ(box.settings.text("domain.walls_file"), "grains/walls.csv");
+    write_run(box);
+    const ResolvedCase again = load_run_folder(folder.path() / "run");
+    EXPECT_EQ(again.settings.entries(), box.settings.entries());
+}
+
+TEST_F(WallsFile, NonsenseIsRefusedByLine) {
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,3,3\n"), "walls.csv line 2: wall 1 has length 0");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,4,3\n1,5,5,6,6\n"), "wall id 1 is given twice");
+    EXPECT_SAYS(refused("id,x1,y1,x2\n1,3,3,4\n"), "column \"y2\" is missing");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2,vx\n1,3,3,4,3,1\n"), "only one is there");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2,friction\n1,3,3,4,3,-1\n"), "friction = -1");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,nan,4,3\n"), "y1 = nan");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2,colour\n1,3,3,4,3,2\n"), "column \"colour\" is unknown");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2\n"), "holds no wall");
+    EXPECT_SAYS(refusal(grains, {"domain.walls_file=none.csv"}), "There is no file");
+}
+
+TEST_F(WallsFile, GrainsThatAWallCutsAreNamed) {
+    folder.write("grains.csv", "id,x,y\n9,3,3.2\n");
+    folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,3,8,3\n");
+    EXPECT_SAYS(refusal("grains: {file: grains.csv, adapter: standalone-nscd}\n",
+                        {"domain.walls_file=walls.csv"}),
+                "wall 1 cuts grain 9 at (3, 3.2) by 0.3 D");
+}
+
+TEST_F(WallsFile, NeedsADryContactEngine) {
+    folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0.001,8,0.001\n");
+    EXPECT_SAYS(
+        refusal(grains, {"domain.walls_file=walls.csv", "fluid.enabled=true", "fluid.reynolds=36"}),
+        "not seen by the fluid");
+}
+
+}  // namespace
+}  // namespace turbidite
