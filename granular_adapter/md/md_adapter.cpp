@@ -37,7 +37,7 @@ std::string in_window(const Window& window) {
 
 void refuse_cyclic(const std::vector<Border>& borders) {
     for (const Border& border : borders)
-        if (border.side == Side::cyclic)
+        if (border.side == BorderKind::cyclic)
             throw std::invalid_argument("domain." + border.name +
                                         " = cyclic, which molecular dynamics does not know in this "
                                         "version; allowed: wall, free");

@@ -12,10 +12,10 @@ namespace {
 
 using nscd::is_finite;
 
-Side parse_side(const std::string& key, const std::string& text) {
-    if (text == "wall") return Side::wall;
-    if (text == "free") return Side::free;
-    if (text == "cyclic") return Side::cyclic;
+BorderKind parse_side(const std::string& key, const std::string& text) {
+    if (text == "wall") return BorderKind::wall;
+    if (text == "free") return BorderKind::free;
+    if (text == "cyclic") return BorderKind::cyclic;
     throw std::invalid_argument(key + " = \"" + text + "\"; allowed: wall, free, cyclic");
 }
 
@@ -27,7 +27,8 @@ std::string place(const Vec3& x) {
 
 void check_pairs(const std::vector<Border>& borders) {
     for (std::size_t low = 0; low < borders.size(); low += 2)
-        if ((borders[low].side == Side::cyclic) != (borders[low + 1].side == Side::cyclic))
+        if ((borders[low].side == BorderKind::cyclic) !=
+            (borders[low + 1].side == BorderKind::cyclic))
             throw std::invalid_argument("domain." + borders[low].name + " and domain." +
                                         borders[low + 1].name + " must both be cyclic, or neither");
 }
@@ -57,7 +58,7 @@ std::vector<Border> lay_borders(const Settings& settings) {
 std::vector<nscd::Wall> walls_of(const std::vector<Border>& borders) {
     std::vector<nscd::Wall> walls;
     for (const Border& border : borders)
-        if (border.side == Side::wall) walls.push_back(border.plane);
+        if (border.side == BorderKind::wall) walls.push_back(border.plane);
     return walls;
 }
 
@@ -71,7 +72,7 @@ void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders
             throw PhysicsRefused(who + " has a position or velocity that is not a number, " + when +
                                  "; use a smaller time.step");
         for (const Border& border : borders)
-            if (border.side == Side::wall &&
+            if (border.side == BorderKind::wall &&
                 signed_distance(border.plane, bodies.position[i]) < 0.0)
                 throw PhysicsRefused(who + " has its centre beyond the " + border.name + " wall, " +
                                      when + "; use a smaller time.step");
@@ -83,7 +84,7 @@ std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,
     std::vector<std::uint8_t> inside(bodies.size(), 1);
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (const Border& border : borders)
-            if (border.side == Side::free &&
+            if (border.side == BorderKind::free &&
                 signed_distance(border.plane, bodies.position[i]) < -bodies.radius[i])
                 inside[i] = 0;
     return inside;

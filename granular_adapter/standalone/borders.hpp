@@ -19,12 +19,12 @@
 
 namespace turbidite {
 
-enum class Side { wall, free, cyclic };
+enum class BorderKind { wall, free, cyclic };
 
 /// One side of the domain: its name, what it is, and the inward half-plane.
 struct Border {
     std::string name;  ///< "left"
-    Side side = Side::wall;
+    BorderKind side = BorderKind::wall;
     nscd::Wall plane;
 };
 

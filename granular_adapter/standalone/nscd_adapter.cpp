@@ -164,8 +164,8 @@ NscdAdapter::Positions NscdAdapter::parse_positions(const std::string& text) {
 nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) const {
     nscd::EngineSettings result = contact_settings(settings);
     result.gravity = {0.0, -settings.real("run.gravity"), 0.0};
-    if (borders_[0].side == Side::cyclic) result.box.length[0] = settings.real("run.size_x");
-    if (borders_[2].side == Side::cyclic) result.box.length[1] = settings.real("run.size_y");
+    if (borders_[0].side == BorderKind::cyclic) result.box.length[0] = settings.real("run.size_x");
+    if (borders_[2].side == BorderKind::cyclic) result.box.length[1] = settings.real("run.size_y");
     return result;
 }
 
