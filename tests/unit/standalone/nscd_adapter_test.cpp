@@ -526,7 +526,7 @@ TEST(NscdAdapter, JointBalancesWhatGrainsFeelUnderAdhesion) {
     Settings settings = wet_settings();
     settings.set("coupling.scheme", std::string("joint"));
     NscdAdapter adapter;
-    adapter.initialise(settings, discs, {grain_at(1, 5, 0.51), grain_at(2, 5.3, 1.54)});
+    adapter.initialise(settings, discs, {grain_at(1, 5, 0.51), grain_at(2, 5.3, 1.50)});
     const std::vector<FreeResponse> responses = {falling_at(1, 0.001), falling_at(2, 0.002)};
     for (int round = 0; round < 2; ++round) {
         const Motion motion = adapter.advance(window(0), responses);
