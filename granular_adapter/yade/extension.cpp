@@ -104,12 +104,19 @@ class Participant {
     std::unique_ptr<Session> session_;
 };
 
+std::unique_ptr<GrainsAdapter> nscd_adapter(const std::string& run_folder, python::object scene,
+                                            const std::string& yade_version) {
+    auto adapter = std::make_unique<YadeAdapter>(std::move(scene), yade_version);
+    adapter->set_run_folder(run_folder);
+    return adapter;
+}
+
 /// The contact engine with YADE's bodies.
 class NscdParticipant final : public Participant {
  public:
     NscdParticipant(const std::string& run_folder, std::uintptr_t communicator,
                     python::object scene, const std::string& yade_version)
-        : Participant(std::make_unique<YadeAdapter>(scene, yade_version), run_folder,
+        : Participant(nscd_adapter(run_folder, std::move(scene), yade_version), run_folder,
                       communicator) {}
 };
 
