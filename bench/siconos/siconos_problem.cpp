@@ -32,12 +32,12 @@ double norm(const double* x, std::size_t n) {
     return std::sqrt(sum);
 }
 
-/// A file that goes when it is no longer needed.
+/// A file that goes when it is no longer needed. Siconos crashes on names without ".dat".
 class PassingFile {
  public:
     explicit PassingFile(const nscd::ContactProblem& problem) {
-        std::string name = (std::filesystem::temp_directory_path() / "problem-XXXXXX").string();
-        const int descriptor = ::mkstemp(name.data());
+        std::string name = (std::filesystem::temp_directory_path() / "problem-XXXXXX.dat").string();
+        const int descriptor = ::mkstemps(name.data(), 4);
         if (descriptor < 0) throw std::runtime_error("no temporary file " + name);
         ::close(descriptor);
         path_ = name;
@@ -56,6 +56,8 @@ class PassingFile {
 };
 
 FrictionContactProblem* read(const std::filesystem::path& file) {
+    if (file.extension() != ".dat")
+        throw std::invalid_argument("Siconos reads files *.dat, not " + file.string());
     FrictionContactProblem* problem = frictionContact_new_from_filename(file.c_str());
     if (!problem) throw std::runtime_error("Siconos cannot read " + file.string());
     return problem;

@@ -147,16 +147,14 @@ void AugmentedSystem::respond(std::size_t k, const std::array<double, 3>& u) {
 }
 
 /// -S'(u) of a closed contact: rows by impulse, columns by velocity.
-std::array<AugmentedSystem::Row, 3> AugmentedSystem::slope(std::size_t k) const {
+std::array<AugmentedSystem::Row, 3> AugmentedSystem::slope(std::size_t k, bool with_sliding) const {
     const Link& link = links_[k];
     const std::uint8_t status = statuses_[k];
     std::array<Row, 3> s{};
     s[0][0] = 1.0 / link.weight[0];
     const auto branch = [&](int d, double limit, std::uint8_t up, std::uint8_t down) {
-        if (status & up)
-            s[d][0] = limit * s[0][0];
-        else if (status & down)
-            s[d][0] = -limit * s[0][0];
+        if (status & (up | down))
+            s[d][0] = with_sliding ? (status & up ? limit : -limit) * s[0][0] : 0.0;
         else if (link.weight[d] > 0.0)
             s[d][d] = 1.0 / link.weight[d];
     };
@@ -165,13 +163,13 @@ std::array<AugmentedSystem::Row, 3> AugmentedSystem::slope(std::size_t k) const 
     return s;
 }
 
-const Eigen::SparseMatrix<double>& AugmentedSystem::jacobian() {
+const Eigen::SparseMatrix<double>& AugmentedSystem::assemble(bool with_sliding) {
     jacobian_.coeffs().setZero();
     for (Eigen::Index i = 0; i < jacobian_.rows(); ++i) jacobian_.coeffRef(i, i) = 1.0;
     for (std::size_t k = 0; k < links_.size(); ++k) {
         if (statuses_[k] == 0) continue;
         const Link& link = links_[k];
-        const std::array<Row, 3> s = slope(k);
+        const std::array<Row, 3> s = slope(k, with_sliding);
         add_block(places_[k][3], link.at_b, s, link.at_b, 1.0);
         if (link.a < 0) continue;
         add_block(places_[k][0], link.at_a, s, link.at_a, 1.0);

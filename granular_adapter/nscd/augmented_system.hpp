@@ -38,7 +38,11 @@ class AugmentedSystem {
     Eigen::VectorXd residual(const Eigen::VectorXd& y);
 
     /// J at the statuses of the last residual(); the pattern is the same every time.
-    const Eigen::SparseMatrix<double>& jacobian();
+    const Eigen::SparseMatrix<double>& jacobian() { return assemble(true); }
+
+    /// The same without what makes it unsymmetric, the dependence of sliding on the normal: symmetric
+    /// positive definite.
+    const Eigen::SparseMatrix<double>& symmetric_jacobian() { return assemble(false); }
 
     /// y of the velocities that impulses r cause.
     Eigen::VectorXd velocities_of(const Impulses& r) const;
@@ -70,7 +74,8 @@ class AugmentedSystem {
     void lay_pattern(std::size_t bodies);
     Place find(std::int32_t row, std::int32_t column) const;
     void respond(std::size_t k, const std::array<double, 3>& u);
-    std::array<Row, 3> slope(std::size_t k) const;
+    std::array<Row, 3> slope(std::size_t k, bool with_sliding) const;
+    const Eigen::SparseMatrix<double>& assemble(bool with_sliding);
     void add_block(const Place& place, const std::array<Row, 3>& row,
                    const std::array<Row, 3>& slope, const std::array<Row, 3>& column, double sign);
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/proximal_newton.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 
 #include "granular_adapter/nscd/augmented_system.hpp"
 #include "granular_adapter/nscd/check_schedule.hpp"
+#include "granular_adapter/nscd/newton_equation.hpp"
 #include "granular_adapter/nscd/nlgs.hpp"
 
 namespace turbidite::nscd {
@@ -29,59 +28,40 @@ constexpr double rounding = 1e-13;
 
 using Vector = Eigen::VectorXd;
 
-/// J^-1, factorised again only when J has changed.
-class Factorisation {
- public:
-    Vector solve(AugmentedSystem& system, double weight, const Vector& right) {
-        if (weight != weight_ || system.statuses() != statuses_) {
-            const Eigen::SparseMatrix<double>& jacobian = system.jacobian();
-            if (statuses_.empty()) lu_.analyzePattern(jacobian);
-            lu_.factorize(jacobian);
-            if (lu_.info() != Eigen::Success)
-                throw std::runtime_error("proximal-newton: the factorisation failed: " +
-                                         lu_.lastErrorMessage());
-            weight_ = weight;
-            statuses_ = system.statuses();
-        }
-        return lu_.solve(right);
-    }
-
- private:
-    Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::AMDOrdering<int>> lu_;
-    std::vector<std::uint8_t> statuses_;
-    double weight_ = 0.0;
-};
-
 /// What is known: impulses and their residual.
 struct Iterate {
     Impulses impulses;
     double residual = 0.0;
 };
 
-/// Proximal points, one from the other, with a weight that falls while they succeed.
+/// Proximal points, one from the other, with a weight that falls while they succeed. Their residuals
+/// may rise for a while before they fall.
 class ProximalPoints {
  public:
     explicit ProximalPoints(const ContactProblem& problem) : problem_(problem), system_(problem) {}
 
     std::int64_t steps() const { return steps_; }
+    const Iterate& best() const { return best_; }
 
-    /// The best iterate found from `start` within `budget` Newton steps.
-    Iterate improve(const Iterate& start, double tolerance, std::int64_t budget) {
+    /// Goes on from these impulses instead of its own.
+    void restart(const Iterate& from) {
+        best_ = from;
+        centre_ = from.impulses;
+        y_ = system_.velocities_of(centre_);
+        weight_ = {};
+    }
+
+    /// Takes `budget` Newton steps, or fewer if the best iterate meets the tolerance before.
+    void go_on(double tolerance, std::int64_t budget) {
         const std::int64_t end = steps_ + budget;
-        Iterate best = start;
-        Impulses centre = start.impulses;
-        Vector y = system_.velocities_of(centre);
-        Weight weight;
-        while (steps_ < end && best.residual > tolerance) {
-            std::optional<Vector> found = point(centre, y, weight.value, end);
-            weight.learn(found.has_value());
+        while (steps_ < end && best_.residual > tolerance) {
+            const bool found = point(end);
+            weight_.learn(found);
             if (!found) continue;
-            y = *std::move(found);
-            centre = system_.impulses();
-            const double residual = natural_map_residual(problem_, centre);
-            if (residual < best.residual) best = {centre, residual};
+            centre_ = system_.impulses();
+            const double residual = natural_map_residual(problem_, centre_);
+            if (residual < best_.residual) best_ = {centre_, residual};
         }
-        return best;
     }
 
  private:
@@ -101,20 +81,21 @@ class ProximalPoints {
         }
     };
 
-    /// y of the proximal point around `centre`, with its impulses in the system; nothing when Newton
-    /// steps get stuck between statuses. Counts at least one step.
-    std::optional<Vector> point(const Impulses& centre, Vector y, double weight, std::int64_t end) {
-        system_.set_weight(weight);
-        system_.set_centre(centre);
-        Vector g = system_.residual(y);
+    /// The proximal point around the centre: its velocities are y_, its impulses the system's. False,
+    /// and y_ as before, when Newton steps get stuck between statuses. Takes at least one step.
+    bool point(std::int64_t end) {
+        system_.set_weight(weight_.value);
+        system_.set_centre(centre_);
+        Vector y = y_, g = system_.residual(y);
         const double start = g.norm(), target = std::max(rounding, enough * start);
         std::int64_t taken = 0;
         do {
             ++steps_, ++taken;
-            if (!advance(y, g, factorisation_.solve(system_, weight, g))) break;
+            if (!advance(y, g, newton_.solve(system_, weight_.value, g))) break;
         } while (g.norm() > target && taken < steps_of_a_point && steps_ < end);
-        if (!(g.norm() <= std::max(rounding, useful * start))) return std::nullopt;
-        return y;
+        if (!(g.norm() <= std::max(rounding, useful * start))) return false;
+        y_ = std::move(y);
+        return true;
     }
 
     /// y -= t step with the largest t of 1, 1/2, ... that makes |G| smaller; false without any, and
@@ -136,7 +117,11 @@ class ProximalPoints {
 
     const ContactProblem& problem_;
     AugmentedSystem system_;
-    Factorisation factorisation_;
+    NewtonEquation newton_;
+    Iterate best_;
+    Impulses centre_;
+    Vector y_;
+    Weight weight_;
     std::int64_t steps_ = 0;
 };
 
@@ -146,7 +131,7 @@ SolverResult ProximalNewton::solve(const ContactProblem& problem, const Impulses
                                    const SolverSettings& settings) const {
     check_settings(settings);
     const Nlgs nlgs;
-    std::optional<ProximalPoints> newton;
+    std::optional<ProximalPoints> points;
     SolverSettings turn = settings;
     SolverResult result;
     result.impulses = guess;
@@ -156,17 +141,20 @@ SolverResult ProximalNewton::solve(const ContactProblem& problem, const Impulses
         result = nlgs.solve(problem, result.impulses, turn);
         used += result.iterations;
         if (result.converged || used >= settings.max_iterations) break;
-        if (!newton) newton.emplace(problem);
-        const std::int64_t before = newton->steps();
-        const std::int64_t budget = std::min(std::max(least_steps, sweeps / sweeps_per_step),
-                                             settings.max_iterations - used);
-        Iterate best =
-            newton->improve({result.impulses, result.residual}, settings.tolerance, budget);
-        used += newton->steps() - before;
-        result.impulses = std::move(best.impulses);
-        result.residual = best.residual;
-        result.converged = result.residual <= settings.tolerance;
+        if (!points) points.emplace(problem);
+        if (!(points->best().residual <= 10.0 * result.residual) || points->steps() == 0)
+            points->restart({result.impulses, result.residual});
+        const std::int64_t before = points->steps();
+        points->go_on(settings.tolerance,
+                      std::min(std::max(least_steps, sweeps / sweeps_per_step),
+                               settings.max_iterations - used));
+        used += points->steps() - before;
+        result.converged = points->best().residual <= settings.tolerance;
         if (result.converged || used >= settings.max_iterations) break;
+    }
+    if (points && points->best().residual < result.residual) {
+        result.impulses = points->best().impulses;
+        result.residual = points->best().residual;
     }
     result.iterations = used;
     result.change = change_measures(problem, result.impulses);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // For tight tolerances. Sweeps of `nlgs` find out which contacts open, stick and slide; a Newton
-// method with a sparse LU factorisation then finds the impulses to the last digit, in a few steps
-// when the statuses are right. Nobody knows beforehand when they are, so the two take turns:
+// method with a sparse factorisation then finds the impulses to the last digit, in a few steps when
+// the statuses are nearly right. Nobody knows beforehand when they are, so the two take turns:
 //
 //     200 sweeps, Newton steps; 400 sweeps, Newton steps; 800 …
 //
-// where the Newton steps may cost about as much as the sweeps before them, and whatever has the
-// smaller residual goes on. So the solver converges wherever nlgs does, at no more than about twice
-// its cost, and mostly much earlier. The Newton steps solve proximal points around the impulses found
-// so far (augmented_system.hpp), since W is singular in packings.
+// where the Newton steps may cost about as much as the sweeps before them. Each goes on from its own
+// impulses, unless those of the sweeps are ten times better; who meets the tolerance first has solved
+// the problem. The Newton steps solve proximal points around the impulses found so far
+// (augmented_system.hpp), since W is singular in packings.
 #pragma once
 
 #include "granular_adapter/nscd/solver.hpp"
