@@ -105,12 +105,11 @@ const double* Problem::friction() const {
 double Problem::error(std::vector<double> impulses, std::vector<double>* velocities) const {
     const std::size_t n = impulses.size();
     std::vector<double> u(n);
-    double absolute = 0.0;
-    fc2d_compute_error(problem_.get(), impulses.data(), u.data(), 0.0, 1.0, &absolute);
-    const double size =
-        std::max({norm(problem_->q, n), norm(impulses.data(), n), norm(u.data(), n)});
+    double error = 0.0;
+    fc2d_compute_error(problem_.get(), impulses.data(), u.data(), 0.0, norm(problem_->q, n),
+                       &error);
     if (velocities) *velocities = std::move(u);
-    return absolute / size;
+    return error;
 }
 
 std::vector<double> Problem::dense_matrix() const {

@@ -17,14 +17,13 @@ constexpr std::int64_t first_sweeps = 200;
 constexpr std::int64_t sweeps_per_step = 500, least_steps = 4;
 
 // Relative weight alpha of the proximal term. A large one is an easy problem and a small move; the
-// smallest keeps nine digits of impulses, which come from velocities divided by alpha.
-constexpr double first_weight = 1e-2, least_weight = 1e-5, largest_weight = 1.0, factor = 0.1;
+// smallest keeps about nine digits of impulses, which come from velocities divided by alpha.
+constexpr double first_weight = 1e-2, least_weight = 1e-6, largest_weight = 1.0, factor = 0.1;
 
 constexpr std::int64_t steps_of_a_point = 10;
 constexpr int halvings = 10;
 constexpr double enough = 1e-3;  ///< of |G| of a proximal point: more digits do not help
 constexpr double useful = 0.1;   ///< a point whose |G| fell less than this is not accepted
-constexpr double rounding = 1e-13;
 
 using Vector = Eigen::VectorXd;
 
@@ -87,32 +86,38 @@ class ProximalPoints {
         system_.set_weight(weight_.value);
         system_.set_centre(centre_);
         Vector y = y_, g = system_.residual(y);
-        const double start = g.norm(), target = std::max(rounding, enough * start);
-        std::int64_t taken = 0;
-        do {
-            ++steps_, ++taken;
-            if (!advance(y, g, newton_.solve(system_, weight_.value, g))) break;
-        } while (g.norm() > target && taken < steps_of_a_point && steps_ < end);
-        if (!(g.norm() <= std::max(rounding, useful * start))) return false;
+        const double target = enough * g.norm(), limit = useful * g.norm();
+        Progress progress = Progress::some;
+        for (std::int64_t taken = 0;
+             progress == Progress::some && taken < steps_of_a_point && steps_ < end; ++taken) {
+            ++steps_;
+            progress = advance(y, g, newton_.solve(system_, weight_.value, g));
+            if (g.norm() <= target) progress = Progress::all;
+        }
+        if (progress != Progress::all && !(g.norm() <= limit)) return false;
         y_ = std::move(y);
         return true;
     }
 
-    /// y -= t step with the largest t of 1, 1/2, ... that makes |G| smaller; false without any, and
-    /// the system is back at y.
-    bool advance(Vector& y, Vector& g, const Vector& step) {
+    /// `all`: the whole step changed no status, so that G, linear between, is zero to rounding.
+    enum class Progress { none, some, all };
+
+    /// y -= t step with the largest t of 1, 1/2, ... that makes |G| smaller. Without any the system
+    /// is back at y.
+    Progress advance(Vector& y, Vector& g, const Vector& step) {
+        const std::vector<std::uint8_t> statuses = system_.statuses();
         const double before = g.norm();
         double t = 1.0;
         for (int k = 0; k < halvings; ++k, t *= 0.5) {
             Vector next = system_.residual(y - t * step);
-            const double after = next.norm();
-            if (!(after < (1.0 - 1e-3 * t) * before || after <= rounding)) continue;
+            const bool solved = k == 0 && system_.statuses() == statuses;
+            if (!solved && !(next.norm() < (1.0 - 1e-3 * t) * before)) continue;
             y -= t * step;
             g = std::move(next);
-            return true;
+            return solved ? Progress::all : Progress::some;
         }
         g = system_.residual(y);
-        return false;
+        return Progress::none;
     }
 
     const ContactProblem& problem_;

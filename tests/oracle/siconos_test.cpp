@@ -23,37 +23,43 @@ namespace {
 using nscd::ContactProblem;
 using nscd::problems::random_problem;
 
-constexpr bench::DryColumn dense{.compacity = 0.9069, .width = 10.0, .height = 20.0};
-constexpr bench::DryColumn loose{.compacity = 0.7854, .width = 10.0, .height = 20.0};
-
-/// The dimensionless problem of a collapsing column at `time`.
-ContactProblem of_column(const bench::DryColumn& column, double time) {
-    nscd::Engine engine = bench::dry_column(column);
-    const double mass = engine.bodies().mass.front();
-    bench::play(engine, time, column.step);
-    engine.step(column.step);
-    return siconos::dimensionless(engine.problem(), {mass, column.step});
-}
+constexpr bench::DryColumn dense{.compacity = 0.9069, .width = 8.0, .height = 16.0};
+constexpr bench::DryColumn loose{.compacity = 0.7854, .width = 8.0, .height = 16.0};
 
 struct Named {
     std::string name;
     ContactProblem problem;
 };
 
+/// Dimensionless problems of a collapsing column.
+void take_problems(const std::string& name, const bench::DryColumn& column,
+                   std::vector<Named>& list) {
+    nscd::Engine engine = bench::dry_column(column);
+    const siconos::Scale scale{engine.bodies().mass.front(), column.step};
+    double now = 0.0;
+    for (const double time : {2.0, 4.0}) {
+        bench::play(engine, time - now, column.step);
+        now = time;
+        list.push_back({name + ", t = " + std::to_string(int(time)),
+                        siconos::dimensionless(engine.problem(), scale)});
+    }
+}
+
 const std::vector<Named>& problems_of_columns() {
-    static const std::vector<Named> list = {
-        {"dense, t = 0.5", of_column(dense, 0.5)}, {"dense, t = 2", of_column(dense, 2.0)},
-        {"dense, t = 6", of_column(dense, 6.0)},   {"loose, t = 0.5", of_column(loose, 0.5)},
-        {"loose, t = 2", of_column(loose, 2.0)},   {"loose, t = 6", of_column(loose, 6.0)},
-    };
+    static const std::vector<Named> list = [] {
+        std::vector<Named> all;
+        take_problems("dense", dense, all);
+        take_problems("loose", loose, all);
+        return all;
+    }();
     return list;
 }
 
 nscd::SolverResult ours(const std::string& solver, const ContactProblem& problem,
-                        double tolerance) {
+                        double tolerance, std::int64_t most_iterations = 300000) {
     nscd::SolverSettings settings;
     settings.tolerance = tolerance;
-    settings.max_iterations = 300000;
+    settings.max_iterations = most_iterations;
     return nscd::make_solver(solver)->solve(problem, nscd::Impulses(problem.contacts.size()),
                                             settings);
 }
@@ -126,17 +132,32 @@ TEST_P(Solvers, PassTheMeasureOfSiconos) {
 TEST_P(Solvers, FindTheVelocitiesOfSiconos) {
     for (const Named& named : problems_of_columns()) {
         const siconos::Problem judge(named.problem, {});
-        const siconos::Solution theirs = judge.solve("nsgs", 1e-8, 300000);
+        const siconos::Solution theirs = judge.solve("nsgs", 1e-7, 100000);
         ASSERT_TRUE(theirs.converged) << named.name;
         EXPECT_LT(nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
                   1e-6)
             << named.name;
-        const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-8);
+        const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-6);
         std::vector<double> u_ours, u_theirs;
         judge.error(siconos::flat(result.impulses, {}), &u_ours);
         judge.error(theirs.impulses, &u_theirs);
         EXPECT_LT(norm(difference(u_ours, u_theirs)), 1e-5 * norm(u_theirs)) << named.name;
     }
+}
+
+// A lattice that has hardly moved: sweeps change impulses for ever that no velocity depends on, ours
+// and those of Siconos alike.
+TEST(ProximalNewton, PassesTheMeasureOfSiconosWhereSweepsStall) {
+    nscd::Engine engine = bench::dry_column(dense);
+    bench::play(engine, 0.5, dense.step);
+    const ContactProblem problem = siconos::dimensionless(
+        engine.problem(), {engine.bodies().mass.front(), dense.step});
+    const siconos::Problem judge(problem, {});
+    EXPECT_FALSE(ours("nlgs", problem, 1e-6, 20000).converged);
+    EXPECT_FALSE(judge.solve("nsgs", 1e-6, 3000).converged);
+    const nscd::SolverResult result = ours("proximal-newton", problem, 1e-6);
+    EXPECT_TRUE(result.converged) << result.residual;
+    EXPECT_LT(judge.error(siconos::flat(result.impulses, {})), 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ours, Solvers, testing::Values("nlgs", "nlgs-stored", "proximal-newton"),
