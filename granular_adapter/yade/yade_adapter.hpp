@@ -22,6 +22,9 @@ class YadeAdapter final : public GrainsAdapter {
     /// by grain id.
     YadeAdapter(boost::python::object scene, std::string yade_version);
 
+    /// Where contact.dump_interval writes; before initialise().
+    void set_run_folder(const std::string& folder) { engine_.set_run_folder(folder); }
+
     Hello describe() const override { return engine_.describe(); }
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;

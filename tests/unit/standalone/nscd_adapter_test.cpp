@@ -29,6 +29,7 @@ Settings box_settings() {
     settings.set("contact.iterations", std::int64_t{100000});
     settings.set("contact.recovery_fraction", 0.2);
     settings.set("contact.recovery_speed", 0.5);
+    settings.set("contact.solver", std::string("nlgs"));
     settings.set("run.gravity", 1.0);
     settings.set("run.fluid_density", 1.0);
     settings.set("run.velocity_scale", 1.0);
