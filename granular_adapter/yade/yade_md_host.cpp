@@ -100,7 +100,7 @@ double YadeMdHost::deepest_overlap() const {
     for (std::size_t i = 0; i < ids_.size(); ++i) {
         const Vec3 place = states_.read(i).position;
         for (const Border& border : borders_)
-            if (border.side == Side::wall)
+            if (border.side == BorderKind::wall)
                 deepest = std::max(deepest, radii_[i] - signed_distance(border.plane, place));
     }
     return deepest;
