@@ -105,7 +105,7 @@ class Participant {
 };
 
 std::unique_ptr<YadeAdapter> nscd_adapter(const std::string& run_folder, python::object scene,
-                                            const std::string& yade_version) {
+                                          const std::string& yade_version) {
     auto adapter = std::make_unique<YadeAdapter>(std::move(scene), yade_version);
     adapter->set_run_folder(run_folder);
     return adapter;
@@ -116,8 +116,8 @@ class NscdParticipant final : public Participant {
  public:
     NscdParticipant(const std::string& run_folder, std::uintptr_t communicator,
                     python::object scene, const std::string& yade_version)
-        : NscdParticipant(nscd_adapter(run_folder, std::move(scene), yade_version), run_folder,
-                          communicator) {}
+        : NscdParticipant(nscd_adapter(run_folder, std::move(scene), yade_version).release(),
+                          run_folder, communicator) {}
 
     /// What contacts remember, as bytes.
     python::object contacts() {
@@ -127,12 +127,10 @@ class NscdParticipant final : public Participant {
     }
 
  private:
-    NscdParticipant(std::unique_ptr<YadeAdapter> adapter, const std::string& run_folder,
+    NscdParticipant(YadeAdapter* adapter, const std::string& run_folder,
                     std::uintptr_t communicator)
-        : NscdParticipant(*adapter, std::move(adapter), run_folder, communicator) {}
-    NscdParticipant(YadeAdapter& adapter, std::unique_ptr<GrainsAdapter> owned,
-                    const std::string& run_folder, std::uintptr_t communicator)
-        : Participant(std::move(owned), run_folder, communicator), adapter_(adapter) {}
+        : Participant(std::unique_ptr<GrainsAdapter>(adapter), run_folder, communicator),
+          adapter_(*adapter) {}
 
     YadeAdapter& adapter_;  ///< owned by the base
 };
