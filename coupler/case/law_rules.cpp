@@ -46,6 +46,13 @@ Verdict only_discs_resist_rolling(const Settings& s) {
                      "Use 0."};
 }
 
+Verdict solver_knows_rolling(const Settings& s) {
+    if (s.real("contact.rolling_friction") == 0.0 || s.text("contact.solver") != "nlgs-stored")
+        return std::nullopt;
+    return Objection{"contact.solver: nlgs-stored knows no rolling resistance.",
+                     "Use 0, or contact.solver: nlgs."};
+}
+
 Verdict range_of_neighbours(const Settings& s) {
     if (s.text("contact.adhesion") == "none") return std::nullopt;
     if (s.real("contact.adhesion_range") <= 1.0) return std::nullopt;
@@ -62,6 +69,7 @@ const std::vector<Rule>& law_rules() {
          theta_makes_no_energy},
         {"contact.restitution_tangential", {"contact.impact"}, moreau_has_one_restitution},
         {"contact.rolling_friction", {"grains.shape"}, only_discs_resist_rolling},
+        {"contact.rolling_friction", {"contact.solver"}, solver_knows_rolling},
         {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours},
     };
     return table;

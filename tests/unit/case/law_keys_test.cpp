@@ -95,6 +95,14 @@ TEST_F(LawKeys, MoreauHasOneRestitution) {
                 "contact.restitution_tangential = 0.1");
 }
 
+TEST_F(LawKeys, RollingResistanceNeedsDiscsAndASolverThatKnowsIt) {
+    EXPECT_EQ(refusal({"contact.rolling_friction=0.1"}), "");
+    EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "contact.solver=nlgs-stored"}),
+                "nlgs-stored knows no rolling resistance");
+    EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "grains.shape=triangle"}),
+                "faces resist rolling by themselves");
+}
+
 TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
     EXPECT_SAYS(notes({"contact.adhesion_force=1"}),
                 "contact.adhesion_force has no effect without contact.adhesion");
