@@ -15,11 +15,14 @@ using nscd::operator+, nscd::operator-, nscd::operator*;
 // A local problem that slides puts its impulse on the cone to round-off.
 constexpr double at_limit = 1.0 - 1e-9;
 
-std::int32_t status_of(const nscd::Contact& contact, const Vec3& impulse) {
+/// From the solution of the contact problem: its cone is the law's, also where a law pulls. What is
+/// pulled and not pressed neither slides nor rolls.
+std::int32_t status_of(const nscd::Contact& contact, const Vec3& solution) {
     std::int32_t status = 0;
-    if (std::abs(impulse[1]) >= at_limit * contact.friction * impulse[0])
+    if (!(solution[0] > 0.0)) return status;
+    if (std::abs(solution[1]) >= at_limit * contact.friction * solution[0])
         status |= ContactStatus::sliding;
-    if (contact.rolling > 0.0 && std::abs(impulse[2]) >= at_limit * contact.rolling * impulse[0])
+    if (contact.rolling > 0.0 && std::abs(solution[2]) >= at_limit * contact.rolling * solution[0])
         status |= ContactStatus::rolling;
     return status;
 }
@@ -36,7 +39,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     else
         record.a = bodies.id[point.a];
     record.feature = point.feature;
-    record.status = status_of(contact, impulse);
+    record.status = status_of(contact, engine.solution()[k]);
     record.gap = point.gap;
     record.length = point.length;
     record.point = bodies.position[point.b] + point.arm_b;

@@ -76,6 +76,28 @@ TEST(ContactRecords, TellSlidingFromSticking) {
     EXPECT_EQ(contacts[1].status, 0);
 }
 
+// A pull of one weight presses a block of weight w with 2 w: a push of 0.4 w does not make it slide
+// at mu = 0.3. Pulled off by half a weight more than w it hangs: nothing slides there.
+TEST(ContactRecords, StatusKnowsWhatALawPulls) {
+    nscd::EngineSettings settings = exact(0.3);
+    const double weight = disc(1, 0.0, 0.5).mass;
+    settings.law.adhesion = "wet";
+    settings.law_settings.adhesion_range = 0.01;
+    settings.surfaces.resize(1);
+    settings.surfaces[0].adhesion = weight;
+    for (const Vec3& push : {Vec3{0.4 * weight, 0.0, 0.0}, Vec3{0.0, 2.5 * weight, 0.0}}) {
+        Engine engine(settings, discs, {floor(0.3)});
+        engine.bodies().add(disc(1, 0.0, 0.5));
+        engine.bodies().rotation_blocked[0] = 1;
+        engine.bodies().force[0] = push;
+        engine.step(dt);
+        const auto contacts = contact_records(engine);
+        ASSERT_EQ(contacts.size(), 1u);
+        EXPECT_EQ(contacts[0].status, 0);
+        EXPECT_NEAR(contacts[0].impulse[1], push[1] > 0.0 ? -weight * dt : weight * dt, 1e-14);
+    }
+}
+
 // Free fall within the alert distance: detected, but no contact.
 TEST(ContactRecords, LeaveOutWhatCarriesNothing) {
     Engine engine(exact(0.3), discs, {floor(0.3)});
