@@ -156,6 +156,13 @@ class ContactEngine {
         return report_dict(host_.step(dt, {triples(forces), triples(torques)}));
     }
 
+    /// (first, second, depth, share of the smaller radius), or None.
+    python::object overlap() const {
+        const auto pair = host_.overlap();
+        if (!pair) return {};
+        return python::make_tuple(pair->first, pair->second, pair->depth, pair->share);
+    }
+
     double max_penetration() const { return host_.engine().max_penetration(); }
 
     python::object memory() const {
@@ -215,6 +222,8 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
              "outdated(len(O.bodies)): whether the scene is no longer the one laid out.")
         .def("step", &ContactEngine::step,
              "step(dt, forces, torques): one step; returns how the solver fared.")
+        .def("overlap", &ContactEngine::overlap,
+             "(first, second, depth, share of the smaller radius) of the worst pair, or None.")
         .def("max_penetration", &ContactEngine::max_penetration, "Deepest overlap [m].")
         .def("memory", &ContactEngine::memory, "Contact impulses and states as bytes.")
         .def("restore_memory", &ContactEngine::restore_memory, "The inverse of memory().")

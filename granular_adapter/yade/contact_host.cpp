@@ -48,6 +48,7 @@ void ContactHost::lay_out(Layout layout) {
     auto next = new_engine(layout);
     if (engine_) restore_contact_memory(*next, contact_memory(*engine_));
     engine_ = std::move(next);
+    shapes_ = std::move(layout.shapes);
     states_ = std::move(layout.states);
     turns_ = std::move(layout.turns);
     walls_ = std::move(layout.walls);
@@ -76,6 +77,10 @@ std::vector<char> ContactHost::memory() const {
 
 void ContactHost::restore_memory(const std::vector<char>& bytes) {
     restore_contact_memory(*engine_, bytes);
+}
+
+std::optional<Overlap> ContactHost::overlap() const {
+    return largest_overlap(std::as_const(*engine_).bodies(), shapes_, engine_->settings().box);
 }
 
 std::vector<ContactForce> ContactHost::contacts() const {

@@ -7,10 +7,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "granular_adapter/nscd/engine.hpp"
 #include "granular_adapter/yade/hosted_walls.hpp"
+#include "granular_adapter/yade/overlap.hpp"
 #include "granular_adapter/yade/scene_watch.hpp"
 #include "granular_adapter/yade/turn.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
@@ -67,6 +69,9 @@ class ContactHost {
 
     const nscd::Engine& engine() const { return *engine_; }
 
+    /// Of the scene as it was laid out.
+    std::optional<Overlap> overlap() const;
+
     /// Impulses and states of the contacts, for the next process; walls are YADE's to keep.
     std::vector<char> memory() const;
     void restore_memory(const std::vector<char>& bytes);
@@ -82,6 +87,7 @@ class ContactHost {
     void write_bodies() const;
 
     nscd::EngineSettings settings_;
+    ShapeTable shapes_;
     std::unique_ptr<nscd::Engine> engine_;
     BodyStates states_;
     std::vector<Turn> turns_;

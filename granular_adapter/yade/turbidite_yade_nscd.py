@@ -102,6 +102,18 @@ class Scene:
             if settings['domain.' + side] == 'wall':
                 O.bodies.append(utils.wall(position, axis, sense=sense, material='grains'))
 
+    def create_plates(self, half_lengths):
+        """Walls inside the box, along x around the origin; the participant puts and moves them.
+
+        A facet's position is the centre of its inscribed circle: of these triangles the middle of the line in
+        which they cross z = 0, from -h to h.
+        """
+        root = math.sqrt(3)
+        corners = [((-1.5 * h, 0, -0.5 * root * h), (1.5 * h, 0, -0.5 * root * h), (0, 0, root * h))
+                   for h in half_lengths]
+        ids = [O.bodies.append(utils.facet(triangle, material='grains')) for triangle in corners]
+        return [O.bodies[i].state for i in ids]
+
     def erase(self, ids):
         for grain in ids:
             O.bodies.erase(self.body_of.pop(grain))

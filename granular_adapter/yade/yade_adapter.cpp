@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/python.hpp>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "granular_adapter/yade/engine_memory.hpp"
@@ -33,6 +34,27 @@ std::vector<Turn> turns_of(const python::object& list) {
     return turns;
 }
 
+bool is_plate(const nscd::Wall& wall) {
+    return std::isfinite(wall.half_length);
+}
+
+/// Half lengths of the walls inside the box.
+python::list plate_list(const std::vector<nscd::Wall>& walls) {
+    python::list list;
+    for (const nscd::Wall& wall : walls)
+        if (is_plate(wall)) list.append(wall.half_length);
+    return list;
+}
+
+/// Of a plate that lay along x.
+BodyMotion plate_motion(const nscd::Wall& wall) {
+    const double half_angle = 0.5 * std::atan2(-wall.normal[0], wall.normal[1]);
+    return {wall.point,
+            {std::cos(half_angle), 0.0, 0.0, std::sin(half_angle)},
+            velocity_at(wall, wall.point),
+            {0.0, 0.0, wall.spin}};
+}
+
 }  // namespace
 
 YadeAdapter::YadeAdapter(python::object scene, std::string yade_version)
@@ -46,6 +68,7 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
         scene_.attr("create")(settings_dict(settings), grain_list(bodies, shapes));
     states_ = BodyStates(made[0]);
     turns_ = turns_of(made[1]);
+    plates_ = BodyStates(scene_.attr("create_plates")(plate_list(engine_.engine().walls())));
     if (states_.size() != bodies.size())
         throw Failure(ExitCode::participant_failed,
                       "YADE's scene has " + std::to_string(states_.size()) + " grains, the case " +
@@ -74,6 +97,9 @@ void YadeAdapter::write_bodies() {
                             bodies.twist[i].velocity, bodies.twist[i].spin});
         states_.write(i, written_.back());
     }
+    std::size_t plate = 0;
+    for (const nscd::Wall& wall : std::as_const(engine_).engine().walls())
+        if (is_plate(wall)) plates_.write(plate++, plate_motion(wall));
 }
 
 Motion YadeAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {

@@ -19,7 +19,7 @@ class YadeAdapter final : public GrainsAdapter {
  public:
     /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains)
     /// returns their states and their turns (turn.hpp; None for discs), erase(ids) removes bodies
-    /// by grain id.
+    /// by grain id, create_plates(half lengths) returns the states of walls inside the box.
     YadeAdapter(boost::python::object scene, std::string yade_version);
 
     /// Where contact.dump_interval writes; before initialise().
@@ -45,6 +45,7 @@ class YadeAdapter final : public GrainsAdapter {
     NscdAdapter engine_;
     BodyStates states_;
     std::vector<Turn> turns_;
+    BodyStates plates_;                ///< walls inside the box, for YADE's eyes
     std::vector<BodyMotion> written_;  ///< last, by body
 };
 

@@ -10,6 +10,7 @@ from .scene import read_scene
 
 O = Omega()
 YADE_DEFAULT_STEP = 1e-8
+MOST_OVERLAP = 0.05  # of the smaller radius, when bodies are new; packings of soft bodies have 0.01 at most
 
 
 def settings(gravity, show, contact):
@@ -70,8 +71,18 @@ class Host:
     def follow_scene(self):
         """Lays the engine out anew when bodies were added, erased or changed."""
         if self.scene is None or self.scene.materials.changed() or self.engine.outdated(len(O.bodies)):
+            known = self.scene.ids if self.scene else []
             self.scene = read_scene()
             self.engine.lay_out(self.scene.layout)
+            if self.scene.ids != known:
+                self.check_overlap()
+
+    def check_overlap(self):
+        worst = self.engine.overlap()
+        if worst and worst[3] > MOST_OVERLAP:
+            self.scene = None
+            raise Refused('turbidite_contact: bodies %d and %d overlap by %.3g, %.3g of the smaller radius; more than '
+                          '%g is no packing of rigid bodies. Move them apart' % (*worst, MOST_OVERLAP))
 
     def loads(self):
         """(forces, torques) of O.forces by body, empty when nobody set any in this step.

@@ -285,6 +285,15 @@ class Refusals(SceneTest):
         O.materials[0].frictionAngle = -0.1
         self.refused('body 0 (Sphere) has frictionAngle = -0.1', '[0, pi/2)')
 
+    def test_bodies_in_each_other(self):
+        self.scene()
+        discs([(0.9, 0.5)])
+        self.refused('bodies 0 and 1 overlap by 0.1, 0.2 of the smaller radius', 'Move them apart')
+        O.bodies[1].state.pos = Vector3(0.98, 0.5, 0)  # taken back slowly
+        turbidite_contact.step()
+        O.bodies.append(turbidite_contact.polygon([(-0.4, 0.6), (-0.4, 1.6), (-1.2, 1)]))
+        self.refused('bodies 0 and 2 overlap')
+
     def test_bodies_of_other_kinds(self):
         self.scene()
         O.bodies.append(utils.tetra([(0, 0, 5), (1, 0, 5), (0, 1, 5), (0, 0, 6)]))
