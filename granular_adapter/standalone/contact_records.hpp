@@ -10,7 +10,7 @@
 
 namespace turbidite {
 
-/// Every contact point with an impulse, sorted by (wall, a, b, feature). Positions of the bodies
+/// Every contact point that carries something, sorted by (wall, a, b, feature). Positions of the bodies
 /// must still be those that the contacts were detected at: call it before the move. Walls are named
 /// by their keys.
 std::vector<ContactRecord> contact_records(const nscd::Engine& engine);

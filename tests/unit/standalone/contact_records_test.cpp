@@ -98,6 +98,42 @@ TEST(ContactRecords, StatusKnowsWhatALawPulls) {
     }
 }
 
+// A slope of 0.2: the disc holds on to it (mu = 0.5) and rolls against a resistance of 0.1.
+TEST(ContactRecords, TellRolling) {
+    nscd::EngineSettings settings = exact(0.5);
+    settings.surfaces = {nscd::Surface{}};
+    settings.surfaces[0].friction = 0.5;
+    settings.surfaces[0].rolling_friction = 0.1;
+    settings.gravity = tilted(std::atan(0.2));
+    Engine engine(settings, discs, {floor(0.5)});
+    engine.bodies().add(disc(1, 0.0, 0.5));
+    engine.step(dt);
+    const auto contacts = contact_records(engine);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_EQ(contacts[0].status, ContactStatus::rolling);
+    EXPECT_NEAR(contacts[0].rolling_impulse[2], 0.1 * 0.5 * contacts[0].impulse[1], 1e-12)
+        << "against the spin, which is negative downhill to the right";
+}
+
+// Two discs at a small gap, held together by a liquid that pulls with 2.
+TEST(ContactRecords, APullHasANegativeNormalForce) {
+    nscd::EngineSettings settings = exact(0.0);
+    settings.gravity = {};
+    settings.surfaces = {nscd::Surface{}};
+    settings.surfaces[0].adhesion = 2.0;
+    settings.law.adhesion = "wet";
+    settings.law_settings.adhesion_range = 0.05;
+    Engine engine(settings, discs, {});
+    engine.bodies().add(disc(1, 0.0, 0.0));
+    engine.bodies().add(disc(2, 1.02, 0.0));
+    engine.step(dt);
+    const auto contacts = contact_records(engine);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_NEAR(contacts[0].impulse[0], -2.0 * dt, 1e-15);
+    EXPECT_NEAR(contacts[0].gap, 0.02, 1e-15);
+    EXPECT_EQ(contacts[0].status, 0);
+}
+
 // Free fall within the alert distance: detected, but no contact.
 TEST(ContactRecords, LeaveOutWhatCarriesNothing) {
     Engine engine(exact(0.3), discs, {floor(0.3)});

@@ -114,8 +114,15 @@ TEST(PackingOutputs, StressAndPoresOfALatticeAtRest) {
     const double area = 18 * std::numbers::pi / 4.0 + pores;
     EXPECT_NEAR(std::stod(cells["sigma_yy"]), moment / area / 1.5, 1e-6);
     EXPECT_GT(std::stod(cells["sigma_xx"]), 0.0);
-    EXPECT_NEAR(std::stod(cells["sigma_xy"]), 0.0, 1e-3 * std::stod(cells["sigma_yy"]))
-        << "symmetric about the middle";
+    // Which of many solutions is found decides how high the walls push; the shear balances that.
+    const std::string text = text_of(folder.path() / "grains/contacts_00000004.vtp");
+    const auto walls = numbers(text, "id_a"), forces = numbers(text, "normal_force");
+    const auto points = numbers(text, "point");
+    double tilt = 0.0;
+    for (std::size_t k = 0; k < walls.size(); ++k)
+        if (walls[k] == -1 || walls[k] == -2)
+            tilt += (walls[k] == -1 ? -1.0 : 1.0) * forces[k] * points[3 * k + 1];
+    EXPECT_NEAR(std::stod(cells["sigma_xy"]), tilt / area / 1.5, 1e-6);
     EXPECT_EQ(cells["loose_grains"], "0");
     EXPECT_GT(std::stod(cells["coordination"]), 2.0);
     EXPECT_LE(std::stod(cells["coordination"]), 6.0);
