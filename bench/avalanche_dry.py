@@ -30,9 +30,9 @@ import seeds
 from peaks import COLUMN
 
 PLAIN = 'plain'
-RUN_HEAD = ('runs', 'grains', '|<u>| peak [u_c]', 'at [t_c]', 'over the seeds [u_c]', 'at [t_c]',
+RUN_HEAD = ('runs', 'grains', 'peak of the mean curve [u_c]', 'at [t_c]', 'of single runs [u_c]', 'at [t_c]',
             'end: front [D]', 'end: height [D]', 'overlap [D]', 'windows beyond tolerance', 'wall time [s]')
-PAIR_HEAD = ('|<u>|(t) of', 'against', 'largest difference / peak', 'mean difference / peak')
+PAIR_HEAD = ('mean velocity of', 'against', 'largest difference / peak', 'mean difference / peak')
 FOR_ALL = 'all'
 
 
