@@ -16,8 +16,11 @@ namespace {
 
 // A tail below this share of the contacts is not worth a second order of contacts.
 constexpr double least_tail = 0.1;
-// More contacts of the tail awake than this share of the head: sweep all of them in order again.
+// When more contacts of the tail than this share of the head have an impulse, each sweep takes all:
+// impulses that change in one sweep of eight would cost more sweeps than the rest saves.
 constexpr double most_awake = 0.02;
+// Contacts in the head without impulse, or in the tail with one, that are worth a new layout.
+constexpr double least_misplaced = 0.1;
 
 // Fewer contacts than this are swept faster by one thread (docs/performance.md).
 constexpr std::size_t threaded_contacts = 4000;
@@ -79,7 +82,7 @@ class Iteration {
     }
 
     SolverResult run() {
-        lay_out(true);
+        lay_out();
         while (!result_.converged && result_.iterations < settings_.max_iterations) {
             sweep_until_check();
             if (looks_good() || result_.iterations == settings_.max_iterations)
@@ -94,10 +97,10 @@ class Iteration {
  private:
     bool split() const { return layout_->schedule.head < layout_->schedule.all; }
 
-    void lay_out(bool may_split) {
+    void lay_out() {
         result_.velocities = body_velocities(problem_, result_.impulses);
         Order order(pairs_.size());
-        if (may_split) order.split([this](std::int32_t k) { return active(k); });
+        order.split([this](std::int32_t k) { return active(k); });
         const ScheduleSettings shape{.width = Rows::width};
         layout_.emplace(
             problem_, w_, pairs_, result_.impulses, result_.velocities,
@@ -105,6 +108,8 @@ class Iteration {
         train_.emplace(sweeps_, layout_->rows, layout_->bodies, layout_->schedule,
                        make_blocks(layout_->schedule, pairs_, problem_.bodies.size(), Rows::width));
         laid_out_at_ = result_.iterations;
+        head_ = order.head;
+        awake_ = false;
     }
 
     /// Has an impulse, or closes with the present velocities.
@@ -117,7 +122,7 @@ class Iteration {
 
     void sweep_until_check() {
         std::vector<Wagon> wagons;
-        do wagons.push_back({!split(), false});
+        do wagons.push_back({!split() || awake_, false});
         while (!check_due(++result_.iterations, settings_));
         wagons.back() = {true, true};
         train_->run(wagons, team_);
@@ -140,16 +145,17 @@ class Iteration {
         result_.converged = result_.residual <= settings_.tolerance;
     }
 
-    /// The tail stays alone while it sleeps. A layout costs a few sweeps, so the tail is sought
-    /// again only after as many sweeps as there were before.
+    /// The tail stays alone while it sleeps; awake it is swept with the head until a new layout,
+    /// which costs as much as a few sweeps, so there is one only after as many sweeps as before.
     void adapt() {
         const double head = total(train_->head_sums().loaded);
         const double tail = total(train_->tail_sums().loaded);
-        const bool due = result_.iterations >= 2 * laid_out_at_;
-        const bool may_split = !split() && due && head < (1.0 - least_tail) * pairs_.size();
-        if (!may_split && !(tail > most_awake * head)) return;
+        awake_ = tail > most_awake * head;
+        const double misplaced = static_cast<double>(head_) - head + tail;
+        if (result_.iterations < 2 * laid_out_at_) return;
+        if (misplaced < least_misplaced * static_cast<double>(head_)) return;
         layout_->collect(result_.impulses);
-        lay_out(may_split);
+        lay_out();
     }
 
     const ContactProblem& problem_;
@@ -162,7 +168,9 @@ class Iteration {
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
     std::optional<SweepTrain<Rows>> train_;
-    std::int64_t laid_out_at_ = 0;
+    std::int64_t laid_out_at_ = 0;  ///< sweep
+    std::size_t head_ = 0;          ///< contacts of the head
+    bool awake_ = false;            ///< the tail
 };
 
 template <class Rows>
