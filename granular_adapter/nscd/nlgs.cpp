@@ -21,6 +21,10 @@ constexpr double least_tail = 0.1;
 constexpr double most_awake = 0.02;
 // Contacts in the head without impulse, or in the tail with one, that are worth a new layout.
 constexpr double least_misplaced = 0.1;
+// More rows than this do not stay in the cache: sweeps must overlap (sweep_train.hpp), which head
+// and tail one after the other do not. An awake tail is then put back to where it belongs in the
+// order.
+constexpr std::size_t cached_contacts = 20000;
 
 // Fewer contacts than this are swept faster by one thread (docs/performance.md).
 constexpr std::size_t threaded_contacts = 4000;
@@ -82,7 +86,7 @@ class Iteration {
     }
 
     SolverResult run() {
-        lay_out();
+        lay_out(true);
         while (!result_.converged && result_.iterations < settings_.max_iterations) {
             sweep_until_check();
             if (looks_good() || result_.iterations == settings_.max_iterations)
@@ -97,10 +101,10 @@ class Iteration {
  private:
     bool split() const { return layout_->schedule.head < layout_->schedule.all; }
 
-    void lay_out() {
+    void lay_out(bool may_split) {
         result_.velocities = body_velocities(problem_, result_.impulses);
         Order order(pairs_.size());
-        order.split([this](std::int32_t k) { return active(k); });
+        if (may_split) order.split([this](std::int32_t k) { return active(k); });
         const ScheduleSettings shape{.width = Rows::width};
         layout_.emplace(
             problem_, w_, pairs_, result_.impulses, result_.velocities,
@@ -145,17 +149,22 @@ class Iteration {
         result_.converged = result_.residual <= settings_.tolerance;
     }
 
-    /// The tail stays alone while it sleeps; awake it is swept with the head until a new layout,
-    /// which costs as much as a few sweeps, so there is one only after as many sweeps as before.
+    /// The tail stays alone while it sleeps; awake it is swept with the head. A layout costs as
+    /// much as a few sweeps, so contacts are told apart anew only after as many sweeps as before.
     void adapt() {
         const double head = total(train_->head_sums().loaded);
         const double tail = total(train_->tail_sums().loaded);
-        awake_ = tail > most_awake * head;
         const double misplaced = static_cast<double>(head_) - head + tail;
-        if (result_.iterations < 2 * laid_out_at_) return;
-        if (misplaced < least_misplaced * static_cast<double>(head_)) return;
+        awake_ = tail > most_awake * head;
+        if (result_.iterations >= 2 * laid_out_at_ && misplaced > least_misplaced * head_)
+            lay_out_again(true);
+        else if (awake_ && pairs_.size() > cached_contacts)
+            lay_out_again(false);
+    }
+
+    void lay_out_again(bool may_split) {
         layout_->collect(result_.impulses);
-        lay_out();
+        lay_out(may_split);
     }
 
     const ContactProblem& problem_;
