@@ -67,7 +67,12 @@ void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, con
     std::vector<Place> places = layers(points, bodies, (1.0 / weight) * gravity, band);
     std::sort(places.begin(), places.end(), above);
     colour(places, points, bodies.size());
-    std::sort(places.begin(), places.end(), above);
+    for (auto first = places.begin(); first != places.end();) {
+        const auto same = [&](const Place& place) { return place.layer == first->layer; };
+        const auto last = std::find_if_not(first, places.end(), same);
+        if (last - first > 2) std::sort(first, last, above);
+        first = last;
+    }
     std::vector<ContactPoint> sorted;
     sorted.reserve(points.size());
     for (const Place& place : places)

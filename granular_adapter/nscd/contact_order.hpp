@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The order in which Gauss-Seidel visits contacts: from the top down, which carries weight and needs
-// a third fewer sweeps than the order of detection.
+// The order in which Gauss-Seidel visits contacts: from the top down, which carries weight and
+// needs a third fewer sweeps than the order of detection.
 //
 // Contacts of one height (rows of a lattice) are taken colour by colour, so that no two neighbours
 // follow each other: in a row from left to right each would wait for the one before, and groups of
