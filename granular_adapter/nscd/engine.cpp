@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "granular_adapter/nscd/broad_phase.hpp"
+#include "granular_adapter/nscd/contact_order.hpp"
 #include "granular_adapter/nscd/corner_turn.hpp"
 #include "granular_adapter/nscd/engine_state.hpp"
 #include "granular_adapter/nscd/solver_list.hpp"
