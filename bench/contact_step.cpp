@@ -19,7 +19,8 @@ namespace turbidite::bench {
 namespace {
 
 struct Options {
-    double width = 25.0, step = 0.01;
+    Column column;
+    double step = 0.01;
     int warm_up = 0, steps = 1;
     nscd::SolverSettings solver;
     std::filesystem::path result;
@@ -42,7 +43,7 @@ struct Totals {
 };
 
 Sample run(const Options& options) {
-    nscd::Engine engine = dense_column({.width = options.width}, options.solver);
+    nscd::Engine engine = dense_column(options.column, options.solver);
     const auto solver = nscd::make_solver("nlgs");
     StepClock whole, solve;
     Totals totals;
@@ -81,7 +82,10 @@ Sample run(const Options& options) {
 int main(int argc, char** argv) {
     turbidite::bench::Options options;
     CLI::App app{"The worker of `turbidite bench contact`", "turbidite-bench-contact"};
-    app.add_option("--width", options.width, "of the column [D]");
+    app.add_option("--width", options.column.width, "of the column [D]");
+    app.add_option("--shrink", options.column.shrink, "radii in [1 - shrink, 1] D/2");
+    app.add_option("--agitation", options.column.agitation, "of velocities [sqrt(D g)]");
+    app.add_option("--threads", options.solver.threads, "of the solver");
     app.add_option("--step", options.step, "dt [sqrt(D/g)]");
     app.add_option("--warm-up", options.warm_up, "steps before the timed ones");
     app.add_option("--steps", options.steps, "timed steps")->check(CLI::PositiveNumber);

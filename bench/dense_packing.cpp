@@ -19,6 +19,11 @@ nscd::Wall wall(std::int32_t key, const Vec3& normal) {
     return result;
 }
 
+/// In [0, 1), the same with every library.
+double next(std::mt19937_64& random) {
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
 nscd::Body disc(GrainId id, double x, double y, double radius) {
     nscd::Body body;
     body.id = id;
@@ -43,9 +48,11 @@ nscd::Engine dense_column(const Column& column, const nscd::SolverSettings& solv
     GrainId id = 0;
     for (int row = 0; row * row_height + 1.0 <= 2.0 * column.width; ++row)
         for (double x = row % 2 == 0 ? 0.5 : 1.0; x + 0.5 <= column.width; x += 1.0) {
-            const double part = static_cast<double>(random() >> 11) * 0x1p-53;
-            const double radius = 0.5 * (1.0 - column.shrink * part);
-            engine.bodies().add(disc(++id, x, 0.5 + row * row_height, radius));
+            const double radius = 0.5 * (1.0 - column.shrink * next(random));
+            nscd::Body body = disc(++id, x, 0.5 + row * row_height, radius);
+            for (int axis = 0; axis < 2; ++axis)
+                body.twist.velocity[axis] = column.agitation * (2.0 * next(random) - 1.0);
+            engine.bodies().add(body);
         }
     return engine;
 }

@@ -12,6 +12,8 @@ struct Column {
     double width = 25.0;  ///< [D]; twice as high. 25 give 1397 discs
     /// Radii lie in [1 - shrink, 1] D/2: gaps between neighbours, and no perfect lattice.
     double shrink = 1e-4;
+    /// Velocity components lie in [-agitation, agitation]: contacts everywhere from the first step.
+    double agitation = 0.0;
 };
 
 /// The column at rest: triangular lattice, touching where radii are largest.

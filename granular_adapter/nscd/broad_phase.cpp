@@ -31,6 +31,9 @@ struct Axis {
         return repeats ? ((i % n) + n) % n : std::clamp<std::int64_t>(i, 0, n - 1);
     }
 
+    /// Of a cell at most one period beyond the last. Divisions cost more than all else in near().
+    std::int64_t wrapped(std::int64_t i) const { return i < n ? i : i - n; }
+
     CellRange range(double low, double high) const {
         const std::int64_t first = raw(low), last = raw(high);
         if (repeats) {
@@ -118,9 +121,9 @@ void Level::near(const Vec3& x, double reach, Visit&& visit) const {
     for (std::int64_t kz = 0; kz < range[2].count; ++kz)
         for (std::int64_t ky = 0; ky < range[1].count; ++ky)
             for (std::int64_t kx = 0; kx < range[0].count; ++kx) {
-                const std::int64_t cx = (range[0].first + kx) % axes_[0].n;
-                const std::int64_t cy = (range[1].first + ky) % axes_[1].n;
-                const std::int64_t cz = (range[2].first + kz) % axes_[2].n;
+                const std::int64_t cx = axes_[0].wrapped(range[0].first + kx);
+                const std::int64_t cy = axes_[1].wrapped(range[1].first + ky);
+                const std::int64_t cz = axes_[2].wrapped(range[2].first + kz);
                 const std::int64_t c = (cz * axes_[1].n + cy) * axes_[0].n + cx;
                 for (std::int32_t k = start_[c]; k < start_[c + 1]; ++k) visit(members_[k]);
             }

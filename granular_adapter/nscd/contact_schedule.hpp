@@ -25,7 +25,7 @@ struct MovedPair {
 
 struct ScheduleSettings {
     int width = 4;     ///< lanes of a group
-    int distance = 3;  ///< groups from one contact of a body to the next, >= 1
+    int distance = 2;  ///< groups from one contact of a body to the next, >= 1
 };
 
 struct Schedule {

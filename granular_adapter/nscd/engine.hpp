@@ -126,7 +126,6 @@ class Engine {
                       double dt);
     double reach(const std::vector<Twist>& free, double dt) const;
     std::vector<ContactPoint> detect(double reach, double share) const;
-    void order_top_down(std::vector<ContactPoint>& points) const;
     ContactKey key(const ContactPoint& point) const;
     std::vector<ContactKey> keys() const;
     void hand_out(const std::vector<Twist>& velocities);

@@ -16,8 +16,15 @@ namespace {
 
 // A tail below this share of the contacts is not worth a second order of contacts.
 constexpr double least_tail = 0.1;
-// More contacts of the tail awake than this share of the head: sweep all of them in order again.
+// When more contacts of the tail than this share of the head have an impulse, each sweep takes all:
+// impulses that change in one sweep of eight would cost more sweeps than the rest saves.
 constexpr double most_awake = 0.02;
+// Contacts in the head without impulse, or in the tail with one, that are worth a new layout.
+constexpr double least_misplaced = 0.1;
+// More rows than this do not stay in the cache: sweeps must overlap (sweep_train.hpp), which head
+// and tail one after the other do not. An awake tail is then put back to where it belongs in the
+// order.
+constexpr std::size_t cached_contacts = 20000;
 
 // Fewer contacts than this are swept faster by one thread (docs/performance.md).
 constexpr std::size_t threaded_contacts = 4000;
@@ -105,6 +112,8 @@ class Iteration {
         train_.emplace(sweeps_, layout_->rows, layout_->bodies, layout_->schedule,
                        make_blocks(layout_->schedule, pairs_, problem_.bodies.size(), Rows::width));
         laid_out_at_ = result_.iterations;
+        head_ = order.head;
+        awake_ = false;
     }
 
     /// Has an impulse, or closes with the present velocities.
@@ -117,7 +126,7 @@ class Iteration {
 
     void sweep_until_check() {
         std::vector<Wagon> wagons;
-        do wagons.push_back({!split(), false});
+        do wagons.push_back({!split() || awake_, false});
         while (!check_due(++result_.iterations, settings_));
         wagons.back() = {true, true};
         train_->run(wagons, team_);
@@ -140,14 +149,20 @@ class Iteration {
         result_.converged = result_.residual <= settings_.tolerance;
     }
 
-    /// The tail stays alone while it sleeps. A layout costs a few sweeps, so the tail is sought
-    /// again only after as many sweeps as there were before.
+    /// The tail stays alone while it sleeps; awake it is swept with the head. A layout costs as
+    /// much as a few sweeps, so contacts are told apart anew only after as many sweeps as before.
     void adapt() {
         const double head = total(train_->head_sums().loaded);
         const double tail = total(train_->tail_sums().loaded);
-        const bool due = result_.iterations >= 2 * laid_out_at_;
-        const bool may_split = !split() && due && head < (1.0 - least_tail) * pairs_.size();
-        if (!may_split && !(tail > most_awake * head)) return;
+        const double misplaced = static_cast<double>(head_) - head + tail;
+        awake_ = tail > most_awake * head;
+        if (result_.iterations >= 2 * laid_out_at_ && misplaced > least_misplaced * head_)
+            lay_out_again(true);
+        else if (awake_ && pairs_.size() > cached_contacts)
+            lay_out_again(false);
+    }
+
+    void lay_out_again(bool may_split) {
         layout_->collect(result_.impulses);
         lay_out(may_split);
     }
@@ -162,7 +177,9 @@ class Iteration {
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
     std::optional<SweepTrain<Rows>> train_;
-    std::int64_t laid_out_at_ = 0;
+    std::int64_t laid_out_at_ = 0;  ///< sweep
+    std::size_t head_ = 0;          ///< contacts of the head
+    bool awake_ = false;            ///< the tail
 };
 
 template <class Rows>

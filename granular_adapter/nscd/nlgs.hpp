@@ -8,8 +8,8 @@
 // accumulated in the pass itself, where velocities are half old and half new; when that looks good
 // the published residual, of one consistent state, decides.
 //
-// Contacts without an impulse that are not closing (the tail) are visited in the measured sweeps
-// only; when too many of them wake up all contacts are swept again in the order given.
+// Contacts that have an impulse or are closing come first (the head), the others (the tail) after
+// them, both in the order given. While the tail sleeps it is visited in the measured sweeps only.
 //
 // How it is done fast, with the same bits: contact_schedule.hpp, sweep_kernel.hpp, sweep_train.hpp.
 #pragma once

@@ -36,12 +36,13 @@ class ContactMemory {
     /// The remembered force times the step, zero for a new contact.
     Vec3 guess(const ContactKey& key, double step) const;
 
-    void forget() { contacts_.clear(); }
+    void forget() { replace({}); }
     const std::vector<RememberedContact>& contacts() const { return contacts_; }
     void replace(std::vector<RememberedContact> contacts);
 
  private:
     std::vector<RememberedContact> contacts_;  ///< sorted by key
+    std::vector<std::int32_t> places_;  ///< open hash table of indices of contacts_; -1: empty
 };
 
 }  // namespace turbidite::nscd

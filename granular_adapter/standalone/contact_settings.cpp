@@ -51,6 +51,8 @@ nscd::EngineSettings contact_settings(const Settings& settings) {
     take(settings, "contact.solver", result.solver);
     result.solver_settings.tolerance = settings.real("contact.tolerance");
     result.solver_settings.max_iterations = settings.integer("contact.iterations");
+    if (settings.has("contact.threads"))
+        result.solver_settings.threads = settings.integer("contact.threads");
     return result;
 }
 

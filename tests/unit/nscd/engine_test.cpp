@@ -131,11 +131,12 @@ TEST(Engine, ContactsAreAdmissible) {
     }
 }
 
-// Discs fall into a box and come to rest, at the default tolerance: the last ones roll down by t
-// = 13. Positions follow the contact velocities, so overlap is what the tolerance leaves.
+// Discs fall into a box and come to rest: the last ones roll down by t = 13. Positions follow the
+// contact velocities, so overlap is what the tolerance leaves: 6e-5 over several packings at dt =
+// 0.02 with this one, up to 1.5e-4 with 1e-3, whatever the order of the sweeps.
 TEST(Engine, SettlesWithoutOverlap) {
     for (const double dt : {0.02, 0.01, 0.005}) {
-        EngineSettings settings = scenes::exact(0.3, 1e-3);
+        EngineSettings settings = scenes::exact(0.3, 5e-4);
         settings.solver_settings.max_iterations = 2000;
         Engine engine = scenes::settling_pack(10, 10, settings);
         double deepest = 0.0;

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "granular_adapter/nscd/contact_order.hpp"
 #include "granular_adapter/nscd/nlgs.hpp"
 #include "granular_adapter/nscd/residual.hpp"
 #include "granular_adapter/nscd/sweep_layout.hpp"
@@ -199,6 +200,26 @@ TEST(Schedule, ImmovablePartnersDoNotBind) {
     std::vector<std::int32_t> order(pairs.size());
     std::iota(order.begin(), order.end(), 0);
     EXPECT_EQ(make_schedule(pairs, order, pairs.size(), 200, {4, 3}).all, 50);
+}
+
+// A row of discs at one height, then one a radius lower: the upper row first, its even contacts
+// before its odd ones, so that no body is met twice within a colour.
+TEST(ContactOrder, TakesARowByColoursFromTheTopDown) {
+    Bodies bodies;
+    std::vector<ContactPoint> points;
+    for (int i = 0; i < 12; ++i) bodies.add(scenes::disc(i, i % 6, i < 6 ? 0.0 : 0.5));
+    for (std::int32_t i = 0; i < 11; ++i) {
+        if (i == 5) continue;
+        ContactPoint point;
+        point.a = i, point.b = i + 1;
+        points.push_back(point);
+    }
+    order_top_down(points, bodies, {0.0, -9.81, 0.0}, 1e-3);
+    std::vector<std::int32_t> first;
+    for (const ContactPoint& point : points) first.push_back(point.a);
+    EXPECT_EQ(first, (std::vector<std::int32_t>{6, 8, 10, 7, 9, 0, 2, 4, 1, 3}));
+    order_top_down(points, bodies, {}, 1e-3);
+    EXPECT_EQ(points[0].a, 6) << "without gravity nothing changes";
 }
 
 TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
