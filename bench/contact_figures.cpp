@@ -4,6 +4,7 @@
 #include "bench/contact_rate.hpp"
 #include "bench/md_over_nscd.hpp"
 #include "bench/polygon_rate.hpp"
+#include "bench/siconos/siconos_figure.hpp"
 
 namespace turbidite::bench {
 
@@ -25,6 +26,11 @@ std::vector<Figure> contact_figures() {
          "ratio",
          {Kind::at_most, 2.0},
          contact_cost_growth},
+        {"siconos_over_ours",
+         "time of Siconos' NSGS over ours to the same error 1e-4, dry column at 2, 9 and 14 t_c",
+         "ratio",
+         {Kind::at_least, 8.0},
+         siconos_over_ours},
         {"md_over_nscd_dry_column",
          "wall time of yade-md over yade-nscd, dry column of 1397 discs over 20 t_c",
          "ratio",

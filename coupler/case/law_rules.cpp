@@ -46,13 +46,6 @@ Verdict only_discs_resist_rolling(const Settings& s) {
                      "Use 0."};
 }
 
-Verdict solver_knows_rolling(const Settings& s) {
-    if (s.real("contact.rolling_friction") == 0.0 || s.text("contact.solver") != "nlgs-stored")
-        return std::nullopt;
-    return Objection{"contact.solver: nlgs-stored knows no rolling resistance.",
-                     "Use 0, or contact.solver: nlgs."};
-}
-
 Verdict range_of_neighbours(const Settings& s) {
     if (s.text("contact.adhesion") == "none") return std::nullopt;
     if (s.real("contact.adhesion_range") <= 1.0) return std::nullopt;
@@ -60,6 +53,26 @@ Verdict range_of_neighbours(const Settings& s) {
 }
 
 }  // namespace
+
+bool resists_rolling(const Settings& s) {
+    return s.real("contact.rolling_friction") > 0.0;
+}
+
+Verdict solver_knows_rolling(const Settings& s) {
+    if (s.text("contact.solver") != "nlgs-stored" || !resists_rolling(s)) return std::nullopt;
+    return Objection{fmt::format("nlgs-stored does not solve rolling resistance, and "
+                                 "contact.rolling_friction = {}.",
+                                 s.text("contact.rolling_friction")),
+                     "Use nlgs or proximal-newton."};
+}
+
+Verdict dumps_know_rolling(const Settings& s) {
+    if (!resists_rolling(s)) return std::nullopt;
+    return Objection{fmt::format("The files of Siconos have no rolling resistance, and "
+                                 "contact.rolling_friction = {}.",
+                                 s.text("contact.rolling_friction")),
+                     "Remove one of the two."};
+}
 
 const std::vector<Rule>& law_rules() {
     static const std::vector<Rule> table = {
@@ -69,7 +82,8 @@ const std::vector<Rule>& law_rules() {
          theta_makes_no_energy},
         {"contact.restitution_tangential", {"contact.impact"}, moreau_has_one_restitution},
         {"contact.rolling_friction", {"grains.shape"}, only_discs_resist_rolling},
-        {"contact.rolling_friction", {"contact.solver"}, solver_knows_rolling},
+        {"contact.solver", {"contact.rolling_friction"}, solver_knows_rolling},
+        {"contact.dump_interval", {"contact.rolling_friction"}, dumps_know_rolling},
         {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours},
     };
     return table;

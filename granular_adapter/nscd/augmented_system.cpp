@@ -43,9 +43,7 @@ AugmentedSystem::AugmentedSystem(const ContactProblem& problem) {
     for (const Contact& contact : problem.contacts) {
         Link link;
         const Vec3 u = contact_velocity(contact, problem.free);
-        const double spin_a = contact.a >= 0 ? problem.free[contact.a].spin[2] : 0.0;
-        link.free = {u[0] + contact.bias[0], u[1] + contact.bias[1],
-                     problem.free[contact.b].spin[2] - spin_a + contact.bias[2]};
+        for (int d = 0; d < 3; ++d) link.free[d] = u[d] + contact.bias[d];
         link.friction = contact.friction;
         link.rolling = contact.rolling;
         add_end(link, true, contact, problem.bodies[contact.b]);

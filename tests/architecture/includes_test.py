@@ -17,6 +17,7 @@ YAML = r"^yaml-cpp/.*$"
 PYTHON = r"^(Python\.h|pyconfig\.h|boost/python.*|pybind11/.*)$"
 YADE = r"^(yade/.*|core/.*|lib/.*|pkg/.*|granular_adapter/yade/.*)$"
 OPENFOAM = r"^([A-Za-z]*\.H|fluid_adapter/foam_.*)$"
+SICONOS = r"^(siconos/.*|FrictionContactProblem\.h|bench/siconos/siconos_problem\.hpp)$"
 PROJECT = r"^(coupler|fluid_adapter|granular_adapter)/.*$"
 
 # (files, forbidden headers, why)
@@ -28,6 +29,7 @@ RULES = [
     ("coupler/participant/*.hpp", [MPI], "an MPI of the host's choice must not leak in"),
     ("coupler/shapes/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM], "shared by fluid and grains"),
     ("granular_adapter/nscd/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
+    ("granular_adapter/*/*.[hc]pp", [SICONOS], "Siconos stays in tests and one contender"),
     ("fluid_adapter/multiplier/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
