@@ -65,7 +65,7 @@ double play(Engine& engine, double time) {
 // carry a grain are the same in every step.
 TEST(FallingTriangles, ComeToRestWithoutOverlapOrJitter) {
     Engine engine = falling_triangles();
-    EXPECT_LT(play(engine, 20.0), 1e-4);
+    EXPECT_LT(play(engine, 15.0), 1e-4);
     const double weight = engine.bodies().mass[0] * dt;
     const std::set<ContactKey> carriers = carrying(engine, weight);
     EXPECT_GT(carriers.size(), 10u);
