@@ -16,7 +16,19 @@ import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib
+
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / 'coupler/cli/report'))
+
+import curves
+import run_data
+import seeds
+from peaks import COLUMN
+
 PLAIN = 'plain'
 RUN_HEAD = ('runs', 'grains', '|<u>| peak [u_c]', 'at [t_c]', 'over the seeds [u_c]', 'at [t_c]',
             'end: front [D]', 'end: height [D]', 'overlap [D]', 'windows beyond tolerance', 'wall time [s]')
@@ -129,6 +141,20 @@ def print_table(head, rows):
         print('| ' + ' | '.join(str(cell) for cell in row) + ' |')
 
 
+def draw(groups, file):
+    """Fig. 8(a): means over the seeds with bands from the smallest to the largest value."""
+    figure, axes = plt.subplots(figsize=(7.5, 4.2), layout='constrained')
+    for i, (group, folders) in enumerate(groups.items()):
+        member, = seeds.members([run_data.load_run(folder) for folder in folders])
+        axes.plot(*member.data.column(COLUMN), color=f'C{i % 10}', linewidth=1.4, label=group)
+        axes.fill_between(*member.band(COLUMN), color=f'C{i % 10}', alpha=0.2, linewidth=0.0)
+    curves.decorate(axes, '', r'$|\langle u \rangle|\,/\,u_c$')
+    axes.set_xlim(left=0.0)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(fontsize=8)
+    figure.savefig(file, dpi=110)
+
+
 def main():
     options = arguments()
     runs = play_all(options)
@@ -142,7 +168,8 @@ def main():
     for compacity, groups in runs.items():
         if len(runs) > 1:
             compare(options, compacity, groups)
-    print(f'\nPages: {options.out}/compare-*.html')
+    draw(everything, Path(options.out) / 'mean_velocity.png')
+    print(f'\nPages: {options.out}/compare-*.html; Fig. 8(a): {options.out}/mean_velocity.png')
 
 
 if __name__ == '__main__':

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A rule over several keys of a case; lists of them are in case_rules.cpp and md_rules.cpp.
+// A rule over several keys of a case; lists of them are in case_rules.cpp, law_rules.cpp and
+// md_rules.cpp.
 #pragma once
 
 #include <optional>

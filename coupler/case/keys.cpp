@@ -8,6 +8,7 @@
 
 #include "coupler/case/packing.hpp"
 #include "coupler/shapes/shape.hpp"
+#include "granular_adapter/nscd/solver_list.hpp"
 
 namespace turbidite {
 namespace {
@@ -40,6 +41,13 @@ std::vector<Choice> shape_choices() {
     std::vector<Choice> choices;
     for (const ShapeEntry& entry : shape_list()) choices.push_back({entry.kind, entry.description});
     choices.push_back({"sphere", "ball in space", false});
+    return choices;
+}
+
+std::vector<Choice> solver_choices() {
+    std::vector<Choice> choices;
+    for (const nscd::SolverEntry& entry : nscd::solver_list())
+        choices.push_back({entry.name, entry.description});
     return choices;
 }
 
@@ -318,6 +326,11 @@ std::vector<KeySpec> contact_keys() {
          .fallback = "0.5",
          .range = {.lower = 0.5, .upper = 1.0},
          .help = "theta of the time integration, Eqs. 16-18"},
+        {.name = "contact.solver",
+         .type = KeyType::choice,
+         .fallback = "nlgs",
+         .choices = solver_choices(),
+         .help = "how the contact problem of a window is solved"},
         {.name = "contact.tolerance",
          .type = KeyType::real,
          .fallback = "0.001",
@@ -340,6 +353,12 @@ std::vector<KeySpec> contact_keys() {
          .fallback = "0.5",
          .range = not_negative,
          .help = "fastest such push"},
+        {.name = "contact.dump_interval",
+         .type = KeyType::real,
+         .unit = "t_c",
+         .need = Need::optional,
+         .range = positive,
+         .help = "between contact problems written to contacts/problem_STEP.dat, for Siconos"},
         {.name = "contact.md_overlap",
          .type = KeyType::real,
          .unit = "D",

@@ -17,6 +17,7 @@ double restitution_of(double damping) {
 }
 
 double damping_of(double restitution) {
+    if (restitution >= 1.0) return 0.0;
     if (restitution <= restitution_of(1.0)) return 1.0;
     double low = 0.0, high = 1.0;  // restitution falls from low to high
     for (int i = 0; i < 60; ++i) {

@@ -44,9 +44,9 @@ std::vector<Vec3> line_ends(const Motion& state) {
 
 void ContactSeries::write(double time, std::int64_t window, double step, const Motion& state) {
     if (!state.contacts) return;
-    if (!collection_) collection_.emplace(folder_ / "contacts.pvd");
     const std::string name = fmt::format("contacts_{:08d}.vtp", window);
     write_lines(name, step, state);
+    if (!collection_) collection_.emplace(folder_ / "contacts.pvd");
     collection_->add(time, {name});
 }
 

@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "coupler/shapes/shape.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -30,11 +32,7 @@ Vec3 in_space(const GrainState& grain, const std::array<double, 2>& vertex) {
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes)
     : folder_(made(std::move(folder))), collection_(folder_ / "grains.pvd") {
-    for (const ShapeRecord& shape : shapes) {
-        Outline& outline = outlines_.emplace_back();
-        for (std::size_t k = 0; k + 1 < shape.vertices.size(); k += 2)
-            outline.push_back({shape.vertices[k], shape.vertices[k + 1]});
-    }
+    for (const ShapeRecord& shape : shapes) outlines_.push_back(make_shape(shape)->outline());
 }
 
 void GrainSeries::write(double time, std::int64_t step, double window, const Motion& state,

@@ -27,7 +27,7 @@ class GrainSeries {
                const std::vector<Kick>& kicks);
 
  private:
-    using Outline = std::vector<std::array<double, 2>>;  ///< of unit circumradius, body frame
+    using Outline = std::vector<std::array<double, 2>>;  ///< Shape::outline
 
     void write_points(const std::string& name, double window, const Motion& state,
                       const std::vector<Kick>& kicks) const;

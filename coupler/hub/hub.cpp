@@ -81,9 +81,21 @@ RunStatus Hub::run() {
         status_.reason = error.what();
     }
     status_.wall_seconds = since(begin);
+    tell_unconverged();
     tell_disagreement();
     end_and_record();
     return status_;
+}
+
+void Hub::tell_unconverged() {
+    const std::int64_t windows = status_.maxima.unconverged_windows;
+    if (windows == 0) return;
+    progress_.say(
+        fmt::format("turbidite: in {} of {} windows the contact solver used up its {} sweeps "
+                    "(contact.iterations) before contact.tolerance = {}; residual up to {:.1e}. "
+                    "Allow more sweeps.",
+                    windows, status_.windows_done, case_.settings.text("contact.iterations"),
+                    case_.settings.text("contact.tolerance"), status_.contact_residuals.largest()));
 }
 
 void Hub::tell_disagreement() {
@@ -186,6 +198,7 @@ void Hub::account(const Window& window, WindowResult result) {
     maxima.divergence = std::max(
         maxima.divergence, fluid.divergence * length / case_.settings.real("run.velocity_scale"));
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
+    status_.contact_residuals.take_in(result.motion.report);
     if (result.joint) maxima.take_in(*result.joint, case_.settings.real("run.velocity_scale"));
 
     state_ = std::move(result.state);

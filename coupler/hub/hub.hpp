@@ -44,6 +44,7 @@ class Hub {
     void start();
     void play(std::int64_t index);
     void account(const Window& window, WindowResult result);
+    void tell_unconverged();
     void tell_disagreement();
     void end_and_record();
     /// The code to end with when files_.stop is there, which is then removed.

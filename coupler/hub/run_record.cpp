@@ -2,6 +2,7 @@
 #include "coupler/hub/run_record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -59,7 +60,33 @@ nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
     return table;
 }
 
+nlohmann::ordered_json contact_table(const RunStatus& status) {
+    return {{"unconverged_windows", status.maxima.unconverged_windows},
+            {"residual_p95", status.contact_residuals.quantile(0.95)},
+            {"residual_max", status.contact_residuals.largest()}};
+}
+
 }  // namespace
+
+void ContactResiduals::take_in(const ContactReport& report) {
+    if (!report.residual) return;
+    const bool worst = std::isnan(*report.residual);  // which has no place in an order
+    values_.push_back(worst ? INFINITY : *report.residual);
+}
+
+double ContactResiduals::largest() const {
+    return values_.empty() ? 0.0 : *std::max_element(values_.begin(), values_.end());
+}
+
+double ContactResiduals::quantile(double share) const {
+    if (values_.empty()) return 0.0;
+    std::vector<double> sorted = values_;
+    const auto rank =
+        static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(sorted.size()))) - 1;
+    const auto at = sorted.begin() + std::max<std::ptrdiff_t>(rank, 0);
+    std::nth_element(sorted.begin(), at, sorted.end());
+    return *at;
+}
 
 void RunMaxima::take_in(const JointReport& report, double velocity) {
     if (!joint) joint.emplace();
@@ -87,6 +114,7 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["windows_done"] = status.windows_done;
     record["wall_seconds"] = status.wall_seconds;
     record["maxima"] = maxima_table(status.maxima);
+    if (!status.contact_residuals.empty()) record["contact"] = contact_table(status);
     record["ranks"] = rank_table(links);
     const std::filesystem::path part = file.string() + ".part";
     std::ofstream out(part);

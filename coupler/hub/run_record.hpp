@@ -21,6 +21,20 @@ struct JointMaxima {
     std::int64_t unconverged_windows = 0;  ///< ended by coupling.iterations
 };
 
+/// Scaled natural map of every window's contact solve, of adapters that have one.
+class ContactResiduals {
+ public:
+    void take_in(const ContactReport& report);
+    bool empty() const { return values_.empty(); }
+    /// 0 without windows, infinite when one was not a number.
+    double largest() const;
+    /// The smallest value that `share` of the windows do not exceed, 0 < share <= 1.
+    double quantile(double share) const;
+
+ private:
+    std::vector<double> values_;
+};
+
 struct RunMaxima {
     double penetration = 0.0;              ///< [D]
     double grain_balance = 0.0;            ///< KickRule::defect
@@ -39,6 +53,7 @@ struct RunStatus {
     std::int64_t windows_done = 0;
     double wall_seconds = 0.0;
     RunMaxima maxima;
+    ContactResiduals contact_residuals;
 };
 
 /// Replaces run.json in one step. `links` may be empty when the start failed. Throws Failure when

@@ -41,7 +41,7 @@ class GrainsAdapter {
     virtual Motion advance(const Window& window, const std::vector<FreeResponse>& responses) = 0;
 
     /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. Returns the state at
-    /// t^{n+1}.
+    /// t^{n+1}, in windows with output with the contacts of this window.
     virtual Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) = 0;
 
     virtual SavedState save() const = 0;

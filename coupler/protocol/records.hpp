@@ -106,9 +106,9 @@ struct ContactReport {
     double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
     std::int64_t removed = 0;      ///< grains that left through a free side in this window
     double wall_seconds = 0.0;     ///< time in the adapter's own work
-    std::optional<double>
-        quad;                   ///< mean change by one more update of every contact (nscd/residual)
-    std::optional<double> max;  ///< its largest
+    /// Quad and Max, what one more update of every contact would change (nscd/residual.hpp).
+    std::optional<double> quad;
+    std::optional<double> max;
 };
 
 /// Bits of ContactRecord::status; none of them: both surfaces stick.
@@ -129,6 +129,7 @@ struct ContactRecord {
     std::int32_t feature = 0;  ///< which of the pair's points
     std::int32_t status = 0;   ///< bits of ContactStatus
     double gap = 0.0;          ///< negative: overlap [m]
+    double length = 0.0;       ///< of the face that the point stands for; 0 for points [m]
     Vec3 point{};              ///< [m]
     Vec3 normal{};             ///< unit, from a to b
     Vec3 branch{};   ///< centre of b minus that of a, nearest image; at a wall minus `point` [m]

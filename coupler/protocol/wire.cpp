@@ -91,7 +91,8 @@ constexpr auto visit_contact_report = [](auto& code, auto& r) {
 };
 
 constexpr auto visit_contact = [](auto& code, auto& c) {
-    code(c.a), code(c.b), code(c.wall), code(c.feature), code(c.status), code(c.gap);
+    code(c.a), code(c.b), code(c.wall), code(c.feature), code(c.status), code(c.gap),
+        code(c.length);
     array(code, c.point), array(code, c.normal), array(code, c.branch);
     array(code, c.impulse), array(code, c.rolling_impulse);
 };

@@ -38,6 +38,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     record.feature = point.feature;
     record.status = status_of(contact, impulse);
     record.gap = point.gap;
+    record.length = point.length;
     record.point = bodies.position[point.b] + point.arm_b;
     record.normal = point.normal;
     record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;

@@ -48,6 +48,7 @@ nscd::EngineSettings contact_settings(const Settings& settings) {
     take(settings, "contact.recovery_fraction", 1.0, result.law_settings.recovery_fraction);
     take(settings, "contact.recovery_speed", velocity, result.law_settings.recovery_speed);
     take(settings, "contact.restitution_speed", velocity, result.law_settings.restitution_speed);
+    take(settings, "contact.solver", result.solver);
     result.solver_settings.tolerance = settings.real("contact.tolerance");
     result.solver_settings.max_iterations = settings.integer("contact.iterations");
     return result;

@@ -13,5 +13,6 @@ int main(int argc, char** argv) {
         return static_cast<int>(turbidite::ExitCode::bad_input);
     }
     turbidite::NscdAdapter adapter("standalone-nscd");
+    adapter.set_run_folder(argv[1]);
     return turbidite::run_grains(adapter, {&argc, &argv, argv[1]});
 }

@@ -61,6 +61,7 @@ Hello NscdAdapter::describe() const {
 Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
                                const std::vector<GrainState>& grains) {
     const StopWatch watch;
+    dumps_ = ProblemDumps(settings, run_folder_);
     fluid_ = settings.flag("fluid.enabled");
     joint_ = fluid_ && settings.text("coupling.scheme") == "joint";
     positions_ = parse_positions(settings.text("coupling.positions"));
@@ -122,6 +123,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     const StopWatch watch;
     if (contact_twists_.size() != bodies().size())
         throw std::logic_error("apply_kick needs an advance of the same window before it");
+    dumps_.after(window, engine().problem());
     if (fluid_ || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
     check_inside(bodies(), borders_, in_window(window) + " after the kick");
     std::optional<std::vector<ContactRecord>> contacts;

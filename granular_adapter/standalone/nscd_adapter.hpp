@@ -12,13 +12,16 @@
 // fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/participant/adapter.hpp"
 #include "granular_adapter/nscd/engine.hpp"
 #include "granular_adapter/standalone/borders.hpp"
+#include "granular_adapter/standalone/problem_dumps.hpp"
 
 namespace turbidite {
 
@@ -27,6 +30,9 @@ class NscdAdapter final : public GrainsAdapter {
     /// Names under which it introduces itself; a host gives its own ("yade-nscd", "YADE 2023.02a").
     explicit NscdAdapter(std::string adapter_name = "standalone-nscd",
                          std::string host_code = "none");
+
+    /// Where contact.dump_interval writes; before initialise(). Without it: the working folder.
+    void set_run_folder(std::filesystem::path folder) { run_folder_ = std::move(folder); }
 
     Hello describe() const override;
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
@@ -75,6 +81,8 @@ class NscdAdapter final : public GrainsAdapter {
 
     std::string adapter_name_;
     std::string host_code_;
+    std::filesystem::path run_folder_ = ".";
+    ProblemDumps dumps_;
     bool fluid_ = true;
     bool joint_ = false;
     Positions positions_ = Positions::corrected;

@@ -7,26 +7,13 @@
 #include <utility>
 
 #include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/yade/engine_memory.hpp"
 
 namespace turbidite::yade {
 namespace {
 
 using nscd::operator+;
 using nscd::operator*;
-
-/// Contact memory of an engine without its walls, whose number may change.
-std::vector<char> memory_of(nscd::Engine& engine) {
-    const std::vector<nscd::Wall> walls = std::exchange(engine.walls(), {});
-    std::vector<char> bytes = engine.save_memory();
-    engine.walls() = walls;
-    return bytes;
-}
-
-void restore_memory_of(nscd::Engine& engine, const std::vector<char>& bytes) {
-    const std::vector<nscd::Wall> walls = std::exchange(engine.walls(), {});
-    engine.restore_memory(bytes);
-    engine.walls() = walls;
-}
 
 std::runtime_error at_fault(GrainId body, const std::string& fault, const char* when) {
     return std::runtime_error("turbidite_contact: body " + std::to_string(body) + fault + ", " +
@@ -59,7 +46,7 @@ std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
 
 void ContactHost::lay_out(Layout layout) {
     auto next = new_engine(layout);
-    if (engine_) restore_memory_of(*next, memory_of(*engine_));
+    if (engine_) restore_contact_memory(*next, contact_memory(*engine_));
     engine_ = std::move(next);
     states_ = std::move(layout.states);
     turns_ = std::move(layout.turns);
@@ -84,11 +71,11 @@ nscd::StepReport ContactHost::step(double dt, const Loads& loads) {
 }
 
 std::vector<char> ContactHost::memory() const {
-    return memory_of(*engine_);
+    return contact_memory(*engine_);
 }
 
 void ContactHost::restore_memory(const std::vector<char>& bytes) {
-    restore_memory_of(*engine_, bytes);
+    restore_contact_memory(*engine_, bytes);
 }
 
 std::vector<ContactForce> ContactHost::contacts() const {

@@ -104,13 +104,35 @@ class Participant {
     std::unique_ptr<Session> session_;
 };
 
+std::unique_ptr<YadeAdapter> nscd_adapter(const std::string& run_folder, python::object scene,
+                                          const std::string& yade_version) {
+    auto adapter = std::make_unique<YadeAdapter>(std::move(scene), yade_version);
+    adapter->set_run_folder(run_folder);
+    return adapter;
+}
+
 /// The contact engine with YADE's bodies.
 class NscdParticipant final : public Participant {
  public:
     NscdParticipant(const std::string& run_folder, std::uintptr_t communicator,
                     python::object scene, const std::string& yade_version)
-        : Participant(std::make_unique<YadeAdapter>(scene, yade_version), run_folder,
-                      communicator) {}
+        : NscdParticipant(nscd_adapter(run_folder, std::move(scene), yade_version).release(),
+                          run_folder, communicator) {}
+
+    /// What contacts remember, as bytes.
+    python::object contacts() {
+        const std::vector<char> bytes = adapter_.contacts();
+        return python::object(python::handle<>(
+            PyBytes_FromStringAndSize(bytes.data(), static_cast<Py_ssize_t>(bytes.size()))));
+    }
+
+ private:
+    NscdParticipant(YadeAdapter* adapter, const std::string& run_folder,
+                    std::uintptr_t communicator)
+        : Participant(std::unique_ptr<GrainsAdapter>(adapter), run_folder, communicator),
+          adapter_(*adapter) {}
+
+    YadeAdapter& adapter_;  ///< owned by the base
 };
 
 /// A host and the adapter that drives it.
@@ -148,10 +170,11 @@ class MdParticipant final : public Participant {
 };
 
 template <class Kind>
-void export_participant(const char* name, const char* documentation) {
-    python::class_<Kind, boost::noncopyable>(
-        name, documentation,
-        python::init<std::string, std::uintptr_t, python::object, std::string>())
+python::class_<Kind, boost::noncopyable> export_participant(const char* name,
+                                                            const char* documentation) {
+    return python::class_<Kind, boost::noncopyable>(
+               name, documentation,
+               python::init<std::string, std::uintptr_t, python::object, std::string>())
         .def("start", &Participant::start,
              "Handshake and initial state; False when the run is over.")
         .def("step", &Participant::step, "One window; False when the run is over.")
@@ -168,7 +191,9 @@ BOOST_PYTHON_MODULE(turbidite_yade) {
         "One YADE process in a coupled job, with the contact engine.\n\n"
         "Participant(run_folder, communicator, scene, yade_version): scene has create(settings, "
         "grains),\n"
-        "which returns the states of the bodies it built, and erase(ids).");
+        "which returns the states of the bodies it built and how YADE turned their axes\n"
+        "((w, x, y, z), None for discs), and erase(ids).")
+        .def("contacts", &NscdParticipant::contacts, "What contacts remember, as bytes.");
     export_participant<MdParticipant>(
         "MdParticipant",
         "One YADE process in a coupled job, with YADE's own engines.\n\n"

@@ -122,11 +122,8 @@ class Scene:
                 branch[0], branch[1])
 
     def deepest_overlap(self):
-        """Of the last step's contacts; between discs of different sizes a bound from above."""
-        between_discs = utils.maxOverlapRatio() * self.largest
-        with_walls = [contact.geom.penetrationDepth for wall in self.walls
-                      for contact in O.interactions.withBody(wall) if contact.isReal]
-        return max([0.0, between_discs] + with_walls)
+        """Of two discs in the last step; where sizes differ a bound from above."""
+        return max(0.0, utils.maxOverlapRatio() * self.largest)
 
     def save(self):
         """The whole simulation as bytes, contacts with their springs included."""

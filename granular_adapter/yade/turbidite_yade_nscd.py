@@ -29,9 +29,31 @@ def abort():
 
 
 try:
+    import turbidite_contact
     import turbidite_yade
 except ImportError:
     abort()
+
+
+class Store:
+    """Settings and impulses of the contacts in YADE's scene, where turbidite_contact finds them."""
+
+    # Units of the keys of a case, by key of the group contact.
+    UNITS = {'recovery_speed': 'run.velocity_scale', 'restitution_speed': 'run.velocity_scale',
+             'adhesion_range': 'run.diameter', 'adhesion_length': 'run.diameter',
+             'adhesion_force': 'run.grain_weight'}
+
+    def __init__(self, case):
+        options = {key.removeprefix('contact.'): value for key, value in case.items()
+                   if key.startswith('contact.') and key != 'contact.friction'}
+        for key, unit in self.UNITS.items():
+            if key in options:
+                options[key] = repr(float(options[key]) * float(case[unit]))
+        self.settings = {'gravity': [0.0, -float(case['run.gravity']), 0.0], 'show': 0, 'options': options}
+        self.engine = turbidite_contact.memory.holder(self.settings)
+
+    def keep(self, contacts):
+        turbidite_contact.memory.write(self.engine, self.settings, contacts)
 
 
 class Scene:
@@ -39,27 +61,39 @@ class Scene:
 
     def __init__(self):
         self.body_of = {}  # grain id -> body id
+        self.case = {}
 
     def create(self, settings, grains):
-        """Adds walls and one disc per grain; returns the discs' states in the order of `grains`."""
+        """Adds walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
+        self.case = settings
         O.materials.append(FrictMat(
             density=grains[0]['density'] if grains else 1.0,
             frictionAngle=math.atan(float(settings['contact.friction'])), label='grains'))
         self._create_walls(settings)
-        states = []
+        states, turns = [], []
         for grain in grains:
-            body = utils.sphere(grain['position'], grain['radius'], material='grains')
+            body = self._create_polygon(grain) if grain['vertices'] else self._create_disc(grain)
+            turns.append(axes_of(body) if grain['vertices'] else None)
             state = body.state
-            # A disc per unit length, not YADE's sphere.
+            # Of a body per unit length, with the inertia that contacts see.
             state.mass = grain['mass']
-            state.inertia = (grain['inertia'],) * 3
+            state.inertia = Vector3(0.5, 0.5, 1) * grain['inertia']
             state.blockedDOFs = 'zXY'
             state.vel = grain['velocity']
             state.angVel = grain['angular_velocity']
             self.body_of[grain['id']] = O.bodies.append(body)
             states.append(O.bodies[self.body_of[grain['id']]].state)
         O.dt = float(settings['run.step'])
-        return states
+        return states, turns
+
+    def _create_disc(self, grain):
+        return utils.sphere(grain['position'], grain['radius'], material='grains')
+
+    def _create_polygon(self, grain):
+        """YADE turns it to its principal axes; the participant writes the orientation with those."""
+        body = turbidite_contact.polygon(grain['vertices'], material='grains')
+        body.state.pos = grain['position']
+        return body
 
     def _create_walls(self, settings):
         sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
@@ -73,17 +107,26 @@ class Scene:
             O.bodies.erase(self.body_of.pop(grain))
 
 
+def axes_of(body):
+    """Orientation of a body as it was made, (w, x, y, z)."""
+    ori = body.state.ori
+    return ori[3], ori[0], ori[1], ori[2]
+
+
 def play_window():
-    """Called by YADE's loop: one window of the coupled run."""
+    """Called by YADE's loop: one window of the coupled run. A scene saved now keeps the contacts' impulses."""
     if not participant.step():
         O.pause()
+    store.keep(participant.contacts())
 
 
 try:
+    scene = Scene()
     participant = turbidite_yade.Participant(
-        sys.argv[1], mpy.MPI._handleof(mpy.comm), Scene(), yade.config.version)
+        sys.argv[1], mpy.MPI._handleof(mpy.comm), scene, yade.config.version)
     if participant.start():
-        O.engines = [PyRunner(command='play_window()', iterPeriod=1, label='turbidite')]
+        store = Store(scene.case)
+        O.engines = [PyRunner(command='play_window()', iterPeriod=1, label='turbidite'), store.engine]
         O.run(wait=True)
     code = participant.leave()
 except Exception:

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "granular_adapter/yade/engine_memory.hpp"
 #include "granular_adapter/yade/yade_grains.hpp"
 
 namespace turbidite::yade {
@@ -20,6 +21,18 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Rotations (w, x, y, z), None for discs.
+std::vector<Turn> turns_of(const python::object& list) {
+    std::vector<Turn> turns(static_cast<std::size_t>(python::len(list)));
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        const python::object q = list[i];
+        if (q.is_none()) continue;
+        turns[i].planar = true;
+        for (int k = 0; k < 4; ++k) turns[i].rotation[k] = python::extract<double>(q[k]);
+    }
+    return turns;
+}
+
 }  // namespace
 
 YadeAdapter::YadeAdapter(python::object scene, std::string yade_version)
@@ -29,11 +42,15 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
                                const std::vector<GrainState>& grains) {
     Motion motion = engine_.initialise(settings, shapes, grains);
     const nscd::Bodies& bodies = std::as_const(engine_).bodies();
-    states_ = BodyStates(scene_.attr("create")(settings_dict(settings), grain_list(bodies)));
+    const python::object made =
+        scene_.attr("create")(settings_dict(settings), grain_list(bodies, shapes));
+    states_ = BodyStates(made[0]);
+    turns_ = turns_of(made[1]);
     if (states_.size() != bodies.size())
         throw Failure(ExitCode::participant_failed,
                       "YADE's scene has " + std::to_string(states_.size()) + " grains, the case " +
                           std::to_string(bodies.size()));
+    write_bodies();
     return motion;
 }
 
@@ -41,17 +58,22 @@ void YadeAdapter::read_bodies() {
     nscd::Bodies& bodies = engine_.bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyMotion motion = states_.read(i);
+        // Turning to YADE's axes and back would round.
+        if (motion == written_[i]) continue;
         bodies.position[i] = motion.position;
-        bodies.orientation[i] = motion.orientation;
+        bodies.orientation[i] = outline_orientation(motion.orientation, turns_[i]);
         bodies.twist[i] = {motion.velocity, motion.angular_velocity};
     }
 }
 
 void YadeAdapter::write_bodies() {
     const nscd::Bodies& bodies = std::as_const(engine_).bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        states_.write(i, {bodies.position[i], bodies.orientation[i], bodies.twist[i].velocity,
-                          bodies.twist[i].spin});
+    written_.clear();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        written_.push_back({bodies.position[i], yade_orientation(bodies.orientation[i], turns_[i]),
+                            bodies.twist[i].velocity, bodies.twist[i].spin});
+        states_.write(i, written_.back());
+    }
 }
 
 Motion YadeAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
@@ -80,9 +102,17 @@ void YadeAdapter::erase_leavers(const std::vector<GrainId>& before) {
     for (const GrainId id : before)
         mask.push_back(std::find(gone.begin(), gone.end(), id) == gone.end());
     states_.keep(mask);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < turns_.size(); ++i)
+        if (mask[i]) turns_[kept++] = turns_[i];
+    turns_.resize(kept);
     python::list ids;
     for (const GrainId id : gone) ids.append(id);
     scene_.attr("erase")(ids);
+}
+
+std::vector<char> YadeAdapter::contacts() {
+    return contact_memory(engine_.engine());
 }
 
 void YadeAdapter::restore(const SavedState& state) {

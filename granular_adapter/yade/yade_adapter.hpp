@@ -10,6 +10,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/yade/turn.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
 
 namespace turbidite::yade {
@@ -17,8 +18,12 @@ namespace turbidite::yade {
 class YadeAdapter final : public GrainsAdapter {
  public:
     /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains)
-    /// returns their states, erase(ids) removes bodies by grain id.
+    /// returns their states and their turns (turn.hpp; None for discs), erase(ids) removes bodies
+    /// by grain id.
     YadeAdapter(boost::python::object scene, std::string yade_version);
+
+    /// Where contact.dump_interval writes; before initialise().
+    void set_run_folder(const std::string& folder) { engine_.set_run_folder(folder); }
 
     Hello describe() const override { return engine_.describe(); }
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
@@ -28,6 +33,9 @@ class YadeAdapter final : public GrainsAdapter {
     SavedState save() const override { return engine_.save(); }
     void restore(const SavedState& state) override;
 
+    /// What contacts remember, for scenes that YADE saves.
+    std::vector<char> contacts();
+
  private:
     void read_bodies();
     void write_bodies();
@@ -36,6 +44,8 @@ class YadeAdapter final : public GrainsAdapter {
     boost::python::object scene_;
     NscdAdapter engine_;
     BodyStates states_;
+    std::vector<Turn> turns_;
+    std::vector<BodyMotion> written_;  ///< last, by body
 };
 
 }  // namespace turbidite::yade

@@ -6,6 +6,7 @@
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 
+#include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
 #include "granular_adapter/nscd/bodies.hpp"
 
@@ -14,7 +15,9 @@ namespace turbidite::yade {
 /// Keys and values as text.
 boost::python::dict settings_dict(const Settings& settings);
 
-/// One dict per body: id, radius, density, mass, inertia, position, velocity, angular_velocity.
-boost::python::list grain_list(const nscd::Bodies& bodies);
+/// One dict per body: id, radius, density, mass, inertia, position, orientation (w, x, y, z),
+/// velocity, angular_velocity, and vertices ((x, y) in the body's axes [m]; none: a disc, as all are without
+/// a table of shapes).
+boost::python::list grain_list(const nscd::Bodies& bodies, const ShapeTable& shapes = {});
 
 }  // namespace turbidite::yade

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/python.hpp>
+#include <cmath>
 #include <utility>
 
 #include "granular_adapter/nscd/byte_stream.hpp"
@@ -18,9 +19,9 @@ using nscd::operator*;
 
 namespace {
 
-// Overlaps are looked for this often in a window, and after its last sub-step. A contact lasts
-// many sub-steps, so that its deepest point is missed by little.
-constexpr std::int64_t probes_per_window = 8;
+// Overlaps are looked for this often while two grains bounce: the deepest point of a damped bounce
+// is missed by 6 % at most.
+constexpr double probes_per_contact = 4.0;
 
 python::list list_of(const std::vector<int>& ids) {
     python::list list;
@@ -51,6 +52,10 @@ void YadeMdHost::create(const Settings& settings, const nscd::Bodies& bodies) {
                       "YADE's scene has " + std::to_string(ids_.size()) + " grains, the case " +
                           std::to_string(bodies.size()));
     fetch_states();
+    radii_ = bodies.radius;
+    borders_ = lay_borders(settings);
+    stride_ = std::max<std::int64_t>(
+        1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
 }
 
 void YadeMdHost::fetch_states() {
@@ -90,6 +95,17 @@ void YadeMdHost::add_forces(SubstepReport& report, double step) const {
     }
 }
 
+double YadeMdHost::deepest_overlap() const {
+    double deepest = python::extract<double>(scene_.attr("deepest_overlap")());
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+        const Vec3 place = states_.read(i).position;
+        for (const Border& border : borders_)
+            if (border.side == BorderKind::wall)
+                deepest = std::max(deepest, radii_[i] - signed_distance(border.plane, place));
+    }
+    return deepest;
+}
+
 SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>& loads) {
     SubstepReport report;
     if (substeps.detailed) {
@@ -97,14 +113,12 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
         report.angular_impulses.assign(ids_.size(), Vec3{});
     }
     set_loads(loads);
-    const python::object step = scene_.attr("step"), overlap = scene_.attr("deepest_overlap");
-    const std::int64_t stride = std::max<std::int64_t>(1, substeps.count / probes_per_window);
+    const python::object step = scene_.attr("step");
     for (std::int64_t i = 1; i <= substeps.count; ++i) {
         step();
         if (substeps.detailed) add_forces(report, substeps.step);
-        if (i % stride == 0 || i == substeps.count)
-            report.max_penetration =
-                std::max<double>(report.max_penetration, python::extract<double>(overlap()));
+        if (i % stride_ == 0 || i == substeps.count)
+            report.max_penetration = std::max(report.max_penetration, deepest_overlap());
     }
     report.contacts = python::extract<long>(scene_.attr("contacts")());
     if (substeps.detailed)
@@ -139,9 +153,14 @@ std::vector<ContactRecord> YadeMdHost::touching(double window) const {
 
 void YadeMdHost::keep(const std::vector<std::uint8_t>& mask) {
     std::vector<int> kept, gone;
-    for (std::size_t i = 0; i < ids_.size(); ++i) (mask[i] ? kept : gone).push_back(ids_[i]);
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+        (mask[i] ? kept : gone).push_back(ids_[i]);
+        if (mask[i]) radii.push_back(radii_[i]);
+    }
     scene_.attr("erase")(list_of(gone));
     ids_ = std::move(kept);
+    radii_ = std::move(radii);
     states_.keep(mask);
 }
 
@@ -152,6 +171,7 @@ SavedState YadeMdHost::save() const {
     if (PyBytes_AsStringAndSize(bytes.ptr(), &first, &size) != 0) python::throw_error_already_set();
     nscd::ByteWriter writer;
     writer.array(ids_);
+    writer.array(radii_);
     writer.value(loaded_);
     writer.array(std::vector<char>(first, first + size));
     return writer.take();
@@ -160,6 +180,7 @@ SavedState YadeMdHost::save() const {
 void YadeMdHost::restore(const SavedState& state) {
     nscd::ByteReader reader(state);
     ids_ = reader.array<int>();
+    radii_ = reader.array<double>();
     loaded_ = reader.value<bool>();
     const std::vector<char> bytes = reader.array<char>();
     const python::object copy(

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "granular_adapter/md/md_host.hpp"
+#include "granular_adapter/standalone/borders.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
 
 namespace turbidite::yade {
@@ -34,13 +35,17 @@ class YadeMdHost final : public MdHost {
     void fetch_states();
     void set_loads(const std::vector<Load>& loads);
     std::vector<ContactRecord> touching(double window) const;
+    double deepest_overlap() const;
     void add_forces(SubstepReport& report, double step) const;
 
     boost::python::object scene_;
     std::string version_;
     std::vector<int> ids_;  ///< of YADE's bodies, in the order of the grains
     BodyStates states_;
-    bool loaded_ = false;  ///< YADE holds forces from an earlier window
+    std::vector<double> radii_;
+    std::vector<Border> borders_;
+    std::int64_t stride_ = 1;  ///< sub-steps from one look at overlaps to the next
+    bool loaded_ = false;      ///< YADE holds forces from an earlier window
 };
 
 }  // namespace turbidite::yade

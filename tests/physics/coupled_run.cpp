@@ -62,6 +62,7 @@ void set_contact_values(Settings& settings) {
     settings.set("contact.iterations", std::int64_t{2000});
     settings.set("contact.recovery_fraction", 0.2);
     settings.set("contact.recovery_speed", 0.5);
+    settings.set("contact.solver", std::string("nlgs"));
     settings.set("coupling.scheme", std::string("split"));
     settings.set("coupling.positions", std::string("corrected"));
     settings.set("limits.penetration", 0.2);

@@ -107,6 +107,19 @@ def motion(run):
     return ' '.join(text)
 
 
+def packing(run):
+    """How loose the packing became, and what of the contacts slides at the end."""
+    text = []
+    _, pores = run.column('pore_volume')
+    if len(pores) and pores[0] > 0.0:
+        text.append(f'Pores from {pores[0]:.4g} D^2 to {pores[-1]:.4g} D^2 '
+                    f'({100 * (pores[-1] / pores[0] - 1):+.3g} %).')
+    _, sliding = run.column('sliding_share')
+    if len(sliding):
+        text.append(f'Sliding contacts at the end: {100 * sliding[-1]:.3g} %.')
+    return ' '.join(text)
+
+
 def solvers(run):
     """The checks over all windows, and what the iterations cost on average."""
     text = []

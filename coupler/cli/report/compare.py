@@ -44,6 +44,8 @@ QUANTITIES = [
     Quantity('front_x', 'Front', r'$\max(x+R)\,/\,D$'),
     Quantity('kinetic_energy', 'Kinetic energy', r'energy $/\,(\Sigma m\,u_c^2)$'),
     Quantity('coordination', 'Coordination', 'contacts per grain'),
+    Quantity('fabric_anisotropy', 'Anisotropy of the contacts', 'fabric anisotropy'),
+    Quantity('pore_volume', 'Pores between the grains', r'area $/\,D^2$'),
     Quantity('max_penetration', 'Deepest overlap', r'overlap $/\,D$'),
     Quantity('contact_iterations', 'Contact solver', 'sweeps'),
     Quantity('contact_residual', 'Contact residual', 'scaled natural map', logarithmic=True),

@@ -53,6 +53,16 @@ MOTION = [
     Plot('Contacts with an impulse', 'count', [Curve('contacts', '')]),
 ]
 
+# What the contacts say about the packing, at the output times.
+NETWORK = [
+    Plot('Coordination', 'contacts per grain', [Curve('coordination', '')]),
+    Plot('Stress in the packing', r'stress $/\,(\rho_s g D)$',
+         [Curve('sigma_xx', r'$\sigma_{xx}$'), Curve('sigma_yy', r'$\sigma_{yy}$'),
+          Curve('sigma_xy', r'$\sigma_{xy}$')]),
+    Plot('Anisotropy of the contacts', 'fabric anisotropy', [Curve('fabric_anisotropy', '')]),
+    Plot('Pores between the grains', r'area $/\,D^2$', [Curve('pore_volume', '')]),
+]
+
 SOLVERS = [
     Plot('Residuals', 'dimensionless',
          [Curve('contact_residual', 'contact (scaled natural map)'),

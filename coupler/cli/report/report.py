@@ -91,6 +91,7 @@ def add_curves(page, run):
     for heading, name, plots, caption in (
             ('Mean motion', *motion),
             ('Speed, energy and contacts', 'motion', curves.MOTION, captions.motion),
+            ('Packing', 'packing', curves.NETWORK, captions.packing),
             ('Residuals and iterations', 'solvers', curves.SOLVERS, captions.solvers)):
         figure = curves.figure(run, plots)
         if figure is not None:

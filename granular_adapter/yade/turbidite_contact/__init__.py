@@ -10,7 +10,7 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import ForceResetter, NewtonIntegrator, Omega, PyRunner
 
 from . import host as _host
-from . import memory as _memory
+from . import memory
 from .parts import disc, make_disc, polygon
 from .refusal import Refused
 
@@ -40,25 +40,33 @@ def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
         # Steps nothing: unbalancedForce and its like look for gravity there.
         NewtonIntegrator(gravity=Vector3(*settings['gravity']), damping=0.0, dead=True),
         PyRunner(command=_STEP, iterPeriod=1, initRun=True, label='turbidite_contact'),
-        _memory.holder(settings),
+        memory.holder(settings),
     ]
 
 
 def attach(gravity=(0.0, -9.81, 0.0), show=0, **contact):
-    """Sets O.engines to engines(...) followed by those of the present ones that neither collide nor integrate."""
+    """Sets O.engines to engines(...) followed by those of the present ones that neither collide nor integrate.
+
+    Impulses that the present engines or a scene saved by a coupled run hold are kept.
+    """
     replaced = ('ForceResetter', 'InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator',
                 'GlobalStiffnessTimeStepper')
-    kept = [engine for engine in O.engines
-            if type(engine).__name__ not in replaced and not engine.label.startswith('turbidite_contact')]
-    O.engines = engines(gravity, show, **contact) + kept
+    present = O.engines
+    kept = [engine for engine in present
+            if type(engine).__name__ not in replaced and not engine.label.startswith('turbidite')]
+    ours = engines(gravity, show, **contact)
+    for engine in present:
+        if engine.label == memory.LABEL:
+            memory.write(ours[-1], memory.read(ours[-1])[0], memory.read(engine)[1])
+    O.engines = ours + kept
 
 
 def step():
     """One step of O.dt: what the PyRunner of engines() calls."""
     global _present
-    store = _memory.find()
-    if _present is None or _present.stamp != store.iterLast:
-        _present = _host.Host(*_memory.read(store), store.iterLast)
+    store = memory.find()
+    if _present is None or not memory.is_marked(store, _present.mark):
+        _present = _host.Host(*memory.read(store), memory.mark(store))
     _present.step(store)
 
 
@@ -87,10 +95,11 @@ def show():
 def refresh():
     """Reads shapes and states anew before the next step: after a script exchanged a body's state or changed
     the shape of one. Additions, erasures, masses, degrees of freedom, materials and walls are noticed anyway."""
-    _stepped().scene = None
+    if _present is not None:
+        _present.scene = None
 
 
 def _stepped():
-    if _present is None:
-        raise Refused('turbidite_contact: no step has been made yet')
+    if _present is None or not memory.is_marked(memory.find(), _present.mark):
+        raise Refused('turbidite_contact: no step of this scene has been made yet')
     return _present

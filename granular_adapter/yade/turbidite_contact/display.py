@@ -20,8 +20,10 @@ def show(contacts, impulses, dt):
     for body, impulse, moment in impulses:
         O.forces.addF(body, Vector3(*impulse) / dt)
         O.forces.addT(body, Vector3(*moment) / dt)
-    for body, force in wall_forces(contacts).items():
-        O.forces.addF(body, force)
+    for contact in contacts:
+        if contact.wall:  # no body of the engine
+            O.forces.addF(contact.id1, -contact.force)
+            O.forces.addT(contact.id1, (contact.point - O.bodies[contact.id1].state.pos).cross(-contact.force))
     if impulses:  # summed up now: ForceResetter leaves alone what was added since the last sum
         O.forces.f(impulses[0][0], True)
 
@@ -55,11 +57,3 @@ def forces(points):
     phys.shearForce = sum((p.shear_force for p in points), Vector3.Zero)
     return phys
 
-
-def wall_forces(contacts):
-    """Reaction on every wall, which is no body of the engine."""
-    result = {}
-    for contact in contacts:
-        if contact.wall:
-            result[contact.id1] = result.get(contact.id1, Vector3.Zero) - contact.force
-    return result

@@ -38,10 +38,10 @@ class Contact:
 
 
 class Host:
-    """`settings` as above; `stamp` names the text in the store that this engine is up to date with."""
+    """`settings` as above; `mark` is that of the store that this engine is up to date with."""
 
-    def __init__(self, settings, remembered, stamp):
-        self.settings, self.stamp = settings, stamp
+    def __init__(self, settings, remembered, mark):
+        self.settings, self.mark = settings, mark
         self.engine = turbidite_contact_engine.ContactEngine(settings['options'], settings['gravity'])
         if remembered:
             self.engine.restore_memory(remembered)
@@ -58,7 +58,7 @@ class Host:
         self.dt = O.dt
         self.report = self.engine.step(self.dt, *self.loads())
         self.count_unconverged()
-        self.stamp = memory.write(store, self.settings, self.engine.memory())
+        self.mark = memory.write(store, self.settings, self.engine.memory())
         every = self.settings['show']
         if every and O.iter % every == 0:
             self.show()

@@ -5,9 +5,9 @@ The object is a dead PyRunner at the end of O.engines, whose command is a commen
 
     # turbidite_contact {settings as JSON} {contact memory, base64}
 
-A scene that YADE loaded brings another text than the one last written here. To see that without
-comparing texts, every text is stamped: the holder's iterLast, which YADE keeps and a dead engine
-never uses, is the same random number on both sides.
+A scene that YADE loaded is another one, even where its text is the one last written here. To see that, the
+holder is marked with a random number in two places that a dead engine never uses: iterLast, which YADE saves,
+and execCount, which it does not.
 """
 import binascii
 import itertools
@@ -20,7 +20,7 @@ from .refusal import Refused
 
 LABEL = 'turbidite_contact_state'
 MARK = '# turbidite_contact'
-_stamps = itertools.count(random.SystemRandom().getrandbits(60))
+_marks = itertools.count(random.SystemRandom().getrandbits(60))
 
 
 def holder(settings):
@@ -40,10 +40,21 @@ def find():
 
 
 def write(runner, settings, contacts):
-    """Stores settings and contact memory; returns the stamp."""
+    """Stores settings and contact memory; returns the mark."""
     text = binascii.b2a_base64(contacts, newline=False).decode('ascii')
     runner.command = f'{MARK} {json.dumps(settings)} {text}'
-    runner.iterLast = next(_stamps)
+    runner.iterLast = runner.execCount = next(_marks)
+    return runner.iterLast
+
+
+def is_marked(runner, mark):
+    """Whether this very object, not one that was loaded, was written last with this mark."""
+    return runner.iterLast == mark and runner.execCount == mark
+
+
+def mark(runner):
+    """Marks what was loaded as known."""
+    runner.execCount = runner.iterLast
     return runner.iterLast
 
 

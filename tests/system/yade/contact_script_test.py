@@ -221,13 +221,15 @@ class SaveAndLoad(SceneTest):
         O.saveTmp('there')
         O.run(100, True)
         expected = states()
-        O.loadTmp('there')
-        O.run(100, True)
-        self.assertEqual(states(), expected)
-        for file in files:
-            O.load(file)
+        for file in (None, *files):
+            O.load(file) if file else O.loadTmp('there')
+            O.saveTmp('again')
+            O.loadTmp('again')  # at once: other bodies, the same impulses
+            self.assertNotEqual(states(), expected)
             O.run(100, True)
             self.assertEqual(states(), expected, file)
+        O.load(files[-1])
+        O.run(3, True)
         O.reload()
         O.run(100, True)
         self.assertEqual(states(), expected)

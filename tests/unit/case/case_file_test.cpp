@@ -221,11 +221,9 @@ TEST_F(CaseFile, MissingFileAndBadYaml) {
 }
 
 TEST_F(CaseFile, AdaptersOfLaterVersions) {
-    for (const char* adapter : {"yade-md", "lammps-md"}) {
-        const std::string text = refusal("", {std::string("grains.adapter=") + adapter});
-        EXPECT_SAYS(text, std::string(adapter) + " is not available in this version.");
-        EXPECT_SAYS(text, "Available: yade-nscd, standalone-nscd.");
-    }
+    const std::string text = refusal("", {"grains.adapter=lammps-md"});
+    EXPECT_SAYS(text, "lammps-md is not available in this version.");
+    EXPECT_SAYS(text, "Available: yade-nscd, standalone-nscd, yade-md.");
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-nsdc"}), "Use yade-nscd.");
 }
 

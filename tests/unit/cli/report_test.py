@@ -195,6 +195,14 @@ class Report(RunFolderTest):
         (time, path), = grain_files.grain_series(run_data.load_run(self.folder))
         self.assertEqual((time, path.name), (2.0, 'grains_7.vtp'))
 
+    def test_the_packing_is_shown_when_contacts_are_told(self):
+        self.write_all()
+        self.write('history.csv', 'step,time,pore_volume,coordination,sliding_share\n0,0,2,,\n'
+                   '10,1,2.5,3.2,0.25\n')
+        page = self.make()
+        self.assertIn('Pores from 2 D^2 to 2.5 D^2 (+25 %). Sliding contacts at the end: 25 %.', page)
+        self.assertIn('packing.png', self.pictures())
+
     def test_rest_is_when_the_speed_stays_small(self):
         self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.005\n3,3,0.02\n'
                    '4,4,0.009\n5,5,0.001\n')

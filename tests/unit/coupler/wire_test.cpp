@@ -72,6 +72,7 @@ TEST(Wire, ContactsComeBackBitForBit) {
     c.feature = 1;
     c.status = ContactStatus::rolling;
     c.gap = -tiny;
+    c.length = awkward;
     c.point = {awkward, 2, 3};
     c.normal = {4, 5, 6};
     c.branch = {7, 8, 9};
@@ -87,6 +88,7 @@ TEST(Wire, ContactsComeBackBitForBit) {
     EXPECT_EQ(d.feature, c.feature);
     EXPECT_EQ(d.status, c.status);
     EXPECT_EQ(d.gap, c.gap);
+    EXPECT_EQ(d.length, c.length);
     EXPECT_EQ(d.point, c.point);
     EXPECT_EQ(d.normal, c.normal);
     EXPECT_EQ(d.branch, c.branch);

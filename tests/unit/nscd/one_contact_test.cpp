@@ -42,19 +42,72 @@ class Problems {
     std::mt19937_64 random_{20111};
 };
 
-// The natural map is zero at solutions only. Rounding: conditions of W up to 1e4, slopes W_nn + s
-// mu W_nt down to about 1e-4 of W_nn: 1e-16 * 1e4 * 1e4 = 1e-8.
-TEST(OneContact, SolvesAMillionRandomProblems) {
+/// A rule in wide use: the side of the slide is the sign of r_t + mu r_n of the stick trial. Right
+/// while the trial presses; where strong coupling makes the trial pull, r_n < 0, a small r_t > 0 is
+/// taken for a slide to the other side.
+Plane customary_rule(const Block& w, const Plane& b, double friction) {
+    if (b[0] >= 0.0) return {0.0, 0.0};
+    const double det = w.nn * w.tt - w.nt * w.nt;
+    const Plane trial = {(w.nt * b[1] - w.tt * b[0]) / det, (w.nt * b[0] - w.nn * b[1]) / det};
+    if (std::abs(trial[1]) <= friction * trial[0]) return trial;
+    const double s = trial[1] + friction * trial[0] < 0.0 ? -1.0 : 1.0;
+    const double slide = -b[0] / (w.nn + s * friction * w.nt);
+    return {slide, s * friction * slide};
+}
+
+/// What a million problems with friction up to `most` are made of and how the rules fare.
+struct Census {
+    int failures = 0, customary_failures = 0;
+    int coupled = 0;  ///< |W_nt| above half of sqrt(W_nn W_tt)
+    int pulling = 0;  ///< closing contacts whose stick trial pulls
+};
+
+template <class MakeBlock>
+Census census(double most, MakeBlock make_block) {
     Problems problems;
-    int failures = 0;
+    Census count;
     for (int k = 0; k < 1000000; ++k) {
-        const Block w = k % 2 ? problems.one_body() : problems.any();
+        const Block w = make_block(problems, k);
         const Plane b = problems.velocity();
-        const double friction = problems.uniform(0.0, 2.0);
-        const Plane r = solve_contact(w, b, friction);
-        if (!(defect(w, b, friction, r) < 1e-8)) ++failures;
+        const double friction = problems.uniform(0.0, most);
+        count.coupled += std::abs(w.nt) > 0.5 * std::sqrt(w.nn * w.tt);
+        count.pulling += b[0] < 0.0 && w.nt * b[1] - w.tt * b[0] < 0.0;
+        const auto failed = [&](const Plane& r) { return !(defect(w, b, friction, r) < 1e-8); };
+        count.failures += failed(solve_contact(w, b, friction));
+        count.customary_failures += failed(customary_rule(w, b, friction));
     }
-    EXPECT_EQ(failures, 0);
+    return count;
+}
+
+// The natural map is zero at solutions only. Rounding: conditions of W up to 1e4, slopes W_nn + s
+// mu W_nt down to about 1e-4 of W_nn: 1e-16 * 1e4 * 1e4 = 1e-8. A customary rule fails where the
+// trial pulls, so these problems reach the branch that matters.
+TEST(OneContact, SolvesAMillionProblemsOfAnyCoupling) {
+    const Census count = census(2.0, [](Problems& p, int) { return p.any(); });
+    EXPECT_EQ(count.failures, 0);
+    EXPECT_GT(count.coupled, 500000);
+    EXPECT_GT(count.pulling, 50000);
+    EXPECT_GT(count.customary_failures, 1000);
+}
+
+// One body alone: the W that polygons have.
+TEST(OneContact, SolvesAMillionProblemsOfOneBody) {
+    const Census rough = census(2.0, [](Problems& p, int) { return p.one_body(); });
+    EXPECT_EQ(rough.failures, 0);
+    EXPECT_GT(rough.customary_failures, 1000);
+    const Census usual = census(1.0, [](Problems& p, int) { return p.one_body(); });
+    EXPECT_EQ(usual.failures, 0);
+    EXPECT_GT(usual.customary_failures, 10);
+}
+
+// By hand: W = (1, 1.5; 1.5, 4), b = (-1, -4), mu = 2. The trial (1.5 (-4) + 4, 1.5 (-1) + 4)/1.75 =
+// (-2, 2.5)/1.75 pulls. Slide with s = +1: r_n = 1/(1 + 3) = 0.25, r_t = 0.5, u_t = 0.375 + 2 - 4 <
+// 0, opposite to r_t. The customary rule takes s = -1, since 2.5 < 2 * 2, and then pulls: r_n =
+// 1/(1 - 3).
+TEST(OneContact, SlidesAlthoughTheTrialPulls) {
+    const Block w{1.0, 1.5, 4.0};
+    EXPECT_EQ(solve_contact(w, {-1.0, -4.0}, 2.0), (Plane{0.25, 0.5}));
+    EXPECT_EQ(customary_rule(w, {-1.0, -4.0}, 2.0)[0], -0.5);
 }
 
 // The check above must be able to fail: a slide to the wrong side is no solution.

@@ -33,6 +33,7 @@ Settings heap_settings() {
     s.set("contact.iterations", std::int64_t{100000});
     s.set("contact.recovery_fraction", 0.2);
     s.set("contact.recovery_speed", 0.5);
+    s.set("contact.solver", std::string("nlgs"));
     s.set("run.step", step);
     s.set("run.windows", std::int64_t{windows});
     s.set("run.output_every", std::int64_t{windows});

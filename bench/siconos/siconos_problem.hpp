@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A contact problem in Siconos' hands: its solvers, its error measure. Only tests and benchmarks link
+// this.
+//
+// Siconos' measure mixes impulses and velocities, so the problem is made dimensionless first: masses
+// by `mass`, velocities by `speed`. Vectors here are dimensionless, (n, t) of every contact in turn.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "granular_adapter/nscd/contact_problem.hpp"
+
+struct FrictionContactProblem;
+
+namespace turbidite::siconos {
+
+struct Scale {
+    double mass = 1.0;   ///< [kg]
+    double speed = 1.0;  ///< [m/s]; for packings at rest h g
+};
+
+/// The problem whose numbers are the dimensionless ones.
+nscd::ContactProblem dimensionless(const nscd::ContactProblem& problem, const Scale& scale);
+
+struct Solution {
+    std::vector<double> impulses, velocities;
+    int iterations = 0;
+    bool converged = false;
+    double seconds = 0.0;
+};
+
+class Problem {
+ public:
+    /// Through the text file of nscd/problem_file.hpp, which Siconos reads.
+    Problem(const nscd::ContactProblem& problem, const Scale& scale);
+    explicit Problem(const std::filesystem::path& file);
+    ~Problem();
+    Problem(const Problem&) = delete;
+    Problem& operator=(const Problem&) = delete;
+
+    int contacts() const;
+
+    /// fc2d_compute_error of these impulses, relative to the largest norm of q, r and u; the
+    /// velocities W r + q go to `velocities` if given.
+    double error(std::vector<double> impulses, std::vector<double>* velocities = nullptr) const;
+
+    /// W, n rows of n entries, for small problems.
+    std::vector<double> dense_matrix() const;
+    const double* q() const;
+    const double* friction() const;
+
+    /// fc2d_driver from zero impulses. `solver`: "nsgs" (any size), "lemke" or "cpg" (dense, small).
+    Solution solve(const std::string& solver, double tolerance, int most_iterations) const;
+
+ private:
+    std::unique_ptr<FrictionContactProblem, void (*)(FrictionContactProblem*)> problem_;
+};
+
+/// Impulses in N s as the dimensionless vector, and back.
+std::vector<double> flat(const nscd::Impulses& impulses, const Scale& scale);
+nscd::Impulses impulses_of(const std::vector<double>& flat, const Scale& scale);
+
+}  // namespace turbidite::siconos

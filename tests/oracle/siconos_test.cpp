@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Contact problems of our packings in the hands of Siconos (INRIA), an independent code: it reads our
+// files, judges our answers by its error measure, and solves the same problems; we judge its answers
+// by ours. Impulses of packings are not unique, velocities are.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/siconos/dry_column.hpp"
+#include "bench/siconos/same_measure.hpp"
+#include "bench/siconos/siconos_problem.hpp"
+#include "granular_adapter/nscd/delassus_matrix.hpp"
+#include "granular_adapter/nscd/residual.hpp"
+#include "granular_adapter/nscd/solver_list.hpp"
+#include "problems.hpp"
+
+namespace turbidite {
+namespace {
+
+using nscd::ContactProblem;
+using nscd::problems::random_problem;
+
+constexpr bench::DryColumn dense{.compacity = 0.9069, .width = 8.0, .height = 16.0};
+constexpr bench::DryColumn loose{.compacity = 0.7854, .width = 8.0, .height = 16.0};
+
+struct Named {
+    std::string name;
+    ContactProblem problem;
+};
+
+/// Dimensionless problems of a collapsing column.
+void take_problems(const std::string& name, const bench::DryColumn& column,
+                   std::vector<Named>& list) {
+    nscd::Engine engine = bench::dry_column(column);
+    const siconos::Scale scale{engine.bodies().mass.front(), column.step};
+    double now = 0.0;
+    for (const double time : {2.0, 4.0}) {
+        bench::play(engine, time - now, column.step);
+        now = time;
+        list.push_back({name + ", t = " + std::to_string(int(time)),
+                        siconos::dimensionless(engine.problem(), scale)});
+    }
+}
+
+const std::vector<Named>& problems_of_columns() {
+    static const std::vector<Named> list = [] {
+        std::vector<Named> all;
+        take_problems("dense", dense, all);
+        take_problems("loose", loose, all);
+        return all;
+    }();
+    return list;
+}
+
+nscd::SolverResult ours(const std::string& solver, const ContactProblem& problem,
+                        double tolerance, std::int64_t most_iterations = 300000) {
+    nscd::SolverSettings settings;
+    settings.tolerance = tolerance;
+    settings.max_iterations = most_iterations;
+    return nscd::make_solver(solver)->solve(problem, nscd::Impulses(problem.contacts.size()),
+                                            settings);
+}
+
+double norm(const std::vector<double>& x) {
+    double sum = 0.0;
+    for (const double value : x) sum += value * value;
+    return std::sqrt(sum);
+}
+
+std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+    return a;
+}
+
+TEST(SiconosReads, OurFilesBitForBit) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const ContactProblem problem = random_problem({.seed = seed});
+        const siconos::Problem read(problem, {});
+        const nscd::DelassusMatrix w(problem);
+        const std::size_t n = w.size();
+        ASSERT_EQ(read.contacts(), static_cast<int>(n));
+        std::vector<double> expected(4 * n * n, 0.0);
+        const auto put = [&](std::size_t k, std::size_t j, const std::array<double, 4>& block) {
+            for (int i = 0; i < 4; ++i)
+                expected[(2 * k + i % 2) + 2 * n * (2 * j + i / 2)] = block[i];
+        };
+        for (std::size_t k = 0; k < n; ++k) {
+            const nscd::Block& d = w.diagonal[k];
+            put(k, k, {d.nn, d.nt, d.nt, d.tt});
+            for (std::int64_t e = w.row_start[k]; e < w.row_start[k + 1]; ++e) {
+                const nscd::Coupling& c = w.coupling[e];
+                put(k, w.column[e], {c.by_n[0], c.by_n[1], c.by_t[0], c.by_t[1]});
+            }
+        }
+        EXPECT_EQ(read.dense_matrix(), expected);
+        const std::vector<nscd::Plane> q = nscd::free_contact_velocities(problem);
+        for (std::size_t k = 0; k < n; ++k) {
+            EXPECT_EQ(read.q()[2 * k], q[k][0]);
+            EXPECT_EQ(read.q()[2 * k + 1], q[k][1]);
+            EXPECT_EQ(read.friction()[k], problem.contacts[k].friction);
+        }
+    }
+}
+
+// Our function of the same name as theirs, at points that solve nothing.
+TEST(SiconosMeasure, IsWhatWeTakeItFor) {
+    for (const Named& named : problems_of_columns()) {
+        nscd::Impulses r(named.problem.contacts.size());
+        for (std::size_t k = 0; k < r.size(); ++k)
+            r[k] = {std::sin(double(k)) + 0.5, 0.2 * std::cos(3.0 * double(k)), 0.0};
+        const double theirs = siconos::Problem(named.problem, {}).error(siconos::flat(r, {}));
+        EXPECT_NEAR(siconos::error_measure(named.problem, r), theirs, 1e-12 * theirs);
+        EXPECT_GT(theirs, 1e-3);
+    }
+}
+
+class Solvers : public testing::TestWithParam<std::string> {};
+
+TEST_P(Solvers, PassTheMeasureOfSiconos) {
+    for (const Named& named : problems_of_columns()) {
+        const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-6);
+        EXPECT_TRUE(result.converged) << named.name << ": " << result.residual;
+        EXPECT_LT(siconos::Problem(named.problem, {}).error(siconos::flat(result.impulses, {})),
+                  1e-6)
+            << named.name;
+    }
+}
+
+TEST_P(Solvers, FindTheVelocitiesOfSiconos) {
+    for (const Named& named : problems_of_columns()) {
+        const siconos::Problem judge(named.problem, {});
+        const siconos::Solution theirs = judge.solve("nsgs", 1e-7, 100000);
+        ASSERT_TRUE(theirs.converged) << named.name;
+        EXPECT_LT(nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
+                  1e-6)
+            << named.name;
+        const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-6);
+        std::vector<double> u_ours, u_theirs;
+        judge.error(siconos::flat(result.impulses, {}), &u_ours);
+        judge.error(theirs.impulses, &u_theirs);
+        EXPECT_LT(norm(difference(u_ours, u_theirs)), 1e-5 * norm(u_theirs)) << named.name;
+    }
+}
+
+// A lattice that has hardly moved: sweeps change impulses for ever that no velocity depends on, ours
+// and those of Siconos alike.
+TEST(ProximalNewton, PassesTheMeasureOfSiconosWhereSweepsStall) {
+    nscd::Engine engine = bench::dry_column(dense);
+    bench::play(engine, 0.5, dense.step);
+    const ContactProblem problem = siconos::dimensionless(
+        engine.problem(), {engine.bodies().mass.front(), dense.step});
+    const siconos::Problem judge(problem, {});
+    EXPECT_FALSE(ours("nlgs", problem, 1e-6, 20000).converged);
+    EXPECT_FALSE(judge.solve("nsgs", 1e-6, 3000).converged);
+    const nscd::SolverResult result = ours("proximal-newton", problem, 1e-6);
+    EXPECT_TRUE(result.converged) << result.residual;
+    EXPECT_LT(judge.error(siconos::flat(result.impulses, {})), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ours, Solvers, testing::Values("nlgs", "nlgs-stored", "proximal-newton"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+/// Open, sticking, sliding.
+std::array<int, 3> statuses(const ContactProblem& problem, const std::vector<double>& r) {
+    std::array<int, 3> count{};
+    const double size = norm(r);
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+        const double n = r[2 * k], t = std::abs(r[2 * k + 1]);
+        const bool open = n < 1e-7 * size;
+        const bool slides = t > problem.contacts[k].friction * n - 1e-7 * size;
+        ++count[open ? 0 : slides ? 2 : 1];
+    }
+    return count;
+}
+
+// One contact per body, so that W is regular: impulses and statuses are unique.
+TEST(Siconos, AgreesOnImpulsesAndStatusesWhereTheyAreUnique) {
+    std::array<int, 3> seen{};
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const ContactProblem problem =
+            random_problem({.bodies = 15, .extra_contacts = 0, .friction = 0.6, .seed = seed});
+        const siconos::Problem judge(problem, {});
+        const siconos::Solution theirs = judge.solve("nsgs", 1e-12, 300000);
+        ASSERT_TRUE(theirs.converged) << seed;
+        for (const nscd::SolverEntry& entry : nscd::solver_list()) {
+            const nscd::SolverResult result = ours(entry.name, problem, 1e-12);
+            const std::vector<double> r = siconos::flat(result.impulses, {});
+            EXPECT_LT(norm(difference(r, theirs.impulses)), 1e-8 * norm(r)) << seed << entry.name;
+            EXPECT_EQ(statuses(problem, r), statuses(problem, theirs.impulses)) << seed;
+            EXPECT_LT(judge.error(r), 1e-10);
+        }
+        for (int s = 0; s < 3; ++s) seen[s] += statuses(problem, theirs.impulses)[s];
+    }
+    for (const int count : seen) EXPECT_GT(count, 10);
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What every solver of solver_list must do.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "granular_adapter/nscd/delassus_matrix.hpp"
+#include "granular_adapter/nscd/residual.hpp"
+#include "granular_adapter/nscd/solver_list.hpp"
+#include "problems.hpp"
+#include "scenes.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+using problems::random_problem;
+
+SolverSettings tight(double tolerance = 1e-10) {
+    SolverSettings settings;
+    settings.tolerance = tolerance;
+    settings.max_iterations = 200000;
+    return settings;
+}
+
+SolverResult solve(const std::string& solver, const ContactProblem& problem,
+                   const SolverSettings& settings) {
+    return make_solver(solver)->solve(problem, Impulses(problem.contacts.size()), settings);
+}
+
+bool same_bits(const Impulses& a, const Impulses& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+/// Weight on a floor and against two walls, at rest: hyperstatic, W is singular.
+ContactProblem settled_problem() {
+    EngineSettings settings = scenes::exact(0.3, 1e-6);
+    Engine engine = scenes::settling_pack(8, 8, settings);
+    scenes::run(engine, 6.0, 0.02);
+    engine.step(0.02);
+    return engine.problem();
+}
+
+class EverySolver : public testing::TestWithParam<std::string> {};
+
+TEST_P(EverySolver, SolvesProblemsWithAnyMobilityAndArms) {
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        const ContactProblem problem = random_problem({.dragging = seed % 2 == 0, .seed = seed});
+        const SolverResult result = solve(GetParam(), problem, tight());
+        EXPECT_TRUE(result.converged) << "seed " << seed << ", residual " << result.residual;
+        EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-10);
+        EXPECT_EQ(natural_map_residual(problem, result.impulses), result.residual);
+        for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+            const Vec3& r = result.impulses[k];
+            EXPECT_GE(r[0], 0.0);
+            EXPECT_LE(std::abs(r[1]), problem.contacts[k].friction * r[0] * (1.0 + 1e-15));
+        }
+    }
+}
+
+TEST_P(EverySolver, SolvesASettledPackingToEightDigits) {
+    const ContactProblem problem = settled_problem();
+    ASSERT_GT(problem.contacts.size(), 100u);
+    const SolverResult result = solve(GetParam(), problem, tight(1e-8));
+    EXPECT_TRUE(result.converged) << result.residual;
+    EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
+}
+
+TEST_P(EverySolver, FindsTheVelocitiesOfNlgs) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        const ContactProblem problem = random_problem({.friction = 0.5, .seed = seed});
+        const SolverResult a = solve("nlgs", problem, tight(1e-12));
+        const SolverResult b = solve(GetParam(), problem, tight(1e-12));
+        for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+            EXPECT_LT(norm(a.velocities[i].velocity - b.velocities[i].velocity), 1e-9);
+            EXPECT_NEAR(a.velocities[i].spin[2], b.velocities[i].spin[2], 1e-9);
+        }
+    }
+}
+
+TEST_P(EverySolver, GivesTheVelocitiesOfItsImpulses) {
+    const ContactProblem problem = random_problem({.seed = 7});
+    for (const std::int64_t most : {1, 100000}) {
+        SolverSettings settings = tight();
+        settings.max_iterations = most;
+        const SolverResult result = solve(GetParam(), problem, settings);
+        const std::vector<Twist> v = body_velocities(problem, result.impulses);
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            EXPECT_LT(norm(v[i].velocity - result.velocities[i].velocity), 1e-13);
+            EXPECT_LT(norm(v[i].spin - result.velocities[i].spin), 1e-13);
+        }
+    }
+}
+
+TEST_P(EverySolver, SaysThatItDidNotConverge) {
+    const ContactProblem problem = settled_problem();
+    SolverSettings settings = tight();
+    settings.max_iterations = 3;
+    const SolverResult result = solve(GetParam(), problem, settings);
+    EXPECT_FALSE(result.converged);
+    EXPECT_EQ(result.iterations, 3);
+    EXPECT_GT(result.residual, 1e-10);
+    EXPECT_EQ(natural_map_residual(problem, result.impulses), result.residual);
+    EXPECT_GT(result.change.max, 0.0);
+}
+
+TEST_P(EverySolver, StartsFromTheGuess) {
+    const ContactProblem problem = settled_problem();
+    const auto solver = make_solver(GetParam());
+    const SolverResult cold = solve(GetParam(), problem, tight(1e-6));
+    const SolverResult warm = solver->solve(problem, cold.impulses, tight(1e-6));
+    EXPECT_LE(warm.iterations, 1);
+    EXPECT_TRUE(warm.converged);
+}
+
+TEST_P(EverySolver, GivesTheSameBitsTwice) {
+    const ContactProblem problem = settled_problem();
+    const SolverResult a = solve(GetParam(), problem, tight(1e-8));
+    const SolverResult b = solve(GetParam(), problem, tight(1e-8));
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_TRUE(same_bits(a.impulses, b.impulses));
+}
+
+TEST_P(EverySolver, HasNothingToDoWithoutContacts) {
+    ContactProblem problem;
+    problem.bodies = {{1.0, 1.0}};
+    problem.free = {{{1.0, 2.0, 0.0}, {}}};
+    const SolverResult result = solve(GetParam(), problem, tight());
+    EXPECT_TRUE(result.converged);
+    EXPECT_EQ(result.velocities[0].velocity, (Vec3{1.0, 2.0, 0.0}));
+}
+
+TEST_P(EverySolver, RefusesSettingsThatMeanNothing) {
+    SolverSettings settings;
+    settings.tolerance = 0.0;
+    EXPECT_THROW(solve(GetParam(), random_problem({}), settings), std::invalid_argument);
+}
+
+std::vector<std::string> names() {
+    std::vector<std::string> result;
+    for (const SolverEntry& entry : solver_list()) result.push_back(entry.name);
+    return result;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+    std::string name = info.param;
+    for (char& c : name)
+        if (c == '-') c = '_';
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(names()), test_name);
+
+// The iterates of nlgs, sweep by sweep.
+TEST(NlgsStored, SweepsLikeNlgs) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const ContactProblem problem = random_problem({.seed = seed});
+        for (const std::int64_t most : {1, 2, 5}) {
+            SolverSettings settings = tight();
+            settings.max_iterations = most;
+            const SolverResult a = solve("nlgs", problem, settings);
+            const SolverResult b = solve("nlgs-stored", problem, settings);
+            for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+                for (int d = 0; d < 2; ++d)
+                    EXPECT_NEAR(a.impulses[k][d], b.impulses[k][d], 1e-12 * std::abs(a.impulses[k][0]) + 1e-13);
+        }
+    }
+}
+
+TEST(NlgsStored, RefusesRollingByName) {
+    const ContactProblem problem = random_problem({.rolling = 0.1});
+    try {
+        solve("nlgs-stored", problem, tight());
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("nlgs-stored"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("rolling"), std::string::npos);
+    }
+}
+
+// Blocks of contacts that share one body, two bodies, or none that moves.
+TEST(DelassusMatrix, IsTheDenseProduct) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const ContactProblem problem =
+            random_problem({.bodies = 6, .extra_contacts = 12, .seed = seed});
+        const Eigen::MatrixXd reference = problems::dense_delassus(problem);
+        const DelassusMatrix w(problem);
+        Eigen::MatrixXd found = Eigen::MatrixXd::Zero(reference.rows(), reference.cols());
+        for (std::size_t k = 0; k < w.size(); ++k) {
+            const Block& own = w.diagonal[k];
+            found.block<2, 2>(2 * k, 2 * k) << own.nn, own.nt, own.nt, own.tt;
+            for (std::int64_t e = w.row_start[k]; e < w.row_start[k + 1]; ++e) {
+                const Coupling& c = w.coupling[e];
+                found.block<2, 2>(2 * k, 2 * w.column[e]) << c.by_n[0], c.by_t[0], c.by_n[1],
+                    c.by_t[1];
+            }
+        }
+        EXPECT_LT((found - reference).norm(), 1e-13 * reference.norm());
+        EXPECT_EQ((found - found.transpose()).norm(), 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace turbidite::nscd
