@@ -52,8 +52,6 @@ Verdict range_of_neighbours(const Settings& s) {
     return Objection{"Adhesion acts between neighbours: up to 1 D.", "Use a smaller range."};
 }
 
-}  // namespace
-
 bool resists_rolling(const Settings& s) {
     return s.real("contact.rolling_friction") > 0.0;
 }
@@ -73,6 +71,8 @@ Verdict dumps_know_rolling(const Settings& s) {
                                  s.text("contact.rolling_friction")),
                      "Remove one of the two."};
 }
+
+}  // namespace
 
 const std::vector<Rule>& law_rules() {
     static const std::vector<Rule> table = {

@@ -12,6 +12,11 @@ namespace {
 // matters to a contact.
 constexpr double same_share = 1e-9;
 
+// Two corners this close along a side, as a share of the smaller radius, are one place with one
+// name. Exact alignment is where equal grains settle, so the name must not change there; it changes
+// at an offset that is nothing special.
+constexpr double near_share = 0.01;
+
 /// A side and the lowest corner of the other polygon over it.
 struct Axis {
     double separation = -std::numeric_limits<double>::infinity();
@@ -117,6 +122,16 @@ struct Facing {
     }
 
     int end_corner(bool far) const { return far ? reference.after(side) : side; }
+
+    /// The incident corner at `place`, over the reference or beyond its end, as a point at (t, h):
+    /// named by the one of the two corners there that lies inside the other polygon's side.
+    ManifoldPoint end_point(double t, double h, const Place& place, bool clipped) const {
+        const bool far = place.t > 0.5 * length;
+        const double near = near_share * std::min(reference.radius, incident.radius);
+        const bool one_place = std::abs(place.t - (far ? length : 0.0)) < near;
+        const bool by_incident = one_place ? flip : !clipped;
+        return point(t, h, by_incident ? place.corner : end_corner(far), by_incident);
+    }
 };
 
 /// Share of the way from a to b at which the incident side is nearest to an end of the reference.
@@ -160,13 +175,13 @@ Overlap overlap(const Place& p, const Place& q, double length, double same) {
 }
 
 ManifoldPoint first_point(const Facing& f, const Place& p, const Place& q, const Overlap& o) {
-    if (!o.outside) return f.point(p.t, p.h, p.corner, true);
+    if (!o.outside) return f.end_point(p.t, p.h, p, false);
     const int end_corner = f.end_corner(o.beyond);
     const double share = p.h > 0.0 ? nearest_share(p, q, o.start) : 0.5;
     // Sides that lie flat on each other within rounding: the end of the common part counts.
     if (o.shared && share > 0.0 && share < 1.0)
-        return f.point(o.start, height_at(p, q, o.start), end_corner, false);
-    if (!(p.h > 0.0)) return f.point(o.start, p.h, p.corner, true);
+        return f.end_point(o.start, height_at(p, q, o.start), p, true);
+    if (!(p.h > 0.0)) return f.end_point(o.start, p.h, p, false);
     return beyond_end(f, o.start, p.t + share * (q.t - p.t), p.h + share * (q.h - p.h), end_corner,
                       share < 1.0 ? p.corner : q.corner);
 }
@@ -175,9 +190,8 @@ ManifoldPoint first_point(const Facing& f, const Place& p, const Place& q, const
 ManifoldPoint second_point(const Facing& f, const Place& p, const Place& q) {
     const bool ahead = q.t > p.t;
     const double end = ahead ? f.length : 0.0;
-    if (ahead ? q.t > end : q.t < end)
-        return f.point(end, height_at(p, q, end), f.end_corner(ahead), false);
-    return f.point(q.t, q.h, q.corner, true);
+    if (ahead ? q.t > end : q.t < end) return f.end_point(end, height_at(p, q, end), q, true);
+    return f.end_point(q.t, q.h, q, false);
 }
 
 double common_length(const Facing& f, const Place& q, const Overlap& o) {

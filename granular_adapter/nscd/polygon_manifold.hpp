@@ -18,7 +18,8 @@
 //
 // Every point is named by a corner: of the end of an overlap of two sides, one polygon's corner is
 // the reason, whichever of the two is the reference. Names thus stay when the reference changes, as
-// it does by rounding between sides that lie flat on each other.
+// it does by rounding between sides that lie flat on each other. Where a corner of each is at the
+// end, within 1 % of the smaller radius, the first polygon's gives the name.
 #pragma once
 
 #include <array>

@@ -244,6 +244,18 @@ TEST(PolygonDetection, KeepsBothPointsOfAlignedSides) {
             }
 }
 
+// Sides that end together: whichever corner is the inner one by rounding, the names stay, and the
+// two points have different ones.
+TEST(PolygonDetection, NamesStayWhereCornersMeet) {
+    const auto expected = features(between(squares(), two_squares(0.0, 1.0), 0, 1, 0.05));
+    ASSERT_EQ(expected.size(), 2u);
+    for (const double shift : {-1e-3, -1e-6, -1e-12, 1e-12, 1e-6, 1e-3})
+        for (const double tilt : {-1e-6, 0.0, 1e-6}) {
+            const auto points = between(squares(), two_squares(shift, 1.0, tilt), 0, 1, 0.05);
+            EXPECT_EQ(features(points), expected) << shift << " " << tilt;
+        }
+}
+
 // The least gap of a body that moves by less than d changes by less than d.
 TEST(PolygonDetection, GapIsContinuous) {
     std::mt19937_64 random(9);
