@@ -34,7 +34,8 @@ class Network:
 def figure(run, networks):
     """The networks side by side, lines as wide as their force over one scale for all."""
     scale = force_scale(networks)
-    result, axes, size = pictures.frame(run, [network.grains for network in networks])
+    result, axes, size = pictures.frame(run, [network.grains for network in networks],
+                                        pictures.LABEL_WIDTH)
     for network, place in zip(networks, axes.flat):
         grain_drawing.draw(place, network.grains, run.scale('D'), alpha=0.45)
         place.add_collection(lines(network, scale))

@@ -17,6 +17,8 @@ MOST_PICTURES = 6
 SAME_TIME = 0.01
 FIGURE_WIDTH = 11.0    # inches
 LARGEST_HEIGHT = 7.0   # of one picture
+BAR_WIDTH = 1.5        # of a colour bar and the labels
+LABEL_WIDTH = 0.5      # of the labels alone
 # A few cells in a narrow gap can be much faster than the rest; colours end below this part of them.
 COLOURED_PART = 0.999
 SPEED_COLOURS = 'viridis'
@@ -120,17 +122,18 @@ def figure(run, pictures):
     return result
 
 
-def frame(run, all_grains):
-    """A figure with a place for each, its axes, and the width and height that each shows [D]."""
+def frame(run, all_grains, beside=BAR_WIDTH):
+    """A figure with a place for each, its axes, and the width and height that each shows [D]; `beside`
+    inches are left for labels and a colour bar."""
     width, height = view(run, all_grains)
     columns = columns_for(len(all_grains), height / width)
     rows = -(-len(all_grains) // columns)
-    place_width = (FIGURE_WIDTH - 1.5) / columns
+    place_width = (FIGURE_WIDTH - BAR_WIDTH) / columns
     place_height = min(place_width * height / width, LARGEST_HEIGHT)
     drawn_width = columns * place_height * width / height
     result, axes = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True,
                                 layout='constrained',
-                                figsize=(drawn_width + 1.5, rows * (place_height + 0.35) + 0.35))
+                                figsize=(drawn_width + beside, rows * (place_height + 0.45) + 0.35))
     for unused in list(axes.flat)[len(all_grains):]:
         unused.set_axis_off()
     for place in axes[:, 0]:
