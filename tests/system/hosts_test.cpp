@@ -47,5 +47,25 @@ TEST_F(Hosts, TrianglesFallTheSameInYadeAndAlone) {
     EXPECT_EQ(in_yade, alone);
 }
 
+// One plate at rest, one that turns about its middle.
+TEST_F(Hosts, PlatesInsideTheBoxActTheSame) {
+    scratch.write("walls.csv",
+                  "id,x1,y1,x2,y2,vx,vy,spin,px,py\n1,1,3,5,2,0,0,0,3,2.5\n"
+                  "2,5,5,8,6,0,0,0.5,6.5,5.5\n");
+    std::string grains = "id,x,y\n";
+    for (int k = 0; k < 15; ++k)
+        grains += std::to_string(k) + "," + std::to_string(1.2 + 1.5 * (k % 5)) + "," +
+                  std::to_string(7.0 + 1.5 * (k / 5)) + "\n";
+    scratch.write("grains.csv", grains);
+    scratch.write("case.yaml",
+                  "domain: {size: [9, 14], walls_file: walls.csv}\n"
+                  "grains: {shape: triangle, file: grains.csv, density_ratio: 1.5}\n"
+                  "fluid: {enabled: false}\ncontact: {friction: 0.3}\n"
+                  "time: {step: 0.005, end: 4}\noutput: {interval: 1}\n");
+    const auto in_yade = physics("yade-nscd"), alone = physics("standalone-nscd");
+    ASSERT_EQ(in_yade.size(), 6u);
+    EXPECT_EQ(in_yade, alone);
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -13,7 +13,7 @@ namespace {
 
 const std::string program = TURBIDITE_PROGRAM;
 
-constexpr int rows = 6, columns = 5, steps = 150;
+constexpr int rows = 6, columns = 5, steps = 400;
 constexpr double step = 4e-3, density = 2500.0, rough = 0.6, smooth = 0.1;
 
 // Discs of two sizes and materials fall on a fixed and a driven one, between three walls.
@@ -33,7 +33,7 @@ O.bodies[31].state.vel, O.bodies[31].state.angVel = Vector3(0.25, 0, 0), Vector3
 O.bodies.append([utils.wall(0, 1, material=1), utils.wall(0, 0, material=1), utils.wall(6.5, 0, material=1)])
 O.dt = 4e-3
 O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0), theta=0.5)
-O.run(150, True)
+O.run(400, True)
 with open('states.txt', 'w') as file:
     for body in (O.bodies[i] for i in range(32)):
         s = body.state
