@@ -114,7 +114,7 @@ TEST_F(MolecularDynamics, StepsAsItsStiffnessAsks) {
 TEST_F(MolecularDynamics, ASettlingDiscMovesAsUnderContactDynamics) {
     wet("[4, 5]", "1,2.03,3.4\n", "0.6");
     const Columns nscd = play("nscd", " --set grains.adapter=yade-nscd");
-    EXPECT_LT(nscd.at("mean_velocity_y").back(), -0.1);
+    EXPECT_LT(nscd.at("mean_velocity_y").back(), -0.05);  // it falls
     for (const std::string hold : {"true", "false"}) {
         const Columns md = play("md-" + hold, " --set coupling.md_hold=" + hold);
         for (const char* name :
