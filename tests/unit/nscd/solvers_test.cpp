@@ -162,7 +162,8 @@ TEST(NlgsStored, SweepsLikeNlgs) {
             const SolverResult b = solve("nlgs-stored", problem, settings);
             for (std::size_t k = 0; k < problem.contacts.size(); ++k)
                 for (int d = 0; d < 2; ++d)
-                    EXPECT_NEAR(a.impulses[k][d], b.impulses[k][d], 1e-12 * std::abs(a.impulses[k][0]) + 1e-13);
+                    EXPECT_NEAR(a.impulses[k][d], b.impulses[k][d],
+                                1e-12 * std::abs(a.impulses[k][0]) + 1e-13);
         }
     }
 }
