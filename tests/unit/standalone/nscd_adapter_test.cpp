@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <unistd.h>
+#include <algorithm>
 
 #include <algorithm>
 #include <cmath>
@@ -251,8 +251,8 @@ TEST(NscdAdapter, RemovesAndCountsGrainsPastAFreeSide) {
     EXPECT_EQ(adapter.advance(window(2), {}).report.removed, 0);
 }
 
-// Two discs on top of each other, the upper one thrown out through the right side: contacts are told when output
-// is due, as they were solved, and without the one that left.
+// Two discs on top of each other, the upper one thrown out through the right side: contacts are
+// told when output is due, as they were solved, and without the one that left.
 TEST(NscdAdapter, TellsContactsInWindowsWithOutput) {
     Settings settings = box_settings();
     settings.set("domain.right", std::string("free"));
@@ -369,8 +369,7 @@ TEST(NscdAdapter, SaysWhatItIs) {
     EXPECT_EQ(hello.host_code, "YADE 2023.02a");
     EXPECT_FALSE(hello.adapter_version.empty());
     EXPECT_EQ(hello.role, Role::grains);
-    EXPECT_EQ(hello.capabilities.shapes,
-              (std::vector<std::string>{"disc", "polygon", "triangle"}));
+    EXPECT_EQ(hello.capabilities.shapes, (std::vector<std::string>{"disc", "polygon", "triangle"}));
     const std::vector<std::string>& laws = hello.capabilities.contact_laws;
     for (const char* law : {"coulomb", "static-dynamic", "moreau", "capillary"})
         EXPECT_NE(std::find(laws.begin(), laws.end(), law), laws.end()) << law;
@@ -564,7 +563,8 @@ std::vector<std::string> dumps(const Settings& settings, std::int64_t windows, s
     std::filesystem::remove_all(folder);
     NscdAdapter adapter;
     adapter.set_run_folder(folder);
-    Motion motion = adapter.initialise(settings, discs, {grain_at(1, 5.0, 0.5), grain_at(2, 5.0, 1.5)});
+    Motion motion =
+        adapter.initialise(settings, discs, {grain_at(1, 5.0, 0.5), grain_at(2, 5.0, 1.5)});
     for (std::int64_t n = 0; n < windows; ++n) {
         motion = adapter.advance(window(n), {});
         motion = adapter.apply_kick(window(n), same_velocities(motion));
