@@ -39,8 +39,8 @@ nscd::Engine dry_column(const DryColumn& column) {
     settings.solver_settings.max_iterations = 5000;
     nscd::Engine engine(settings, {{"disc", {}}},
                         {wall(1, {0.0, 1.0, 0.0}, 0.3), wall(2, {1.0, 0.0, 0.0}, 0.3)});
-    const PackingResult packing = lattice_packing(
-        {.box = {column.width, column.height}, .compacity = column.compacity});
+    const PackingResult packing =
+        lattice_packing({.box = {column.width, column.height}, .compacity = column.compacity});
     if (!packing.refusal.empty()) throw std::invalid_argument(packing.refusal);
     for (const PlacedGrain& grain : packing.grains) engine.bodies().add(disc(grain));
     return engine;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The dry column of the paper (Topin 2011, Fig. 8a) with the bare engine: a lattice of discs D = 1 in
-// the corner of a left wall and a floor, free to the right, mu = 0.3, no restitution, g = 1, density
-// 1; t_c = 1. The source of contact problems for tests and benchmarks.
+// The dry column of the paper (Topin 2011, Fig. 8a) with the bare engine: a lattice of discs D = 1
+// in the corner of a left wall and a floor, free to the right, mu = 0.3, no restitution, g = 1,
+// density 1; t_c = 1. The source of contact problems for tests and benchmarks.
 #pragma once
 
 #include "granular_adapter/nscd/engine.hpp"
@@ -11,8 +11,8 @@ namespace turbidite::bench {
 
 struct DryColumn {
     double compacity = 0.9069;
-    double width = 25.0;     ///< [D]
-    double height = 50.0;    ///< [D]
+    double width = 25.0;      ///< [D]
+    double height = 50.0;     ///< [D]
     double tolerance = 1e-3;  ///< of the solver that plays it
     double step = 0.01;       ///< [t_c]
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// turbidite-bench-siconos: Siconos' NSGS and our solvers on the same contact problems, the dry column
-// at several times. Everybody starts from zero impulses and stops at the same error measure; at the
-// end Siconos' own function judges all answers.
+// turbidite-bench-siconos: Siconos' NSGS and our solvers on the same contact problems, the dry
+// column at several times. Everybody starts from zero impulses and stops at the same error measure;
+// at the end Siconos' own function judges all answers.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>

@@ -25,8 +25,8 @@ std::vector<std::string> line(const Site& site, const std::filesystem::path& res
                       "libsiconos-numerics-dev; then remove build/release and build again)");
     std::vector<std::string> words{program, "--result", result, "--solvers", ours};
     if (site.quick())
-        words.insert(words.end(), {"--width", "6", "--height", "12", "--times", "0.5", "1",
-                                   "--repeats", "1"});
+        words.insert(words.end(),
+                     {"--width", "6", "--height", "12", "--times", "0.5", "1", "--repeats", "1"});
     return words;
 }
 

@@ -7,9 +7,9 @@
 
 namespace turbidite::bench {
 
-/// Time of Siconos' NSGS over that of `nlgs` to the same error measure, 1e-4: geometric mean over the
-/// dense dry column at 2, 9 and 14 t_c. Throws Failure where Siconos was not there when the software
-/// was built.
+/// Time of Siconos' NSGS over that of `nlgs` to the same error measure, 1e-4: geometric mean over
+/// the dense dry column at 2, 9 and 14 t_c. Throws Failure where Siconos was not there when the
+/// software was built.
 Measured siconos_over_ours(Site& site);
 
 }  // namespace turbidite::bench

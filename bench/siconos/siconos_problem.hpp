@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A contact problem in Siconos' hands: its solvers, its error measure. Only tests and benchmarks link
-// this.
+// A contact problem in Siconos' hands: its solvers, its error measure. Only tests and benchmarks
+// link this.
 //
-// Siconos' measure mixes impulses and velocities, so the problem is made dimensionless first: masses
-// by `mass`, velocities by `speed`. Vectors here are dimensionless, (n, t) of every contact in turn.
+// Siconos' measure mixes impulses and velocities, so the problem is made dimensionless first:
+// masses by `mass`, velocities by `speed`. Vectors here are dimensionless, (n, t) of every contact
+// in turn.
 #pragma once
 
 #include <filesystem>
@@ -53,7 +54,8 @@ class Problem {
     const double* q() const;
     const double* friction() const;
 
-    /// fc2d_driver from zero impulses. `solver`: "nsgs" (any size), "lemke" or "cpg" (dense, small).
+    /// fc2d_driver from zero impulses. `solver`: "nsgs" (any size), "lemke" or "cpg" (dense,
+    /// small).
     Solution solve(const std::string& solver, double tolerance, int most_iterations) const;
 
  private:

@@ -61,6 +61,7 @@ constexpr const char* nscd_keys[] = {"contact.theta",
                                      "contact.recovery_speed",
                                      "contact.impact",
                                      "contact.solver",
+                                     "contact.dump_interval",
                                      "contact.restitution_tangential",
                                      "contact.restitution_speed",
                                      "coupling.positions"};

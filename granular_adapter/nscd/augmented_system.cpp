@@ -17,7 +17,9 @@ struct Root {
     double xx = 0.0, yx = 0.0, yy = 0.0, sx = 0.0, sy = 0.0, ss = 0.0;
 
     explicit Root(const BodyMobility& m) {
-        const auto over = [](double value, double pivot) { return pivot > 0.0 ? value / pivot : 0.0; };
+        const auto over = [](double value, double pivot) {
+            return pivot > 0.0 ? value / pivot : 0.0;
+        };
         xx = std::sqrt(m.xx);
         yx = over(m.xy, xx);
         sx = over(m.xs, xx);
@@ -59,9 +61,7 @@ void AugmentedSystem::add_end(Link& link, bool at_b, const Contact& contact,
                               const BodyMobility& body) const {
     const Root root(body);
     const Vec3& arm = at_b ? contact.arm_b : contact.arm_a;
-    const auto row = [&](const Vec3& e) {
-        return root.transposed(e[0], e[1], cross(arm, e)[2]);
-    };
+    const auto row = [&](const Vec3& e) { return root.transposed(e[0], e[1], cross(arm, e)[2]); };
     std::array<Row, 3>& rows = at_b ? link.at_b : link.at_a;
     rows = {row(contact.normal), row(contact.tangent), root.transposed(0.0, 0.0, 1.0)};
     (at_b ? link.b : link.a) = at_b ? contact.b : contact.a;

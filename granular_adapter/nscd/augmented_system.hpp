@@ -6,14 +6,14 @@
 //     u + P (r - c)  in the place of u,   P = alpha diag(W_kk)
 //
 // which, P being diagonal, gives r explicitly as a function S of u: Signorini's r_n =
-// max(0, c_n - u_n/P_n), then friction and rolling clamp c_t - u_t/P_t and c_w - w/P_w to mu r_n and
-// rolling r_n. With M^-1 = L L^T per body and v = v_free + L y what remains is
+// max(0, c_n - u_n/P_n), then friction and rolling clamp c_t - u_t/P_t and c_w - w/P_w to mu r_n
+// and rolling r_n. With M^-1 = L L^T per body and v = v_free + L y what remains is
 //
 //     G(y) = y - L^T H S(u(y)) = 0,      J = 1 - L^T H S'(u) H^T L
 //
 // three unknowns per body however many contacts there are. J is regular whatever the rank of W,
-// symmetric positive definite while no contact slides, and constant while none changes its status. A
-// solution with r = c solves the contact problem itself: Coulomb's exact law, not its convex
+// symmetric positive definite while no contact slides, and constant while none changes its status.
+// A solution with r = c solves the contact problem itself: Coulomb's exact law, not its convex
 // relative.
 #pragma once
 
@@ -40,8 +40,8 @@ class AugmentedSystem {
     /// J at the statuses of the last residual(); the pattern is the same every time.
     const Eigen::SparseMatrix<double>& jacobian() { return assemble(true); }
 
-    /// The same without what makes it unsymmetric, the dependence of sliding on the normal: symmetric
-    /// positive definite.
+    /// The same without what makes it unsymmetric, the dependence of sliding on the normal:
+    /// symmetric positive definite.
     const Eigen::SparseMatrix<double>& symmetric_jacobian() { return assemble(false); }
 
     /// y of the velocities that impulses r cause.

@@ -65,9 +65,9 @@ struct RowEntry {
 /// alike.
 void collect(std::vector<RowEntry>& row, const BodyMobility& body, const std::vector<End>& ends,
              std::int32_t k) {
-    const auto own = std::lower_bound(ends.begin(), ends.end(), k, [](const End& end, std::int32_t i) {
-        return end.contact < i;
-    });
+    const auto own =
+        std::lower_bound(ends.begin(), ends.end(), k,
+                         [](const End& end, std::int32_t i) { return end.contact < i; });
     for (const End& other : ends) {
         if (other.contact == k) continue;
         Coupling w;
@@ -93,8 +93,7 @@ DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
         diagonal.push_back(blocks.block(k));
         row.clear();
         for (const std::int32_t body : {contact.a, contact.b})
-            if (body >= 0 && !ends[body].empty())
-                collect(row, problem.bodies[body], ends[body], k);
+            if (body >= 0 && !ends[body].empty()) collect(row, problem.bodies[body], ends[body], k);
         std::stable_sort(row.begin(), row.end());
         for (const RowEntry& entry : row) {
             const bool same = std::int64_t(column.size()) > row_start.back() &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19) assembled: one 2x2 block (n, t) for every
-// pair of contacts that share a body which moves, in block compressed rows. [1/kg]
+// The Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19) assembled: one 2x2 block (n, t) for
+// every pair of contacts that share a body which moves, in block compressed rows. [1/kg]
 //
 // Symmetric to the last bit. Knows normal and tangent only, not rolling.
 #pragma once
@@ -15,17 +15,18 @@
 
 namespace turbidite::nscd {
 
-/// W_kj by columns: what a unit impulse along n, then along t, at contact j does to (u_n, u_t) at k.
+/// W_kj by columns: what a unit impulse along n, then along t, at contact j does to (u_n, u_t) at
+/// k.
 struct Coupling {
     Plane by_n{};
     Plane by_t{};
 };
 
 struct DelassusMatrix {
-    std::vector<Block> diagonal;             ///< W_kk
-    std::vector<std::int64_t> row_start;     ///< of contact k in the arrays below; one more entry
-    std::vector<std::int32_t> column;        ///< j != k, ascending within a row
-    std::vector<Coupling> coupling;          ///< W_kj
+    std::vector<Block> diagonal;          ///< W_kk
+    std::vector<std::int64_t> row_start;  ///< of contact k in the arrays below; one more entry
+    std::vector<std::int32_t> column;     ///< j != k, ascending within a row
+    std::vector<Coupling> coupling;       ///< W_kj
 
     explicit DelassusMatrix(const ContactProblem& problem);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // J step = G of an AugmentedSystem. J is unsymmetric where contacts slide, and a sparse LU
-// factorisation of it costs many times as much as a Cholesky factorisation of its symmetric part. So
-// BiCGSTAB with the latter as preconditioner comes first, and LU where that does not converge.
+// factorisation of it costs many times as much as a Cholesky factorisation of its symmetric part.
+// So BiCGSTAB with the latter as preconditioner comes first, and LU where that does not converge.
 #pragma once
 
 #include <Eigen/SparseCholesky>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Non-linear Gauss-Seidel on the assembled Delassus operator: contact by contact in the order given,
+// Non-linear Gauss-Seidel on the assembled Delassus operator: contact by contact in the order
+// given,
 //
 //     b = u_free,k + sum_{j != k} W_kj r_j,   r_k = exact solution of the contact alone
 //

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A contact problem as the text that Siconos reads (frictionContact_new_from_filename): find r, u with
+// A contact problem as the text that Siconos reads (frictionContact_new_from_filename): find r, u
+// with
 //
 //     u = W r + q,   q = H^T v_free + b,   Signorini-Coulomb between u and r
 //
@@ -25,8 +26,8 @@
 
 namespace turbidite::nscd {
 
-/// Throws std::invalid_argument when there is no contact or one that resists rolling: the format has
-/// no word for either.
+/// Throws std::invalid_argument when there is no contact or one that resists rolling: the format
+/// has no word for either.
 void write_problem(std::ostream& out, const ContactProblem& problem);
 
 }  // namespace turbidite::nscd

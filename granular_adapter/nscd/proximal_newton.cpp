@@ -33,8 +33,8 @@ struct Iterate {
     double residual = 0.0;
 };
 
-/// Proximal points, one from the other, with a weight that falls while they succeed. Their residuals
-/// may rise for a while before they fall.
+/// Proximal points, one from the other, with a weight that falls while they succeed. Their
+/// residuals may rise for a while before they fall.
 class ProximalPoints {
  public:
     explicit ProximalPoints(const ContactProblem& problem) : problem_(problem), system_(problem) {}
@@ -80,8 +80,9 @@ class ProximalPoints {
         }
     };
 
-    /// The proximal point around the centre: its velocities are y_, its impulses the system's. False,
-    /// and y_ as before, when Newton steps get stuck between statuses. Takes at least one step.
+    /// The proximal point around the centre: its velocities are y_, its impulses the system's.
+    /// False, and y_ as before, when Newton steps get stuck between statuses. Takes at least one
+    /// step.
     bool point(std::int64_t end) {
         system_.set_weight(weight_.value);
         system_.set_centre(centre_);
@@ -150,9 +151,8 @@ SolverResult ProximalNewton::solve(const ContactProblem& problem, const Impulses
         if (!(points->best().residual <= 10.0 * result.residual) || points->steps() == 0)
             points->restart({result.impulses, result.residual});
         const std::int64_t before = points->steps();
-        points->go_on(settings.tolerance,
-                      std::min(std::max(least_steps, sweeps / sweeps_per_step),
-                               settings.max_iterations - used));
+        points->go_on(settings.tolerance, std::min(std::max(least_steps, sweeps / sweeps_per_step),
+                                                   settings.max_iterations - used));
         used += points->steps() - before;
         result.converged = points->best().residual <= settings.tolerance;
         if (result.converged || used >= settings.max_iterations) break;

