@@ -9,7 +9,7 @@ namespace {
 
 const std::string careless =
     "--set fluid.enabled=false --set grains.count=16 --set contact.iterations=1 "
-    "--set time.step=2 --set output.interval=2 ";
+    "--set time.step=1 --set output.interval=1 ";
 
 TEST_F(FailingRun, OverlapEndsTheRun) {
     const Answer answer = shell(run_line(careless));

@@ -3,6 +3,8 @@
 // A small case for the coupler's tests: three discs in a 10 x 10 box, rho_s/rho_f = 1.5, g = 1.
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 
 #include "coupler/hub/hub.hpp"
@@ -50,7 +52,8 @@ inline std::vector<GrainState> test_population() {
 class TestFolder {
    public:
     explicit TestFolder(const std::string& name)
-        : path_(std::filesystem::temp_directory_path() / ("turbidite-" + name)) {
+        : path_(std::filesystem::temp_directory_path() /
+                ("turbidite-" + name + "-" + std::to_string(getpid()))) {
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }

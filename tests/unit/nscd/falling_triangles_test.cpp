@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "granular_adapter/nscd/vec3.hpp"
 #include "polygons.hpp"
 
@@ -42,14 +40,6 @@ double mean_speed(const Bodies& bodies) {
     return sum / static_cast<double>(bodies.size());
 }
 
-/// Contacts that carry more than `impulse`.
-std::set<ContactKey> carrying(const Engine& engine, double impulse) {
-    std::set<ContactKey> keys;
-    for (const RememberedContact& contact : engine.memory().contacts())
-        if (dt * contact.force[0] > impulse) keys.insert(contact.key);
-    return keys;
-}
-
 /// The deepest overlap over a time.
 double play(Engine& engine, double time) {
     double deepest = 0.0;
@@ -61,20 +51,32 @@ double play(Engine& engine, double time) {
     return deepest;
 }
 
-// They fall, tumble and come to rest without overlap; then nothing moves, and the contacts that
-// carry a grain are the same in every step.
+double largest_speed(const Bodies& bodies) {
+    double largest = 0.0;
+    for (const Twist& twist : bodies.twist) largest = std::max(largest, norm(twist.velocity));
+    return largest;
+}
+
+double largest_displacement(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+        largest = std::max(largest, norm(to[i] - from[i]));
+    return largest;
+}
+
+// They fall, tumble and come to rest without overlap; then nothing moves: no grain loses a fifth of
+// its support in any step, and none creeps. Which contacts carry is not asked: the packing is
+// hyperstatic, and loads wander between states that are all in balance.
 TEST(FallingTriangles, ComeToRestWithoutOverlapOrJitter) {
     Engine engine = falling_triangles();
-    EXPECT_LT(play(engine, 15.0), 1e-4);
-    const double weight = engine.bodies().mass[0] * dt;
-    const std::set<ContactKey> carriers = carrying(engine, weight);
-    EXPECT_GT(carriers.size(), 10u);
+    EXPECT_LT(play(engine, 20.0), 1e-4);
+    const std::vector<Vec3> start = engine.bodies().position;
     for (int n = 0; n < 200; ++n) {
         EXPECT_LT(play(engine, dt), 1e-5);
         ASSERT_LT(mean_speed(engine.bodies()), 1e-4);
-        const std::set<ContactKey> now = carrying(engine, 0.0);
-        for (const ContactKey& key : carriers) ASSERT_EQ(now.count(key), 1u) << n;
+        ASSERT_LT(largest_speed(engine.bodies()), 0.2 * dt);
     }
+    EXPECT_LT(largest_displacement(start, engine.bodies().position), 2e-5);
     double lowest = height;
     for (const Vec3& x : engine.bodies().position) lowest = std::min(lowest, x[1]);
     EXPECT_GE(lowest, 0.375 - 1e-5);  // a triangle that lies on its side
