@@ -198,6 +198,16 @@ double common_length(const Facing& f, const Place& q, const Overlap& o) {
     return std::abs(std::clamp(q.t, 0.0, f.length) - o.start);
 }
 
+/// Both ends of a common part shorter than the share above lie at one corner of the reference: the
+/// lowest corner of the incident side then names its point itself.
+void name_apart(const Facing& f, const Place& p, Manifold& manifold) {
+    ManifoldPoint& one = manifold.points[0];
+    const ManifoldPoint& other = manifold.points[1];
+    if (one.corner != other.corner || one.of_second != other.of_second) return;
+    one.corner = p.corner;
+    one.of_second = !f.flip;
+}
+
 Manifold clip(const Facing& f, int lowest, double alert, double same) {
     const Place p = f.place(lowest), q = f.place(f.other_end(lowest));
     const Overlap o = overlap(p, q, f.length, same);
@@ -210,6 +220,7 @@ Manifold clip(const Facing& f, int lowest, double alert, double same) {
     manifold.points[1] = second_point(f, p, q);
     if (!(manifold.points[1].gap < alert)) return manifold;
     manifold.count = 2;
+    name_apart(f, p, manifold);
     for (ManifoldPoint& point : manifold.points) point.length = 0.5 * length;
     return manifold;
 }

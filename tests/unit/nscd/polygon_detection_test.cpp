@@ -256,6 +256,20 @@ TEST(PolygonDetection, NamesStayWhereCornersMeet) {
         }
 }
 
+// A common part so short that both of its ends are at the same corner: two points, two names.
+TEST(PolygonDetection, NamesDifferOnShortCommonParts) {
+    for (const double shared : {1e-6, 1e-4, 1e-3, 5e-3, 2e-2})
+        for (const double side : {-1.0, 1.0})
+            for (const double tilt : {-1e-4, -1e-9, 0.0, 1e-9, 1e-4})
+                for (const double rise : {-1e-5, 0.0, 1e-5}) {
+                    const auto points =
+                        between(squares(), two_squares(side * (1.0 - shared), 1.0 + rise, tilt), 0,
+                                1, 0.05);
+                    EXPECT_EQ(features(points).size(), points.size())
+                        << shared << " " << side << " " << tilt << " " << rise;
+                }
+}
+
 // The least gap of a body that moves by less than d changes by less than d.
 TEST(PolygonDetection, GapIsContinuous) {
     std::mt19937_64 random(9);
