@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// When sweeping solvers look at the residual.
+// When sweeping solvers look at the residual, and the settings that all solvers refuse.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,10 @@ inline bool check_due(std::int64_t sweep_number, const SolverSettings& settings)
 }
 
 inline void check_settings(const SolverSettings& settings) {
-    if (!(settings.tolerance > 0.0) || settings.max_iterations < 1 || settings.check_interval < 1)
+    if (!(settings.tolerance > 0.0) || settings.max_iterations < 1 || settings.check_interval < 1 ||
+        settings.threads < 1)
         throw std::invalid_argument(
-            "contact solver: tolerance, iterations and check interval must be positive");
+            "contact solver: tolerance, iterations, check interval and threads must be positive");
 }
 
 }  // namespace turbidite::nscd

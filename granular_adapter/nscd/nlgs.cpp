@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "granular_adapter/nscd/check_schedule.hpp"
 #include "granular_adapter/nscd/delassus.hpp"
 #include "granular_adapter/nscd/residual.hpp"
 #include "granular_adapter/nscd/sweep_layout.hpp"
@@ -31,13 +32,6 @@ constexpr std::size_t threaded_contacts = 4000;
 
 int useful_threads(const SolverSettings& settings, std::size_t contacts) {
     return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);
-}
-
-/// Early sweeps are looked at often, since a warm start may be done at once.
-bool check_due(std::int64_t sweep_number, const SolverSettings& settings) {
-    const bool power_of_two = (sweep_number & (sweep_number - 1)) == 0;
-    return sweep_number % settings.check_interval == 0 || sweep_number >= settings.max_iterations ||
-           (sweep_number < settings.check_interval && power_of_two);
 }
 
 /// Which contacts come first: those with an impulse or about to have one, or all of them.
@@ -185,13 +179,6 @@ class Iteration {
 template <class Rows>
 SolverResult iterate(const Call& call) {
     return Iteration<Rows>(call).run();
-}
-
-void check_settings(const SolverSettings& settings) {
-    if (!(settings.tolerance > 0.0) || settings.max_iterations < 1 || settings.check_interval < 1 ||
-        settings.threads < 1)
-        throw std::invalid_argument(
-            "contact solver: tolerance, iterations, check interval and threads must be positive");
 }
 
 }  // namespace

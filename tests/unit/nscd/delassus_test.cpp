@@ -10,9 +10,13 @@
 #include "granular_adapter/nscd/residual.hpp"
 #include "granular_adapter/nscd/solver_list.hpp"
 #include "granular_adapter/nscd/vec3.hpp"
+#include "problems.hpp"
 
 namespace turbidite::nscd {
 namespace {
+
+using problems::dense;
+using problems::dense_delassus;
 
 Contact touch(std::int32_t a, std::int32_t b, const Vec3& arm_a, const Vec3& arm_b) {
     Contact contact;
@@ -59,16 +63,7 @@ PlanarTensor random_inertia(std::mt19937_64& random) {
     Eigen::Matrix3d b;
     for (int i = 0; i < 9; ++i) b(i) = any(random);
     const Eigen::Matrix3d a = b.transpose() * b + Eigen::Vector3d(1.0, 1.0, 0.2).asDiagonal().toDenseMatrix();
-    PlanarTensor tensor;
-    tensor.xx = a(0, 0), tensor.yy = a(1, 1), tensor.ss = a(2, 2);
-    tensor.xy = a(0, 1), tensor.xs = a(0, 2), tensor.ys = a(1, 2);
-    return tensor;
-}
-
-Eigen::Matrix3d dense(const PlanarTensor& t) {
-    Eigen::Matrix3d m;
-    m << t.xx, t.xy, t.xs, t.xy, t.yy, t.ys, t.xs, t.ys, t.ss;
-    return m;
+    return problems::planar(a);
 }
 
 /// The chain with bodies that drag fluid along; `inertia` receives their A.
@@ -105,28 +100,6 @@ TEST(Mobility, NeedsAPositiveDefiniteInertia) {
     EXPECT_FALSE(inverse(PlanarTensor(-1.0, 1.0)));
     EXPECT_FALSE(inverse(PlanarTensor(1.0, 0.0)));
     EXPECT_FALSE(inverse(PlanarTensor(NAN, 1.0)));
-}
-
-/// H^T M^-1 H by dense algebra, rows and columns (n, t) of each contact.
-Eigen::MatrixXd dense_delassus(const ContactProblem& problem) {
-    const int n = static_cast<int>(problem.contacts.size());
-    const int m = static_cast<int>(problem.bodies.size());
-    Eigen::MatrixXd h = Eigen::MatrixXd::Zero(3 * m, 2 * n);
-    Eigen::MatrixXd mobility = Eigen::MatrixXd::Zero(3 * m, 3 * m);
-    for (int i = 0; i < m; ++i) mobility.block<3, 3>(3 * i, 3 * i) = dense(problem.bodies[i]);
-    for (int k = 0; k < n; ++k) {
-        const Contact& c = problem.contacts[k];
-        const auto add = [&](std::int32_t body, const Vec3& arm, double sign) {
-            for (int d = 0; body >= 0 && d < 2; ++d) {
-                const Vec3& e = d == 0 ? c.normal : c.tangent;
-                h.block<3, 1>(3 * body, 2 * k + d) =
-                    sign * Eigen::Vector3d(e[0], e[1], cross(arm, e)[2]);
-            }
-        };
-        add(c.a, c.arm_a, -1.0);
-        add(c.b, c.arm_b, 1.0);
-    }
-    return h.transpose() * mobility * h;
 }
 
 TEST(Delassus, IsTheDenseProductForAnyMobility) {
