@@ -13,6 +13,7 @@
 #include "bench/dense_packing.hpp"
 #include "bench/step_clock.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/freed_memory.hpp"
 #include "granular_adapter/nscd/solver_list.hpp"
 
 namespace turbidite::bench {
@@ -93,6 +94,7 @@ int main(int argc, char** argv) {
     app.add_option("--sweeps", options.solver.max_iterations, "at most, per step");
     app.add_option("--result", options.result, "file to write")->required();
     CLI11_PARSE(app, argc, argv);
+    turbidite::keep_freed_memory();  // as the adapters do
     try {
         write_sample(turbidite::bench::run(options), options.result);
     } catch (const std::exception& error) {

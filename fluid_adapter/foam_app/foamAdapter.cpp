@@ -2,13 +2,13 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 
 #include <OSspecific.H>
-#include <malloc.h>
 #include <sigFpe.H>
 
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "coupler/protocol/freed_memory.hpp"
 #include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
@@ -63,14 +63,6 @@ void check_finite(const std::vector<Kick>& kicks, const Window& window) {
                    "the kick of grain " + std::to_string(kick.id) +
                        " is not finite; use a smaller time.step");
     }
-}
-
-/// OperatorStep's fields come and go several times per window. Freed memory stays with the process,
-/// or the system would clear the same pages again each time: a quarter of such a window.
-void keep_freed_memory() {
-    constexpr int most = 1 << 30;
-    ::mallopt(M_MMAP_THRESHOLD, most);
-    ::mallopt(M_TRIM_THRESHOLD, most);
 }
 
 }  // namespace

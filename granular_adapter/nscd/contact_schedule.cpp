@@ -27,12 +27,6 @@ class Placement {
         if (pair.b >= 0) ready_[static_cast<std::size_t>(pair.b)] = next;
     }
 
-    /// What comes now shares no group with what came before.
-    void close() {
-        first_ = groups();
-        open_ = ~std::uint64_t{0};
-    }
-
     std::int32_t groups() const { return static_cast<std::int32_t>(count_.size()); }
     std::vector<std::int32_t> take_lanes() { return std::move(lanes_); }
 
@@ -65,22 +59,87 @@ class Placement {
     std::uint64_t open_ = ~std::uint64_t{0};
 };
 
+/// What each stretch has added to the groups of one kind.
+class Ranges {
+ public:
+    GroupRange up_to(std::int32_t groups) {
+        const GroupRange range{last_, groups};
+        last_ = groups;
+        return range;
+    }
+
+ private:
+    std::int32_t last_ = 0;
+};
+
+/// For each body the number of stretches up to the last one that touches it.
+class LastStretches {
+ public:
+    LastStretches(const Schedule& schedule, const std::vector<MovedPair>& pairs, std::size_t bodies,
+                  int width)
+        : schedule_(schedule), pairs_(pairs), width_(width), last_(bodies, 0) {
+        for (std::size_t s = 0; s < schedule.stretches.size(); ++s)
+            each_body(schedule.stretches[s],
+                      [&](std::size_t body) { last_[body] = static_cast<std::int32_t>(s) + 1; });
+    }
+
+    /// At least the stretch itself.
+    std::int32_t of(std::size_t s) const {
+        auto last = static_cast<std::int32_t>(s) + 1;
+        each_body(schedule_.stretches[s],
+                  [&](std::size_t body) { last = std::max(last, last_[body]); });
+        return last;
+    }
+
+ private:
+    template <class Visit>
+    void each_body(const Stretch& stretch, const Visit& visit) const {
+        for (const GroupRange& range : {stretch.active, stretch.resting})
+            for (std::int32_t i = range.first * width_; i < range.last * width_; ++i) {
+                const std::int32_t contact = schedule_.lanes[static_cast<std::size_t>(i)];
+                if (contact < 0) continue;
+                const MovedPair& pair = pairs_[static_cast<std::size_t>(contact)];
+                for (const std::int32_t body : {pair.a, pair.b})
+                    if (body >= 0) visit(static_cast<std::size_t>(body));
+            }
+    }
+
+    const Schedule& schedule_;
+    const std::vector<MovedPair>& pairs_;
+    std::int32_t width_;
+    std::vector<std::int32_t> last_;
+};
+
+/// The groups at rest come behind the active ones in memory.
+void append(Schedule& schedule, std::vector<std::int32_t> resting) {
+    schedule.lanes.insert(schedule.lanes.end(), resting.begin(), resting.end());
+    for (Stretch& stretch : schedule.stretches)
+        for (std::int32_t* end : {&stretch.resting.first, &stretch.resting.last})
+            *end += schedule.active;
+}
+
 }  // namespace
 
 Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::int32_t>& order,
-                       std::size_t head, std::size_t bodies, const ScheduleSettings& settings) {
-    Placement placement(bodies, settings);
+                       const std::vector<std::uint8_t>& active, std::size_t bodies,
+                       const ScheduleSettings& settings) {
+    Placement moving(bodies, settings), resting(bodies, settings);
+    Ranges moved, rested;
     Schedule schedule;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i == head) {
-            schedule.head = placement.groups();
-            placement.close();
-        }
-        placement.place(order[i], pairs[static_cast<std::size_t>(order[i])]);
+        const auto contact = static_cast<std::size_t>(order[i]);
+        (active[contact] != 0 ? moving : resting).place(order[i], pairs[contact]);
+        if ((i + 1) % static_cast<std::size_t>(settings.stretch) == 0 || i + 1 == order.size())
+            schedule.stretches.push_back(
+                {moved.up_to(moving.groups()), rested.up_to(resting.groups())});
     }
-    schedule.all = placement.groups();
-    if (head >= order.size()) schedule.head = schedule.all;
-    schedule.lanes = placement.take_lanes();
+    schedule.active = moving.groups();
+    schedule.all = moving.groups() + resting.groups();
+    schedule.lanes = moving.take_lanes();
+    append(schedule, resting.take_lanes());
+    const LastStretches last(schedule, pairs, bodies, settings.width);
+    for (std::size_t s = 0; s < schedule.stretches.size(); ++s)
+        schedule.stretches[s].after = last.of(s);
     return schedule;
 }
 

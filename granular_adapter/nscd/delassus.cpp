@@ -8,10 +8,14 @@
 namespace turbidite::nscd {
 namespace {
 
+double moment(const Vec3& arm, const Vec3& direction) {
+    return arm[0] * direction[1] - arm[1] * direction[0];
+}
+
 /// One body's share of W_kk: (d_i, arm x d_i) . M^-1 (d_j, arm x d_j) for d = n, t. Isotropic
 /// bodies need no product of directions, which would not be exactly orthonormal.
 void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
-    const double n = cross(arm, contact.normal)[2], t = cross(arm, contact.tangent)[2];
+    const double n = moment(arm, contact.normal), t = moment(arm, contact.tangent);
     if (body.isotropic()) {
         w.nn += body.xx + body.ss * n * n;
         w.nt += body.ss * n * t;
@@ -29,7 +33,7 @@ void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobi
 /// The same for a unit moment: (0, 0, 1).
 void add_rolling_share(Block& w, const Contact& contact, const Vec3& arm,
                        const BodyMobility& body) {
-    const double n = cross(arm, contact.normal)[2], t = cross(arm, contact.tangent)[2];
+    const double n = moment(arm, contact.normal), t = moment(arm, contact.tangent);
     const PlanarVector answer = body * PlanarVector{0.0, 0.0, 1.0};
     w.nr += dot(PlanarVector{contact.normal[0], contact.normal[1], n}, answer);
     w.tr += dot(PlanarVector{contact.tangent[0], contact.tangent[1], t}, answer);
@@ -44,7 +48,7 @@ void drop_rounding(Block& w) {
 
 /// To rounding: then a spin, whatever drives it, moves nothing along n.
 bool is_along_normal(const Contact& contact, const Vec3& arm) {
-    return std::abs(cross(arm, contact.normal)[2]) <= 1e-14 * norm(arm);
+    return std::abs(moment(arm, contact.normal)) <= 1e-14 * norm(arm);
 }
 
 Block block_of(const ContactProblem& problem, const Contact& contact) {
@@ -61,9 +65,21 @@ Block block_of(const ContactProblem& problem, const Contact& contact) {
 
 }  // namespace
 
-Delassus::Delassus(const ContactProblem& problem) : problem_(problem) {
+// Blocks alone do not tell whether W is diagonal: shares of two bodies may cancel, and a driven
+// body has none.
+Delassus::Delassus(const ContactProblem& problem)
+    : problem_(problem),
+      diagonal_(std::all_of(problem.bodies.begin(), problem.bodies.end(),
+                            [](const BodyMobility& body) { return body.isotropic(); })) {
     blocks_.reserve(problem.contacts.size());
-    for (const Contact& contact : problem.contacts) blocks_.push_back(block_of(problem, contact));
+    for (const Contact& contact : problem.contacts) {
+        const Block w = block_of(problem, contact);
+        diagonal_ = diagonal_ && w.nt == 0.0 && w.nr == 0.0 &&
+                    is_along_normal(contact, contact.arm_b) &&
+                    is_along_normal(contact, contact.arm_a);
+        rolling_ = rolling_ || w.rr > 0.0;
+        blocks_.push_back(w);
+    }
 }
 
 Impulses Delassus::apply(const Impulses& r) const {
@@ -74,22 +90,6 @@ Impulses Delassus::apply(const Impulses& r) const {
     u.reserve(r.size());
     for (const Contact& contact : problem_.contacts) u.push_back(contact_velocity(contact, v));
     return u;
-}
-
-// Blocks alone do not tell: shares of two bodies may cancel, and a driven body has none.
-bool Delassus::diagonal() const {
-    return std::all_of(problem_.contacts.begin(), problem_.contacts.end(),
-                       [](const Contact& c) {
-                           return is_along_normal(c, c.arm_b) && is_along_normal(c, c.arm_a);
-                       }) &&
-           std::all_of(blocks_.begin(), blocks_.end(),
-                       [](const Block& w) { return w.nt == 0.0 && w.nr == 0.0; }) &&
-           std::all_of(problem_.bodies.begin(), problem_.bodies.end(),
-                       [](const BodyMobility& body) { return body.isotropic(); });
-}
-
-bool Delassus::rolling() const {
-    return std::any_of(blocks_.begin(), blocks_.end(), [](const Block& w) { return w.rr > 0.0; });
 }
 
 }  // namespace turbidite::nscd

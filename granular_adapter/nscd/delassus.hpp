@@ -27,15 +27,16 @@ class Delassus {
     Impulses apply(const Impulses& r) const;
 
     /// True when arms are along the normals, no block couples and every mobility is isotropic.
-    bool diagonal() const;
+    bool diagonal() const { return diagonal_; }
 
     /// True when some contact resists rolling. Blocks have a third row only where one does, and a
     /// zero one where neither body can turn: then no moment acts.
-    bool rolling() const;
+    bool rolling() const { return rolling_; }
 
  private:
     const ContactProblem& problem_;
     std::vector<Block> blocks_;
+    bool diagonal_ = true, rolling_ = false;
 };
 
 }  // namespace turbidite::nscd

@@ -15,17 +15,9 @@
 namespace turbidite::nscd {
 namespace {
 
-// A tail below this share of the contacts is not worth a second order of contacts.
-constexpr double least_tail = 0.1;
-// When more contacts of the tail than this share of the head have an impulse, each sweep takes all:
-// impulses that change in one sweep of eight would cost more sweeps than the rest saves.
-constexpr double most_awake = 0.02;
-// Contacts in the head without impulse, or in the tail with one, that are worth a new layout.
-constexpr double least_misplaced = 0.1;
-// More rows than this do not stay in the cache: sweeps must overlap (sweep_train.hpp), which head
-// and tail one after the other do not. An awake tail is then put back to where it belongs in the
-// order.
-constexpr std::size_t cached_contacts = 20000;
+// What a layout costs, in updates of a group for each of its groups. A new one is due when the
+// updates that it would have spared since the last one come to that.
+constexpr double layout_cost = 12.0;
 
 // Fewer contacts than this are swept faster by one thread (docs/performance.md).
 constexpr std::size_t threaded_contacts = 4000;
@@ -33,27 +25,6 @@ constexpr std::size_t threaded_contacts = 4000;
 int useful_threads(const SolverSettings& settings, std::size_t contacts) {
     return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);
 }
-
-/// Which contacts come first: those with an impulse or about to have one, or all of them.
-struct Order {
-    std::vector<std::int32_t> contacts;
-    std::size_t head = 0;
-
-    explicit Order(std::size_t count) : contacts(count), head(count) {
-        std::iota(contacts.begin(), contacts.end(), 0);
-    }
-
-    template <class Active>
-    void split(const Active& active) {
-        const auto tail = std::stable_partition(contacts.begin(), contacts.end(), active);
-        const auto first = static_cast<std::size_t>(tail - contacts.begin());
-        if (static_cast<double>(contacts.size() - first) <
-            least_tail * static_cast<double>(contacts.size()))
-            std::iota(contacts.begin(), contacts.end(), 0);
-        else
-            head = first;
-    }
-};
 
 /// What solve() is asked.
 struct Call {
@@ -73,64 +44,62 @@ class Iteration {
           settings_(call.settings),
           sweeps_(sweeps<Rows>(call.instructions)),
           pairs_(moved_pairs(call.problem)),
+          order_(call.guess.size()),
           team_(useful_threads(call.settings, call.guess.size())),
           floor_(rounding_floor(call.problem, call.w)) {
+        std::iota(order_.begin(), order_.end(), 0);
         result_.impulses = call.guess;
+        for (Vec3& r : result_.impulses)
+            if (!(r[0] > 0.0)) r = {};
         result_.converged = false;
     }
 
     SolverResult run() {
-        lay_out(true);
+        lay_out();
         while (!result_.converged && result_.iterations < settings_.max_iterations) {
+            const std::int64_t before = result_.iterations;
             sweep_until_check();
             if (looks_good() || result_.iterations == settings_.max_iterations)
                 look();
             else
-                adapt();
+                adapt(result_.iterations - before);
         }
-        result_.change = change_measures(problem_, w_, result_.velocities, result_.impulses);
         return std::move(result_);
     }
 
  private:
-    bool split() const { return layout_->schedule.head < layout_->schedule.all; }
-
-    void lay_out(bool may_split) {
+    void lay_out() {
         result_.velocities = body_velocities(problem_, result_.impulses);
-        Order order(pairs_.size());
-        if (may_split) order.split([this](std::int32_t k) { return active(k); });
-        const ScheduleSettings shape{.width = Rows::width};
-        layout_.emplace(
-            problem_, w_, pairs_, result_.impulses, result_.velocities,
-            make_schedule(pairs_, order.contacts, order.head, problem_.bodies.size(), shape));
-        train_.emplace(sweeps_, layout_->rows, layout_->bodies, layout_->schedule,
-                       make_blocks(layout_->schedule, pairs_, problem_.bodies.size(), Rows::width));
-        laid_out_at_ = result_.iterations;
-        head_ = order.head;
-        awake_ = false;
+        std::vector<std::uint8_t> active(pairs_.size());
+        for (std::size_t k = 0; k < active.size(); ++k) active[k] = is_active(k) ? 1 : 0;
+        layout_.emplace(problem_, w_, pairs_, result_.impulses, result_.velocities,
+                        schedule(active));
+        train_.emplace(sweeps_, *layout_);
     }
 
-    /// Has an impulse, or closes with the present velocities.
-    bool active(std::int32_t contact) const {
-        const auto k = static_cast<std::size_t>(contact);
+    Schedule schedule(const std::vector<std::uint8_t>& active) const {
+        const ScheduleSettings shape{.width = Rows::width};
+        return make_schedule(pairs_, order_, active, problem_.bodies.size(), shape);
+    }
+
+    /// Has an impulse, or closes with the velocities of the first guess.
+    bool is_active(std::size_t k) const {
         if (result_.impulses[k][0] > 0.0) return true;
         const Contact& c = problem_.contacts[k];
         return contact_velocity(c, result_.velocities)[0] + c.bias[0] < 0.0;
     }
 
     void sweep_until_check() {
-        std::vector<Wagon> wagons;
-        do wagons.push_back({!split() || awake_, false});
-        while (!check_due(++result_.iterations, settings_));
-        wagons.back() = {true, true};
-        train_->run(wagons, team_);
+        std::size_t count = 1;
+        while (!check_due(++result_.iterations, settings_)) ++count;
+        train_->run(count, team_);
     }
 
     bool looks_good() const {
-        const auto& head = train_->head_sums();
-        const auto& tail = train_->tail_sums();
-        const double error = total(head.error) + total(tail.error);
-        const double size = total(head.size) + total(tail.size);
+        const auto& active = train_->active_sums();
+        const auto& resting = train_->resting_sums();
+        const double error = total(active.error) + total(resting.error);
+        const double size = total(active.size) + total(resting.size);
         return error <= settings_.tolerance * settings_.tolerance * (size + floor_);
     }
 
@@ -138,27 +107,22 @@ class Iteration {
     void look() {
         layout_->collect(result_.impulses);
         result_.velocities = body_velocities(problem_, result_.impulses);
-        result_.residual =
-            natural_map_residual(problem_, w_, result_.velocities, result_.impulses, floor_);
+        const Measures found = measures(problem_, w_, result_.velocities, result_.impulses, floor_);
+        result_.residual = found.residual;
+        result_.change = found.change;
         result_.converged = result_.residual <= settings_.tolerance;
     }
 
-    /// The tail stays alone while it sleeps; awake it is swept with the head. A layout costs as
-    /// much as a few sweeps, so contacts are told apart anew only after as many sweeps as before.
-    void adapt() {
-        const double head = total(train_->head_sums().loaded);
-        const double tail = total(train_->tail_sums().loaded);
-        const double misplaced = static_cast<double>(head_) - head + tail;
-        awake_ = tail > most_awake * head;
-        if (result_.iterations >= 2 * laid_out_at_ && misplaced > least_misplaced * head_)
-            lay_out_again(true);
-        else if (awake_ && pairs_.size() > cached_contacts)
-            lay_out_again(false);
-    }
-
-    void lay_out_again(bool may_split) {
-        layout_->collect(result_.impulses);
-        lay_out(may_split);
+    /// Rent or buy: a new layout once the updates of groups without impulse have cost as much.
+    void adapt(std::int64_t sweeps) {
+        const double loaded =
+            total(train_->active_sums().loaded) + total(train_->resting_sums().loaded);
+        const auto awake = std::count(layout_->awake.begin(), layout_->awake.end(), 1);
+        const double visited = layout_->schedule.active + static_cast<double>(awake);
+        wasted_ += static_cast<double>(sweeps) * (visited - loaded / Rows::width);
+        if (wasted_ < layout_cost * layout_->schedule.all) return;
+        layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
+        wasted_ = 0.0;
     }
 
     const ContactProblem& problem_;
@@ -166,14 +130,13 @@ class Iteration {
     const SolverSettings& settings_;
     Sweeps<Rows> sweeps_;
     std::vector<MovedPair> pairs_;
+    std::vector<std::int32_t> order_;
     ThreadTeam team_;
     double floor_;
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
     std::optional<SweepTrain<Rows>> train_;
-    std::int64_t laid_out_at_ = 0;  ///< sweep
-    std::size_t head_ = 0;          ///< contacts of the head
-    bool awake_ = false;            ///< the tail
+    double wasted_ = 0.0;  ///< updates of groups since the last layout
 };
 
 template <class Rows>

@@ -53,10 +53,43 @@ double squared(const Block& w, const Vec3& u) {
     return u[0] * u[0] + u[1] * u[1] + rolling;
 }
 
+struct MapSums {
+    double error = 0.0, size = 0.0;
+
+    void add(const Contact& contact, const Block& w, const Vec3& r, const Vec3& u) {
+        const Terms term = terms(contact, w, r, u);
+        error += term.error;
+        size += term.size;
+    }
+
+    double residual(double floor) const {
+        return error == 0.0 ? 0.0 : std::sqrt(error / (size + floor));
+    }
+};
+
 Vec3 solution(const Contact& contact, const Block& w, const Vec3& b) {
     return w.rr > 0.0 ? solve_rolling_contact(w, b, contact.friction, contact.rolling)
                       : without_rolling(w, b, contact.friction);
 }
+
+struct ChangeSums {
+    double change = 0.0, largest = 0.0, scale = 0.0;
+
+    void add(const Contact& contact, const Block& w, const Vec3& old, const Vec3& u) {
+        if (old == Vec3{} && u[0] >= 0.0) return;
+        const Vec3 next = solution(contact, w, u - times(w, old));
+        const double du = squared(w, times(w, next - old));
+        change += du;
+        largest = std::max(largest, du);
+        scale += squared(w, times(w, 0.5 * (next + old)));
+    }
+
+    ChangeMeasures measures(std::size_t contacts) const {
+        if (change == 0.0) return {};
+        return {std::sqrt(change / scale),
+                std::sqrt(largest * static_cast<double>(contacts) / scale)};
+    }
+};
 
 }  // namespace
 
@@ -65,12 +98,15 @@ double rounding_floor(const ContactProblem& problem) {
 }
 
 double rounding_floor(const ContactProblem& problem, const Delassus& w) {
+    std::vector<double> speeds;
+    speeds.reserve(problem.free.size());
+    for (const Twist& twist : problem.free) speeds.push_back(norm(twist.velocity));
     double sum = 0.0;
     for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
         const Contact& contact = problem.contacts[k];
         double speed =
-            norm(problem.free[contact.b].velocity) + norm(contact.bias) + problem.cancelled;
-        if (contact.a >= 0) speed += norm(problem.free[contact.a].velocity);
+            speeds[static_cast<std::size_t>(contact.b)] + norm(contact.bias) + problem.cancelled;
+        if (contact.a >= 0) speed += speeds[static_cast<std::size_t>(contact.a)];
         const double impulse = rounding * speed / w.block(k).nn;
         sum += impulse * impulse;
     }
@@ -86,37 +122,27 @@ double natural_map_residual(const ContactProblem& problem, const Impulses& r) {
 
 double natural_map_residual(const ContactProblem& problem, const Delassus& w,
                             const std::vector<Twist>& v, const Impulses& r, double floor) {
-    double error = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < r.size(); ++k) {
-        const Contact& contact = problem.contacts[k];
-        const Terms term = terms(contact, w.block(k), r[k], biased_velocity(contact, v));
-        error += term.error;
-        size += term.size;
-    }
-    if (error == 0.0) return 0.0;
-    return std::sqrt(error / (size + floor));
+    MapSums map;
+    for (std::size_t k = 0; k < r.size(); ++k)
+        map.add(problem.contacts[k], w.block(k), r[k], biased_velocity(problem.contacts[k], v));
+    return map.residual(floor);
 }
 
 ChangeMeasures change_measures(const ContactProblem& problem, const Impulses& r) {
-    return change_measures(problem, Delassus(problem), body_velocities(problem, r), r);
+    return measures(problem, Delassus(problem), body_velocities(problem, r), r, 0.0).change;
 }
 
-ChangeMeasures change_measures(const ContactProblem& problem, const Delassus& w,
-                               const std::vector<Twist>& v, const Impulses& r) {
-    double change = 0.0, largest = 0.0, scale = 0.0;
+Measures measures(const ContactProblem& problem, const Delassus& w, const std::vector<Twist>& v,
+                  const Impulses& r, double floor) {
+    MapSums map;
+    ChangeSums change;
     for (std::size_t k = 0; k < r.size(); ++k) {
         const Contact& contact = problem.contacts[k];
-        const Block& block = w.block(k);
-        const Vec3& old = r[k];
-        const Vec3 others = biased_velocity(contact, v) - times(block, old);
-        const Vec3 next = solution(contact, block, others);
-        const double du = squared(block, times(block, next - old));
-        change += du;
-        largest = std::max(largest, du);
-        scale += squared(block, times(block, 0.5 * (next + old)));
+        const Vec3 u = biased_velocity(contact, v);
+        map.add(contact, w.block(k), r[k], u);
+        change.add(contact, w.block(k), r[k], u);
     }
-    if (change == 0.0) return {};
-    return {std::sqrt(change / scale), std::sqrt(largest * double(r.size()) / scale)};
+    return {map.residual(floor), change.measures(r.size())};
 }
 
 }  // namespace turbidite::nscd

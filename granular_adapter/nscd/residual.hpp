@@ -36,12 +36,18 @@ struct ChangeMeasures {
 };
 ChangeMeasures change_measures(const ContactProblem& problem, const Impulses& r);
 
+/// The natural map's residual, and quad and max.
+struct Measures {
+    double residual = 0.0;
+    ChangeMeasures change;
+};
+
 /// The same where the caller has the operator of this problem, v = body_velocities(problem, r), and
 /// the floor at hand.
 double rounding_floor(const ContactProblem& problem, const Delassus& w);
 double natural_map_residual(const ContactProblem& problem, const Delassus& w,
                             const std::vector<Twist>& v, const Impulses& r, double floor);
-ChangeMeasures change_measures(const ContactProblem& problem, const Delassus& w,
-                               const std::vector<Twist>& v, const Impulses& r);
+Measures measures(const ContactProblem& problem, const Delassus& w, const std::vector<Twist>& v,
+                  const Impulses& r, double floor);
 
 }  // namespace turbidite::nscd

@@ -148,6 +148,16 @@ struct Met {
     }
 };
 
+template <class Rows>
+TURBIDITE_INLINE Real<Rows::width> normal_velocity(const Rows& row, const Met<Rows>& met) {
+    const Real<Rows::width> along = met.nx * met.dx + met.ny * met.dy;
+    if constexpr (requires { row.arm_bn; })
+        return along + load(row.arm_bn) * met.b.spin - load(row.arm_an) * met.a.spin +
+               load(row.bias_n);
+    else
+        return along + load(row.bias_n);
+}
+
 template <class Rows, class R>
 TURBIDITE_INLINE R tangential_velocity(const Rows& row, const Met<Rows>& met) {
     return met.nx * met.dy - met.ny * met.dx + load(row.arm_b) * met.b.spin -
@@ -171,7 +181,7 @@ template <bool measure, int width>
 TURBIDITE_INLINE void update(DiscRows<width>& row, PlaneBody* bodies, PassSums<width>& sums) {
     using R = Real<width>;
     Met<DiscRows<width>> met(row, bodies);
-    const R un = met.nx * met.dx + met.ny * met.dy + load(row.bias_n);
+    const R un = normal_velocity(row, met);
     const R ut = tangential_velocity<DiscRows<width>, R>(row, met);
     if constexpr (measure) add_map(sums, met.rn, met.rt, un, ut, met.mu, load(row.inverse_nn));
     const R n = larger(R(met.rn - un * load(row.inverse_nn)), R{});
@@ -207,7 +217,7 @@ TURBIDITE_INLINE void update(RollingDiscRows<width>& row, PlaneBody* bodies,
                              PassSums<width>& sums) {
     using R = Real<width>;
     Met<RollingDiscRows<width>> met(row, bodies);
-    const R un = met.nx * met.dx + met.ny * met.dy + load(row.bias_n);
+    const R un = normal_velocity(row, met);
     const R ut = tangential_velocity<RollingDiscRows<width>, R>(row, met);
     const R w = met.b.spin - met.a.spin, roll = load(row.roll);
     if constexpr (measure) add_rolling_map(row, sums, met, un, ut, w);
@@ -226,12 +236,6 @@ TURBIDITE_INLINE void update(RollingDiscRows<width>& row, PlaneBody* bodies,
     met.b.spin += load(row.spin_b) * (m - roll);
     store(row.roll, m);
     met.keep(row, n, t, bodies);
-}
-
-template <class Rows>
-TURBIDITE_INLINE Real<Rows::width> general_normal_velocity(const Rows& row, const Met<Rows>& met) {
-    return met.nx * met.dx + met.ny * met.dy + load(row.arm_bn) * met.b.spin -
-           load(row.arm_an) * met.a.spin + load(row.bias_n);
 }
 
 template <class Rows>
@@ -256,7 +260,7 @@ template <bool measure, int width>
 TURBIDITE_INLINE void update(GeneralRows<width>& row, PlaneBody* bodies, PassSums<width>& sums) {
     using R = Real<width>;
     Met<GeneralRows<width>> met(row, bodies);
-    const R un = general_normal_velocity(row, met), ut = general_tangential_velocity(row, met);
+    const R un = normal_velocity(row, met), ut = general_tangential_velocity(row, met);
     const R nt = load(row.nt), inverse_nn = load(row.inverse_nn);
     if constexpr (measure) add_map(sums, met.rn, met.rt, un, ut, met.mu, inverse_nn);
     const R bn = un - load(row.nn) * met.rn - nt * met.rt;
@@ -279,7 +283,7 @@ template <bool measure>
 TURBIDITE_INLINE void update(GeneralRollingRows<1>& row, PlaneBody* bodies, PassSums<1>& sums) {
     Met<GeneralRollingRows<1>> met(row, bodies);
     const Vec3 r{met.rn, met.rt, row.roll};
-    const Vec3 u{general_normal_velocity(row, met), general_tangential_velocity(row, met),
+    const Vec3 u{normal_velocity(row, met), general_tangential_velocity(row, met),
                  met.b.spin - met.a.spin};
     if constexpr (measure) {
         const Vec3 f =
@@ -314,9 +318,35 @@ void sweep_measured(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::wi
     for (Rows* row = begin; row != end; ++row) update<true>(*row, bodies, sums);
 }
 
+TURBIDITE_INLINE bool any(double x) {
+    return x != 0.0;
+}
+TURBIDITE_INLINE bool any(const Four& x) {
+    return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0 || x[3] != 0.0;
+}
+
+/// Some contact of the group has an impulse or closes.
+template <class Rows>
+TURBIDITE_INLINE bool stirs(const Rows& row, const PlaneBody* bodies) {
+    const Met<Rows> met(row, bodies);
+    const Real<Rows::width> zero{};
+    return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
+}
+
+template <class Rows>
+void sweep_asked(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width>& sums,
+                 std::uint8_t* awake) {
+    for (Rows* row = begin; row != end; ++row, ++awake) {
+        *awake = 0;
+        if (!stirs(*row, bodies)) continue;
+        update<true>(*row, bodies, sums);
+        *awake = any(load(row->rn)) ? 1 : 0;
+    }
+}
+
 template <class Rows>
 Sweeps<Rows> sweeps() {
-    return {sweep_plain<Rows>, sweep_measured<Rows>};
+    return {sweep_plain<Rows>, sweep_measured<Rows>, sweep_asked<Rows>};
 }
 
 #undef TURBIDITE_INLINE

@@ -52,13 +52,14 @@ struct SweepLayout {
     Schedule schedule;
     std::vector<PlaneBody> bodies;
     std::vector<Rows> rows;
+    std::vector<std::uint8_t> awake;  ///< of each group at rest: swept until it has no impulse
 
     SweepLayout(const ContactProblem& problem, const Delassus& w,
                 const std::vector<MovedPair>& pairs, const Impulses& r,
                 const std::vector<Twist>& velocities, Schedule laid)
         : schedule(std::move(laid)) {
         BodySlots slots(problem.bodies.size(), velocities, problem.bodies);
-        rows.resize(static_cast<std::size_t>(schedule.all));
+        make_room();
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
             Rows& row = rows[i / Rows::width];
             const int lane = static_cast<int>(i % Rows::width);
@@ -77,11 +78,58 @@ struct SweepLayout {
         bodies = std::move(slots.bodies);
     }
 
+    /// The same state in other groups.
+    void rearrange(Schedule next) {
+        const std::vector<Rows> old = std::move(rows);
+        const std::vector<std::size_t> place = places();
+        schedule = std::move(next);
+        make_room();
+        for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
+            Rows& row = rows[i / Rows::width];
+            const int lane = static_cast<int>(i % Rows::width);
+            if (schedule.lanes[i] < 0) {
+                fill_empty(row, lane, static_cast<std::int32_t>(bodies.size()));
+                bodies.emplace_back();
+                continue;
+            }
+            const std::size_t from = place[static_cast<std::size_t>(schedule.lanes[i])];
+            copy_lane(old[from / Rows::width], static_cast<int>(from % Rows::width), row, lane);
+        }
+    }
+
     void collect(Impulses& r) const {
+        each_contact([&](std::size_t k, const Rows& row, int lane) { r[k] = impulse(row, lane); });
+    }
+
+    /// Of each contact, whether it has an impulse.
+    std::vector<std::uint8_t> loaded(std::size_t contacts) const {
+        std::vector<std::uint8_t> result(contacts);
+        each_contact([&](std::size_t k, const Rows& row, int lane) {
+            result[k] = row.rn.v[lane] > 0.0 ? 1 : 0;
+        });
+        return result;
+    }
+
+ private:
+    void make_room() {
+        rows = std::vector<Rows>(static_cast<std::size_t>(schedule.all));
+        awake.assign(static_cast<std::size_t>(schedule.all - schedule.active), 0);
+    }
+
+    template <class Visit>
+    void each_contact(const Visit& visit) const {
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i)
             if (schedule.lanes[i] >= 0)
-                r[static_cast<std::size_t>(schedule.lanes[i])] =
-                    impulse(rows[i / Rows::width], static_cast<int>(i % Rows::width));
+                visit(static_cast<std::size_t>(schedule.lanes[i]), rows[i / Rows::width],
+                      static_cast<int>(i % Rows::width));
+    }
+
+    /// Lane of each contact.
+    std::vector<std::size_t> places() const {
+        std::vector<std::size_t> result(schedule.lanes.size());
+        for (std::size_t i = 0; i < schedule.lanes.size(); ++i)
+            if (schedule.lanes[i] >= 0) result[static_cast<std::size_t>(schedule.lanes[i])] = i;
+        return result;
     }
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 
 #include "granular_adapter/nscd/contact_problem.hpp"
 #include "granular_adapter/nscd/sweep_rows.hpp"
@@ -33,6 +34,21 @@ void fill_empty(Rows& rows, int lane, std::int32_t slot) {
     rows.a[lane] = rows.b[lane] = slot;
     rows.bias_n.v[lane] = 1.0;
     if constexpr (requires { rows.length.v; }) rows.length.v[lane] = 1.0;
+}
+
+/// All that rows hold are lanes of doubles, and the places of the bodies.
+template <class Rows>
+void copy_lane(const Rows& from, int lane_from, Rows& to, int lane_to) {
+    using Base = RowBase<Rows::width>;
+    constexpr std::size_t size = sizeof(typename Base::Values), value = sizeof(double);
+    constexpr std::size_t places = offsetof(Base, a);
+    static_assert(sizeof(Rows) % size == 0 && places % size == 0 && 2 * sizeof(Base::a) == size);
+    const auto* const source = reinterpret_cast<const std::byte*>(&from) + value * lane_from;
+    auto* const target = reinterpret_cast<std::byte*>(&to) + value * lane_to;
+    for (std::size_t at = 0; at < sizeof(Rows); at += size)
+        if (at != places) std::memcpy(target + at, source + at, value);
+    to.a[lane_to] = from.a[lane_from];
+    to.b[lane_to] = from.b[lane_from];
 }
 
 template <class Rows>

@@ -29,11 +29,12 @@ struct RowBase {
     static constexpr int width = lanes;
     using Values = Lanes<lanes>;
 
+    // Three cache lines for groups that are only looked at, one of them written to by the others.
     Values nx, ny;
-    Values bias_n, bias_t;
-    Values friction;
-    Values rn, rt;
+    Values bias_n;
     std::int32_t a[lanes] = {}, b[lanes] = {};
+    Values rn, rt;
+    Values bias_t, friction;
 };
 
 /// W_nt = 0 and isotropic bodies: discs, and whatever touches with arms along the normal.
@@ -98,12 +99,15 @@ double total(const Lanes<width>& lanes) {
 }
 
 /// Updates every contact of the groups [begin, end); `measured` adds the state that each contact
-/// met to the sums as well.
+/// met to the sums as well. `asked` is for groups that are expected to be at rest: those where no
+/// contact has an impulse or closes are only looked at; says which have one after it.
 template <class Rows>
 struct Sweeps {
     using Sums = PassSums<Rows::width>;
     void (*plain)(Rows* begin, Rows* end, PlaneBody* bodies) = nullptr;
     void (*measured)(Rows* begin, Rows* end, PlaneBody* bodies, Sums& sums) = nullptr;
+    void (*asked)(Rows* begin, Rows* end, PlaneBody* bodies, Sums& sums,
+                  std::uint8_t* awake) = nullptr;
 };
 
 /// What the loops are compiled for. The bits are the same.

@@ -2,111 +2,95 @@
 //
 // Several sweeps at once over the same groups, with the result of one after the other, bit for bit.
 //
-// Sweep s + 1 may update a group as soon as sweep s has updated every group that touches one of its
+// Sweep s + 1 may do a stretch as soon as sweep s has done every stretch that touches one of its
 // bodies. As contacts come in an order of space, that is a short way ahead; so sweeps follow each
 // other closely, like the wagons of a train, and find in the cache what the first one fetched from
 // memory. Threads take successive wagons. Who updates a group when changes nothing in what is read
 // and written: results do not depend on the number of threads.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
 
-#include "granular_adapter/nscd/contact_schedule.hpp"
+#include "granular_adapter/nscd/sweep_layout.hpp"
 #include "granular_adapter/nscd/sweep_rows.hpp"
 #include "granular_adapter/nscd/thread_team.hpp"
 
 namespace turbidite::nscd {
-
-/// Consecutive groups, [first, last), and how many groups of the sweep before must be done first:
-/// when that one is over the head, or over all.
-struct SweepBlock {
-    std::int32_t first = 0, last = 0;
-    std::int32_t after_head = 0, after_all = 0;
-};
-
-/// Blocks of the head, then of the rest. `bodies`: one more than the largest body of `pairs`.
-std::vector<SweepBlock> make_blocks(const Schedule& schedule, const std::vector<MovedPair>& pairs,
-                                    std::size_t bodies, int width);
-
-/// One sweep of a train.
-struct Wagon {
-    bool whole = true;      ///< all groups, or the head
-    bool measured = false;  ///< at most one in a train
-};
 
 template <class Rows>
 class SweepTrain {
  public:
     using Sums = PassSums<Rows::width>;
 
-    SweepTrain(const Sweeps<Rows>& sweeps, std::vector<Rows>& rows, std::vector<PlaneBody>& bodies,
-               const Schedule& schedule, std::vector<SweepBlock> blocks)
-        : sweeps_(sweeps),
-          rows_(rows),
-          bodies_(bodies),
-          blocks_(std::move(blocks)),
-          head_(static_cast<std::size_t>(std::count_if(
-              blocks_.begin(), blocks_.end(),
-              [&](const SweepBlock& block) { return block.last <= schedule.head; }))) {}
+    SweepTrain(const Sweeps<Rows>& sweeps, SweepLayout<Rows>& layout)
+        : sweeps_(sweeps), layout_(layout) {}
 
-    /// Runs the wagons, the first one in front.
-    void run(const std::vector<Wagon>& wagons, ThreadTeam& team) {
-        wagons_ = &wagons;
-        sums_head_ = sums_tail_ = {};
-        progress_ = std::vector<Progress>(wagons.size());
+    /// Runs as many sweeps. All of them update the active groups and those that are awake; the last
+    /// one measures on its way, asks the groups at rest, and wakes those with an impulse.
+    void run(std::size_t sweeps, ThreadTeam& team) {
+        active_sums_ = resting_sums_ = {};
+        progress_ = std::vector<Progress>(sweeps);
         const auto share = [&](int thread) {
-            return wagons.size() * static_cast<std::size_t>(thread) /
+            return sweeps * static_cast<std::size_t>(thread) /
                    static_cast<std::size_t>(team.size());
         };
         team.run([&](int thread) { drive(share(thread), share(thread + 1)); });
     }
 
-    /// Of the measured wagon; groups of the head, and of the rest.
-    const Sums& head_sums() const { return sums_head_; }
-    const Sums& tail_sums() const { return sums_tail_; }
+    /// Of the last sweep; active groups, and those at rest.
+    const Sums& active_sums() const { return active_sums_; }
+    const Sums& resting_sums() const { return resting_sums_; }
 
  private:
-    /// Blocks done by a wagon; a cache line of its own.
+    /// Stretches done by a wagon; a cache line of its own.
     struct alignas(64) Progress {
-        std::atomic<std::size_t> blocks{0};
-        std::atomic<std::int32_t> groups{0};
+        std::atomic<std::size_t> stretches{0};
         Progress() = default;
         Progress(const Progress&) {}
     };
 
-    std::size_t extent(std::size_t wagon) const {
-        return (*wagons_)[wagon].whole ? blocks_.size() : head_;
+    const std::vector<Stretch>& stretches() const { return layout_.schedule.stretches; }
+    std::size_t done(std::size_t wagon) const {
+        return progress_[wagon].stretches.load(std::memory_order_relaxed);
     }
-
-    bool finished(std::size_t wagon) const {
-        return progress_[wagon].blocks.load(std::memory_order_relaxed) == extent(wagon);
-    }
+    bool finished(std::size_t wagon) const { return done(wagon) == stretches().size(); }
 
     bool clear(std::size_t wagon) const {
-        if (wagon == 0) return true;
-        const SweepBlock& next = blocks_[progress_[wagon].blocks.load(std::memory_order_relaxed)];
-        const std::int32_t needed = (*wagons_)[wagon - 1].whole ? next.after_all : next.after_head;
-        return progress_[wagon - 1].groups.load(std::memory_order_acquire) >= needed;
+        return wagon == 0 || progress_[wagon - 1].stretches.load(std::memory_order_acquire) >=
+                                 static_cast<std::size_t>(stretches()[done(wagon)].after);
     }
 
     void advance(std::size_t wagon) {
-        Progress& progress = progress_[wagon];
-        const std::size_t at = progress.blocks.load(std::memory_order_relaxed);
-        const SweepBlock& block = blocks_[at];
-        Rows* const first = rows_.data() + block.first;
-        Rows* const last = rows_.data() + block.last;
-        if ((*wagons_)[wagon].measured)
-            sweeps_.measured(first, last, bodies_.data(), at < head_ ? sums_head_ : sums_tail_);
-        else
-            sweeps_.plain(first, last, bodies_.data());
-        progress.blocks.store(at + 1, std::memory_order_relaxed);
-        progress.groups.store(block.last, std::memory_order_release);
+        const std::size_t at = done(wagon);
+        const bool last = wagon + 1 == progress_.size();
+        last ? measure(stretches()[at]) : sweep(stretches()[at]);
+        progress_[wagon].stretches.store(at + 1, std::memory_order_release);
     }
 
-    /// The wagons [first, last) by one thread: a block each in turn, as far as those before allow.
+    Rows* row(std::int32_t group) { return layout_.rows.data() + group; }
+    std::uint8_t& awake(std::int32_t group) {
+        return layout_.awake[static_cast<std::size_t>(group - layout_.schedule.active)];
+    }
+
+    void sweep(const Stretch& stretch) {
+        PlaneBody* const bodies = layout_.bodies.data();
+        sweeps_.plain(row(stretch.active.first), row(stretch.active.last), bodies);
+        for (std::int32_t group = stretch.resting.first; group < stretch.resting.last; ++group)
+            if (awake(group) != 0) sweeps_.plain(row(group), row(group) + 1, bodies);
+    }
+
+    void measure(const Stretch& stretch) {
+        PlaneBody* const bodies = layout_.bodies.data();
+        sweeps_.measured(row(stretch.active.first), row(stretch.active.last), bodies, active_sums_);
+        if (stretch.resting.first < stretch.resting.last)
+            sweeps_.asked(row(stretch.resting.first), row(stretch.resting.last), bodies,
+                          resting_sums_, &awake(stretch.resting.first));
+    }
+
+    /// The wagons [first, last) by one thread: a stretch each in turn, as far as those before
+    /// allow.
     void drive(std::size_t first, std::size_t last) {
         ThreadTeam::Patience patience;
         while (first < last) {
@@ -126,13 +110,9 @@ class SweepTrain {
     }
 
     Sweeps<Rows> sweeps_;
-    std::vector<Rows>& rows_;
-    std::vector<PlaneBody>& bodies_;
-    std::vector<SweepBlock> blocks_;
-    std::size_t head_;  ///< blocks of the head
-    const std::vector<Wagon>* wagons_ = nullptr;
+    SweepLayout<Rows>& layout_;
     std::vector<Progress> progress_;
-    Sums sums_head_, sums_tail_;
+    Sums active_sums_, resting_sums_;
 };
 
 }  // namespace turbidite::nscd

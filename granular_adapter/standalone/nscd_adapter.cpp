@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupler/protocol/freed_memory.hpp"
 #include "granular_adapter/nscd/broad_phase.hpp"
 #include "granular_adapter/nscd/law_list.hpp"
 #include "granular_adapter/standalone/case_bodies.hpp"
@@ -38,7 +39,9 @@ nscd::Engine& initialised(const std::unique_ptr<nscd::Engine>& engine) {
 }  // namespace
 
 NscdAdapter::NscdAdapter(std::string adapter_name, std::string host_code)
-    : adapter_name_(std::move(adapter_name)), host_code_(std::move(host_code)) {}
+    : adapter_name_(std::move(adapter_name)), host_code_(std::move(host_code)) {
+    keep_freed_memory();
+}
 
 Hello NscdAdapter::describe() const {
     Hello hello;

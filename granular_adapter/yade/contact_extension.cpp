@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coupler/case/key_check.hpp"
+#include "coupler/protocol/freed_memory.hpp"
 #include "coupler/shapes/polygon_outline.hpp"
 #include "granular_adapter/standalone/contact_settings.hpp"
 #include "granular_adapter/yade/contact_host.hpp"
@@ -210,6 +211,7 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
     using turbidite::yade::check_outline;
     using turbidite::yade::ContactEngine;
     namespace python = boost::python;
+    turbidite::keep_freed_memory();
     python::def("check_outline", check_outline,
                 "check_outline([x, y, ...]): ValueError unless it is a convex polygon.");
     python::class_<ContactEngine, boost::noncopyable>(

@@ -69,36 +69,112 @@ std::vector<std::int32_t> natural_order(const ContactProblem& problem) {
     return order;
 }
 
-template <class Rows>
-SweepLayout<Rows> laid_out(const ContactProblem& problem, const Delassus& w, int distance,
-                           std::size_t head) {
-    const std::vector<MovedPair> pairs = moved_pairs(problem);
-    const Impulses zero(problem.contacts.size());
-    return {problem,
-            w,
-            pairs,
-            zero,
-            problem.free,
-            make_schedule(pairs, natural_order(problem), head, problem.bodies.size(),
-                          {Rows::width, distance})};
+/// Two thirds of the contacts are expected to act, mixed with the others.
+std::vector<std::uint8_t> two_thirds(std::size_t contacts) {
+    std::vector<std::uint8_t> active(contacts);
+    for (std::size_t k = 0; k < contacts; ++k) active[k] = (k / 5) % 3 != 0 ? 1 : 0;
+    return active;
 }
 
-/// `head` contacts `count` times, all of them in between.
+Schedule scheduled(const ContactProblem& problem, const ScheduleSettings& settings) {
+    return make_schedule(moved_pairs(problem), natural_order(problem),
+                         two_thirds(problem.contacts.size()), problem.bodies.size(), settings);
+}
+
 template <class Rows>
-Impulses after_sweeps(const ContactProblem& problem, Instructions instructions, int distance,
-                      std::size_t head, int threads) {
+SweepLayout<Rows> laid_out(const ContactProblem& problem, const Delassus& w, Schedule schedule) {
+    return {problem,
+            w,
+            moved_pairs(problem),
+            Impulses(problem.contacts.size()),
+            problem.free,
+            std::move(schedule)};
+}
+
+template <class Layout>
+void wake_some(Layout& layout) {
+    for (std::size_t g = 0; g < layout.awake.size(); ++g) layout.awake[g] = g % 3 == 0 ? 1 : 0;
+}
+
+constexpr int trains = 2;
+constexpr std::size_t wagons = 5;
+
+template <class Rows>
+Impulses after_trains(const ContactProblem& problem, Instructions instructions,
+                      const Schedule& schedule, int threads) {
     const Delassus w(problem);
-    SweepLayout<Rows> layout = laid_out<Rows>(problem, w, distance, head);
-    SweepTrain<Rows> train(
-        sweeps<Rows>(instructions), layout.rows, layout.bodies, layout.schedule,
-        make_blocks(layout.schedule, moved_pairs(problem), problem.bodies.size(), Rows::width));
+    SweepLayout<Rows> layout = laid_out<Rows>(problem, w, schedule);
+    wake_some(layout);
+    SweepTrain<Rows> train(sweeps<Rows>(instructions), layout);
     ThreadTeam team(threads);
-    train.run({{false, false}, {false, false}, {true, false}, {true, false}, {true, true}}, team);
-    train.run({{false, false}, {true, true}}, team);
+    for (int i = 0; i < trains; ++i) train.run(wagons, team);
     Impulses r(problem.contacts.size());
     layout.collect(r);
     return r;
 }
+
+/// What trains should do, one contact after the other.
+template <class Rows>
+class OneByOne {
+ public:
+    OneByOne(const ContactProblem& problem, const Schedule& grouped)
+        : grouped_(grouped),
+          w_(problem),
+          layout_(laid_out<Rows>(problem, w_, single_lanes(problem, grouped))) {
+        for (std::int32_t g = grouped.active; g < grouped.all; ++g)
+            awake_.push_back((g - grouped.active) % 3 == 0);
+    }
+
+    Impulses after_trains(std::size_t contacts) {
+        for (int i = 0; i < trains; ++i)
+            for (std::size_t wagon = 0; wagon < wagons; ++wagon) sweep(wagon + 1 == wagons);
+        Impulses r(contacts);
+        layout_.collect(r);
+        return r;
+    }
+
+ private:
+    /// Memory in the order of contacts, all active.
+    static Schedule single_lanes(const ContactProblem& problem, const Schedule& grouped) {
+        Schedule schedule;
+        for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+            schedule.lanes.push_back(static_cast<std::int32_t>(k));
+        schedule.active = schedule.all = static_cast<std::int32_t>(problem.contacts.size());
+        EXPECT_GT(grouped.stretches.size(), 2u);
+        return schedule;
+    }
+
+    void sweep(bool last) {
+        for (const Stretch& stretch : grouped_.stretches) {
+            for (std::int32_t g = stretch.active.first; g < stretch.active.last; ++g) update(g);
+            for (std::int32_t g = stretch.resting.first; g < stretch.resting.last; ++g) {
+                const auto place = static_cast<std::size_t>(g - grouped_.active);
+                if (!last && !awake_[place]) continue;
+                const bool loaded = update(g);
+                if (last) awake_[place] = loaded;
+            }
+        }
+    }
+
+    bool update(std::int32_t group) {
+        const auto width = static_cast<std::int32_t>(grouped_.lanes.size()) / grouped_.all;
+        bool loaded = false;
+        for (std::int32_t i = group * width; i < (group + 1) * width; ++i) {
+            const std::int32_t k = grouped_.lanes[static_cast<std::size_t>(i)];
+            if (k < 0) continue;
+            Rows* const row = layout_.rows.data() + k;
+            plain_(row, row + 1, layout_.bodies.data());
+            loaded = loaded || row->rn.v[0] > 0.0;
+        }
+        return loaded;
+    }
+
+    const Schedule& grouped_;
+    Delassus w_;
+    SweepLayout<Rows> layout_;
+    std::vector<bool> awake_;
+    void (*plain_)(Rows*, Rows*, PlaneBody*) = sweeps<Rows>(Instructions::portable).plain;
+};
 
 bool same_bits(const Impulses& a, const Impulses& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
@@ -118,15 +194,18 @@ std::vector<Instructions> all_instructions() {
 template <class Grouped, class Single>
 void expect_the_bits_of_one_after_the_other(Kind kind) {
     const ContactProblem problem = lattice(30, 40, kind);
-    const std::size_t head = problem.contacts.size() * 2 / 3;
-    const Impulses reference = after_sweeps<Single>(problem, Instructions::portable, 1, head, 1);
-    ASSERT_TRUE(moves_something(reference));
-    for (const Instructions instructions : all_instructions())
-        for (const int distance : {1, 2, 3, 7})
+    for (const int distance : {1, 2, 3, 7}) {
+        const Schedule schedule =
+            scheduled(problem, {.width = Grouped::width, .distance = distance, .stretch = 100});
+        const Impulses reference =
+            OneByOne<Single>(problem, schedule).after_trains(problem.contacts.size());
+        ASSERT_TRUE(moves_something(reference));
+        for (const Instructions instructions : all_instructions())
             for (const int threads : {1, 2, 3})
-                EXPECT_TRUE(same_bits(reference, after_sweeps<Grouped>(problem, instructions,
-                                                                       distance, head, threads)))
+                EXPECT_TRUE(same_bits(
+                    reference, after_trains<Grouped>(problem, instructions, schedule, threads)))
                     << static_cast<int>(instructions) << " " << distance << " " << threads;
+    }
 }
 
 TEST(Sweep, GroupsOfDiscsHaveTheBitsOfOneAfterTheOther) {
@@ -163,23 +242,58 @@ std::vector<std::int32_t> groups_of(const Schedule& schedule, std::size_t contac
 TEST(Schedule, KeepsTheOrderOfContactsThatShareABodyAndTheirDistance) {
     const ContactProblem problem = lattice(25, 25, Kind::discs);
     const std::vector<MovedPair> pairs = moved_pairs(problem);
-    const std::size_t head = pairs.size() / 2;
-    const Schedule schedule =
-        make_schedule(pairs, natural_order(problem), head, problem.bodies.size(), {4, 3});
+    const std::vector<std::uint8_t> active = two_thirds(pairs.size());
+    const Schedule schedule = scheduled(problem, {.width = 4, .distance = 3});
     const std::vector<std::int32_t> group = groups_of(schedule, pairs.size(), 4);
     EXPECT_EQ(schedule.lanes.size(), static_cast<std::size_t>(schedule.all) * 4);
-    std::vector<std::int32_t> last(problem.bodies.size(), -3);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        EXPECT_EQ(k < head, group[k] < schedule.head);
-        for (const std::int32_t body : {pairs[k].a, pairs[k].b}) {
-            if (body < 0) continue;
-            EXPECT_GE(group[k],
-                      last[body] + (k == head ? 1 : 3) - (group[k] >= schedule.head ? 2 : 0));
-            last[body] = group[k];
+    for (const bool resting : {false, true}) {
+        std::vector<std::int32_t> last(problem.bodies.size(), -3);
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            EXPECT_EQ(active[k] != 0, group[k] < schedule.active);
+            if ((active[k] == 0) != resting) continue;
+            for (const std::int32_t body : {pairs[k].a, pairs[k].b}) {
+                if (body < 0) continue;
+                EXPECT_GE(group[k], last[body] + 3);
+                last[body] = group[k];
+            }
         }
     }
     // Discs have six neighbours: there is enough to do side by side.
     EXPECT_GT(pairs.size(), 0.7 * schedule.lanes.size());
+}
+
+// A sweep that waits for `after` stretches of the one before finds all that these did to its
+// bodies, and nothing that they have still to do.
+TEST(Schedule, StretchesCoverAllGroupsAndKnowWhatTheyWaitFor) {
+    const ContactProblem problem = lattice(25, 25, Kind::discs);
+    const std::vector<MovedPair> pairs = moved_pairs(problem);
+    const Schedule schedule = scheduled(problem, {.width = 4, .distance = 2, .stretch = 64});
+    std::vector<std::int32_t> last(problem.bodies.size(), 0);
+    std::vector<std::set<std::int32_t>> bodies;
+    GroupRange active{0, 0}, resting{schedule.active, schedule.active};
+    for (const Stretch& stretch : schedule.stretches) {
+        EXPECT_EQ(stretch.active.first, active.last);
+        EXPECT_EQ(stretch.resting.first, resting.last);
+        active = stretch.active, resting = stretch.resting;
+        bodies.emplace_back();
+        for (const GroupRange& range : {active, resting})
+            for (std::int32_t i = 4 * range.first; i < 4 * range.last; ++i) {
+                const std::int32_t k = schedule.lanes[static_cast<std::size_t>(i)];
+                if (k < 0) continue;
+                for (const std::int32_t body : {pairs[k].a, pairs[k].b})
+                    if (body >= 0)
+                        bodies.back().insert(body),
+                            last[body] = static_cast<std::int32_t>(bodies.size());
+            }
+    }
+    EXPECT_EQ(active.last, schedule.active);
+    EXPECT_EQ(resting.last, schedule.all);
+    ASSERT_GT(bodies.size(), 10u);
+    for (std::size_t s = 0; s < bodies.size(); ++s) {
+        std::int32_t needed = 0;
+        for (const std::int32_t body : bodies[s]) needed = std::max(needed, last[body]);
+        EXPECT_EQ(schedule.stretches[s].after, needed);
+    }
 }
 
 // A body that everything touches: one contact per group, whatever the width.
@@ -188,7 +302,8 @@ TEST(Schedule, AHubIsServedOneContactAtATime) {
     for (std::int32_t k = 1; k <= 200; ++k) pairs.push_back({0, k});
     std::vector<std::int32_t> order(pairs.size());
     std::iota(order.begin(), order.end(), 0);
-    const Schedule schedule = make_schedule(pairs, order, pairs.size(), 201, {4, 3});
+    const Schedule schedule =
+        make_schedule(pairs, order, std::vector<std::uint8_t>(200, 1), 201, {4, 3});
     const std::vector<std::int32_t> group = groups_of(schedule, pairs.size(), 4);
     for (std::size_t k = 1; k < group.size(); ++k) EXPECT_EQ(group[k], group[k - 1] + 3);
 }
@@ -199,7 +314,7 @@ TEST(Schedule, ImmovablePartnersDoNotBind) {
     for (std::int32_t k = 0; k < 200; ++k) pairs.push_back({-1, k});
     std::vector<std::int32_t> order(pairs.size());
     std::iota(order.begin(), order.end(), 0);
-    EXPECT_EQ(make_schedule(pairs, order, pairs.size(), 200, {4, 3}).all, 50);
+    EXPECT_EQ(make_schedule(pairs, order, std::vector<std::uint8_t>(200, 1), 200, {4, 3}).all, 50);
 }
 
 // A row of discs at one height, then one a radius lower: the upper row first, its even contacts
@@ -239,9 +354,10 @@ TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
         const std::vector<Twist> v = body_velocities(problem, r);
         const std::vector<MovedPair> pairs = moved_pairs(problem);
         const auto sum = [&]<class Rows>(Rows) {
-            SweepLayout<Rows> layout(problem, w, pairs, r, v,
-                                     make_schedule(pairs, natural_order(problem), r.size(),
-                                                   problem.bodies.size(), {Rows::width, 1}));
+            SweepLayout<Rows> layout(
+                problem, w, pairs, r, v,
+                make_schedule(pairs, natural_order(problem), std::vector<std::uint8_t>(r.size(), 1),
+                              problem.bodies.size(), {Rows::width, 1}));
             PassSums<Rows::width> sums;
             sweeps<Rows>(best_instructions())
                 .measured(layout.rows.data(), layout.rows.data() + layout.rows.size(),
@@ -255,6 +371,72 @@ TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
             EXPECT_NEAR(sum(RollingDiscRows<4>()), expected, 1e-13 * expected);
         EXPECT_GT(expected, 0.1);
     }
+}
+
+template <class Rows>
+void expect_state_survives_rearrangement(Kind kind) {
+    const ContactProblem problem = lattice(12, 12, kind);
+    const std::vector<MovedPair> pairs = moved_pairs(problem);
+    const Delassus w(problem);
+    Schedule first = scheduled(problem, {.width = Rows::width, .distance = 1, .stretch = 40});
+    SweepLayout<Rows> layout = laid_out<Rows>(problem, w, std::move(first));
+    SweepTrain<Rows> train(sweeps<Rows>(best_instructions()), layout);
+    ThreadTeam team(1);
+    train.run(3, team);
+    Impulses before(pairs.size()), after(pairs.size());
+    layout.collect(before);
+    const std::vector<std::uint8_t> loaded = layout.loaded(pairs.size());
+    for (std::size_t k = 0; k < pairs.size(); ++k) EXPECT_EQ(loaded[k] != 0, before[k][0] > 0.0);
+    layout.rearrange(make_schedule(pairs, natural_order(problem), loaded, problem.bodies.size(),
+                                   {.width = Rows::width, .distance = 3, .stretch = 70}));
+    layout.collect(after);
+    EXPECT_TRUE(same_bits(before, after));
+    // Rows came along: a layout from scratch goes on the same way but for its rounded velocities.
+    SweepLayout<Rows> fresh(problem, w, pairs, before, body_velocities(problem, before),
+                            layout.schedule);
+    SweepTrain<Rows> other(sweeps<Rows>(best_instructions()), fresh);
+    train.run(4, team);
+    other.run(4, team);
+    Impulses expected(pairs.size());
+    layout.collect(after);
+    fresh.collect(expected);
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(after[k][i], expected[k][i], 1e-12);
+    EXPECT_TRUE(moves_something(after));
+}
+
+TEST(SweepLayout, GoesOnFromTheSameStateInOtherGroups) {
+    expect_state_survives_rearrangement<DiscRows<4>>(Kind::discs);
+    expect_state_survives_rearrangement<RollingDiscRows<4>>(Kind::rolling_discs);
+    expect_state_survives_rearrangement<GeneralRows<4>>(Kind::general);
+    expect_state_survives_rearrangement<GeneralRollingRows<1>>(Kind::general_rolling);
+}
+
+// A contact at rest is not swept until a measuring sweep finds that it closes.
+TEST(SweepTrain, WakesWhatCloses) {
+    ContactProblem problem;
+    problem.bodies.push_back(BodyMobility(1.0, 2.0));
+    problem.free.push_back({{0.0, -1.0, 0.0}, {}});
+    Contact floor;
+    floor.b = 0;
+    floor.normal = {0.0, 1.0, 0.0};
+    floor.tangent = tangent_of(floor.normal);
+    floor.arm_b = {0.0, -0.5, 0.0};
+    problem.contacts.push_back(floor);
+    const Delassus w(problem);
+    const Schedule schedule =
+        make_schedule(moved_pairs(problem), natural_order(problem), {0}, 1, {.width = 4});
+    EXPECT_EQ(schedule.active, 0);
+    SweepLayout<DiscRows<4>> layout = laid_out<DiscRows<4>>(problem, w, schedule);
+    SweepTrain<DiscRows<4>> train(sweeps<DiscRows<4>>(best_instructions()), layout);
+    ThreadTeam team(1);
+    Impulses r(1);
+    train.run(1, team);
+    layout.collect(r);
+    EXPECT_EQ(r[0][0], 1.0);
+    EXPECT_EQ(layout.awake, std::vector<std::uint8_t>{1});
+    EXPECT_EQ(total(train.resting_sums().loaded), 1.0);
+    EXPECT_GT(total(train.resting_sums().error), 0.0) << "the state that it met was not solved";
 }
 
 SolverSettings few_sweeps(std::int64_t threads) {
