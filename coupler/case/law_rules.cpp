@@ -61,7 +61,7 @@ Verdict solver_knows_rolling(const Settings& s) {
     return Objection{fmt::format("nlgs-stored does not solve rolling resistance, and "
                                  "contact.rolling_friction = {}.",
                                  s.text("contact.rolling_friction")),
-                     "Use nlgs or proximal-newton."};
+                     "Use nlgs or central-path."};
 }
 
 Verdict dumps_know_rolling(const Settings& s) {

@@ -63,7 +63,7 @@ void refuse_rolling(const ContactProblem& problem) {
     if (has_rolling(problem))
         throw std::invalid_argument(
             "contact solver nlgs-stored does not know rolling resistance, which the contact law "
-            "asks for: use nlgs or proximal-newton");
+            "asks for: use nlgs or central-path");
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <stdexcept>
 
+#include "granular_adapter/nscd/central_path_solver.hpp"
 #include "granular_adapter/nscd/nlgs.hpp"
 #include "granular_adapter/nscd/nlgs_stored.hpp"
-#include "granular_adapter/nscd/proximal_newton.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -21,8 +21,8 @@ const std::vector<SolverEntry>& solver_list() {
     static const std::vector<SolverEntry> solvers = {
         {"nlgs", "non-linear Gauss-Seidel on body velocities", make<Nlgs>},
         {"nlgs-stored", "the same on the assembled Delassus operator", make<NlgsStored>},
-        {"proximal-newton", "Newton steps with a sparse factorisation, for tight tolerances",
-         make<ProximalNewton>},
+        {"central-path", "path following with a sparse factorisation, for tight tolerances",
+         make<CentralPathSolver>},
     };
     return solvers;
 }

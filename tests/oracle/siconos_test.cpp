@@ -146,7 +146,7 @@ TEST_P(Solvers, FindTheVelocitiesOfSiconos) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ours, Solvers, testing::Values("nlgs", "nlgs-stored", "proximal-newton"),
+INSTANTIATE_TEST_SUITE_P(Ours, Solvers, testing::Values("nlgs", "nlgs-stored", "central-path"),
                          [](const auto& info) {
                              std::string name = info.param;
                              std::replace(name.begin(), name.end(), '-', '_');

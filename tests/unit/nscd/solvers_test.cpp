@@ -41,6 +41,21 @@ ContactProblem settled_problem() {
     return engine.problem();
 }
 
+/// The dry column after `steps` of 0.01: discs D = 1 that touch, a left wall and a floor, mu = 0.3.
+ContactProblem young_lattice(int columns, int rows, int steps) {
+    EngineSettings settings = scenes::exact(0.3, 1e-3);
+    settings.solver_settings.max_iterations = 5000;
+    Engine engine(settings, scenes::discs,
+                  {scenes::floor(0.3), scenes::wall(2, {0, 0, 0}, {1, 0, 0}, 0.3)});
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns - row % 2; ++column)
+            engine.bodies().add(scenes::disc(100 * row + column, 0.5 + column + 0.5 * (row % 2),
+                                             0.5 + row * std::sqrt(0.75)));
+    scenes::run(engine, 0.01 * (steps - 1), 0.01);
+    engine.step(0.01);
+    return engine.problem();
+}
+
 class EverySolver : public testing::TestWithParam<std::string> {};
 
 TEST_P(EverySolver, SolvesProblemsWithAnyMobilityAndArms) {
@@ -189,16 +204,44 @@ TEST(NlgsStored, RefusesRollingByName) {
 }
 
 // Sweeps stall on this packing between 1e-7 and 1e-8.
-TEST(ProximalNewton, SolvesASettledPackingToEightDigits) {
+TEST(CentralPath, SolvesASettledPackingToEightDigits) {
     const ContactProblem problem = settled_problem();
-    const SolverResult result = solve("proximal-newton", problem, tight(1e-8));
+    const SolverResult result = solve("central-path", problem, tight(1e-8));
     EXPECT_TRUE(result.converged) << result.residual;
     EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
 }
 
-TEST(ProximalNewton, SolvesRollingResistance) {
+// A perfect triangular lattice against a wall that has just begun to fall: sweeps, and Newton
+// methods from where they stall, wander at 1e-3 for ever, since the path to the solution turns back
+// in z several times.
+TEST(CentralPath, SolvesPerfectLatticesThatHaveHardlyMoved) {
+    for (const int steps : {2, 50}) {
+        const ContactProblem problem = young_lattice(8, 17, steps);
+        ASSERT_GT(problem.contacts.size(), 300u);
+        SolverSettings settings = tight(1e-8);
+        settings.max_iterations = 20000;
+        EXPECT_GT(solve("nlgs", problem, settings).residual, 1e-5);
+        settings.max_iterations = 1000000;
+        const SolverResult result = solve("central-path", problem, settings);
+        EXPECT_TRUE(result.converged) << "after " << steps << " steps: " << result.residual;
+        EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
+    }
+}
+
+TEST(CentralPath, GivesTheSameBitsTwiceAfterALongPath) {
+    const ContactProblem problem = young_lattice(8, 17, 50);
+    SolverSettings settings = tight(1e-8);
+    settings.max_iterations = 1000000;
+    const SolverResult a = solve("central-path", problem, settings);
+    const SolverResult b = solve("central-path", problem, settings);
+    EXPECT_GT(a.iterations, 8000);
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_TRUE(same_bits(a.impulses, b.impulses));
+}
+
+TEST(CentralPath, SolvesRollingResistance) {
     const ContactProblem problem = random_problem({.rolling = 0.1, .seed = 4});
-    const SolverResult result = solve("proximal-newton", problem, tight());
+    const SolverResult result = solve("central-path", problem, tight());
     EXPECT_TRUE(result.converged) << result.residual;
 }
 

@@ -597,10 +597,10 @@ TEST(NscdAdapter, WritesContactProblemsWhenAsked) {
 
 TEST(NscdAdapter, SolvesWithTheSolverOfTheCase) {
     Settings settings = box_settings();
-    settings.set("contact.solver", std::string("proximal-newton"));
+    settings.set("contact.solver", std::string("central-path"));
     NscdAdapter adapter;
     adapter.initialise(settings, discs, {grain_at(1, 5.0, 0.5)});
-    EXPECT_EQ(adapter.engine().settings().solver, "proximal-newton");
+    EXPECT_EQ(adapter.engine().settings().solver, "central-path");
     settings.set("contact.solver", std::string("newton"));
     EXPECT_NE(refusal<std::invalid_argument>([&] {
                   NscdAdapter().initialise(settings, discs, {grain_at(1, 5.0, 0.5)});
