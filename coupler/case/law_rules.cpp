@@ -105,8 +105,14 @@ void add_law_notes(const Settings& s, std::vector<std::string>& notes) {
         s.real("contact.friction") > 0.0)
         notes.push_back(
             "contact.impact: newton with friction may make energy where several contacts of a "
-            "grain "
-            "answer at once; contact.impact: moreau never does");
+            "grain answer at once; contact.impact: moreau never does");
+    // It begins with 8000 sweeps (granular_adapter/nscd/central_path_solver.cpp).
+    if (constexpr std::int64_t enough = 20000;
+        s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
+        notes.push_back(fmt::format(
+            "contact.iterations = {} leaves contact.solver: central-path with its first sweeps; "
+            "{} is the least that is of use, 1000000 solves hard packings",
+            s.integer("contact.iterations"), enough));
 }
 
 }  // namespace turbidite

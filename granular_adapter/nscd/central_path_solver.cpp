@@ -54,7 +54,7 @@ class Search {
     SolverResult result() {
         best_.iterations = used_;
         best_.velocities = body_velocities(problem_, best_.impulses);
-        best_.change = change_measures(problem_, w_, best_.velocities, best_.impulses);
+        best_.change = measures(problem_, w_, best_.velocities, best_.impulses, floor_).change;
         return std::move(best_);
     }
 

@@ -109,6 +109,9 @@ TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
     EXPECT_SAYS(notes({"contact.static_friction=0.5"}), "without contact.law: static-dynamic");
     EXPECT_EQ(notes({}).find("contact."), std::string::npos);
     EXPECT_SAYS(notes({"contact.restitution=0.5"}), "contact.impact: moreau never does");
+    EXPECT_SAYS(notes({"contact.solver=central-path"}), "contact.iterations = 2000 leaves");
+    EXPECT_EQ(notes({"contact.solver=central-path", "contact.iterations=20000"}).find("contact."),
+              std::string::npos);
     EXPECT_EQ(notes({"contact.restitution=0.5", "contact.impact=moreau"}).find("contact."),
               std::string::npos);
 }
