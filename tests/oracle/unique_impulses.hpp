@@ -43,14 +43,14 @@ inline std::vector<bool> unique_impulses(const siconos::Problem& problem,
     const Eigen::MatrixXd directions = free_directions(problem, u, rest);
     std::vector<bool> unique(n, true);
     if (directions.cols() == 0) return unique;
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(w * directions, Eigen::ComputeFullV);
-    const Eigen::VectorXd& values = svd.singularValues();
-    for (Eigen::Index i = 0; i < directions.cols(); ++i) {
-        if (values(i) > 1e-6 * values(0)) continue;
-        const Eigen::VectorXd wander = directions * svd.matrixV().col(i);
+    Eigen::FullPivLU<Eigen::MatrixXd> factors(w * directions);
+    factors.setThreshold(1e-6);
+    if (factors.dimensionOfKernel() == 0) return unique;
+    const Eigen::MatrixXd wander = directions * factors.kernel();
+    for (Eigen::Index i = 0; i < wander.cols(); ++i)
         for (int k = 0; k < n; ++k)
-            if (wander.segment<2>(2 * k).norm() > 1e-6) unique[k] = false;
-    }
+            if (wander.col(i).segment<2>(2 * k).norm() > 1e-6 * wander.col(i).norm())
+                unique[k] = false;
     return unique;
 }
 
