@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/whole_file.hpp"
 
 namespace turbidite {
 
@@ -14,13 +14,7 @@ nlohmann::ordered_json read_run_json(const std::filesystem::path& file) {
 }
 
 void write_run_json(const std::filesystem::path& file, const nlohmann::ordered_json& record) {
-    const std::filesystem::path part = file.string() + ".part";
-    std::ofstream output(part);
-    output << record.dump(2) << "\n";
-    if (!output.flush())
-        throw Failure(ExitCode::participant_failed,
-                      "cannot write " + file.string() + ": is the disk full?");
-    std::filesystem::rename(part, file);
+    write_whole(file, [&](std::ostream& out) { out << record.dump(2) << "\n"; });
 }
 
 }  // namespace turbidite

@@ -48,13 +48,22 @@ void demand_finite(const std::vector<Kick>& kicks, std::int64_t window) {
                 k.id, window, k.velocity[0], k.velocity[1], k.velocity[2]));
 }
 
+/// What lessens overlaps: springs are as stiff as their own keys say, and sub-steps follow.
+std::string against_overlap(const std::string& adapter) {
+    if (adapter == "yade-md")
+        return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness where it is "
+               "given.";
+    return "Use a smaller time.step, or more contact.iterations.";
+}
+
 }  // namespace
 
 Ledger::Ledger(const Settings& settings, std::size_t population)
     : population_(population),
       diameter_(settings.real("run.diameter")),
       rate_(settings.real("run.velocity_scale") / diameter_),
-      penetration_limit_(settings.real("limits.penetration")) {}
+      penetration_limit_(settings.real("limits.penetration")),
+      against_overlap_(against_overlap(settings.text("grains.adapter"))) {}
 
 void Ledger::check_start(const Motion& state) const {
     demand_finite(state, "at the start");
@@ -84,10 +93,8 @@ void Ledger::check_overlap(const Motion& state) const {
     const double overlap = state.report.max_penetration / diameter_;
     if (overlap <= penetration_limit_) return;
     throw PhysicsRefused(
-        fmt::format("grains overlap by {:.3g} D, limits.penetration = {:.3g} D. Use a smaller "
-                    "time.step, or more "
-                    "contact.iterations.",
-                    overlap, penetration_limit_));
+        fmt::format("grains overlap by {:.3g} D, limits.penetration = {:.3g} D. {}", overlap,
+                    penetration_limit_, against_overlap_));
 }
 
 void Ledger::check_divergence(const FluidReport& report) {

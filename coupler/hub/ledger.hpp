@@ -26,8 +26,9 @@ class Ledger {
     std::size_t population_;
     std::size_t removed_ = 0;
     double diameter_;
-    double rate_;               ///< u_c / D [1/s]
-    double penetration_limit_;  ///< [D]
+    double rate_;                  ///< u_c / D [1/s]
+    double penetration_limit_;     ///< [D]
+    std::string against_overlap_;  ///< advice in the terms of the adapter
     int divergent_windows_ = 0;
 };
 

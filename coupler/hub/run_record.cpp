@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupler/protocol/largest.hpp"
+#include "coupler/protocol/whole_file.hpp"
 
 namespace turbidite {
 namespace {
@@ -116,17 +117,7 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["maxima"] = maxima_table(status.maxima);
     if (!status.contact_residuals.empty()) record["contact"] = contact_table(status);
     record["ranks"] = rank_table(links);
-    const std::filesystem::path part = file.string() + ".part";
-    std::ofstream out(part);
-    out << record.dump(2) << "\n";
-    out.close();
-    if (!out) {  // the old record stays, which is worth more than half a new one
-        std::error_code ignored;
-        std::filesystem::remove(part, ignored);
-        throw Failure(ExitCode::participant_failed,
-                      "cannot write " + file.string() + ": is the disk full?");
-    }
-    std::filesystem::rename(part, file);
+    write_whole(file, [&](std::ostream& out) { out << record.dump(2) << "\n"; });
 }
 
 }  // namespace turbidite

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/whole_file.hpp"
 
 namespace turbidite::vtk {
 namespace {
@@ -12,19 +13,6 @@ namespace {
 Failure full_disk(const std::filesystem::path& file) {
     return Failure(ExitCode::participant_failed,
                    "cannot write " + file.string() + ": is the disk full?");
-}
-
-// Written beside and renamed: a reader never meets half a file.
-void write_whole(const std::filesystem::path& file,
-                 const std::function<void(std::ostream&)>& content) {
-    const std::filesystem::path part = file.string() + ".part";
-    {
-        std::ofstream out(part);
-        content(out);
-        out.flush();
-        if (!out) throw full_disk(file);
-    }
-    std::filesystem::rename(part, file);
 }
 
 }  // namespace

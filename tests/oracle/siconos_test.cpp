@@ -5,7 +5,6 @@
 // answers by ours. Impulses of packings are not unique, velocities are.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,22 +13,18 @@
 #include "bench/siconos/siconos_problem.hpp"
 #include "granular_adapter/nscd/delassus_matrix.hpp"
 #include "granular_adapter/nscd/residual.hpp"
-#include "granular_adapter/nscd/solver_list.hpp"
+#include "judged.hpp"
 #include "problems.hpp"
 
 namespace turbidite {
 namespace {
 
+using namespace judged;
 using nscd::ContactProblem;
 using nscd::problems::random_problem;
 
 constexpr bench::DryColumn dense{.compacity = 0.9069, .width = 8.0, .height = 16.0};
 constexpr bench::DryColumn loose{.compacity = 0.7854, .width = 8.0, .height = 16.0};
-
-struct Named {
-    std::string name;
-    ContactProblem problem;
-};
 
 /// Dimensionless problems of a collapsing column.
 void take_problems(const std::string& name, const bench::DryColumn& column,
@@ -53,26 +48,6 @@ const std::vector<Named>& problems_of_columns() {
         return all;
     }();
     return list;
-}
-
-nscd::SolverResult ours(const std::string& solver, const ContactProblem& problem,
-                        double tolerance) {
-    nscd::SolverSettings settings;
-    settings.tolerance = tolerance;
-    settings.max_iterations = 300000;
-    return nscd::make_solver(solver)->solve(problem, nscd::Impulses(problem.contacts.size()),
-                                            settings);
-}
-
-double norm(const std::vector<double>& x) {
-    double sum = 0.0;
-    for (const double value : x) sum += value * value;
-    return std::sqrt(sum);
-}
-
-std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-    return a;
 }
 
 TEST(SiconosReads, OurFilesBitForBit) {
@@ -117,19 +92,19 @@ TEST(SiconosMeasure, IsWhatWeTakeItFor) {
     }
 }
 
-class Solvers : public testing::TestWithParam<std::string> {};
-
-TEST_P(Solvers, PassTheMeasureOfSiconos) {
-    for (const Named& named : problems_of_columns()) {
-        const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-6);
-        EXPECT_TRUE(result.converged) << named.name << ": " << result.residual;
-        EXPECT_LT(siconos::Problem(named.problem, {}).error(siconos::flat(result.impulses, {})),
-                  1e-6)
-            << named.name;
-    }
+void compare_with_siconos(const Named& named, const siconos::Problem& judge,
+                          const siconos::Solution& theirs, const std::string& solver) {
+    SCOPED_TRACE(named.name + ", " + solver);
+    const nscd::SolverResult result = ours(solver, named.problem, 1e-6);
+    EXPECT_TRUE(result.converged) << result.residual;
+    std::vector<double> u_ours, u_theirs;
+    EXPECT_LT(judge.error(siconos::flat(result.impulses, {}), &u_ours), 1e-6);
+    judge.error(theirs.impulses, &u_theirs);
+    EXPECT_LT(relative_difference(u_ours, u_theirs), 1e-5);
 }
 
-TEST_P(Solvers, FindTheVelocitiesOfSiconos) {
+// Each passes the other's measure, and the contact velocities are the same.
+TEST(Columns, HaveTheVelocitiesOfSiconosWithEverySolver) {
     for (const Named& named : problems_of_columns()) {
         const siconos::Problem judge(named.problem, {});
         const siconos::Solution theirs = judge.solve("nsgs", 1e-7, 100000);
@@ -138,37 +113,14 @@ TEST_P(Solvers, FindTheVelocitiesOfSiconos) {
             nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
             1e-6)
             << named.name;
-        const nscd::SolverResult result = ours(GetParam(), named.problem, 1e-6);
-        std::vector<double> u_ours, u_theirs;
-        judge.error(siconos::flat(result.impulses, {}), &u_ours);
-        judge.error(theirs.impulses, &u_theirs);
-        EXPECT_LT(norm(difference(u_ours, u_theirs)), 1e-5 * norm(u_theirs)) << named.name;
+        for (const nscd::SolverEntry& entry : nscd::solver_list())
+            compare_with_siconos(named, judge, theirs, entry.name);
     }
-}
-
-INSTANTIATE_TEST_SUITE_P(Ours, Solvers, testing::Values("nlgs", "nlgs-stored", "central-path"),
-                         [](const auto& info) {
-                             std::string name = info.param;
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
-
-/// Open, sticking, sliding.
-std::array<int, 3> statuses(const ContactProblem& problem, const std::vector<double>& r) {
-    std::array<int, 3> count{};
-    const double size = norm(r);
-    for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
-        const double n = r[2 * k], t = std::abs(r[2 * k + 1]);
-        const bool open = n < 1e-7 * size;
-        const bool slides = t > problem.contacts[k].friction * n - 1e-7 * size;
-        ++count[open ? 0 : slides ? 2 : 1];
-    }
-    return count;
 }
 
 // One contact per body, so that W is regular: impulses and statuses are unique.
 TEST(Siconos, AgreesOnImpulsesAndStatusesWhereTheyAreUnique) {
-    std::array<int, 3> seen{};
+    StatusCount seen{};
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const ContactProblem problem =
             random_problem({.bodies = 15, .extra_contacts = 0, .friction = 0.6, .seed = seed});
@@ -178,7 +130,7 @@ TEST(Siconos, AgreesOnImpulsesAndStatusesWhereTheyAreUnique) {
         for (const nscd::SolverEntry& entry : nscd::solver_list()) {
             const nscd::SolverResult result = ours(entry.name, problem, 1e-12);
             const std::vector<double> r = siconos::flat(result.impulses, {});
-            EXPECT_LT(norm(difference(r, theirs.impulses)), 1e-8 * norm(r)) << seed << entry.name;
+            EXPECT_LT(relative_difference(theirs.impulses, r), 1e-8) << seed << entry.name;
             EXPECT_EQ(statuses(problem, r), statuses(problem, theirs.impulses)) << seed;
             EXPECT_LT(judge.error(r), 1e-10);
         }

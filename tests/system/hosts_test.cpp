@@ -2,6 +2,7 @@
 //
 // The same case with both hosts of the contact engine: what YADE does to bodies (axes of its own,
 // orientations that go through it) changes no bit.
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -65,6 +66,48 @@ TEST_F(Hosts, PlatesInsideTheBoxActTheSame) {
     const auto in_yade = physics("yade-nscd"), alone = physics("standalone-nscd");
     ASSERT_EQ(in_yade.size(), 6u);
     EXPECT_EQ(in_yade, alone);
+}
+
+/// The named column of a history at each of its rows.
+std::vector<double> column(const std::string& history, const std::string& name) {
+    std::istringstream rows(history);
+    std::string row, cell;
+    std::getline(rows, row);
+    std::istringstream header(row);
+    int index = 0;
+    while (std::getline(header, cell, ',') && cell != name) ++index;
+    EXPECT_EQ(cell, name);
+    std::vector<double> values;
+    while (std::getline(rows, row)) {
+        std::istringstream cells(row);
+        for (int k = 0; k <= index; ++k) std::getline(cells, cell, ',');
+        values.push_back(std::stod(cell));
+    }
+    return values;
+}
+
+// A disc on a belt slides at mu g until it rolls with a third of the belt's speed (V/3 after
+// V/(3 mu g) = 1.5); another lies on a plate that rises. Means are over both.
+TEST_F(Hosts, MovingWallsDragAndLift) {
+    scratch.write("walls.csv",
+                  "id,x1,y1,x2,y2,vx,vy,spin,friction\n1,0.5,3,7,3,0.9,0,0,0.2\n"
+                  "2,9,3,11,3,0,0.3,0,0.2\n");
+    scratch.write("grains.csv", "id,x,y\n1,3,3.5\n2,10,3.5\n");
+    scratch.write("case.yaml",
+                  "domain: {size: [12, 14], walls_file: walls.csv}\n"
+                  "grains: {file: grains.csv, density_ratio: 1.5}\n"
+                  "fluid: {enabled: false}\ncontact: {friction: 0.5, tolerance: 1e-10}\n"
+                  "time: {step: 0.01, end: 3}\noutput: {interval: 0.5}\n");
+    const auto in_yade = physics("yade-nscd"), alone = physics("standalone-nscd");
+    EXPECT_EQ(in_yade, alone);
+    const std::string history = text(scratch.path() / "standalone-nscd" / "history.csv");
+    const std::vector<double> vx = column(history, "mean_velocity_x"),
+                              vy = column(history, "mean_velocity_y");
+    ASSERT_EQ(vx.size(), 7u);  // t = 0, 0.5, ..., 3
+    for (std::size_t k = 1; k < vx.size(); ++k) {
+        EXPECT_NEAR(vx[k], 0.5 * std::min(0.2 * 0.5 * static_cast<double>(k), 0.3), 1e-6) << k;
+        EXPECT_NEAR(vy[k], 0.5 * 0.3, 1e-6) << k;
+    }
 }
 
 }  // namespace

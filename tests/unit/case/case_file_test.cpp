@@ -10,12 +10,10 @@
 #include "coupler/case/population.hpp"
 #include "coupler/case/run_folder.hpp"
 #include "coupler/protocol/case_hash.hpp"
-#include "tests/unit/case/scratch_folder.hpp"
+#include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
 namespace {
-
-using ::testing::Test;
 
 constexpr auto good_case =
     "domain:\n"           // line 1
@@ -28,28 +26,10 @@ constexpr auto good_case =
     "  step: 0.01\n"      // 8
     "  end: 1\n";         // 9; further text starts at line 10
 
-class CaseFile : public Test {
+class CaseFile : public CaseTest {
  protected:
-    ScratchFolder folder;
-
-    ResolvedCase load(const std::string& more = "", const std::vector<std::string>& set = {}) {
-        return load_case(folder.write("box.yaml", good_case + more), set);
-    }
-
-    /// The text shown for the good case with this added; empty if nothing was wrong.
-    std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) {
-        try {
-            load(more, set);
-        } catch (const CaseRefused& refused) {
-            EXPECT_EQ(refused.code(), ExitCode::bad_input);
-            return refused.what();
-        }
-        return "";
-    }
+    CaseFile() : CaseTest(good_case) {}
 };
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
 TEST_F(CaseFile, FillsDefaults) {
     const ResolvedCase box = load();
     EXPECT_EQ(box.name, "box");
@@ -343,16 +323,14 @@ TEST_F(CaseFile, GrainsFileIsLookedUpBesideTheCase) {
 }
 
 TEST_F(CaseFile, OverlapInAGrainsFile) {
-    folder.write("two.csv", "id,x,y\n4,6,6\n9,6.75,6\n");  // centres 0.75 D apart
-    const std::string text = refusal("", {"grains.file=two.csv"});
-    EXPECT_SAYS(text, "two.csv line 3: grains 4 and 9 overlap by 0.25 D");
+    const std::string text = refusal_of_grains("id,x,y\n4,6,6\n9,6.75,6\n");  // 0.75 D apart
+    EXPECT_SAYS(text, "g.csv line 3: grains 4 and 9 overlap by 0.25 D");
 }
 
 TEST_F(CaseFile, GrainOutsideTheBox) {
-    folder.write("out.csv", "id,x,y\n4,6,6\n5,11.75,6\n");  // reaches 12.25 of 12
-    EXPECT_SAYS(
-        refusal("", {"grains.file=out.csv"}),
-        "out.csv line 3: grain 5 at (11.75, 6) is outside the box: 0.25 D beyond its right");
+    // It reaches 12.25 of 12.
+    EXPECT_SAYS(refusal_of_grains("id,x,y\n4,6,6\n5,11.75,6\n"),
+                "g.csv line 3: grain 5 at (11.75, 6) is outside the box: 0.25 D beyond its right");
 }
 
 TEST_F(CaseFile, MoreGrainsThanTheBoxHolds) {

@@ -4,29 +4,22 @@
 #include <gtest/gtest.h>
 
 #include "coupler/case/case_file.hpp"
-#include "tests/unit/case/scratch_folder.hpp"
+#include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
 namespace {
 
-class LawKeys : public ::testing::Test {
+class LawKeys : public CaseTest {
  protected:
-    ScratchFolder folder;
+    LawKeys()
+        : CaseTest(
+              "domain: {size: [12, 24]}\ngrains: {count: 20}\nfluid: {enabled: false}\n"
+              "time: {step: 0.01, end: 1}\n") {}
 
-    ResolvedCase load(const std::vector<std::string>& set) {
-        return load_case(folder.write("dry.yaml",
-                                      "domain: {size: [12, 24]}\ngrains: {count: 20}\n"
-                                      "fluid: {enabled: false}\ntime: {step: 0.01, end: 1}\n"),
-                         set);
-    }
+    ResolvedCase load(const std::vector<std::string>& set) const { return CaseTest::load("", set); }
 
-    std::string refusal(const std::vector<std::string>& set) {
-        try {
-            load(set);
-        } catch (const CaseRefused& refused) {
-            return refused.what();
-        }
-        return "";
+    std::string refusal(const std::vector<std::string>& set) const {
+        return CaseTest::refusal("", set);
     }
 
     std::string notes(const std::vector<std::string>& set) {
@@ -35,8 +28,6 @@ class LawKeys : public ::testing::Test {
         return all;
     }
 };
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 TEST_F(LawKeys, ALawThatLacksAParameter) {
     EXPECT_SAYS(refusal({"contact.law=static-dynamic"}),

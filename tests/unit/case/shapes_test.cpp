@@ -11,7 +11,7 @@
 #include "coupler/case/grain_forms.hpp"
 #include "coupler/case/inner_walls.hpp"
 #include "coupler/case/random_packing.hpp"
-#include "tests/unit/case/scratch_folder.hpp"
+#include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
 namespace {
@@ -21,29 +21,16 @@ constexpr auto dry_case =
     "fluid: {enabled: false}\n"
     "time: {step: 0.01, end: 1}\n";
 
-class ShapeCase : public ::testing::Test {
+class ShapeCase : public CaseTest {
  protected:
-    ScratchFolder folder;
+    ShapeCase() : CaseTest(dry_case) {}
 
-    ResolvedCase load(const std::string& more, const std::vector<std::string>& set = {}) {
-        return load_case(folder.write("box.yaml", dry_case + more), set);
-    }
-    std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) {
-        try {
-            load(more, set);
-        } catch (const CaseRefused& refused) {
-            return refused.what();
-        }
-        return "";
-    }
     void write_run(const ResolvedCase& resolved) {
         folder.write("run/case.yaml", resolved.yaml);
         folder.write("run/grains/initial.csv", resolved.grains_csv);
         folder.write("run/grains/walls.csv", resolved.walls_csv);
     }
 };
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 TEST_F(ShapeCase, TrianglesHaveThePapersSizeAndRandomAngles) {
     const ResolvedCase box = load("grains: {shape: triangle, count: 40}\n");
@@ -148,8 +135,7 @@ TEST_F(ShapeCase, TheTableHoldsWhatIsUsed) {
 }
 
 TEST_F(ShapeCase, FilesWithUnknownShapesAreRefused) {
-    folder.write("g.csv", "id,x,y,shape\n4,2,2,hexagon\n5,5,5,polygon\n");
-    const std::string text = refusal("grains: {file: g.csv}\n");
+    const std::string text = refusal_of_grains("id,x,y,shape\n4,2,2,hexagon\n5,5,5,polygon\n");
     EXPECT_SAYS(text, "g.csv line 2: shape = hexagon");
     EXPECT_SAYS(text, "g.csv line 3: shape = polygon");
     EXPECT_SAYS(text, "grains.vertices");
@@ -158,18 +144,17 @@ TEST_F(ShapeCase, FilesWithUnknownShapesAreRefused) {
 // Circles of radius 0.75 about centres 1.2 apart overlap; triangles with facing sides need only
 // 0.75 apart, and one that points at the other's side 1.125.
 TEST_F(ShapeCase, OverlapsAreThoseOfTheShapes) {
-    folder.write("apart.csv", "id,x,y,shape,angle\n1,3,3,triangle,0\n2,3,1.8,triangle,0\n");
-    EXPECT_EQ(refusal("grains: {file: apart.csv}\n"), "");
-    folder.write("deep.csv", "id,x,y,shape,angle\n1,3,3,triangle,0\n2,3,2,triangle,0\n");
-    EXPECT_SAYS(refusal("grains: {file: deep.csv}\n"), "grains 1 and 2 overlap by 0.125 D");
+    const std::string head = "id,x,y,shape,angle\n1,3,3,triangle,0\n";
+    EXPECT_EQ(refusal_of_grains(head + "2,3,1.8,triangle,0\n"), "");
+    EXPECT_SAYS(refusal_of_grains(head + "2,3,2,triangle,0\n"),
+                "grains 1 and 2 overlap by 0.125 D");
 }
 
 // A triangle at angle 0 reaches 0.375 down from its centre and 0.75 up.
 TEST_F(ShapeCase, GrainsOutsideAreJudgedByTheirShapes) {
-    folder.write("in.csv", "id,x,y,shape\n1,3,0.38,triangle\n");
-    EXPECT_EQ(refusal("grains: {file: in.csv}\n"), "");
-    folder.write("out.csv", "id,x,y,shape\n1,3,0.3,triangle\n2,3,23.3,triangle\n");
-    const std::string text = refusal("grains: {file: out.csv}\n");
+    EXPECT_EQ(refusal_of_grains("id,x,y,shape\n1,3,0.38,triangle\n"), "");
+    const std::string text =
+        refusal_of_grains("id,x,y,shape\n1,3,0.3,triangle\n2,3,23.3,triangle\n");
     EXPECT_SAYS(text, "0.075 D beyond its bottom side");
     EXPECT_SAYS(text, "0.05 D beyond its top side");
 }

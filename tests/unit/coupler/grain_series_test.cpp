@@ -148,6 +148,7 @@ TEST(ContactSeries, AFullDiskIsAnErrorAndLeavesNoHalfFile) {
     state.contacts = {wall_contact()};
     EXPECT_THROW(series.write(0.5, 1, 0.5, state), Failure);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "contacts_00000001.vtp"));
+    EXPECT_FALSE(std::filesystem::is_symlink(folder.path() / "contacts_00000001.vtp.part"));
     EXPECT_EQ(slurp(folder.path() / "contacts.pvd").find("contacts_00000001"), std::string::npos);
 }
 

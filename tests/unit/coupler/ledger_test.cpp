@@ -77,6 +77,17 @@ TEST_F(LedgerTest, BoundsTheOverlap) {
     EXPECT_NE(complaint(), "");
 }
 
+// The advice names keys that the adapter has.
+TEST_F(LedgerTest, SaysWhatLessensOverlaps) {
+    result.state.report.max_penetration = 0.21;
+    EXPECT_SAYS(complaint(), "Use a smaller time.step, or more contact.iterations.");
+    Settings settings = test_settings();
+    settings.set("grains.adapter", std::string("yade-md"));
+    ledger = Ledger(settings, 3);
+    EXPECT_SAYS(complaint(), "Use a smaller contact.md_overlap");
+    EXPECT_EQ(complaint().find("contact.iterations"), std::string::npos);
+}
+
 TEST_F(LedgerTest, BearsTwoDivergentWindowsButNotThree) {
     result.kicks.report.divergence = 2e-4;
     EXPECT_EQ(complaint(), "");

@@ -9,6 +9,7 @@
 
 #include "granular_adapter/standalone/nscd_adapter.hpp"
 #include "tests/unit/md/leap_frog_host.hpp"
+#include "tests/unit/standalone/contact_case.hpp"
 
 namespace turbidite {
 namespace {
@@ -17,40 +18,13 @@ const ShapeTable discs = {{"disc", {}}};
 constexpr double dt = 0.01;
 constexpr double area = std::numbers::pi / 4.0;
 
-// Box of 10 x 20, g = 1, rho_f = 1; windows of 0.01 in 8 sub-steps.
-Settings box_settings() {
-    Settings settings;
-    for (const char* side : {"left", "right", "bottom", "top"})
-        settings.set(std::string("domain.") + side, std::string("wall"));
-    settings.set("coupling.scheme", std::string("split"));
-    settings.set("coupling.positions", std::string("corrected"));
+// The box in windows of 0.01, each in 8 sub-steps.
+Settings md_settings() {
+    Settings settings = box_settings();
     settings.set("coupling.md_hold", true);
-    settings.set("fluid.enabled", true);
-    settings.set("fluid.hydrodynamic_radius", 1.0);
-    settings.set("contact.friction", 0.3);
-    settings.set("contact.theta", 0.5);
-    settings.set("contact.tolerance", 1e-10);
-    settings.set("contact.iterations", std::int64_t{1000});
-    settings.set("contact.recovery_fraction", 0.2);
-    settings.set("contact.recovery_speed", 0.5);
-    settings.set("run.gravity", 1.0);
-    settings.set("run.fluid_density", 1.0);
-    settings.set("run.velocity_scale", 1.0);
-    settings.set("run.size_x", 10.0);
-    settings.set("run.size_y", 20.0);
     settings.set("run.step", dt);
     settings.set("run.md_substeps", std::int64_t{8});
     return settings;
-}
-
-/// rho_s = 1.5, D = 1.
-GrainState grain_at(GrainId id, double x, double y) {
-    GrainState grain;
-    grain.id = id;
-    grain.radius = 0.5;
-    grain.density = 1.5;
-    grain.position = {x, y, 0.0};
-    return grain;
 }
 
 Window window(std::int64_t index, bool output = false) {
@@ -101,7 +75,7 @@ struct Single {
 class HeldOrNot : public testing::TestWithParam<bool> {
  protected:
     static Settings settings() {
-        Settings settings = box_settings();
+        Settings settings = md_settings();
         settings.set("coupling.md_hold", GetParam());
         return settings;
     }
@@ -170,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(MdAdapter, HeldOrNot, testing::Bool(),
 
 // c = 1/3: cM = area/2, cI = cM R^2/2 = cM/8.
 TEST(MdAdapter, HoldsAndAnnouncesTheLastImpulse) {
-    Single md(box_settings());
+    Single md(md_settings());
     const GrainState first = md.adapter.advance(window(0), {}).grains[0];
     EXPECT_EQ(first.announced_impulse, Vec3{});
     EXPECT_NEAR(first.velocity[1], -dt, 1e-15);
@@ -184,7 +158,7 @@ TEST(MdAdapter, HoldsAndAnnouncesTheLastImpulse) {
 }
 
 TEST(MdAdapter, HoldsNothingWhenTold) {
-    Settings settings = box_settings();
+    Settings settings = md_settings();
     settings.set("coupling.md_hold", false);
     Single md(settings);
     md.adapter.advance(window(0), {});
@@ -196,7 +170,7 @@ TEST(MdAdapter, HoldsNothingWhenTold) {
 
 // A kick must not press a grain into the floor behind the spring's back.
 TEST(MdAdapter, AGrainThatTouchedStaysWhereItIs) {
-    Single md(box_settings(), 0.4999);
+    Single md(md_settings(), 0.4999);
     const double lead = 0.5 * (dt - dt / 8);
     const GrainState sent = md.adapter.advance(window(0), {}).grains[0];
     nscd::Bodies host;
@@ -212,7 +186,7 @@ TEST(MdAdapter, AGrainThatTouchedStaysWhereItIs) {
 }
 
 TEST(MdAdapter, SaysWhatItIs) {
-    Single md(box_settings());
+    Single md(md_settings());
     const Hello hello = md.adapter.describe();
     EXPECT_EQ(hello.adapter, "yade-md");
     EXPECT_EQ(hello.host_code, "leap-frog");
@@ -225,7 +199,7 @@ TEST(MdAdapter, SaysWhatItIs) {
 }
 
 TEST(MdAdapter, RemovesAndCountsGrainsPastAFreeSideWithWhatTheyHeld) {
-    Settings settings = box_settings();
+    Settings settings = md_settings();
     settings.set("domain.right", std::string("free"));
     LeapFrogHost host;
     MdAdapter adapter("yade-md", host);
@@ -243,7 +217,7 @@ TEST(MdAdapter, RemovesAndCountsGrainsPastAFreeSideWithWhatTheyHeld) {
 }
 
 TEST(MdAdapter, RestartsBitForBit) {
-    Single whole(box_settings(), 0.6), second(box_settings(), 0.6);
+    Single whole(md_settings(), 0.6), second(md_settings(), 0.6);
     const auto play = [](Single& md, std::int64_t first, std::int64_t last) {
         for (std::int64_t n = first; n < last; ++n) {
             md.adapter.advance(window(n), {});
@@ -259,17 +233,17 @@ TEST(MdAdapter, RestartsBitForBit) {
 
 TEST(MdAdapter, RefusesWhatItDoesNotKnow) {
     LeapFrogHost host;
-    Settings cyclic = box_settings();
+    Settings cyclic = md_settings();
     for (const char* side : {"domain.left", "domain.right"})
         cyclic.set(side, std::string("cyclic"));
     const std::string sides = refusal<std::invalid_argument>(
         [&] { MdAdapter("yade-md", host).initialise(cyclic, discs, {}); });
     EXPECT_TRUE(contains(sides, "domain.left = cyclic")) << sides;
     const std::string shape = refusal<std::invalid_argument>([&] {
-        MdAdapter("yade-md", host).initialise(box_settings(), {{"triangle", {}}}, {});
+        MdAdapter("yade-md", host).initialise(md_settings(), {{"triangle", {}}}, {});
     });
     EXPECT_TRUE(contains(shape, "\"triangle\"")) << shape;
-    Single md(box_settings());
+    Single md(md_settings());
     const std::string joint = refusal<std::runtime_error>(
         [&] { md.adapter.advance(window(0), std::vector<FreeResponse>(1)); });
     EXPECT_TRUE(contains(joint, "split")) << joint;
@@ -279,7 +253,7 @@ TEST(MdAdapter, RefusesWhatItDoesNotKnow) {
 }
 
 TEST(MdAdapter, EveryGrainNeedsExactlyOneKick) {
-    Single md(box_settings());
+    Single md(md_settings());
     md.adapter.advance(window(3), {});
     const std::string text =
         refusal<std::runtime_error>([&] { md.adapter.apply_kick(window(3), {}); });

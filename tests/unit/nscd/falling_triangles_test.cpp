@@ -10,28 +10,10 @@ namespace {
 constexpr double dt = 0.005, friction = 0.3, width = 7.0, height = 20.0;
 constexpr int count = 30;
 
-/// Triangles (R = 0.75) at random places and angles in a box, apart.
 Engine falling_triangles() {
-    const ShapeTable shapes = {{"triangle", {}}};
     EngineSettings settings = scenes::exact(friction, 1e-4);
     settings.solver_settings.max_iterations = 5000;
-    Engine engine(settings, shapes,
-                  {scenes::floor(friction), scenes::wall(2, {0, 0, 0}, {1, 0, 0}, friction),
-                   scenes::wall(3, {width, 0, 0}, {-1, 0, 0}, friction)});
-    std::mt19937_64 random(1);
-    const auto uniform = [&](double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-    };
-    const std::vector<Vec3>& placed = engine.bodies().position;
-    while (static_cast<int>(placed.size()) < count) {
-        const Vec3 x{uniform(0.8, width - 0.8), uniform(0.8, height - 0.8), 0.0};
-        const double angle = uniform(0.0, 2.0 * std::numbers::pi);
-        if (std::all_of(placed.begin(), placed.end(),
-                        [&](const Vec3& other) { return norm(other - x) > 1.51; }))
-            engine.bodies().add(scenes::polygon(shapes, 0, static_cast<GrainId>(placed.size()),
-                                                x[0], x[1], 0.75, angle));
-    }
-    return engine;
+    return scenes::falling_triangles(count, width, height, settings);
 }
 
 double mean_speed(const Bodies& bodies) {

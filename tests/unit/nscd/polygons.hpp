@@ -8,6 +8,7 @@
 #include <random>
 
 #include "coupler/shapes/shape.hpp"
+#include "granular_adapter/nscd/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd::scenes {
@@ -64,6 +65,30 @@ inline Body polygon(const ShapeTable& shapes, std::int32_t shape, GrainId id, do
 inline Body unit_square(const ShapeTable& shapes, GrainId id, double x, double y,
                         double angle = 0.0) {
     return polygon(shapes, 0, id, x, y, std::numbers::sqrt2 / 2.0, angle);
+}
+
+/// Triangles (R = 0.75) at random places and angles in a box with a floor and two walls, apart.
+inline Engine falling_triangles(int count, double width, double height,
+                                const EngineSettings& settings) {
+    const ShapeTable shapes = {{"triangle", {}}};
+    const double friction = settings.friction;
+    Engine engine(settings, shapes,
+                  {floor(friction), wall(2, {0, 0, 0}, {1, 0, 0}, friction),
+                   wall(3, {width, 0, 0}, {-1, 0, 0}, friction)});
+    std::mt19937_64 random(1);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+    };
+    const std::vector<Vec3>& placed = engine.bodies().position;
+    while (static_cast<int>(placed.size()) < count) {
+        const Vec3 x{uniform(0.8, width - 0.8), uniform(0.8, height - 0.8), 0.0};
+        const double angle = uniform(0.0, 2.0 * std::numbers::pi);
+        if (std::all_of(placed.begin(), placed.end(),
+                        [&](const Vec3& other) { return norm(other - x) > 1.51; }))
+            engine.bodies().add(
+                polygon(shapes, 0, static_cast<GrainId>(placed.size()), x[0], x[1], 0.75, angle));
+    }
+    return engine;
 }
 
 /// Points of bodies a and b of a configuration.

@@ -5,6 +5,7 @@
 
 #include "coupler/case/keys.hpp"
 #include "granular_adapter/nscd/law_list.hpp"
+#include "tests/unit/standalone/contact_case.hpp"
 
 namespace turbidite {
 namespace {
@@ -12,12 +13,7 @@ namespace {
 /// D = 2, u_c = 3, m g = 5.
 Settings dry() {
     Settings s;
-    s.set("contact.friction", 0.3);
-    s.set("contact.theta", 0.5);
-    s.set("contact.tolerance", 1e-3);
-    s.set("contact.iterations", std::int64_t{2000});
-    s.set("contact.recovery_fraction", 0.2);
-    s.set("contact.recovery_speed", 0.5);
+    set_contact_keys(s);
     s.set("run.diameter", 2.0);
     s.set("run.velocity_scale", 3.0);
     s.set("run.grain_weight", 5.0);

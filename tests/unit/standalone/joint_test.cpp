@@ -13,6 +13,7 @@
 #include "coupler/transport/loopback_channel.hpp"
 #include "granular_adapter/standalone/nscd_adapter.hpp"
 #include "tests/unit/coupler/test_case.hpp"
+#include "tests/unit/standalone/contact_case.hpp"
 
 namespace turbidite {
 namespace {
@@ -27,12 +28,7 @@ Settings heap_settings() {
     s.set("coupling.positions", std::string("corrected"));
     s.set("coupling.tolerance", 1e-8);
     s.set("coupling.iterations", std::int64_t{40});
-    s.set("contact.friction", 0.3);
-    s.set("contact.theta", 0.5);
-    s.set("contact.tolerance", 1e-10);
-    s.set("contact.iterations", std::int64_t{100000});
-    s.set("contact.recovery_fraction", 0.2);
-    s.set("contact.recovery_speed", 0.5);
+    set_contact_keys(s);
     s.set("contact.solver", std::string("nlgs"));
     s.set("run.step", step);
     s.set("run.windows", std::int64_t{windows});

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <unistd.h>
-#include <algorithm>
 
 #include <algorithm>
 #include <cmath>
@@ -14,44 +13,12 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/unit/standalone/contact_case.hpp"
+
 namespace turbidite {
 namespace {
 
 const ShapeTable discs = {{"disc", {}}};
-
-// Box of 10 x 20, g = 1, rho_f = 1.
-Settings box_settings() {
-    Settings settings;
-    for (const char* side : {"left", "right", "bottom", "top"})
-        settings.set(std::string("domain.") + side, std::string("wall"));
-    settings.set("coupling.scheme", std::string("split"));
-    settings.set("coupling.positions", std::string("corrected"));
-    settings.set("fluid.enabled", true);
-    settings.set("fluid.hydrodynamic_radius", 1.0);
-    settings.set("contact.friction", 0.3);
-    settings.set("contact.theta", 0.5);
-    settings.set("contact.tolerance", 1e-10);
-    settings.set("contact.iterations", std::int64_t{100000});
-    settings.set("contact.recovery_fraction", 0.2);
-    settings.set("contact.recovery_speed", 0.5);
-    settings.set("contact.solver", std::string("nlgs"));
-    settings.set("run.gravity", 1.0);
-    settings.set("run.fluid_density", 1.0);
-    settings.set("run.velocity_scale", 1.0);
-    settings.set("run.size_x", 10.0);
-    settings.set("run.size_y", 20.0);
-    return settings;
-}
-
-/// rho_s = 1.5, D = 1.
-GrainState grain_at(GrainId id, double x, double y) {
-    GrainState grain;
-    grain.id = id;
-    grain.radius = 0.5;
-    grain.density = 1.5;
-    grain.position = {x, y, 0.0};
-    return grain;
-}
 
 Window window(std::int64_t index, double step = 0.01) {
     Window result;

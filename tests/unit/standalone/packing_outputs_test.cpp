@@ -17,6 +17,7 @@
 #include "coupler/transport/loopback_channel.hpp"
 #include "granular_adapter/standalone/nscd_adapter.hpp"
 #include "tests/unit/coupler/test_case.hpp"
+#include "tests/unit/standalone/contact_case.hpp"
 
 namespace turbidite {
 namespace {
@@ -28,12 +29,9 @@ Settings lattice_settings() {
     Settings s = test_settings("split", false);
     s.set("grains.adapter", std::string("standalone-nscd"));
     s.set("coupling.positions", std::string("contact"));
+    set_contact_keys(s);
     s.set("contact.friction", 0.0);
-    s.set("contact.theta", 0.5);
     s.set("contact.tolerance", 1e-9);
-    s.set("contact.iterations", std::int64_t{100000});
-    s.set("contact.recovery_fraction", 0.2);
-    s.set("contact.recovery_speed", 0.5);
     s.set("run.windows", std::int64_t{4});
     s.set("run.size_x", 4.0);
     return s;

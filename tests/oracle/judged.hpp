@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the tests against Siconos share: our solvers by name, vectors of (n, t) of every contact.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "bench/siconos/siconos_problem.hpp"
+#include "granular_adapter/nscd/solver_list.hpp"
+
+namespace turbidite::judged {
+
+struct Named {
+    std::string name;
+    nscd::ContactProblem problem;  ///< dimensionless
+};
+
+inline nscd::SolverResult ours(const std::string& solver, const nscd::ContactProblem& problem,
+                               double tolerance) {
+    nscd::SolverSettings settings;
+    settings.tolerance = tolerance;
+    settings.max_iterations = 300000;
+    return nscd::make_solver(solver)->solve(problem, nscd::Impulses(problem.contacts.size()),
+                                            settings);
+}
+
+inline double norm(const std::vector<double>& x) {
+    double sum = 0.0;
+    for (const double value : x) sum += value * value;
+    return std::sqrt(sum);
+}
+
+inline std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+    return a;
+}
+
+/// |a - b| / |b|.
+inline double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    return norm(difference(a, b)) / norm(b);
+}
+
+enum Status { open, sticking, sliding };
+
+/// By the impulse of contact k; what is smaller than `share` of the norm of all counts as zero.
+inline Status status(const nscd::ContactProblem& problem, const std::vector<double>& r,
+                     std::size_t k, double share = 1e-7) {
+    const double zero = share * norm(r), n = r[2 * k], t = std::abs(r[2 * k + 1]);
+    if (n < zero) return open;
+    return t > problem.contacts[k].friction * n - zero ? sliding : sticking;
+}
+
+using StatusCount = std::array<int, 3>;
+
+inline StatusCount statuses(const nscd::ContactProblem& problem, const std::vector<double>& r) {
+    StatusCount count{};
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k) ++count[status(problem, r, k)];
+    return count;
+}
+
+}  // namespace turbidite::judged

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A silo: discs between two walls on a floor that sinks slowly, so that friction acts upwards all
+// along the walls. Janssen: stress s over the width obeys s' = w - 2 mu K s / width, hence the
+// floor carries
+//
+//     F / weight = (l/h) (1 - exp(-h/l)),    l = width / (2 mu K)
+//
+// however high the filling, never more than l/h of it.
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+constexpr double dt = 0.01, friction = 0.5;
+
+/// Mean forces over a while of sinking, in weights of the filling.
+struct Loads {
+    double height = 0.0;       ///< of the filling [D]
+    double floor = 0.0;        ///< upwards
+    double walls_shear = 0.0;  ///< upwards, of both
+    double walls_push = 0.0;   ///< inwards, of both
+};
+
+double weight(const Bodies& bodies) {
+    double sum = 0.0;
+    for (const double mass : bodies.weight_mass) sum += mass;
+    return sum;
+}
+
+/// Adds one step's forces.
+void add_forces(const Engine& engine, Loads& loads) {
+    for (std::size_t k = 0; k < engine.points().size(); ++k) {
+        const ContactPoint& point = engine.points()[k];
+        if (point.a >= 0) continue;
+        const Vec3 impulse = world_impulse(engine.problem().contacts[k], engine.impulses()[k]);
+        if (point.wall == 0) loads.floor += impulse[1] / dt;
+        if (point.wall == 0) continue;
+        loads.walls_shear += impulse[1] / dt;
+        loads.walls_push += std::abs(impulse[0]) / dt;
+    }
+}
+
+Loads silo(int columns, int rows, double wall_friction) {
+    EngineSettings settings = scenes::exact(friction, 1e-3);
+    settings.solver_settings.max_iterations = 2000;
+    Engine engine = scenes::settling_pack(columns, rows, settings);
+    for (const int side : {1, 2}) engine.walls()[side].friction = wall_friction;
+    scenes::run(engine, 5.0, dt);
+    engine.walls()[0].velocity = {0.0, -0.1, 0.0};
+    scenes::run(engine, 4.0, dt);
+    Loads loads;
+    constexpr int steps = 200;
+    for (int n = 0; n < steps; ++n) {
+        engine.step(dt);
+        add_forces(engine, loads);
+        engine.move(dt);
+    }
+    for (double* force : {&loads.floor, &loads.walls_shear, &loads.walls_push})
+        *force /= steps * weight(engine.bodies());
+    double top = 0.0;
+    for (const Vec3& x : engine.bodies().position) top = std::max(top, x[1] + 0.5);
+    loads.height = top - engine.walls()[0].point[1];
+    return loads;
+}
+
+/// F / weight of a filling whose stress decays over `length`.
+double janssen(double height, double length) {
+    return length / height * (1.0 - std::exp(-height / length));
+}
+
+/// The length with which the law gives this share, by bisection.
+double janssen_length(double height, double share) {
+    double low = 1e-3 * height, high = 1e3 * height;
+    for (int n = 0; n < 60; ++n)
+        (janssen(height, std::sqrt(low * high)) < share ? low : high) = std::sqrt(low * high);
+    return low;
+}
+
+// Nothing but the floor holds the filling: its load is the weight, and the walls push all the same.
+TEST(Silo, FloorCarriesAllBetweenSmoothWalls) {
+    const Loads smooth = silo(6, 20, 0.0);
+    EXPECT_NEAR(smooth.floor, 1.0, 0.005);
+    EXPECT_EQ(smooth.walls_shear, 0.0);
+    EXPECT_GT(smooth.walls_push, 0.5);
+}
+
+// The decay length is taken from one silo; it must hold in one twice as high, and three times as
+// long in one three times as wide. Fillings are of a hundred to four hundred discs: the share of
+// one and the same silo scatters by some percent.
+TEST(Silo, RoughWallsCarryWhatJanssenSays) {
+    const Loads low = silo(6, 20, friction), high = silo(6, 40, friction),
+                wide = silo(18, 20, friction);
+    for (const Loads& loads : {low, high, wide}) {
+        EXPECT_NEAR(loads.floor + loads.walls_shear, 1.0, 0.05);
+        EXPECT_LE(loads.walls_shear, friction * loads.walls_push);
+    }
+    EXPECT_LT(2.0 * high.floor - low.floor, 0.5) << "of what the upper half weighs";
+    const double length = janssen_length(low.height, low.floor);
+    EXPECT_NEAR(high.floor / janssen(high.height, length), 1.0, 0.2);
+    EXPECT_NEAR(wide.floor / janssen(wide.height, 3.0 * length), 1.0, 0.2);
+    EXPECT_GT(wide.floor, 1.15 * low.floor);
+}
+
+}  // namespace
+}  // namespace turbidite::nscd

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Settings and grains that tests of granular adapters share. Keys that are not set here have the
+// adapters' own defaults or belong to one test.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "coupler/protocol/records.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// Keys that every contact case has.
+inline void set_contact_keys(Settings& settings) {
+    settings.set("contact.friction", 0.3);
+    settings.set("contact.theta", 0.5);
+    settings.set("contact.tolerance", 1e-10);
+    settings.set("contact.iterations", std::int64_t{100000});
+    settings.set("contact.recovery_fraction", 0.2);
+    settings.set("contact.recovery_speed", 0.5);
+}
+
+/// Box of 10 x 20 with walls all round, g = 1, rho_f = 1, u_c = 1; scheme split.
+inline Settings box_settings() {
+    Settings settings;
+    for (const char* side : {"left", "right", "bottom", "top"})
+        settings.set(std::string("domain.") + side, std::string("wall"));
+    settings.set("coupling.scheme", std::string("split"));
+    settings.set("coupling.positions", std::string("corrected"));
+    settings.set("fluid.enabled", true);
+    settings.set("fluid.hydrodynamic_radius", 1.0);
+    set_contact_keys(settings);
+    settings.set("run.gravity", 1.0);
+    settings.set("run.fluid_density", 1.0);
+    settings.set("run.velocity_scale", 1.0);
+    settings.set("run.size_x", 10.0);
+    settings.set("run.size_y", 20.0);
+    return settings;
+}
+
+/// rho_s = 1.5, D = 1.
+inline GrainState grain_at(GrainId id, double x, double y) {
+    GrainState grain;
+    grain.id = id;
+    grain.radius = 0.5;
+    grain.density = 1.5;
+    grain.position = {x, y, 0.0};
+    return grain;
+}
+
+}  // namespace turbidite
