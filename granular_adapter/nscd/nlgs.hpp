@@ -8,8 +8,8 @@
 // accumulated in the pass itself, where velocities are half old and half new; when that looks good
 // the published residual, of one consistent state, decides.
 //
-// Contacts that have no impulse and do not close rest: they are in groups of their own, which sweeps
-// leave out until a measuring sweep, which asks all of them, finds one that closes.
+// Contacts that have no impulse and do not close rest: they are in groups of their own, which
+// sweeps leave out until a measuring sweep, which asks all of them, finds one that closes.
 //
 // How it is done fast, with the same bits: contact_schedule.hpp, sweep_kernel.hpp, sweep_train.hpp.
 #pragma once

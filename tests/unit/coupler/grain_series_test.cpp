@@ -20,8 +20,8 @@ std::string slurp(const std::filesystem::path& file) {
     return text.str();
 }
 
-// A viewer may open the series at any moment of a run: after every write it must end with its end tags, once, and name every
-// file so far.
+// A viewer may open the series at any moment of a run: after every write it must end with its end
+// tags, once, and name every file so far.
 TEST(GrainSeries, IsCompleteAfterEveryWrite) {
     const TestFolder folder("series");
     GrainSeries series(folder.path(), {{"disc", {}}});
@@ -49,7 +49,8 @@ std::string array_of(const std::string& text, const std::string& name) {
     return text.substr(begin, text.find("</DataArray>", begin) - begin);
 }
 
-// A triangle turned by 90 degrees at (3, 2), R = 2, beside a disc. Shapes without corners have no outline.
+// A triangle turned by 90 degrees at (3, 2), R = 2, beside a disc. Shapes without corners have no
+// outline.
 TEST(GrainSeries, DrawsPolygonsWhereTheyAre) {
     const TestFolder folder("outlines");
     const double h = std::sqrt(3.0) / 2.0;
@@ -61,16 +62,21 @@ TEST(GrainSeries, DrawsPolygonsWhereTheyAre) {
     state.grains[1].orientation = {std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)};
     series.write(0.0, 7, 0.01, state, {});
     const std::string collection = slurp(folder.path() / "grains.pvd");
-    EXPECT_NE(collection.find("part=\"0\" file=\"grains_00000007.vtp\""), std::string::npos) << collection;
-    EXPECT_NE(collection.find("part=\"1\" file=\"outlines_00000007.vtp\""), std::string::npos) << collection;
+    EXPECT_NE(collection.find("part=\"0\" file=\"grains_00000007.vtp\""), std::string::npos)
+        << collection;
+    EXPECT_NE(collection.find("part=\"1\" file=\"outlines_00000007.vtp\""), std::string::npos)
+        << collection;
     EXPECT_EQ(array_of(slurp(folder.path() / "grains_00000007.vtp"), "shape"), "0\n1\n");
     const std::string outlines = slurp(folder.path() / "outlines_00000007.vtp");
-    EXPECT_NE(outlines.find("NumberOfPoints=\"3\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfPolys=\"1\""),
-              std::string::npos)
+    EXPECT_NE(
+        outlines.find(
+            "NumberOfPoints=\"3\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfPolys=\"1\""),
+        std::string::npos)
         << outlines;
     EXPECT_EQ(array_of(outlines, "id"), "101\n");
     EXPECT_EQ(array_of(outlines, "offsets"), "3\n");
-    // Corners of the upright triangle: (0, 1), (-h, -1/2), (h, -1/2); turned: (-1, 0), (1/2, -h), (1/2, h).
+    // Corners of the upright triangle: (0, 1), (-h, -1/2), (h, -1/2); turned: (-1, 0), (1/2, -h),
+    // (1/2, h).
     std::istringstream numbers(array_of(outlines, "position"));
     double right = 0.0, top = -10.0, left = 10.0;
     for (double x, y, z; numbers >> x >> y >> z;)
@@ -99,7 +105,8 @@ TEST(ContactSeries, HasALineAndTheForcesOfEveryContact) {
     ContactSeries series(folder.path());
     Motion state{{test_population()[0], test_population()[1]}, {}};
     series.write(0.0, 0, 0.5, state);
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "contacts.pvd")) << "nobody tells contacts";
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "contacts.pvd"))
+        << "nobody tells contacts";
     ContactRecord pair;
     pair.a = 100;
     pair.b = 101;
@@ -109,7 +116,8 @@ TEST(ContactSeries, HasALineAndTheForcesOfEveryContact) {
     pair.rolling_impulse = {0, 0, 2};
     state.contacts = {pair, wall_contact()};
     series.write(1.5, 4, 0.5, state);
-    EXPECT_NE(slurp(folder.path() / "contacts.pvd").find("timestep=\"1.5\" part=\"0\" file=\"contacts_00000004.vtp\""),
+    EXPECT_NE(slurp(folder.path() / "contacts.pvd")
+                  .find("timestep=\"1.5\" part=\"0\" file=\"contacts_00000004.vtp\""),
               std::string::npos);
     const std::string text = slurp(folder.path() / "contacts_00000004.vtp");
     EXPECT_EQ(array_of(text, "position"), "2 5 0\n4.5 5 0\n4.5 4.5 0\n4.5 5 0\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Scheme joint with the contact engine: the coupler, the NSCD adapter and a scripted fluid, in threads. The fluid is
-// exact or misjudges the inertia it tells; the motion must be the same.
+// Scheme joint with the contact engine: the coupler, the NSCD adapter and a scripted fluid, in
+// threads. The fluid is exact or misjudges the inertia it tells; the motion must be the same.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,8 @@ Settings heap_settings() {
     return s;
 }
 
-/// Four columns of three discs above the floor of a narrow box, staggered so that they lean on each other.
+/// Four columns of three discs above the floor of a narrow box, staggered so that they lean on each
+/// other.
 std::vector<GrainState> heap() {
     std::vector<GrainState> grains;
     for (int row = 0; row < 3; ++row)
@@ -85,8 +86,9 @@ Result settle(double inertia_error) {
     return result;
 }
 
-// What the scheme promises: nothing overlaps (the start is free of overlap and positions follow admissible
-// velocities, so only the contact tolerance is left), momentum balances to round-off, and every window agrees.
+// What the scheme promises: nothing overlaps (the start is free of overlap and positions follow
+// admissible velocities, so only the contact tolerance is left), momentum balances to round-off,
+// and every window agrees.
 TEST(JointHeap, AnExactFluidSettlesItInOneRoundPerWindow) {
     const RunMaxima maxima = settle(0.0).status.maxima;
     EXPECT_LT(maxima.penetration, 1e-9);
@@ -97,8 +99,8 @@ TEST(JointHeap, AnExactFluidSettlesItInOneRoundPerWindow) {
     EXPECT_LT(maxima.joint->mismatch, 1e-13);
 }
 
-// Velocities agree to 1e-8 u_c in each of 80 windows of 0.02: positions may differ by 1e-8 * 1.6 times what impacts
-// amplify; 1e-6 is far below the motion (0.05 D of fall).
+// Velocities agree to 1e-8 u_c in each of 80 windows of 0.02: positions may differ by 1e-8 * 1.6
+// times what impacts amplify; 1e-6 is far below the motion (0.05 D of fall).
 TEST(JointHeap, AnApproximateFluidGivesTheSameMotion) {
     const Result exact = settle(0.0);
     for (const double error : {0.1, -0.1}) {
