@@ -34,6 +34,7 @@ RUN_HEAD = ('runs', 'grains', 'peak of the mean curve [u_c]', 'at [t_c]', 'of si
             'end: front [D]', 'end: height [D]', 'overlap [D]', 'windows beyond tolerance', 'wall time [s]')
 PAIR_HEAD = ('mean velocity of', 'against', 'largest difference / peak', 'mean difference / peak')
 FOR_ALL = 'all'
+STYLES = ('-', (0, (1, 2)), '--', '-.')
 
 
 def arguments():
@@ -141,13 +142,18 @@ def print_table(head, rows):
         print('| ' + ' | '.join(str(cell) for cell in row) + ' |')
 
 
-def draw(groups, file):
+def draw(runs, file):
     """Fig. 8(a): means over the seeds with bands from the smallest to the largest value."""
     figure, axes = plt.subplots(figsize=(7.5, 4.2), layout='constrained')
-    for i, (group, folders) in enumerate(groups.items()):
-        member, = seeds.members([run_data.load_run(folder) for folder in folders])
-        axes.plot(*member.data.column(COLUMN), color=f'C{i % 10}', linewidth=1.4, label=group)
-        axes.fill_between(*member.band(COLUMN), color=f'C{i % 10}', alpha=0.2, linewidth=0.0)
+    for i, groups in enumerate(runs.values()):
+        for j, (group, folders) in enumerate(groups.items()):
+            # One colour per compacity, one style per adapter; a lone compacity has colours to spare.
+            colour = f'C{(i if len(runs) > 1 else j) % 10}'
+            style = STYLES[j % len(STYLES)] if len(runs) > 1 else '-'
+            member, = seeds.members([run_data.load_run(folder) for folder in folders])
+            axes.plot(*member.data.column(COLUMN), color=colour, linestyle=style, linewidth=1.4,
+                      label=group)
+            axes.fill_between(*member.band(COLUMN), color=colour, alpha=0.15, linewidth=0.0)
     curves.decorate(axes, '', r'$|\langle u \rangle|\,/\,u_c$')
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
@@ -168,7 +174,7 @@ def main():
     for compacity, groups in runs.items():
         if len(runs) > 1:
             compare(options, compacity, groups)
-    draw(everything, Path(options.out) / 'mean_velocity.png')
+    draw(runs, Path(options.out) / 'mean_velocity.png')
     print(f'\nPages: {options.out}/compare-*.html; Fig. 8(a): {options.out}/mean_velocity.png')
 
 
