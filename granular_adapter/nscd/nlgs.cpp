@@ -20,7 +20,7 @@ namespace {
 constexpr double layout_cost = 12.0;
 
 // Fewer contacts than this are swept faster by one thread (docs/performance.md).
-constexpr std::size_t threaded_contacts = 4000;
+constexpr std::size_t threaded_contacts = 6000;
 
 int useful_threads(const SolverSettings& settings, std::size_t contacts) {
     return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);

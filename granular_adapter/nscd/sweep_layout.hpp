@@ -52,7 +52,7 @@ struct SweepLayout {
     Schedule schedule;
     std::vector<PlaneBody> bodies;
     std::vector<Rows> rows;
-    std::vector<std::uint8_t> awake;  ///< of each group at rest: swept until it has no impulse
+    std::vector<std::uint8_t> awake;  ///< of each group at rest: 1 or 0; swept while 1
 
     SweepLayout(const ContactProblem& problem, const Delassus& w,
                 const std::vector<MovedPair>& pairs, const Impulses& r,

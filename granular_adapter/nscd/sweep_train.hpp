@@ -10,7 +10,7 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
+#include <cstring>
 #include <vector>
 
 #include "granular_adapter/nscd/sweep_layout.hpp"
@@ -74,11 +74,22 @@ class SweepTrain {
         return layout_.awake[static_cast<std::size_t>(group - layout_.schedule.active)];
     }
 
+    /// The first one that is awake, or the end; most are not.
+    std::int32_t next_awake(const GroupRange& range) {
+        if (range.first >= range.last) return range.last;
+        const std::uint8_t* const from = &awake(range.first);
+        const auto* const found = static_cast<const std::uint8_t*>(
+            std::memchr(from, 1, static_cast<std::size_t>(range.last - range.first)));
+        return found == nullptr ? range.last
+                                : range.first + static_cast<std::int32_t>(found - from);
+    }
+
     void sweep(const Stretch& stretch) {
         PlaneBody* const bodies = layout_.bodies.data();
         sweeps_.plain(row(stretch.active.first), row(stretch.active.last), bodies);
-        for (std::int32_t group = stretch.resting.first; group < stretch.resting.last; ++group)
-            if (awake(group) != 0) sweeps_.plain(row(group), row(group) + 1, bodies);
+        for (std::int32_t group = next_awake(stretch.resting); group < stretch.resting.last;
+             group = next_awake({group + 1, stretch.resting.last}))
+            sweeps_.plain(row(group), row(group) + 1, bodies);
     }
 
     void measure(const Stretch& stretch) {
