@@ -59,19 +59,6 @@ class Placement {
     std::uint64_t open_ = ~std::uint64_t{0};
 };
 
-/// What each stretch has added to the groups of one kind.
-class Ranges {
- public:
-    GroupRange up_to(std::int32_t groups) {
-        const GroupRange range{last_, groups};
-        last_ = groups;
-        return range;
-    }
-
- private:
-    std::int32_t last_ = 0;
-};
-
 /// For each body the number of stretches up to the last one that touches it.
 class LastStretches {
  public:
@@ -120,26 +107,25 @@ void append(Schedule& schedule, std::vector<std::int32_t> resting) {
 
 }  // namespace
 
-Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::int32_t>& order,
-                       const std::vector<std::uint8_t>& active, std::size_t bodies,
-                       const ScheduleSettings& settings) {
+Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::uint8_t>& active,
+                       std::size_t bodies, const ScheduleSettings& settings) {
     Placement moving(bodies, settings), resting(bodies, settings);
-    Ranges moved, rested;
     Schedule schedule;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const auto contact = static_cast<std::size_t>(order[i]);
-        (active[contact] != 0 ? moving : resting).place(order[i], pairs[contact]);
-        if ((i + 1) % static_cast<std::size_t>(settings.stretch) == 0 || i + 1 == order.size())
-            schedule.stretches.push_back(
-                {moved.up_to(moving.groups()), rested.up_to(resting.groups())});
+    Stretch last;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        (active[k] != 0 ? moving : resting).place(static_cast<std::int32_t>(k), pairs[k]);
+        if ((k + 1) % static_cast<std::size_t>(settings.stretch) != 0 && k + 1 != pairs.size())
+            continue;
+        last = {{last.active.last, moving.groups()}, {last.resting.last, resting.groups()}};
+        schedule.stretches.push_back(last);
     }
     schedule.active = moving.groups();
     schedule.all = moving.groups() + resting.groups();
     schedule.lanes = moving.take_lanes();
     append(schedule, resting.take_lanes());
-    const LastStretches last(schedule, pairs, bodies, settings.width);
+    const LastStretches touching(schedule, pairs, bodies, settings.width);
     for (std::size_t s = 0; s < schedule.stretches.size(); ++s)
-        schedule.stretches[s].after = last.of(s);
+        schedule.stretches[s].after = touching.of(s);
     return schedule;
 }
 

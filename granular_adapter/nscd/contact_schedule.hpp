@@ -54,10 +54,9 @@ struct Schedule {
     std::vector<Stretch> stretches;
 };
 
-/// Places the contacts `order[0]`, `order[1]`, …; `active[k]` is not zero where contact k is
-/// expected to have an impulse. `bodies`: one more than the largest body.
-Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::int32_t>& order,
-                       const std::vector<std::uint8_t>& active, std::size_t bodies,
-                       const ScheduleSettings& settings);
+/// Places the contacts in their order; `active[k]` is not zero where contact k is expected to have
+/// an impulse. `bodies`: one more than the largest body.
+Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::uint8_t>& active,
+                       std::size_t bodies, const ScheduleSettings& settings);
 
 }  // namespace turbidite::nscd

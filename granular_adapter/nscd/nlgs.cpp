@@ -2,7 +2,6 @@
 #include "granular_adapter/nscd/nlgs.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -44,10 +43,8 @@ class Iteration {
           settings_(call.settings),
           sweeps_(sweeps<Rows>(call.instructions)),
           pairs_(moved_pairs(call.problem)),
-          order_(call.guess.size()),
           team_(useful_threads(call.settings, call.guess.size())),
           floor_(rounding_floor(call.problem, call.w)) {
-        std::iota(order_.begin(), order_.end(), 0);
         result_.impulses = call.guess;
         for (Vec3& r : result_.impulses)
             if (!(r[0] > 0.0)) r = {};
@@ -79,7 +76,7 @@ class Iteration {
 
     Schedule schedule(const std::vector<std::uint8_t>& active) const {
         const ScheduleSettings shape{.width = Rows::width};
-        return make_schedule(pairs_, order_, active, problem_.bodies.size(), shape);
+        return make_schedule(pairs_, active, problem_.bodies.size(), shape);
     }
 
     /// Has an impulse, or closes with the velocities of the first guess.
@@ -130,7 +127,6 @@ class Iteration {
     const SolverSettings& settings_;
     Sweeps<Rows> sweeps_;
     std::vector<MovedPair> pairs_;
-    std::vector<std::int32_t> order_;
     ThreadTeam team_;
     double floor_;
     SolverResult result_;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <numeric>
 #include <random>
 #include <set>
 
@@ -63,12 +62,6 @@ ContactProblem lattice(int columns, int rows, Kind kind) {
     return problem;
 }
 
-std::vector<std::int32_t> natural_order(const ContactProblem& problem) {
-    std::vector<std::int32_t> order(problem.contacts.size());
-    std::iota(order.begin(), order.end(), 0);
-    return order;
-}
-
 /// Two thirds of the contacts are expected to act, mixed with the others.
 std::vector<std::uint8_t> two_thirds(std::size_t contacts) {
     std::vector<std::uint8_t> active(contacts);
@@ -77,8 +70,8 @@ std::vector<std::uint8_t> two_thirds(std::size_t contacts) {
 }
 
 Schedule scheduled(const ContactProblem& problem, const ScheduleSettings& settings) {
-    return make_schedule(moved_pairs(problem), natural_order(problem),
-                         two_thirds(problem.contacts.size()), problem.bodies.size(), settings);
+    return make_schedule(moved_pairs(problem), two_thirds(problem.contacts.size()),
+                         problem.bodies.size(), settings);
 }
 
 template <class Rows>
@@ -300,10 +293,7 @@ TEST(Schedule, StretchesCoverAllGroupsAndKnowWhatTheyWaitFor) {
 TEST(Schedule, AHubIsServedOneContactAtATime) {
     std::vector<MovedPair> pairs;
     for (std::int32_t k = 1; k <= 200; ++k) pairs.push_back({0, k});
-    std::vector<std::int32_t> order(pairs.size());
-    std::iota(order.begin(), order.end(), 0);
-    const Schedule schedule =
-        make_schedule(pairs, order, std::vector<std::uint8_t>(200, 1), 201, {4, 3});
+    const Schedule schedule = make_schedule(pairs, std::vector<std::uint8_t>(200, 1), 201, {4, 3});
     const std::vector<std::int32_t> group = groups_of(schedule, pairs.size(), 4);
     for (std::size_t k = 1; k < group.size(); ++k) EXPECT_EQ(group[k], group[k - 1] + 3);
 }
@@ -312,9 +302,7 @@ TEST(Schedule, AHubIsServedOneContactAtATime) {
 TEST(Schedule, ImmovablePartnersDoNotBind) {
     std::vector<MovedPair> pairs;
     for (std::int32_t k = 0; k < 200; ++k) pairs.push_back({-1, k});
-    std::vector<std::int32_t> order(pairs.size());
-    std::iota(order.begin(), order.end(), 0);
-    EXPECT_EQ(make_schedule(pairs, order, std::vector<std::uint8_t>(200, 1), 200, {4, 3}).all, 50);
+    EXPECT_EQ(make_schedule(pairs, std::vector<std::uint8_t>(200, 1), 200, {4, 3}).all, 50);
 }
 
 // A row of discs at one height, then one a radius lower: the upper row first, its even contacts
@@ -354,10 +342,9 @@ TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
         const std::vector<Twist> v = body_velocities(problem, r);
         const std::vector<MovedPair> pairs = moved_pairs(problem);
         const auto sum = [&]<class Rows>(Rows) {
-            SweepLayout<Rows> layout(
-                problem, w, pairs, r, v,
-                make_schedule(pairs, natural_order(problem), std::vector<std::uint8_t>(r.size(), 1),
-                              problem.bodies.size(), {Rows::width, 1}));
+            SweepLayout<Rows> layout(problem, w, pairs, r, v,
+                                     make_schedule(pairs, std::vector<std::uint8_t>(r.size(), 1),
+                                                   problem.bodies.size(), {Rows::width, 1}));
             PassSums<Rows::width> sums;
             sweeps<Rows>(best_instructions())
                 .measured(layout.rows.data(), layout.rows.data() + layout.rows.size(),
@@ -387,7 +374,7 @@ void expect_state_survives_rearrangement(Kind kind) {
     layout.collect(before);
     const std::vector<std::uint8_t> loaded = layout.loaded(pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) EXPECT_EQ(loaded[k] != 0, before[k][0] > 0.0);
-    layout.rearrange(make_schedule(pairs, natural_order(problem), loaded, problem.bodies.size(),
+    layout.rearrange(make_schedule(pairs, loaded, problem.bodies.size(),
                                    {.width = Rows::width, .distance = 3, .stretch = 70}));
     layout.collect(after);
     EXPECT_TRUE(same_bits(before, after));
@@ -424,8 +411,7 @@ TEST(SweepTrain, WakesWhatCloses) {
     floor.arm_b = {0.0, -0.5, 0.0};
     problem.contacts.push_back(floor);
     const Delassus w(problem);
-    const Schedule schedule =
-        make_schedule(moved_pairs(problem), natural_order(problem), {0}, 1, {.width = 4});
+    const Schedule schedule = make_schedule(moved_pairs(problem), {0}, 1, {.width = 4});
     EXPECT_EQ(schedule.active, 0);
     SweepLayout<DiscRows<4>> layout = laid_out<DiscRows<4>>(problem, w, schedule);
     SweepTrain<DiscRows<4>> train(sweeps<DiscRows<4>>(best_instructions()), layout);
