@@ -37,18 +37,21 @@ class Search {
 
     void follow(const ScaledContacts& contacts, double size, std::int64_t budget) {
         CentralPath path(contacts, size);
+        std::int64_t counted = 0;
+        const auto count = [&] {
+            used_ += path.factorisations() - counted;
+            counted = path.factorisations();
+        };
         double finish_below = finishing;
         const std::int64_t most = std::min(budget, left());
         while (!over() && path.advance(std::min(most, path.factorisations() + left()))) {
-            used_ += path.factorisations() - counted_;
-            counted_ = path.factorisations();
+            count();
             const double residual = look(contacts, path.point());
             if (over() || residual > finish_below) continue;
             finish_below = retry * residual;
             take_if_better(sweeps_from(latest_.impulses, finishing_sweeps));
         }
-        used_ += path.factorisations() - counted_;
-        counted_ = 0;
+        count();
     }
 
     SolverResult result() {
@@ -93,7 +96,6 @@ class Search {
     SolverResult best_, latest_;
     bool looked_ = false;
     std::int64_t used_ = 0;
-    std::int64_t counted_ = 0;  ///< of the present path's factorisations
 };
 
 }  // namespace

@@ -49,10 +49,7 @@ class PathSystem {
 
     const PathPoint& start() const { return start_; }
 
-    /// Root of the mean square of q: the unit of impulses and velocities.
-    double unit() const { return unit_; }
-
-    /// tau z over unit^2: what factors are to each other.
+    /// tau z over the mean square of q: what factors are to each other.
     double product(const PathPoint& at) const { return tau_ * at.z / (unit_ * unit_); }
 
     /// Prepares the three changes below; false when J has no factors.
@@ -95,7 +92,8 @@ class PathSystem {
     BodyFactors factors_;
     std::vector<unsigned char> has_;
     std::vector<Vector3> offset_;  ///< e
-    double unit_ = 0.0, tau_ = 0.0;
+    double unit_ = 0.0;            ///< of impulses and velocities: root of the mean square of q
+    double tau_ = 0.0;
     PathPoint start_, at_;
     Eigen::VectorXd y_;                   ///< of at_
     std::vector<Eigen::Matrix3d> theta_;  ///< of at_
