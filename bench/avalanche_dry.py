@@ -22,7 +22,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / 'coupler/cli/report'))
+sys.path.insert(0, str(ROOT / 'launcher/report'))
 
 import curves
 import run_data

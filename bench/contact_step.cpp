@@ -14,7 +14,7 @@
 #include "bench/step_clock.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/freed_memory.hpp"
-#include "granular_adapter/nscd/solver_list.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <regex>
 
-#include "coupler/case/case_file.hpp"
-#include "coupler/case/run_folder.hpp"
-#include "coupler/cli/launch_line.hpp"
-#include "coupler/cli/prepare_run.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "launcher/case/case_file.hpp"
+#include "launcher/case/run_folder.hpp"
+#include "launcher/job/launch_line.hpp"
+#include "launcher/job/prepare_run.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -4,7 +4,7 @@
 // floor, both rough, open to the right (Topin 2011, Fig. 8a). Lengths in D, g = 1, density 1.
 #pragma once
 
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 
 namespace turbidite::bench {
 

@@ -11,11 +11,11 @@
 
 #include "bench/fluid_ranks.hpp"
 #include "bench/step_clock.hpp"
-#include "coupler/case/case_file.hpp"
-#include "coupler/case/run_folder.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
-#include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
+#include "launcher/case/case_file.hpp"
+#include "launcher/case/run_folder.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / 'coupler/cli/report'))
+sys.path.insert(0, str(ROOT / 'launcher/report'))
 import run_data  # noqa: E402  what a run folder holds
 
 SCHEMES = {

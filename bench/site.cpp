@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "coupler/cli/launch_line.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "launcher/job/launch_line.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "bench/figure.hpp"
 #include "bench/step_clock.hpp"
-#include "coupler/cli/programs.hpp"
+#include "launcher/job/programs.hpp"
 
 namespace turbidite::bench {
 

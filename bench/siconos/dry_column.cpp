@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "coupler/case/lattice.hpp"
+#include "launcher/case/lattice.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -5,7 +5,7 @@
 // density 1; t_c = 1. The source of contact problems for tests and benchmarks.
 #pragma once
 
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 
 namespace turbidite::bench {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "granular_adapter/nscd/one_contact.hpp"
+#include "granular_adapter/nscd/plane/one_contact.hpp"
 
 namespace turbidite::siconos {
 

@@ -4,7 +4,7 @@
 // dimensionless problem, relative to the largest norm of q, r and u.
 #pragma once
 
-#include "granular_adapter/nscd/solver.hpp"
+#include "granular_adapter/nscd/solvers/solver.hpp"
 
 namespace turbidite::siconos {
 

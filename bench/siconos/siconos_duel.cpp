@@ -13,7 +13,7 @@
 #include "bench/siconos/same_measure.hpp"
 #include "bench/siconos/siconos_problem.hpp"
 #include "bench/step_clock.hpp"
-#include "granular_adapter/nscd/solver_list.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -21,7 +21,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem_file.hpp"
+#include "granular_adapter/nscd/problem/problem_file.hpp"
 
 namespace turbidite::siconos {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "granular_adapter/nscd/contact_problem.hpp"
+#include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 struct FrictionContactProblem;
 
@@ -36,7 +36,7 @@ struct Solution {
 
 class Problem {
  public:
-    /// Through the text file of nscd/problem_file.hpp, which Siconos reads.
+    /// Through the text file of nscd/problem/problem_file.hpp, which Siconos reads.
     Problem(const nscd::ContactProblem& problem, const Scale& scale);
     explicit Problem(const std::filesystem::path& file);
     ~Problem();

@@ -8,11 +8,11 @@
 #include <functional>
 #include <optional>
 
-#include "coupler/hub/contact_series.hpp"
-#include "coupler/hub/grain_series.hpp"
 #include "coupler/hub/ledger.hpp"
-#include "coupler/hub/progress.hpp"
-#include "coupler/hub/run_record.hpp"
+#include "coupler/output/contact_series.hpp"
+#include "coupler/output/grain_series.hpp"
+#include "coupler/output/progress.hpp"
+#include "coupler/output/run_record.hpp"
 
 namespace turbidite {
 

@@ -106,7 +106,8 @@ struct ContactReport {
     double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
     std::int64_t removed = 0;      ///< grains that left through a free side in this window
     double wall_seconds = 0.0;     ///< time in the adapter's own work
-    /// Quad and Max, what one more update of every contact would change (nscd/residual.hpp).
+    /// Quad and Max, what one more update of every contact would change
+    /// (nscd/problem/residual.hpp).
     std::optional<double> quad;
     std::optional<double> max;
 };

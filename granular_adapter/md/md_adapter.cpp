@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "granular_adapter/nscd/byte_stream.hpp"
-#include "granular_adapter/nscd/engine.hpp"
-#include "granular_adapter/nscd/theta_scheme.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
-#include "granular_adapter/standalone/by_grain.hpp"
-#include "granular_adapter/standalone/case_bodies.hpp"
-#include "granular_adapter/standalone/contact_records.hpp"
+#include "granular_adapter/grains/by_grain.hpp"
+#include "granular_adapter/grains/case_bodies.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
+#include "granular_adapter/nscd/engine/theta_scheme.hpp"
+#include "granular_adapter/nscd/problem/byte_stream.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "granular_adapter/nscd_adapter/contact_records.hpp"
 
 namespace turbidite {
 namespace {

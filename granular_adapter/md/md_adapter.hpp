@@ -33,8 +33,8 @@
 #include <vector>
 
 #include "coupler/participant/adapter.hpp"
+#include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/md/md_host.hpp"
-#include "granular_adapter/standalone/borders.hpp"
 
 namespace turbidite {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "coupler/participant/adapter.hpp"
-#include "granular_adapter/nscd/bodies.hpp"
+#include "granular_adapter/nscd/problem/bodies.hpp"
 
 namespace turbidite {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "coupler/participant/participant.hpp"
-#include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 2) {

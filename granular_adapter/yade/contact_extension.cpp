@@ -4,11 +4,11 @@
 #include <boost/python.hpp>
 #include <string>
 
-#include "coupler/case/key_check.hpp"
 #include "coupler/protocol/freed_memory.hpp"
 #include "coupler/shapes/polygon_outline.hpp"
-#include "granular_adapter/standalone/contact_settings.hpp"
+#include "granular_adapter/nscd_adapter/contact_settings.hpp"
 #include "granular_adapter/yade/contact_host.hpp"
+#include "launcher/case/key_check.hpp"
 
 namespace turbidite::yade {
 namespace {

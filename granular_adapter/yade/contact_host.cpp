@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/yade/engine_memory.hpp"
 
 namespace turbidite::yade {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 #include "granular_adapter/yade/hosted_walls.hpp"
 #include "granular_adapter/yade/overlap.hpp"
 #include "granular_adapter/yade/scene_watch.hpp"

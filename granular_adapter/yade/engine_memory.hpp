@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 
 namespace turbidite::yade {
 

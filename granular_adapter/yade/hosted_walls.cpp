@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "granular_adapter/yade/hosted_walls.hpp"
 
-#include "granular_adapter/nscd/theta_scheme.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/engine/theta_scheme.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/yade/turn.hpp"
 
 namespace turbidite::yade {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "granular_adapter/nscd/walls.hpp"
+#include "granular_adapter/nscd/problem/walls.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
 
 namespace turbidite::yade {

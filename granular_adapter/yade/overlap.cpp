@@ -7,8 +7,8 @@
 
 #include "coupler/shapes/shape.hpp"
 #include "coupler/shapes/surface_gap.hpp"
-#include "granular_adapter/nscd/broad_phase.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/detection/broad_phase.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::yade {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "coupler/protocol/records.hpp"
-#include "granular_adapter/nscd/bodies.hpp"
-#include "granular_adapter/nscd/periodic_box.hpp"
+#include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
 
 namespace turbidite::yade {
 

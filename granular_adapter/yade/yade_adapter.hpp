@@ -9,7 +9,7 @@
 #include <string>
 
 #include "coupler/participant/adapter.hpp"
-#include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 #include "granular_adapter/yade/turn.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
 

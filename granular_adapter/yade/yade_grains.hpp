@@ -8,7 +8,7 @@
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "granular_adapter/nscd/bodies.hpp"
+#include "granular_adapter/nscd/problem/bodies.hpp"
 
 namespace turbidite::yade {
 
@@ -16,8 +16,8 @@ namespace turbidite::yade {
 boost::python::dict settings_dict(const Settings& settings);
 
 /// One dict per body: id, radius, density, mass, inertia, position, orientation (w, x, y, z),
-/// velocity, angular_velocity, and vertices ((x, y) in the body's axes [m]; none: a disc, as all are without
-/// a table of shapes).
+/// velocity, angular_velocity, and vertices ((x, y) in the body's axes [m]; none: a disc, as all
+/// are without a table of shapes).
 boost::python::list grain_list(const nscd::Bodies& bodies, const ShapeTable& shapes = {});
 
 }  // namespace turbidite::yade

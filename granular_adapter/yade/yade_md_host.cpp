@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "granular_adapter/nscd/byte_stream.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/byte_stream.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/yade/yade_forces.hpp"
 #include "granular_adapter/yade/yade_grains.hpp"
 

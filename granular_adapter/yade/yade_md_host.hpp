@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/md/md_host.hpp"
-#include "granular_adapter/standalone/borders.hpp"
 #include "granular_adapter/yade/yade_bodies.hpp"
 
 namespace turbidite::yade {

@@ -28,7 +28,7 @@ RULES = [
     ("coupler/participant/*.[hc]pp", [YAML, PYTHON, OPENFOAM], "the participant library knows no host"),
     ("coupler/participant/*.hpp", [MPI], "an MPI of the host's choice must not leak in"),
     ("coupler/shapes/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM], "shared by fluid and grains"),
-    ("granular_adapter/nscd/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
+    ("granular_adapter/nscd/**/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
     ("granular_adapter/*/*.[hc]pp", [SICONOS], "Siconos stays in tests and one contender"),
     ("fluid_adapter/multiplier/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),

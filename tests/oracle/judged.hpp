@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/siconos/siconos_problem.hpp"
-#include "granular_adapter/nscd/solver_list.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::judged {
 

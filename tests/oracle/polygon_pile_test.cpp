@@ -6,8 +6,8 @@
 
 #include <map>
 
-#include "granular_adapter/nscd/delassus_matrix.hpp"
-#include "granular_adapter/nscd/residual.hpp"
+#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
 #include "judged.hpp"
 #include "polygons.hpp"
 #include "unique_impulses.hpp"

@@ -11,8 +11,8 @@
 #include "bench/siconos/dry_column.hpp"
 #include "bench/siconos/same_measure.hpp"
 #include "bench/siconos/siconos_problem.hpp"
-#include "granular_adapter/nscd/delassus_matrix.hpp"
-#include "granular_adapter/nscd/residual.hpp"
+#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
 #include "judged.hpp"
 #include "problems.hpp"
 

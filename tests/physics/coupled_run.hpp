@@ -11,7 +11,7 @@
 
 #include "coupler/shapes/immersed_body.hpp"
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
-#include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 
 namespace turbidite {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {

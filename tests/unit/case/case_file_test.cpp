@@ -2,14 +2,14 @@
 //
 // Every kind of mistake in a case has a text that names the place, the value and the way out; a
 // good case resolves to a text that loads to itself.
-#include "coupler/case/case_file.hpp"
+#include "launcher/case/case_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "coupler/case/keys.hpp"
-#include "coupler/case/population.hpp"
-#include "coupler/case/run_folder.hpp"
 #include "coupler/protocol/case_hash.hpp"
+#include "launcher/case/keys.hpp"
+#include "launcher/case/population.hpp"
+#include "launcher/case/run_folder.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupler/case/case_file.hpp"
+#include "launcher/case/case_file.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/case/key_reference.hpp"
+#include "launcher/case/key_reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
-#include "coupler/case/keys.hpp"
-#include "coupler/case/nearest_name.hpp"
+#include "launcher/case/keys.hpp"
+#include "launcher/case/nearest_name.hpp"
 
 namespace turbidite {
 namespace {

@@ -3,7 +3,7 @@
 // Keys of contact laws: what is missing or impossible is refused by name before anything starts.
 #include <gtest/gtest.h>
 
-#include "coupler/case/case_file.hpp"
+#include "launcher/case/case_file.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/case/population.hpp"
+#include "launcher/case/population.hpp"
 
 #include <gtest/gtest.h>
 

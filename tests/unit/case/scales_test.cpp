@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/case/scales.hpp"
+#include "launcher/case/scales.hpp"
 
 #include <gtest/gtest.h>
 
-#include "coupler/case/case_file.hpp"
+#include "launcher/case/case_file.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <set>
 
-#include "coupler/case/case_file.hpp"
-#include "coupler/case/grain_forms.hpp"
-#include "coupler/case/inner_walls.hpp"
-#include "coupler/case/random_packing.hpp"
+#include "launcher/case/case_file.hpp"
+#include "launcher/case/grain_forms.hpp"
+#include "launcher/case/inner_walls.hpp"
+#include "launcher/case/random_packing.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

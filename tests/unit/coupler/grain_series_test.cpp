@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/hub/grain_series.hpp"
+#include "coupler/output/grain_series.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "coupler/hub/contact_series.hpp"
+#include "coupler/output/contact_series.hpp"
 #include "tests/unit/coupler/test_case.hpp"
 
 namespace turbidite {

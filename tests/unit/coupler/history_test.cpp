@@ -7,13 +7,14 @@
 #include <numbers>
 #include <sstream>
 
-#include "coupler/hub/history.hpp"
+#include "coupler/output/history.hpp"
 #include "tests/unit/coupler/test_case.hpp"
 
 namespace turbidite {
 namespace {
 
-// The columns are a contract with tools outside the project: this list is the contract, not a copy of the code.
+// The columns are a contract with tools outside the project: this list is the contract, not a copy
+// of the code.
 TEST(History, HeaderIsTheContract) {
     EXPECT_EQ(history_header().find(
                   "step,time,mean_velocity_x,mean_velocity_y,mean_velocity_norm,mean_speed,"
@@ -35,8 +36,8 @@ TEST(History, EveryColumnIsExplained) {
         EXPECT_NE(page.str().find("`" + name + "`"), std::string::npos) << name;
 }
 
-// Three discs at x = 2, 4.5, 7 with velocities (3, 4), (-3, 4), (0, 4): |<u>| = 4, <|u|> = (5 + 5 + 4)/3, front 7.5,
-// energy per mass (25 + 25 + 16)/6.
+// Three discs at x = 2, 4.5, 7 with velocities (3, 4), (-3, 4), (0, 4): |<u>| = 4, <|u|> = (5 + 5 +
+// 4)/3, front 7.5, energy per mass (25 + 25 + 16)/6.
 TEST(History, MeansAreNumberMeans) {
     Motion state;
     state.grains = test_population();
@@ -81,8 +82,8 @@ std::map<std::string, std::string> written(const Row& row, const Settings& setti
     return last_row(folder.path() / "history.csv");
 }
 
-// Four discs of density 1.5 in a square, the upper two on the lower ones, these on the floor; D = 2, g = 3. A disc
-// weighs w = 1.5 pi 3.
+// Four discs of density 1.5 in a square, the upper two on the lower ones, these on the floor; D =
+// 2, g = 3. A disc weighs w = 1.5 pi 3.
 TEST(History, ContactForcesAreInWeightsOfTheSolid) {
     Settings settings = test_settings();
     settings.set("run.diameter", 2.0), settings.set("run.gravity", 3.0);
@@ -112,7 +113,8 @@ TEST(History, ContactForcesAreInWeightsOfTheSolid) {
     const double pores = 4.0 - area;  // between the four centres
     EXPECT_NEAR(std::stod(cells["pore_volume"]), pores / 4.0, 1e-9);
     // Two towers: w (1 + 3) each; over the area, over rho_s g D.
-    EXPECT_NEAR(std::stod(cells["sigma_yy"]), 8.0 * weight / (4.0 * area + pores) / (1.5 * 3.0 * 2.0), 1e-9);
+    EXPECT_NEAR(std::stod(cells["sigma_yy"]),
+                8.0 * weight / (4.0 * area + pores) / (1.5 * 3.0 * 2.0), 1e-9);
     EXPECT_EQ(std::stod(cells["sigma_xx"]), 0.0);
     EXPECT_NEAR(std::stod(cells["mean_normal_force"]), std::numbers::pi / 4.0, 1e-9);
     EXPECT_NEAR(std::stod(cells["coordination"]), 1.5, 1e-9);
@@ -129,9 +131,10 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
     Row row;
     row.state = &state;
     auto cells = written(row, test_settings());
-    for (const char* name : {"contacts", "contact_iterations", "contact_residual", "contact_quad", "contact_max",
-                             "unconverged", "coordination", "loose_grains", "fabric_anisotropy", "fabric_angle",
-                             "sigma_xx", "sigma_xy", "sigma_yy", "mean_normal_force", "sliding_share"})
+    for (const char* name :
+         {"contacts", "contact_iterations", "contact_residual", "contact_quad", "contact_max",
+          "unconverged", "coordination", "loose_grains", "fabric_anisotropy", "fabric_angle",
+          "sigma_xx", "sigma_xy", "sigma_yy", "mean_normal_force", "sliding_share"})
         EXPECT_EQ(cells.at(name), "") << name;
     EXPECT_EQ(cells["pore_volume"], "0") << "grains, but no pores between them";
     ContactReport report;
@@ -152,7 +155,8 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
 }
 
 TEST(History, AFullDiskIsAnError) {
-    EXPECT_THROW(History("/dev/full", test_settings(), KickRule(test_settings(), {{"disc", {}}})), Failure);
+    EXPECT_THROW(History("/dev/full", test_settings(), KickRule(test_settings(), {{"disc", {}}})),
+                 Failure);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "granular_adapter/md/md_host.hpp"
-#include "granular_adapter/nscd/byte_stream.hpp"
-#include "granular_adapter/nscd/theta_scheme.hpp"
+#include "granular_adapter/nscd/engine/theta_scheme.hpp"
+#include "granular_adapter/nscd/problem/byte_stream.hpp"
 
 namespace turbidite {
 

@@ -7,9 +7,9 @@
 #include <functional>
 #include <numbers>
 
-#include "granular_adapter/standalone/nscd_adapter.hpp"
+#include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 #include "tests/unit/md/leap_frog_host.hpp"
-#include "tests/unit/standalone/contact_case.hpp"
+#include "tests/unit/nscd_adapter/contact_case.hpp"
 
 namespace turbidite {
 namespace {

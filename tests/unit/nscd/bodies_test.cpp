@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/bodies.hpp"
+#include "granular_adapter/nscd/problem/bodies.hpp"
 
 #include <gtest/gtest.h>
 

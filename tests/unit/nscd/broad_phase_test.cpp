@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/broad_phase.hpp"
+#include "granular_adapter/nscd/detection/broad_phase.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/corner_turn.hpp"
+#include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
 
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "polygons.hpp"
 
 namespace turbidite::nscd {

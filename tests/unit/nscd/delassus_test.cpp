@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/delassus.hpp"
+#include "granular_adapter/nscd/problem/delassus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "granular_adapter/nscd/residual.hpp"
-#include "granular_adapter/nscd/solver_list.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 #include "problems.hpp"
 
 namespace turbidite::nscd {
@@ -62,7 +62,8 @@ PlanarTensor random_inertia(std::mt19937_64& random) {
     std::uniform_real_distribution<double> any(-0.5, 0.5);
     Eigen::Matrix3d b;
     for (int i = 0; i < 9; ++i) b(i) = any(random);
-    const Eigen::Matrix3d a = b.transpose() * b + Eigen::Vector3d(1.0, 1.0, 0.2).asDiagonal().toDenseMatrix();
+    const Eigen::Matrix3d a =
+        b.transpose() * b + Eigen::Vector3d(1.0, 1.0, 0.2).asDiagonal().toDenseMatrix();
     return problems::planar(a);
 }
 
@@ -124,12 +125,14 @@ TEST(Delassus, IsTheDenseProductForAnyMobility) {
     }
 }
 
-// Glued contacts that nothing tries to open or slide have r = -W^-1 (H^T v_free + b): a direct solve. Friction and a
-// closing speed are so large that no contact opens or slides, which the reference confirms.
+// Glued contacts that nothing tries to open or slide have r = -W^-1 (H^T v_free + b): a direct
+// solve. Friction and a closing speed are so large that no contact opens or slides, which the
+// reference confirms.
 TEST(Nlgs, MatchesADirectSolveWhereAllContactsStick) {
     std::vector<PlanarTensor> inertia;
     ContactProblem problem = wet_chain(6, inertia);
-    for (Contact& contact : problem.contacts) contact.friction = 50.0, contact.bias = {-20.0, 0.0, 0.0};
+    for (Contact& contact : problem.contacts)
+        contact.friction = 50.0, contact.bias = {-20.0, 0.0, 0.0};
     Eigen::VectorXd b(12);
     for (int k = 0; k < 6; ++k) {
         const Vec3 u = contact_velocity(problem.contacts[k], problem.free);
@@ -193,7 +196,8 @@ ContactProblem disc_chain(int length) {
     return problem;
 }
 
-// One more body, which nothing touches and which prefers a direction, sends all contacts through the general rows.
+// One more body, which nothing touches and which prefers a direction, sends all contacts through
+// the general rows.
 TEST(Nlgs, GeneralRowsGiveTheAnswerOfTheFastOnes) {
     const ContactProblem fast = disc_chain(10);
     ContactProblem general = fast;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {
@@ -66,7 +66,8 @@ TEST(Engine, HandsOutTheImpulsesThatMovedTheGrains) {
     }
 }
 
-// Mobilities given by the host replace those of the bodies; what each grain is told it received is A (U - U^F).
+// Mobilities given by the host replace those of the bodies; what each grain is told it received is
+// A (U - U^F).
 TEST(Engine, TakesTheHostsMobilities) {
     Engine engine = scenes::settling_pack(6, 6, scenes::exact(0.3, 1e-3));
     scenes::run(engine, 1.5, 0.01);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/narrow_phase.hpp"
+#include "granular_adapter/nscd/detection/narrow_phase.hpp"
 
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

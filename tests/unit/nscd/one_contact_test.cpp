@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/one_contact.hpp"
+#include "granular_adapter/nscd/plane/one_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,8 @@ TEST(OneContact, SolvesAMillionProblemsOfOneBody) {
     EXPECT_GT(usual.customary_failures, 10);
 }
 
-// By hand: W = (1, 1.5; 1.5, 4), b = (-1, -4), mu = 2. The trial (1.5 (-4) + 4, 1.5 (-1) + 4)/1.75 =
+// By hand: W = (1, 1.5; 1.5, 4), b = (-1, -4), mu = 2. The trial (1.5 (-4) + 4, 1.5 (-1) + 4)/1.75
+// =
 // (-2, 2.5)/1.75 pulls. Slide with s = +1: r_n = 1/(1 + 3) = 0.25, r_t = 0.5, u_t = 0.375 + 2 - 4 <
 // 0, opposite to r_t. The customary rule takes s = -1, since 2.5 < 2 * 2, and then pulls: r_n =
 // 1/(1 - 3).

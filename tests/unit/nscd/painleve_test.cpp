@@ -10,8 +10,8 @@
 // problem it always has a solution.
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/delassus.hpp"
-#include "granular_adapter/nscd/nlgs.hpp"
+#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

@@ -3,7 +3,7 @@
 // Laws between faces: unit squares of mass 1 on each other, the lower one held, weightless.
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "polygons.hpp"
 
 namespace turbidite::nscd {

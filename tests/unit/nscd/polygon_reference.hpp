@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "granular_adapter/nscd/placed_polygons.hpp"
+#include "granular_adapter/nscd/detection/plane/placed_polygons.hpp"
 
 namespace turbidite::nscd::reference {
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "coupler/shapes/shape.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd::scenes {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/law_list.hpp"
+#include "granular_adapter/nscd/laws/law_list.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {
@@ -10,7 +10,8 @@ namespace {
 // dt = 0.01, fraction 0.2, speed 0.5: g/dt when open; 0.2 g/dt for small overlaps; 0.5 beyond
 // 0.5 * 0.01/0.2 = 0.025.
 TEST(Recovery, IsAShareOfTheOverlapAndCapped) {
-    const auto law = make_law_part(LawSlot::gap, "signorini", {0.2, 0.5}, SurfaceTable({Surface{}}));
+    const auto law =
+        make_law_part(LawSlot::gap, "signorini", {0.2, 0.5}, SurfaceTable({Surface{}}));
     const auto bias = [&law](double gap) {
         ContactSituation situation;
         situation.gap = gap;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/rolling_contact.hpp"
+#include "granular_adapter/nscd/plane/rolling_contact.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <random>
 
-#include "granular_adapter/nscd/delassus.hpp"
-#include "granular_adapter/nscd/nlgs.hpp"
-#include "granular_adapter/nscd/residual.hpp"
-#include "granular_adapter/nscd/vec3.hpp"
+#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "granular_adapter/nscd/engine.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
 
 namespace turbidite::nscd::scenes {
 

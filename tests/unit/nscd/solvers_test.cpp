@@ -5,9 +5,9 @@
 
 #include <cstring>
 
-#include "granular_adapter/nscd/delassus_matrix.hpp"
-#include "granular_adapter/nscd/residual.hpp"
-#include "granular_adapter/nscd/solver_list.hpp"
+#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 #include "problems.hpp"
 #include "scenes.hpp"
 

@@ -3,7 +3,7 @@
 // Twenty discs on top of each other: the contact below the k-th from the top carries k weights.
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/residual.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

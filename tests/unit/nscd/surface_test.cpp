@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/surface.hpp"
+#include "granular_adapter/nscd/laws/surface.hpp"
 
 #include <gtest/gtest.h>
 

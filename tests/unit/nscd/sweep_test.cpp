@@ -8,11 +8,11 @@
 #include <random>
 #include <set>
 
-#include "granular_adapter/nscd/contact_order.hpp"
-#include "granular_adapter/nscd/nlgs.hpp"
-#include "granular_adapter/nscd/residual.hpp"
-#include "granular_adapter/nscd/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweep_train.hpp"
+#include "granular_adapter/nscd/detection/contact_order.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_train.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/warm_start.hpp"
+#include "granular_adapter/nscd/problem/warm_start.hpp"
 
 #include <gtest/gtest.h>
 

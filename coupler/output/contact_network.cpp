@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/contact_network.hpp"
+
+#include <cmath>
+#include <unordered_set>
+
+namespace turbidite {
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+bool same_pair(const ContactRecord& x, const ContactRecord& y) {
+    return x.b == y.b && x.wall == y.wall && (x.wall >= 0 || x.a == y.a);
+}
+
+/// Sums that one link after the other goes into.
+class Sums {
+ public:
+    explicit Sums(double step) : step_(step) {}
+
+    void add_point(const ContactRecord& contact) {
+        const Vec3& p = contact.impulse;
+        const Vec3& l = contact.branch;
+        network_.virial.xx += p[0] * l[0] / step_;
+        network_.virial.yy += p[1] * l[1] / step_;
+        network_.virial.xy += 0.5 * (p[0] * l[1] + p[1] * l[0]) / step_;
+        ++points_;
+        sliding_ += (contact.status & ContactStatus::sliding) != 0 ? 1 : 0;
+        if (contact.wall < 0) force_ += dot(p, contact.normal) / step_;
+    }
+
+    void add_link(const ContactRecord& contact) {
+        touched_.insert(contact.b);
+        if (contact.wall >= 0) {
+            ++network_.wall_links;
+            return;
+        }
+        touched_.insert(contact.a);
+        ++network_.grain_links;
+        const Vec3& n = contact.normal;
+        cos2_ += n[0] * n[0] - n[1] * n[1];
+        sin2_ += 2.0 * n[0] * n[1];
+    }
+
+    ContactNetwork finished(std::size_t grains) {
+        const double links = static_cast<double>(network_.grain_links);
+        network_.loose_grains = static_cast<std::int64_t>(grains - touched_.size());
+        if (!touched_.empty())
+            network_.coordination = (2.0 * links + static_cast<double>(network_.wall_links)) /
+                                    static_cast<double>(touched_.size());
+        if (points_ > 0)
+            network_.sliding_share = static_cast<double>(sliding_) / static_cast<double>(points_);
+        if (network_.grain_links == 0) return network_;
+        // F_1 - F_2 = |(mean cos 2 theta, mean sin 2 theta)|.
+        network_.fabric =
+            Fabric{2.0 * std::hypot(cos2_, sin2_) / links, 0.5 * std::atan2(sin2_, cos2_)};
+        network_.normal_force = force_ / links;
+        return network_;
+    }
+
+ private:
+    double step_;
+    ContactNetwork network_;
+    std::unordered_set<GrainId> touched_;
+    std::int64_t points_ = 0, sliding_ = 0;
+    double force_ = 0.0, cos2_ = 0.0, sin2_ = 0.0;
+};
+
+}  // namespace
+
+ContactNetwork contact_network(const std::vector<ContactRecord>& contacts, std::size_t grains,
+                               double step) {
+    Sums sums(step);
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        sums.add_point(contacts[k]);
+        if (k == 0 || !same_pair(contacts[k - 1], contacts[k])) sums.add_link(contacts[k]);
+    }
+    return sums.finished(grains);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/contact_series.hpp"
+
+#include "coupler/hub/kick.hpp"
+
+namespace turbidite {
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vec3 times(double factor, const Vec3& v) {
+    return {factor * v[0], factor * v[1], factor * v[2]};
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// t = e_z x n.
+Vec3 tangent(const ContactRecord& contact) {
+    return {-contact.normal[1], contact.normal[0], 0.0};
+}
+
+GrainId first_id(const ContactRecord& contact) {
+    return contact.wall < 0 ? contact.a : -1 - contact.wall;
+}
+
+/// Two per contact: from a to b.
+std::vector<Vec3> line_ends(const Motion& state) {
+    const auto grains = by_id(state);
+    std::vector<Vec3> ends;
+    ends.reserve(2 * state.contacts->size());
+    for (const ContactRecord& contact : *state.contacts) {
+        const Vec3& centre = grains.at(contact.b)->position;
+        ends.push_back(minus(centre, contact.branch));
+        ends.push_back(centre);
+    }
+    return ends;
+}
+
+}  // namespace
+
+void ContactSeries::write(double time, std::int64_t window, double step, const Motion& state) {
+    if (!state.contacts) return;
+    const std::string name = fmt::format("contacts_{:08d}.vtp", window);
+    write_lines(name, step, state);
+    if (!collection_) collection_.emplace(folder_ / "contacts.pvd");
+    collection_->add(time, {name});
+}
+
+void ContactSeries::write_lines(const std::string& name, double step, const Motion& state) const {
+    using Contact = const ContactRecord&;
+    const auto& contacts = *state.contacts;
+    const std::vector<Vec3> ends = line_ends(state);
+    const auto along = [&](Contact c, const Vec3& axis) { return dot(c.impulse, axis) / step; };
+    const auto normal_force = [&](Contact c) { return along(c, c.normal); };
+    const vtk::PieceSize size{.points = ends.size(), .lines = contacts.size()};
+    vtk::write_poly_data(folder_ / name, size, [&](std::ostream& out) {
+        out << "<Points>\n";
+        vtk::vectors(out, "position", ends, [](const Vec3& end) { return end; });
+        out << "</Points>\n<Lines>\n";
+        vtk::consecutive_cells(out, std::vector<std::size_t>(contacts.size(), 2));
+        out << "</Lines>\n<PointData Scalars=\"normal_force\">\n";
+        vtk::data_array(out, "type=\"Float64\" Name=\"normal_force\"", contacts, [&](Contact c) {
+            const std::string text = vtk::scalar(normal_force(c));
+            return text + text;
+        });
+        out << "</PointData>\n<CellData Scalars=\"normal_force\" Vectors=\"force\">\n";
+        vtk::integers(out, "id_a", contacts, first_id);
+        vtk::integers(out, "id_b", contacts, [](Contact c) { return c.b; });
+        vtk::integers(out, "feature", contacts, [](Contact c) { return c.feature; });
+        vtk::scalars(out, "normal_force", contacts, normal_force);
+        vtk::scalars(out, "tangential_force", contacts,
+                     [&](Contact c) { return along(c, tangent(c)); });
+        vtk::scalars(out, "rolling_moment", contacts,
+                     [&](Contact c) { return c.rolling_impulse[2] / step; });
+        vtk::vectors(out, "force", contacts,
+                     [&](Contact c) { return times(1.0 / step, c.impulse); });
+        vtk::vectors(out, "normal", contacts, [](Contact c) { return c.normal; });
+        vtk::vectors(out, "point", contacts, [](Contact c) { return c.point; });
+        vtk::scalars(out, "gap", contacts, [](Contact c) { return c.gap; });
+        vtk::integers(out, "status", contacts, [](Contact c) { return c.status; });
+        out << "</CellData>\n";
+    });
+}
+
+}  // namespace turbidite

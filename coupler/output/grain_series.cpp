@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/grain_series.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "coupler/shapes/shape.hpp"
+
+namespace turbidite {
+namespace {
+
+std::filesystem::path made(std::filesystem::path folder) {
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+Vec3 divided(const Vec3& v, double by) {
+    return {v[0] / by, v[1] / by, v[2] / by};
+}
+
+/// A point of the body frame of unit circumradius, in the plane.
+Vec3 in_space(const GrainState& grain, const std::array<double, 2>& vertex) {
+    const Quaternion& q = grain.orientation;
+    const double cosine = 1.0 - 2.0 * q[3] * q[3], sine = 2.0 * q[0] * q[3];
+    const double x = grain.radius * vertex[0], y = grain.radius * vertex[1];
+    return {grain.position[0] + cosine * x - sine * y, grain.position[1] + sine * x + cosine * y,
+            0.0};
+}
+
+}  // namespace
+
+GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes)
+    : folder_(made(std::move(folder))), collection_(folder_ / "grains.pvd") {
+    for (const ShapeRecord& shape : shapes) outlines_.push_back(make_shape(shape)->outline());
+}
+
+void GrainSeries::write(double time, std::int64_t step, double window, const Motion& state,
+                        const std::vector<Kick>& kicks) {
+    std::vector<std::string> parts = {fmt::format("grains_{:08d}.vtp", step)};
+    write_points(parts[0], window, state, kicks);
+    const auto cornered = [](const Outline& outline) { return !outline.empty(); };
+    if (std::any_of(outlines_.begin(), outlines_.end(), cornered)) {
+        parts.push_back(fmt::format("outlines_{:08d}.vtp", step));
+        write_outlines(parts[1], state);
+    }
+    collection_.add(time, parts);
+}
+
+void GrainSeries::write_points(const std::string& name, double window, const Motion& state,
+                               const std::vector<Kick>& kicks) const {
+    std::unordered_map<GrainId, Vec3> forces;
+    for (const Kick& kick : kicks) forces[kick.id] = kick.force;
+    const auto force = [&](const GrainState& g) {
+        const auto at = forces.find(g.id);
+        return at == forces.end() ? Vec3{} : at->second;
+    };
+    using Grain = const GrainState&;
+    const auto& grains = state.grains;
+    const vtk::PieceSize size{.points = grains.size(), .vertices = grains.size()};
+    vtk::write_poly_data(folder_ / name, size, [&](std::ostream& out) {
+        out << "<Points>\n";
+        vtk::vectors(out, "position", grains, [](Grain g) { return g.position; });
+        out << "</Points>\n<Verts>\n";
+        vtk::consecutive_cells(out, std::vector<std::size_t>(grains.size(), 1));
+        out << "</Verts>\n<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
+        vtk::integers(out, "id", grains, [](Grain g) { return g.id; });
+        vtk::integers(out, "shape", grains, [](Grain g) { return g.shape; });
+        vtk::scalars(out, "radius", grains, [](Grain g) { return g.radius; });
+        vtk::scalars(out, "density", grains, [](Grain g) { return g.density; });
+        vtk::data_array(out, "type=\"Float64\" Name=\"orientation\" NumberOfComponents=\"4\"",
+                        grains, [](Grain g) {
+                            const Quaternion& q = g.orientation;
+                            return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", q[0], q[1], q[2],
+                                               q[3]);
+                        });
+        vtk::vectors(out, "velocity", grains, [](Grain g) { return g.velocity; });
+        vtk::vectors(out, "angular_velocity", grains, [](Grain g) { return g.angular_velocity; });
+        vtk::vectors(out, "force", grains, force);
+        vtk::vectors(out, "contact_force", grains,
+                     [&](Grain g) { return divided(g.contact_impulse, window); });
+        out << "</PointData>\n";
+    });
+}
+
+void GrainSeries::write_outlines(const std::string& name, const Motion& state) const {
+    std::vector<const GrainState*> grains;
+    std::vector<std::size_t> corners;
+    std::vector<Vec3> points;
+    for (const GrainState& grain : state.grains) {
+        const Outline& outline = outlines_.at(static_cast<std::size_t>(grain.shape));
+        if (outline.empty()) continue;
+        grains.push_back(&grain);
+        corners.push_back(outline.size());
+        for (const auto& vertex : outline) points.push_back(in_space(grain, vertex));
+    }
+    using Grain = const GrainState*;
+    const vtk::PieceSize size{.points = points.size(), .polygons = grains.size()};
+    vtk::write_poly_data(folder_ / name, size, [&](std::ostream& out) {
+        out << "<Points>\n";
+        vtk::vectors(out, "position", points, [](const Vec3& point) { return point; });
+        out << "</Points>\n<Polys>\n";
+        vtk::consecutive_cells(out, corners);
+        out << "</Polys>\n<CellData Scalars=\"id\" Vectors=\"velocity\">\n";
+        vtk::integers(out, "id", grains, [](Grain g) { return g->id; });
+        vtk::integers(out, "shape", grains, [](Grain g) { return g->shape; });
+        vtk::vectors(out, "velocity", grains, [](Grain g) { return g->velocity; });
+        vtk::vectors(out, "angular_velocity", grains, [](Grain g) { return g->angular_velocity; });
+        out << "</CellData>\n";
+    });
+}
+
+}  // namespace turbidite

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The grains as a ParaView series: grains/grains.pvd over one VTK PolyData file per output with a
+// point per grain. Apply a glyph (sphere, scaled by `radius` with factor 2) to see discs. When a
+// shape has corners, a second part of the same series, outlines_<step>.vtp, holds the grains that
+// have it as polygons.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "coupler/output/vtk_files.hpp"
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite {
+
+class GrainSeries {
+ public:
+    GrainSeries(std::filesystem::path folder, const ShapeTable& shapes);
+
+    /// Points in run units with id, shape, radius, density, orientation (quaternion w, x, y, z),
+    /// velocity, angular_velocity, force, contact_force. The series file is complete after every
+    /// call. `time` is in run units, `window` the step over which contact impulses were summed.
+    void write(double time, std::int64_t step, double window, const Motion& state,
+               const std::vector<Kick>& kicks);
+
+ private:
+    using Outline = std::vector<std::array<double, 2>>;  ///< Shape::outline
+
+    void write_points(const std::string& name, double window, const Motion& state,
+                      const std::vector<Kick>& kicks) const;
+    void write_outlines(const std::string& name, const Motion& state) const;
+
+    std::filesystem::path folder_;
+    std::vector<Outline> outlines_;  ///< per shape; empty for round ones
+    vtk::Collection collection_;
+};
+
+}  // namespace turbidite

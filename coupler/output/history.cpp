@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/hub/domain.hpp"
+#include "coupler/output/pore_volume.hpp"
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+void SinceRow::take_in(const WallTimes& spent, bool converged) {
+    ++windows;
+    unconverged += converged ? 0 : 1;
+    wall.step += spent.step;
+    wall.fluid += spent.fluid;
+    wall.grains += spent.grains;
+    wall.coupling += spent.coupling;
+}
+
+Averages averages(const Motion& state, const KickRule& rule) {
+    Averages mean;
+    const double n = std::max<double>(1.0, static_cast<double>(state.grains.size()));
+    mean.front = state.grains.empty() ? 0.0 : -INFINITY;
+    for (const GrainState& grain : state.grains) {
+        double speed2 = 0.0, spin_energy = 0.0;
+        const ImmersedBody body = rule.body(grain);
+        for (int i = 0; i < 3; ++i) {
+            mean.velocity[i] += grain.velocity[i] / n;
+            mean.position[i] += grain.position[i] / n;
+            speed2 += grain.velocity[i] * grain.velocity[i];
+            spin_energy +=
+                body.inertia(i, i) * grain.angular_velocity[i] * grain.angular_velocity[i];
+        }
+        mean.speed += std::sqrt(speed2) / n;
+        mean.front = std::max(mean.front, grain.position[0] + grain.radius);
+        mean.kinetic_energy += 0.5 * (body.mass * speed2 + spin_energy);
+        mean.mass += body.mass;
+        mean.solid += body.mass / grain.density;
+    }
+    return mean;
+}
+
+History::History(const std::filesystem::path& file, const Settings& settings, const KickRule& rule)
+    : file_(file),
+      out_(file, std::ios::trunc),
+      rule_(rule),
+      diameter_(settings.real("run.diameter")),
+      velocity_(settings.real("run.velocity_scale")),
+      time_(settings.real("run.time_scale")),
+      gravity_(settings.real("run.gravity")),
+      step_(settings.real("run.step")),
+      period_(domain_periods(settings)) {
+    out_ << history_header() << std::endl;
+    if (!out_) throw Failure(ExitCode::participant_failed, "cannot write " + file.string());
+}
+
+RowValues History::values(const Row& row) const {
+    const Motion& state = *row.state;
+    std::vector<SolidGrain> solids;
+    for (const GrainState& grain : state.grains)
+        solids.push_back(
+            {grain.position[0], grain.position[1], rule_.body(grain).mass / grain.density});
+    RowValues values{row,
+                     averages(state, rule_),
+                     pore_volume(solids, diameter_, period_),
+                     {},
+                     diameter_,
+                     velocity_,
+                     time_,
+                     gravity_};
+    if (state.contacts)
+        values.network = contact_network(*state.contacts, state.grains.size(), step_);
+    return values;
+}
+
+void History::append(const Row& row) {
+    const auto whole = out_.tellp();
+    out_ << history_line(values(row)) << std::endl;
+    if (out_) return;
+    out_.close();
+    std::error_code ignored;  // half a row would spoil the file for its readers
+    std::filesystem::resize_file(file_, static_cast<std::uintmax_t>(whole), ignored);
+    throw Failure(ExitCode::participant_failed,
+                  "cannot write " + file_.string() + ": is the disk full?");
+}
+
+}  // namespace turbidite

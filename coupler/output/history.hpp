@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// history.csv: one row per output interval, dimensionless with D, u_c, t_c. The columns are one
+// table (history_columns.cpp); their names and order are a contract with outside tools. Quantities
+// that do not apply are empty.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "coupler/hub/scheme.hpp"
+#include "coupler/output/contact_network.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// Seconds of a window, or means per window.
+struct WallTimes {
+    double step = 0.0;      ///< the whole window
+    double fluid = 0.0;     ///< in the fluid adapter's own work
+    double grains = 0.0;    ///< in the grains adapter's own work
+    double coupling = 0.0;  ///< in the coupler: routing, checks, output
+};
+
+/// What is summed over the windows since the last row.
+struct SinceRow {
+    std::int64_t windows = 0;
+    std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance
+    WallTimes wall;
+
+    void take_in(const WallTimes& spent, bool converged);
+};
+
+/// Everything a row is made of.
+struct Row {
+    std::int64_t step = 0;  ///< number of windows done
+    double time = 0.0;      ///< t^{n+1} [s]
+    const Motion* state = nullptr;
+    const ContactReport* contact = nullptr;  ///< null before the first window
+    const FluidReport* fluid = nullptr;      ///< null in dry runs and before the first window
+    const JointReport* joint = nullptr;      ///< null under other schemes
+    std::optional<SinceRow> since;           ///< empty before the first window
+    std::optional<double> grain_balance;     ///< KickRule::defect
+};
+
+/// Means over the grains, in run units.
+struct Averages {
+    Vec3 velocity{};
+    Vec3 position{};
+    double speed = 0.0;
+    double front = 0.0;           ///< max (x + R), of the grains that are still there
+    double kinetic_energy = 0.0;  ///< sum of (m U^2 + I w^2)/2 [J]
+    double mass = 0.0;            ///< sum of m [kg]
+    double solid = 0.0;           ///< sum of V [m2]
+};
+Averages averages(const Motion& state, const KickRule& rule);
+
+/// A row with what is worked out for it.
+struct RowValues {
+    const Row& row;
+    Averages mean;
+    double pores;                           ///< pore_volume [m2]
+    std::optional<ContactNetwork> network;  ///< empty unless contacts were told
+    double diameter, velocity, time, gravity;
+};
+
+/// The header line, for tests and readers.
+std::string history_header();
+
+/// The line of a row, without its end.
+std::string history_line(const RowValues& values);
+
+class History {
+ public:
+    /// Creates the file with its header. Throws Failure when it cannot be written.
+    History(const std::filesystem::path& file, const Settings& settings, const KickRule& rule);
+
+    /// Throws Failure when the disk is full.
+    void append(const Row& row);
+
+ private:
+    RowValues values(const Row& row) const;
+
+    std::filesystem::path file_;
+    std::ofstream out_;
+    const KickRule& rule_;
+    double diameter_, velocity_, time_, gravity_;
+    double step_;  ///< of a window
+    Vec3 period_;
+};
+
+}  // namespace turbidite

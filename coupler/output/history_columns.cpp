@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The table of columns. New ones go to the end. Contact forces are in rho_s g D^2, stresses in
+// rho_s g D, rho_s the mean density of the grains.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "coupler/output/history.hpp"
+
+namespace turbidite {
+namespace {
+
+using Cell = const RowValues&;
+using Text = std::string (*)(Cell);
+
+std::string number(double value) {
+    return fmt::format("{:.10g}", value);
+}
+std::string number(const std::optional<double>& value) {
+    return value ? number(*value) : "";
+}
+
+// Empty unless there are grains, was a window with contacts, with a fluid, with a clock.
+std::string mean(Cell c, double value) {
+    return c.row.state->grains.empty() ? "" : number(value);
+}
+template <class Value>
+std::string contact(Cell c, Value ContactReport::*value) {
+    return c.row.contact ? number(c.row.contact->*value) : "";
+}
+std::string fluid(Cell c, double (*value)(Cell)) {
+    return c.row.fluid ? number(value(c)) : "";
+}
+std::string wall(Cell c, double WallTimes::*part) {
+    if (!c.row.since) return "";
+    return fmt::format("{:.6f}",
+                       c.row.since->wall.*part / static_cast<double>(c.row.since->windows));
+}
+
+// Empty unless contacts were told.
+template <class Value>
+std::string network(Cell c, Value ContactNetwork::*value) {
+    return c.network ? number((*c.network).*value) : "";
+}
+std::string fabric(Cell c, double Fabric::*value) {
+    return c.network && c.network->fabric ? number((*c.network->fabric).*value) : "";
+}
+
+/// The weight of a layer of solid, one grain high: rho_s g D.
+double pressure_unit(Cell c) {
+    return c.mean.mass / c.mean.solid * c.gravity * c.diameter;
+}
+/// Of the packing: the grains and the pores between them.
+std::string stress(Cell c, double PlaneTensor::*part) {
+    if (!c.network || c.row.state->grains.empty()) return "";
+    return number(c.network->virial.*part / (c.mean.solid + c.pores) / pressure_unit(c));
+}
+
+struct Column {
+    const char* name;
+    Text text;
+};
+
+const std::vector<Column> columns = {
+    {"step", [](Cell c) { return std::to_string(c.row.step); }},
+    {"time", [](Cell c) { return number(c.row.time / c.time); }},
+    {"mean_velocity_x", [](Cell c) { return mean(c, c.mean.velocity[0] / c.velocity); }},
+    {"mean_velocity_y", [](Cell c) { return mean(c, c.mean.velocity[1] / c.velocity); }},
+    {"mean_velocity_norm",
+     [](Cell c) {
+         const Vec3& u = c.mean.velocity;
+         return mean(c, std::hypot(u[0], u[1], u[2]) / c.velocity);
+     }},
+    {"mean_speed", [](Cell c) { return mean(c, c.mean.speed / c.velocity); }},
+    {"mean_position_x", [](Cell c) { return mean(c, c.mean.position[0] / c.diameter); }},
+    {"mean_position_y", [](Cell c) { return mean(c, c.mean.position[1] / c.diameter); }},
+    {"front_x", [](Cell c) { return mean(c, c.mean.front / c.diameter); }},
+    {"kinetic_energy",
+     [](Cell c) {
+         return mean(c, c.mean.kinetic_energy / (c.mean.mass * c.velocity * c.velocity));
+     }},
+    {"grains", [](Cell c) { return std::to_string(c.row.state->grains.size()); }},
+    {"contacts", [](Cell c) { return contact(c, &ContactReport::contacts); }},
+    {"max_penetration",
+     [](Cell c) { return number(c.row.state->report.max_penetration / c.diameter); }},
+    {"contact_iterations", [](Cell c) { return contact(c, &ContactReport::iterations); }},
+    {"contact_residual", [](Cell c) { return contact(c, &ContactReport::residual); }},
+    {"multiplier_iterations",
+     [](Cell c) {
+         return fluid(c, [](Cell r) { return double(r.row.fluid->multiplier_iterations); });
+     }},
+    {"multiplier_residual",
+     [](Cell c) {
+         return fluid(c, [](Cell r) { return r.row.fluid->multiplier_residual / r.velocity; });
+     }},
+    {"divergence",
+     [](Cell c) {
+         return fluid(c, [](Cell r) { return r.row.fluid->divergence * r.diameter / r.velocity; });
+     }},
+    {"pore_volume", [](Cell c) { return mean(c, c.pores / (c.diameter * c.diameter)); }},
+    {"wall_step", [](Cell c) { return wall(c, &WallTimes::step); }},
+    {"wall_fluid", [](Cell c) { return c.row.fluid ? wall(c, &WallTimes::fluid) : std::string(); }},
+    {"wall_grains", [](Cell c) { return wall(c, &WallTimes::grains); }},
+    {"wall_coupling", [](Cell c) { return wall(c, &WallTimes::coupling); }},
+    {"grain_balance", [](Cell c) { return number(c.row.grain_balance); }},
+    {"fluid_balance",
+     [](Cell c) { return fluid(c, [](Cell r) { return r.row.fluid->momentum_defect; }); }},
+    {"joint_rounds", [](Cell c) { return c.row.joint ? std::to_string(c.row.joint->rounds) : ""; }},
+    {"joint_mismatch",
+     [](Cell c) { return c.row.joint ? number(c.row.joint->mismatch / c.velocity) : ""; }},
+    {"contact_quad", [](Cell c) { return contact(c, &ContactReport::quad); }},
+    {"contact_max", [](Cell c) { return contact(c, &ContactReport::max); }},
+    {"unconverged",
+     [](Cell c) { return c.row.since ? std::to_string(c.row.since->unconverged) : ""; }},
+    {"coordination", [](Cell c) { return network(c, &ContactNetwork::coordination); }},
+    {"loose_grains", [](Cell c) { return network(c, &ContactNetwork::loose_grains); }},
+    {"fabric_anisotropy", [](Cell c) { return fabric(c, &Fabric::anisotropy); }},
+    {"fabric_angle", [](Cell c) { return fabric(c, &Fabric::angle); }},
+    {"sigma_xx", [](Cell c) { return stress(c, &PlaneTensor::xx); }},
+    {"sigma_xy", [](Cell c) { return stress(c, &PlaneTensor::xy); }},
+    {"sigma_yy", [](Cell c) { return stress(c, &PlaneTensor::yy); }},
+    {"mean_normal_force",
+     [](Cell c) {
+         if (!c.network || !c.network->normal_force) return std::string();
+         return number(*c.network->normal_force / (pressure_unit(c) * c.diameter));
+     }},
+    {"sliding_share", [](Cell c) { return network(c, &ContactNetwork::sliding_share); }},
+};
+
+template <class Part>
+std::string joined(Part part) {
+    std::string text;
+    for (const Column& column : columns)
+        text += (&column == columns.data() ? "" : ",") + part(column);
+    return text;
+}
+
+}  // namespace
+
+std::string history_header() {
+    return joined([](const Column& column) { return std::string(column.name); });
+}
+
+std::string history_line(const RowValues& values) {
+    return joined([&](const Column& column) { return column.text(values); });
+}
+
+}  // namespace turbidite

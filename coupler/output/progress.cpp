@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace turbidite {
+namespace {
+
+constexpr std::chrono::milliseconds refresh{500};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double mean_fall(const Motion& state) {
+    double sum = 0.0;
+    for (const GrainState& grain : state.grains) sum -= grain.velocity[1];
+    return state.grains.empty() ? 0.0 : sum / static_cast<double>(state.grains.size());
+}
+
+std::string residuals(const Row& row, double velocity) {
+    std::string text;
+    if (row.contact)
+        text += fmt::format(
+            "  contacts {} ({} {}{}{})", row.contact->contacts, row.contact->iterations,
+            row.contact->residual ? "sweeps" : "sub-steps",
+            row.contact->residual ? fmt::format(", {:.0e}", *row.contact->residual) : "",
+            row.contact->converged ? "" : " NOT CONVERGED");
+    if (row.fluid)
+        text += fmt::format("  multipliers {} its, {:.0e}", row.fluid->multiplier_iterations,
+                            row.fluid->multiplier_residual / velocity);
+    if (row.joint)
+        text += fmt::format("  rounds {}{}", row.joint->rounds,
+                            row.joint->converged ? ""
+                                                 : fmt::format(" NOT CONVERGED: {:.0e} u_c",
+                                                               row.joint->mismatch / velocity));
+    return text;
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+    const long s = static_cast<long>(seconds + 0.5);
+    if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+    return fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+Progress::Progress(const std::filesystem::path& log, bool terminal, std::int64_t windows)
+    : terminal_(terminal), windows_(windows) {
+    std::filesystem::create_directories(log.parent_path());
+    log_.open(log, std::ios::app);
+}
+
+void Progress::clear_line() {
+    if (line_open_) std::fputs("\r\033[K", stdout);
+    line_open_ = false;
+}
+
+void Progress::say(const std::string& text) {
+    clear_line();
+    std::fputs((text + "\n").c_str(), stdout);
+    std::fflush(stdout);
+    log_ << text << std::endl;
+}
+
+void Progress::show(const Row& row, const Settings& settings, bool due) {
+    const double time_scale = settings.real("run.time_scale");
+    const double velocity = settings.real("run.velocity_scale");
+    if (!due && !(terminal_ && Clock::now() - last_shown_ > refresh)) return;
+    last_shown_ = Clock::now();
+    const double per_window = seconds_since(start_) / static_cast<double>(row.step);
+    const std::string line = fmt::format(
+        "window {}/{}  t/t_c {:.3f}  fall {:.4f} u_c  overlap {:.0e} D{}  {:.3f} s/window  left {}",
+        row.step, windows_, row.time / time_scale, mean_fall(*row.state) / velocity,
+        row.state->report.max_penetration / settings.real("run.diameter"), residuals(row, velocity),
+        per_window, clock_text(per_window * static_cast<double>(windows_ - row.step)));
+    if (due) log_ << line << std::endl;
+    if (terminal_) {
+        std::fputs(("\r\033[K" + line).c_str(), stdout);
+        line_open_ = row.step < windows_;
+        if (!line_open_) std::fputs("\n", stdout);
+    } else {
+        std::fputs((line + "\n").c_str(), stdout);
+    }
+    std::fflush(stdout);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the user sees while a run goes on: one line, rewritten in place on a terminal, printed at
+// every output interval otherwise. Everything also goes to logs/coupler.log.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "coupler/output/history.hpp"
+
+namespace turbidite {
+
+class Progress {
+ public:
+    /// `terminal`: standard output ends at a person (TURBIDITE_PROGRESS=terminal).
+    Progress(const std::filesystem::path& log, bool terminal, std::int64_t windows);
+
+    /// A line of its own, on screen and in the log.
+    void say(const std::string& text);
+
+    /// The state of the run after a window. `due`: an output interval ended here.
+    void show(const Row& row, const Settings& settings, bool due);
+
+ private:
+    using Clock = std::chrono::steady_clock;
+    void clear_line();
+
+    std::ofstream log_;
+    bool terminal_;
+    bool line_open_ = false;
+    std::int64_t windows_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_shown_{};
+};
+
+/// "1:05", "2:01:05".
+std::string clock_text(double seconds);
+
+}  // namespace turbidite

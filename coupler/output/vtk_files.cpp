@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/vtk_files.hpp"
+
+#include <string_view>
+#include <utility>
+
+#include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/whole_file.hpp"
+
+namespace turbidite::vtk {
+namespace {
+
+Failure full_disk(const std::filesystem::path& file) {
+    return Failure(ExitCode::participant_failed,
+                   "cannot write " + file.string() + ": is the disk full?");
+}
+
+}  // namespace
+
+void write_poly_data(const std::filesystem::path& file, const PieceSize& size,
+                     const std::function<void(std::ostream&)>& content) {
+    write_whole(file, [&](std::ostream& out) {
+        out << "<?xml version=\"1.0\"?>\n"
+               "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+               "<PolyData>\n"
+            << fmt::format(
+                   "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" "
+                   "NumberOfPolys=\"{}\">\n",
+                   size.points, size.vertices, size.lines, size.polygons);
+        content(out);
+        out << "</Piece>\n</PolyData>\n</VTKFile>\n";
+    });
+}
+
+std::string triple(const Vec3& v) {
+    return fmt::format("{:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]);
+}
+
+std::string scalar(double value) {
+    return fmt::format("{:.9g}\n", value);
+}
+
+void consecutive_cells(std::ostream& out, const std::vector<std::size_t>& sizes) {
+    std::size_t point = 0, end = 0;
+    data_array(out, "type=\"Int64\" Name=\"connectivity\"", sizes, [&](std::size_t size) {
+        std::string text;
+        for (std::size_t k = 0; k < size; ++k) text += fmt::format("{} ", point++);
+        text.back() = '\n';
+        return text;
+    });
+    data_array(out, "type=\"Int64\" Name=\"offsets\"", sizes,
+               [&](std::size_t size) { return fmt::format("{}\n", end += size); });
+}
+
+Collection::Collection(std::filesystem::path file) : file_(std::move(file)) {
+    out_.open(file_, std::ios::out | std::ios::trunc);
+    out_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+            "version=\"0.1\">\n<Collection>\n";
+}
+
+// The end tags are overwritten by the next entry and its end tags, in one write.
+void Collection::add(double time, const std::vector<std::string>& parts) {
+    constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
+    std::string text;
+    for (std::size_t part = 0; part < parts.size(); ++part)
+        text += fmt::format("<DataSet timestep=\"{:.9g}\" part=\"{}\" file=\"{}\"/>\n", time, part,
+                            parts[part]);
+    out_ << text << end_tags << std::flush;
+    if (!out_) throw full_disk(file_);
+    out_.seekp(-static_cast<std::streamoff>(end_tags.size()), std::ios::end);
+}
+
+}  // namespace turbidite::vtk

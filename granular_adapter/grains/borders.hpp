@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The four sides of the domain as a grains adapter treats them:
+//
+//     wall     a straight wall with the grains' surface; a centre beyond it ends the run
+//     free     grains whose centre is more than R past the side are removed and counted
+//     cyclic   positions wrap, neighbours are nearest images
+//
+// The domain is [0, run.size_x] x [0, run.size_y].
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/settings.hpp"
+#include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/walls.hpp"
+
+namespace turbidite {
+
+enum class BorderKind { wall, free, cyclic };
+
+/// One side of the domain: its name, what it is, and the inward half-plane.
+struct Border {
+    std::string name;  ///< "left"
+    BorderKind side = BorderKind::wall;
+    nscd::Wall plane;
+};
+
+/// Left, right, bottom, top, from domain.* and run.size_*; of the first material. Throws
+/// std::invalid_argument on an unknown side, or a cyclic one whose opposite is not.
+std::vector<Border> lay_borders(const Settings& settings);
+
+/// The walls among them.
+std::vector<nscd::Wall> walls_of(const std::vector<Border>& borders);
+
+/// Throws PhysicsRefused naming a grain whose place or velocity is not a number or whose centre is
+/// beyond a wall; `when` ends the sentence ("in window 3").
+void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders,
+                  const std::string& when);
+
+/// Zero for every body that has left through a free side, one for the others.
+std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,
+                                       const std::vector<Border>& borders);
+
+}  // namespace turbidite

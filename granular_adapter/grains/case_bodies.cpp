@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/grains/case_bodies.hpp"
+
+#include <memory>
+#include <stdexcept>
+#include <unordered_set>
+
+#include "coupler/shapes/immersed_body.hpp"
+#include "granular_adapter/grains/by_grain.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string grain(GrainId id) {
+    return "grain " + std::to_string(id);
+}
+
+/// In the plane.
+nscd::Twist twist_of(const Kick& kick) {
+    return {{kick.velocity[0], kick.velocity[1], 0.0}, {0.0, 0.0, kick.angular_velocity[2]}};
+}
+
+/// What step 4 moves: effective inertia, submerged weight.
+nscd::Body immersed(const GrainState& grain, const Shape& shape, double fluid_density,
+                    double hydrodynamic_radius) {
+    const ImmersedBody inertia =
+        immersed_body(shape, grain.radius, grain.density, fluid_density, hydrodynamic_radius);
+    nscd::Body body;
+    body.id = grain.id;
+    body.shape = grain.shape;
+    body.radius = grain.radius;
+    body.density = grain.density;
+    body.mass = inertia.effective_mass;
+    body.inertia = inertia.effective_inertia(2, 2);
+    body.weight_mass = inertia.submerged_mass;
+    body.position = grain.position;
+    body.orientation = grain.orientation;
+    body.twist = {grain.velocity, grain.angular_velocity};
+    return body;
+}
+
+void check_grain(const GrainState& state, const ShapeTable& shapes,
+                 std::unordered_set<GrainId>& seen) {
+    if (!seen.insert(state.id).second)
+        throw std::runtime_error(grain(state.id) + " is there twice; ids must be unique");
+    if (state.shape < 0 || state.shape >= static_cast<std::int32_t>(shapes.size()))
+        throw std::runtime_error(grain(state.id) + " has shape " + std::to_string(state.shape) +
+                                 " but the table has " + std::to_string(shapes.size()));
+}
+
+}  // namespace
+
+void add_grains(nscd::Bodies& bodies, const Settings& settings, const ShapeTable& shapes,
+                const std::vector<GrainState>& grains) {
+    const bool fluid = settings.flag("fluid.enabled");
+    const double fluid_density = fluid ? settings.real("run.fluid_density") : 0.0;
+    const double wet_radius = fluid ? settings.real("fluid.hydrodynamic_radius") : 1.0;
+    std::vector<std::shared_ptr<const Shape>> made;
+    for (const ShapeRecord& record : shapes) made.push_back(make_shape(record));
+    std::unordered_set<GrainId> seen;
+    for (const GrainState& state : grains) {
+        check_grain(state, shapes, seen);
+        const Shape& shape = *made[static_cast<std::size_t>(state.shape)];
+        bodies.add(immersed(state, shape, fluid_density, wet_radius));
+    }
+}
+
+std::vector<GrainState> grain_states(const nscd::Bodies& bodies) {
+    std::vector<GrainState> states(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        GrainState& state = states[i];
+        state.id = bodies.id[i];
+        state.shape = bodies.shape[i];
+        state.radius = bodies.radius[i];
+        state.density = bodies.density[i];
+        state.position = bodies.position[i];
+        state.orientation = bodies.orientation[i];
+        state.velocity = bodies.twist[i].velocity;
+        state.angular_velocity = bodies.twist[i].spin;
+        state.contact_impulse = bodies.contact_impulse[i];
+        state.contact_angular_impulse = bodies.contact_angular_impulse[i];
+    }
+    return states;
+}
+
+void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks,
+                     const std::string& when) {
+    const auto ordered = by_grain(bodies.id, kicks, "kick", when);
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies.twist[i] = twist_of(*ordered[i]);
+}
+
+}  // namespace turbidite

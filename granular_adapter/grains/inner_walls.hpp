@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Walls inside the box, as the resolved case hands them on (`run.walls`,
+// launcher/case/inner_walls).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/settings.hpp"
+#include "granular_adapter/nscd/problem/walls.hpp"
+
+namespace turbidite {
+
+/// Plates in the run's units; none when the setting is missing or empty. `first_key` is the key of
+/// the first, so that borders keep theirs. Throws std::invalid_argument when the text is something
+/// else.
+std::vector<nscd::Wall> inner_walls(const Settings& settings, std::int32_t first_key);
+
+}  // namespace turbidite

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/detection/broad_phase.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace turbidite::nscd {
+namespace {
+
+/// Cells of one axis that a search interval touches: `count` cells from `first` on, modulo n.
+struct CellRange {
+    std::int64_t first = 0;
+    std::int64_t count = 0;
+};
+
+struct Axis {
+    double origin = 0.0;
+    double cell = 1.0;
+    std::int64_t n = 1;
+    bool repeats = false;
+
+    std::int64_t raw(double x) const {
+        return static_cast<std::int64_t>(std::floor((x - origin) / cell));
+    }
+
+    std::int64_t index(double x) const {
+        const std::int64_t i = raw(x);
+        return repeats ? ((i % n) + n) % n : std::clamp<std::int64_t>(i, 0, n - 1);
+    }
+
+    /// Of a cell at most one period beyond the last. Divisions cost more than all else in near().
+    std::int64_t wrapped(std::int64_t i) const { return i < n ? i : i - n; }
+
+    CellRange range(double low, double high) const {
+        const std::int64_t first = raw(low), last = raw(high);
+        if (repeats) {
+            if (last - first + 1 >= n) return {0, n};
+            return {((first % n) + n) % n, last - first + 1};
+        }
+        if (last < 0 || first >= n) return {};
+        const std::int64_t inside = std::max<std::int64_t>(first, 0);
+        return {inside, std::min(last, n - 1) - inside + 1};
+    }
+};
+
+/// Splits [low, high] into cells of at least `cell`; a repeating axis into equal ones.
+Axis make_axis(double low, double high, double cell, bool repeats) {
+    Axis axis{low, cell, 1, repeats};
+    const double ratio = std::floor((high - low) / cell);
+    // More cells than this are never useful, and the cast below must not overflow.
+    const double cells = std::clamp(repeats ? ratio : ratio + 1.0, 1.0, 1e6);
+    axis.n = static_cast<std::int64_t>(cells);
+    if (repeats) axis.cell = (high - low) / cells;
+    if (!repeats && ratio + 1.0 > cells) axis.cell = (high - low) / (cells - 1.0);
+    return axis;
+}
+
+/// Bodies of one size class, sorted into the cells of a grid.
+class Level {
+ public:
+    Level(std::vector<std::int32_t> members, const std::vector<Vec3>& x, double cell,
+          const PeriodicBox& box);
+
+    /// Calls visit(j) for all members in cells that touch the cube x +- reach.
+    template <class Visit>
+    void near(const Vec3& x, double reach, Visit&& visit) const;
+
+ private:
+    void lay_axes(const std::vector<Vec3>& x, double cell, const PeriodicBox& box);
+    void sort_members(const std::vector<Vec3>& x);
+    std::size_t cell_of(const Vec3& x) const {
+        return static_cast<std::size_t>((axes_[2].index(x[2]) * axes_[1].n + axes_[1].index(x[1])) *
+                                            axes_[0].n +
+                                        axes_[0].index(x[0]));
+    }
+
+    std::vector<std::int32_t> members_;
+    std::array<Axis, 3> axes_;
+    std::vector<std::int32_t> start_;  ///< first member of each cell
+};
+
+Level::Level(std::vector<std::int32_t> members, const std::vector<Vec3>& x, double cell,
+             const PeriodicBox& box)
+    : members_(std::move(members)) {
+    // Widely scattered bodies would ask for more cells than bodies: coarser cells stay correct.
+    const auto limit = static_cast<std::int64_t>(4 * members_.size() + 64);
+    lay_axes(x, cell, box);
+    while (axes_[0].n * axes_[1].n * axes_[2].n > limit) lay_axes(x, cell *= 1.5, box);
+    sort_members(x);
+}
+
+void Level::lay_axes(const std::vector<Vec3>& x, double cell, const PeriodicBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        double low = x[members_.front()][axis], high = low;
+        for (const std::int32_t i : members_) {
+            low = std::min(low, x[i][axis]);
+            high = std::max(high, x[i][axis]);
+        }
+        if (box.repeats(axis)) low = box.lower[axis], high = low + box.length[axis];
+        axes_[axis] = make_axis(low, high, cell, box.repeats(axis));
+    }
+}
+
+void Level::sort_members(const std::vector<Vec3>& x) {
+    start_.assign(static_cast<std::size_t>(axes_[0].n * axes_[1].n * axes_[2].n) + 1, 0);
+    for (const std::int32_t i : members_) ++start_[cell_of(x[i]) + 1];
+    for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
+    std::vector<std::int32_t> next(start_.begin(), start_.end() - 1), sorted(members_.size());
+    for (const std::int32_t i : members_) sorted[next[cell_of(x[i])]++] = i;
+    members_ = std::move(sorted);
+}
+
+template <class Visit>
+void Level::near(const Vec3& x, double reach, Visit&& visit) const {
+    std::array<CellRange, 3> range;
+    for (int axis = 0; axis < 3; ++axis)
+        range[axis] = axes_[axis].range(x[axis] - reach, x[axis] + reach);
+    for (std::int64_t kz = 0; kz < range[2].count; ++kz)
+        for (std::int64_t ky = 0; ky < range[1].count; ++ky)
+            for (std::int64_t kx = 0; kx < range[0].count; ++kx) {
+                const std::int64_t cx = axes_[0].wrapped(range[0].first + kx);
+                const std::int64_t cy = axes_[1].wrapped(range[1].first + ky);
+                const std::int64_t cz = axes_[2].wrapped(range[2].first + kz);
+                const std::int64_t c = (cz * axes_[1].n + cy) * axes_[0].n + cx;
+                for (std::int32_t k = start_[c]; k < start_[c + 1]; ++k) visit(members_[k]);
+            }
+}
+
+/// 0 for bodies larger than half the largest, 1 for those larger than a quarter, ...
+int level_of(double radius, double largest) {
+    return static_cast<int>(std::floor(std::log2(largest / radius)));
+}
+
+struct SizedLevel {
+    double largest;  ///< radius
+    Level grid;
+};
+
+/// From the largest bodies to the smallest.
+std::map<int, SizedLevel> build_levels(const std::vector<Vec3>& x, const std::vector<double>& radii,
+                                       double alert, const PeriodicBox& box) {
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    std::map<int, std::vector<std::int32_t>> members;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        members[level_of(radii[i], largest)].push_back(static_cast<std::int32_t>(i));
+    std::map<int, SizedLevel> levels;
+    for (auto& [level, list] : members) {
+        double top = 0.0;
+        for (const std::int32_t i : list) top = std::max(top, radii[i]);
+        levels.emplace(level, SizedLevel{top, Level(std::move(list), x, 2.0 * top + alert, box)});
+    }
+    return levels;
+}
+
+}  // namespace
+
+std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<double>& radii,
+                                  double alert, const PeriodicBox& box) {
+    std::vector<Pair> pairs;
+    if (x.empty()) return pairs;
+    const auto levels = build_levels(x, radii, alert, box);
+    const double largest = levels.begin()->second.largest;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(x.size()); ++i) {
+        const int own = level_of(radii[i], largest);
+        for (const auto& [level, sized] : levels) {
+            if (level > own) break;  // smaller bodies look for us
+            sized.grid.near(x[i], radii[i] + sized.largest + alert, [&](std::int32_t j) {
+                if (level == own && j <= i) return;
+                const Vec3 d = box.minimum_image(x[j] - x[i]);
+                const double reach = radii[i] + radii[j] + alert;
+                if (dot(d, d) < reach * reach) pairs.push_back({std::min(i, j), std::max(i, j)});
+            });
+        }
+    }
+    return pairs;
+}
+
+void check_periods(const std::vector<double>& radii, const PeriodicBox& box) {
+    double first = 0.0, second = 0.0;
+    for (const double radius : radii) {
+        second = std::max(second, std::min(first, radius));
+        first = std::max(first, radius);
+    }
+    const double least = 2.0 * (first + second);
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.repeats(axis) && box.length[axis] < least)
+            throw std::invalid_argument(
+                "the domain repeats after " + std::to_string(box.length[axis]) + " along axis " +
+                std::to_string(axis) + ": two grains could touch on both sides; make it at least " +
+                std::to_string(least));
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+/// A body's way over the step.
+struct Turn {
+    Vec3 shift{};  ///< of its centre [m]
+    double cosine = 1.0, sine = 0.0;
+
+    Vec3 operator()(const Vec3& arm) const {
+        return {cosine * arm[0] - sine * arm[1], sine * arm[0] + cosine * arm[1], arm[2]};
+    }
+};
+
+Turn turn_of(const Twist& twist, double dt) {
+    const double angle = dt * twist.spin[2];
+    return {dt * twist.velocity, std::cos(angle), std::sin(angle)};
+}
+
+/// A wall turns about its pivot: seen from the contact's place, a shift and a turn.
+Turn turn_of(const Wall& wall, double dt) {
+    const double angle = dt * wall.spin;
+    return {dt * wall.velocity, std::cos(angle), std::sin(angle)};
+}
+
+/// One of the two bodies of a contact: its way, and its arm to its own surface point.
+struct Partner {
+    Turn turn;
+    Vec3 arm{};
+    bool round = false;
+};
+
+class Shortfall {
+ public:
+    Shortfall(const SolvedStep& step, const PolygonShapes& shapes) : step_(step), shapes_(shapes) {}
+
+    double operator()(std::size_t k) const {
+        const ContactPoint& p = step_.points[k];
+        if (p.turns_with == 0) return 0.0;
+        const bool on_a = p.turns_with == 1;
+        const Partner a = partner_a(p), b = partner_b(p);
+        const Partner &owner = on_a ? a : b, &other = on_a ? b : a;
+        const Vec3 normal = on_a ? p.normal : -1.0 * p.normal, turned = owner.turn(normal);
+        Vec3 apart = p.gap * normal + other.turn.shift - owner.turn.shift -
+                     (owner.turn(owner.arm) - owner.arm);
+        // A disc's surface point is always the one that faces the side.
+        apart = apart + (other.round ? norm(other.arm) * (normal - turned)
+                                     : other.turn(other.arm) - other.arm);
+        return foreseen(k) - dot(turned, apart);
+    }
+
+ private:
+    /// g + dt u_n, walls at their own speed.
+    double foreseen(std::size_t k) const {
+        const ContactPoint& p = step_.points[k];
+        const Contact& contact = step_.contacts[k];
+        double speed = contact_velocity(contact, step_.velocities)[0];
+        if (p.wall >= 0)
+            speed -= dot(p.normal, velocity_at(wall(p), step_.bodies.position[p.b] + p.arm_b));
+        return p.gap + step_.dt * speed;
+    }
+
+    const Wall& wall(const ContactPoint& p) const {
+        return step_.walls[static_cast<std::size_t>(p.wall)];
+    }
+
+    bool is_round(std::int32_t body) const {
+        return shapes_[step_.bodies.shape[static_cast<std::size_t>(body)]].corners == 0;
+    }
+
+    // Points lie half-way across the gap; at walls on the body's surface.
+    Partner partner_a(const ContactPoint& p) const {
+        if (p.wall >= 0) {
+            const Vec3 place = step_.bodies.position[p.b] + p.arm_b - p.gap * p.normal;
+            return {turn_of(wall(p), step_.dt), place - wall(p).pivot, false};
+        }
+        return {turn_of(step_.velocities[p.a], step_.dt), p.arm_a - 0.5 * p.gap * p.normal,
+                is_round(p.a)};
+    }
+    Partner partner_b(const ContactPoint& p) const {
+        const Vec3 arm = p.wall >= 0 ? p.arm_b : p.arm_b + 0.5 * p.gap * p.normal;
+        return {turn_of(step_.velocities[p.b], step_.dt), arm, is_round(p.b)};
+    }
+
+    const SolvedStep& step_;
+    const PolygonShapes& shapes_;
+};
+
+}  // namespace
+
+std::vector<double> gap_shortfalls(const SolvedStep& step, const PolygonShapes& shapes) {
+    const Shortfall shortfall(step, shapes);
+    std::vector<double> result;
+    result.reserve(step.points.size());
+    for (std::size_t k = 0; k < step.points.size(); ++k) result.push_back(shortfall(k));
+    return result;
+}
+
+}  // namespace turbidite::nscd

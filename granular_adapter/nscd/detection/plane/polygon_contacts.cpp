@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/detection/plane/polygon_contacts.hpp"
+
+#include <limits>
+
+#include "granular_adapter/nscd/detection/plane/polygon_manifold.hpp"
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::int32_t feature_of(std::int32_t corner, bool of_larger_id) {
+    return 2 * corner + (of_larger_id ? 1 : 0);
+}
+
+/// Side over which a point is highest, and how high.
+struct Nearest {
+    int side = 0;
+    double height = -infinite;
+};
+
+Nearest nearest_side(const PolygonView& polygon, double x, double y) {
+    Nearest nearest;
+    for (int k = 0; k < polygon.sides; ++k) {
+        const double height = polygon.nx[k] * x + polygon.ny[k] * y - polygon.support[k];
+        if (height > nearest.height) nearest = {k, height};
+    }
+    return nearest;
+}
+
+/// Normal from the polygon to a point outside or inside of it, distance (negative inside), feature.
+struct Approach {
+    Vec3 normal{};
+    double distance = 0.0;
+    std::int32_t feature = 0;
+};
+
+Approach approach(const PolygonView& polygon, const Nearest& nearest, double x, double y) {
+    const int k = nearest.side, next = polygon.after(k);
+    const Vec3 side_normal{polygon.nx[k], polygon.ny[k], 0.0};
+    const auto along = [&](double px, double py) {
+        return side_normal[0] * (py - polygon.y[k]) - side_normal[1] * (px - polygon.x[k]);
+    };
+    const double t = along(x, y);
+    const bool beyond = t > along(polygon.x[next], polygon.y[next]);
+    if (nearest.height <= 0.0 || (t >= 0.0 && !beyond)) return {side_normal, nearest.height, 2 * k};
+    const int corner = beyond ? next : k;
+    const Vec3 line{x - polygon.x[corner], y - polygon.y[corner], 0.0};
+    const double distance = norm(line);
+    return {(1.0 / distance) * line, distance, 2 * corner + 1};
+}
+
+/// The corners of a segment as seen from the side on which a body is.
+struct Plate {
+    double x[2], y[2], nx[1], ny[1], support[1] = {0.0};
+
+    Plate(const Wall& wall, const Vec3& normal) : nx{normal[0]}, ny{normal[1]} {
+        for (const int end : {0, 1}) {
+            const double place = end == 0 ? -wall.half_length : wall.half_length;
+            x[end] = -place * normal[1];
+            y[end] = place * normal[0];
+        }
+    }
+
+    PolygonView view(double half_length) const {
+        return {x, y, nx, ny, support, 2, 1, half_length, 0.0};
+    }
+};
+
+void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
+    const Vec3 offset = view.bodies.position[view.body] - view.wall.point;
+    const double sign = dot(view.wall.normal, offset) < 0.0 ? -1.0 : 1.0;
+    const Plate plate(view.wall, sign * view.wall.normal);
+    const Manifold manifold =
+        polygon_manifold(plate.view(view.wall.half_length), (*view.polygons)[view.body], offset[0],
+                         offset[1], view.alert);
+    for (int i = 0; i < manifold.count; ++i) {
+        const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
+        const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
+        const Vec3 arm = middle + 0.5 * p.gap * normal - offset;
+        // Seen from behind, the plate's corners change places.
+        const int corner = !p.of_second && sign < 0.0 ? 1 - p.corner : p.corner;
+        points.push_back({-1, view.body, view.wall_index, feature_of(corner, p.of_second), p.gap,
+                          normal, Vec3{}, arm, p.length, p.turns_with});
+    }
+}
+
+void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points) {
+    const PolygonView polygon = (*view.polygons)[view.body];
+    const Vec3& normal = view.wall.normal;
+    const double centre = signed_distance(view.wall, view.bodies.position[view.body]);
+    const auto gap = [&](int k) {
+        return centre + normal[0] * polygon.x[k] + normal[1] * polygon.y[k];
+    };
+    int lowest = 0;
+    for (int k = 1; k < polygon.corners; ++k)
+        if (gap(k) < gap(lowest)) lowest = k;
+    const int before = polygon.before(lowest), after = polygon.after(lowest);
+    const int second = gap(before) < gap(after) ? before : after;
+    const Vec3 side{polygon.x[second] - polygon.x[lowest], polygon.y[second] - polygon.y[lowest],
+                    0};
+    const double length = gap(second) < view.alert ? 0.5 * norm(side) : 0.0;
+    for (const int k : {lowest, second})
+        if (gap(k) < view.alert)
+            points.push_back({-1,
+                              view.body,
+                              view.wall_index,
+                              feature_of(k, true),
+                              gap(k),
+                              normal,
+                              Vec3{},
+                              {polygon.x[k], polygon.y[k], 0.0},
+                              length,
+                              1});
+}
+
+}  // namespace
+
+void polygon_polygon(const PairView& view, std::vector<ContactPoint>& points) {
+    const bool in_order = view.bodies.id[view.a] < view.bodies.id[view.b];
+    const double sign = in_order ? 1.0 : -1.0;
+    const PolygonView a = (*view.polygons)[view.a], b = (*view.polygons)[view.b];
+    const Manifold manifold =
+        polygon_manifold(in_order ? a : b, in_order ? b : a, sign * view.offset[0],
+                         sign * view.offset[1], view.alert);
+    for (int i = 0; i < manifold.count; ++i) {
+        const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
+        const Vec3 from_first{p.x, p.y, 0.0};
+        const Vec3 from_second = from_first - sign * view.offset;
+        points.push_back({view.a,
+                          view.b,
+                          -1,
+                          feature_of(p.corner, p.of_second),
+                          p.gap,
+                          {sign * p.nx, sign * p.ny, 0.0},
+                          in_order ? from_first : from_second,
+                          in_order ? from_second : from_first,
+                          p.length,
+                          in_order || p.turns_with == 0 ? p.turns_with : 3 - p.turns_with});
+    }
+}
+
+void disc_polygon(const PairView& view, std::vector<ContactPoint>& points) {
+    const double radius = view.bodies.radius[view.a];
+    const PolygonView polygon = (*view.polygons)[view.b];
+    const double x = -view.offset[0], y = -view.offset[1];
+    const Nearest nearest = nearest_side(polygon, x, y);
+    if (!(nearest.height - radius < view.alert)) return;
+    const Approach to_disc = approach(polygon, nearest, x, y);
+    const double gap = to_disc.distance - radius;
+    if (!(gap < view.alert)) return;
+    const Vec3 arm_a = (-radius - 0.5 * gap) * to_disc.normal;
+    points.push_back({view.a, view.b, -1, to_disc.feature, gap, -1.0 * to_disc.normal, arm_a,
+                      arm_a - view.offset, 0.0, to_disc.feature % 2 == 0 ? 2 : 0});
+}
+
+void polygon_wall(const WallView& view, std::vector<ContactPoint>& points) {
+    if (std::isfinite(view.wall.half_length))
+        polygon_segment(view, points);
+    else
+        polygon_half_plane(view, points);
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/engine/engine_state.hpp"
+
+#include <stdexcept>
+
+namespace turbidite::nscd {
+namespace {
+
+constexpr std::uint64_t bodies_format = 0x334445534354ULL;
+constexpr std::uint64_t memory_format = 0x334d454d4354ULL;
+
+/// Where a wall is and how it moves; the rest comes from the settings.
+template <class Visit, class AnyWall>
+void for_each_state(AnyWall& wall, Visit&& visit) {
+    visit(wall.point), visit(wall.normal), visit(wall.velocity), visit(wall.spin);
+    visit(wall.pivot);
+}
+
+void read_walls(ByteReader& in, std::vector<Wall>& walls) {
+    if (in.value<std::uint64_t>() != walls.size())
+        throw std::invalid_argument("saved contact state: it has another number of walls");
+    for (Wall& wall : walls)
+        for_each_state(wall,
+                       [&in](auto& value) { value = in.value<std::decay_t<decltype(value)>>(); });
+}
+
+}  // namespace
+
+void write_bodies(ByteWriter& out, const Bodies& bodies) {
+    out.value(bodies_format);
+    Bodies::for_each_array(bodies, [&out](const auto& array) { out.array(array); });
+}
+
+Bodies read_bodies(ByteReader& in) {
+    if (in.value<std::uint64_t>() != bodies_format)
+        throw std::invalid_argument("saved contact state: these bytes are something else");
+    Bodies bodies;
+    Bodies::for_each_array(bodies, [&in](auto& array) {
+        array = in.array<typename std::decay_t<decltype(array)>::value_type>();
+    });
+    Bodies::for_each_array(bodies, [&bodies](const auto& array) {
+        if (array.size() != bodies.size())
+            throw std::invalid_argument("saved contact state: arrays of different lengths");
+    });
+    return bodies;
+}
+
+void write_memory(ByteWriter& out, const SavedMemory& memory) {
+    out.value(memory_format);
+    out.array(memory.contacts);
+    out.value(static_cast<std::uint8_t>(memory.states.started));
+    out.array(memory.states.accepted);
+    out.array(memory.states.found);
+    out.value(static_cast<std::uint64_t>(memory.walls.size()));
+    for (const Wall& wall : memory.walls)
+        for_each_state(wall, [&out](const auto& value) { out.value(value); });
+}
+
+SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
+    if (in.value<std::uint64_t>() != memory_format)
+        throw std::invalid_argument("saved contact impulses: these bytes are something else");
+    SavedMemory memory;
+    memory.contacts = in.array<RememberedContact>();
+    memory.states.started = in.value<std::uint8_t>() != 0;
+    memory.states.accepted = in.array<RememberedState>();
+    memory.states.found = in.array<RememberedState>();
+    memory.walls = walls;
+    read_walls(in, memory.walls);
+    return memory;
+}
+
+void demand_end(const ByteReader& in) {
+    if (!in.at_end()) throw std::invalid_argument("saved contact state: it is too long");
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/engine/theta_scheme.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+Quaternion normalized(Quaternion q) {
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (double& component : q) component /= length;
+    return q;
+}
+
+}  // namespace
+
+void check_theta(double theta, double restitution) {
+    if (!(theta >= 0.5 && theta <= 1.0))
+        throw std::invalid_argument("theta = " + std::to_string(theta) +
+                                    " must lie in [0.5, 1]: below, the scheme is unstable");
+    // 1/2 is meant to pass with e = 1 however the division rounds.
+    const double most = 1.0 / (1.0 + restitution);
+    if (theta > most * (1.0 + 1e-12))
+        throw std::invalid_argument(
+            "theta = " + std::to_string(theta) + " makes energy with restitution " +
+            std::to_string(restitution) + ": at most 1/(1 + e) = " + std::to_string(most));
+}
+
+std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, double step) {
+    std::vector<Twist> free = bodies.twist;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const Vec3 load = bodies.weight_mass[i] * gravity + bodies.force[i];
+        free[i].velocity = free[i].velocity + step * bodies.inverse_mass(i) * load;
+        free[i].spin = free[i].spin + step * bodies.inverse_inertia(i) * bodies.torque[i];
+    }
+    return free;
+}
+
+Quaternion rotated(const Quaternion& orientation, const Vec3& angle) {
+    const double magnitude = norm(angle);
+    if (magnitude == 0.0) return orientation;
+    const double c = std::cos(0.5 * magnitude);
+    const Vec3 v = (std::sin(0.5 * magnitude) / magnitude) * angle;
+    const Vec3 w{orientation[1], orientation[2], orientation[3]};
+    const Vec3 vector = c * w + orientation[0] * v + cross(v, w);
+    return normalized({c * orientation[0] - dot(v, w), vector[0], vector[1], vector[2]});
+}
+
+void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
+          const PeriodicBox& box) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        bodies.position[i] = box.wrap(bodies.position[i] + step * velocities[i].velocity);
+        bodies.orientation[i] = rotated(bodies.orientation[i], step * velocities[i].spin);
+    }
+}
+
+Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta) {
+    return q - step * (1.0 - theta) * velocity;
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/laws/contact_laws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+Contact bare_contact(const ContactPoint& p) {
+    Contact contact;
+    contact.a = p.a;
+    contact.b = p.b;
+    contact.normal = p.normal;
+    contact.tangent = tangent_of(p.normal);
+    contact.arm_a = p.arm_a;
+    contact.arm_b = p.arm_b;
+    return contact;
+}
+
+/// `drive`: velocity of the wall, which is no body of the problem, in the contact's frame.
+void take_terms(Contact& contact, const LawTerms& terms, const Plane& drive) {
+    contact.friction = terms.friction;
+    contact.bias = {terms.normal_bias - drive[0], terms.tangential_bias - drive[1], 0.0};
+    contact.rolling = terms.rolling;
+}
+
+Plane in_plane(const Vec3& u) {
+    return {u[0], u[1]};
+}
+
+Plane minus(const Vec3& u, const Plane& v) {
+    return {u[0] - v[0], u[1] - v[1]};
+}
+
+const Wall& wall_of(const DetectedContacts& contacts, const ContactPoint& point) {
+    return contacts.walls[static_cast<std::size_t>(point.wall)];
+}
+
+Plane wall_velocity(const DetectedContacts& contacts, const ContactPoint& point,
+                    const Contact& contact) {
+    if (point.wall < 0 || !is_moving(wall_of(contacts, point))) return {};
+    const Vec3 v =
+        velocity_at(wall_of(contacts, point), contacts.bodies.position[point.b] + point.arm_b);
+    return {dot(contact.normal, v), dot(contact.tangent, v)};
+}
+
+}  // namespace
+
+ContactLaws::ContactLaws(const LawChoice& choice, const LawSettings& settings,
+                         SurfaceTable surfaces, const ShapeTable& shapes)
+    : choice_(choice),
+      settings_(settings),
+      surfaces_(std::move(surfaces)),
+      law_(choice_, settings_, surfaces_) {
+    for (const ShapeRecord& shape : shapes) round_.push_back(shape.kind == "disc");
+    check_shapes();
+}
+
+ContactLaws ContactLaws::with(SurfaceTable surfaces) const {
+    ContactLaws result = *this;
+    result.law_ = ContactLaw(choice_, settings_, surfaces);
+    result.surfaces_ = std::move(surfaces);
+    result.check_shapes();
+    return result;
+}
+
+bool ContactLaws::all_round() const {
+    return std::all_of(round_.begin(), round_.end(), [](std::uint8_t round) { return round != 0; });
+}
+
+void ContactLaws::check_shapes() const {
+    if (law_.has(LawSlot::rolling) && !all_round())
+        throw std::invalid_argument(
+            "rolling resistance is for discs only: faces resist rolling by themselves");
+}
+
+bool ContactLaws::is_round(const Bodies& bodies, std::int32_t body) const {
+    return body >= 0 && round_[static_cast<std::size_t>(bodies.shape[body])] != 0;
+}
+
+/// One over the points that a pair has within the range of the law; 1 where it makes no difference.
+std::vector<double> ContactLaws::shares(const std::vector<ContactPoint>& points) const {
+    if (law_.range() == 0.0 || all_round()) return std::vector<double>(points.size(), 1.0);
+    const auto pair_of = [](const ContactPoint& p) { return std::array{p.a, p.wall, p.b}; };
+    std::map<std::array<std::int32_t, 3>, double> counts;
+    for (const ContactPoint& p : points)
+        if (p.gap < law_.range()) counts[pair_of(p)] += 1.0;
+    std::vector<double> result;
+    for (const ContactPoint& p : points)
+        result.push_back(p.gap < law_.range() ? 1.0 / counts.at(pair_of(p)) : 1.0);
+    return result;
+}
+
+void ContactLaws::check_materials(const DetectedContacts& contacts) const {
+    const auto refuse = [this](const std::string& who, std::int32_t material) {
+        throw std::invalid_argument(who + " has material " + std::to_string(material) +
+                                    ", but there are " + std::to_string(surfaces_.size()));
+    };
+    const Bodies& bodies = contacts.bodies;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (bodies.material[i] < 0 || bodies.material[i] >= surfaces_.size())
+            refuse("body " + std::to_string(bodies.id[i]), bodies.material[i]);
+    for (const Wall& wall : contacts.walls)
+        if (wall.material < -1 || wall.material >= surfaces_.size())
+            refuse("wall " + std::to_string(wall.key), wall.material);
+}
+
+Surface ContactLaws::surface(const DetectedContacts& contacts, const ContactPoint& point) const {
+    const std::int32_t own = contacts.bodies.material[point.b];
+    if (point.wall < 0) return surfaces_.pair(own, contacts.bodies.material[point.a]);
+    const Wall& wall = wall_of(contacts, point);
+    if (wall.material >= 0) return surfaces_.pair(own, wall.material);
+    Surface result = surfaces_.pair(own, own);
+    result.friction = wall.friction;
+    result.static_friction = std::max(result.static_friction, wall.friction);
+    return result;
+}
+
+ContactSituation ContactLaws::situation(const DetectedContacts& contacts, std::size_t k,
+                                        const Contact& contact, const std::vector<Twist>& free,
+                                        double step) const {
+    const ContactPoint& point = contacts.points[k];
+    ContactSituation s;
+    s.gap = point.gap;
+    s.step = step;
+    s.surface = surface(contacts, point);
+    if (point.a >= 0) s.radius_a = contacts.bodies.radius[point.a];
+    s.radius_b = contacts.bodies.radius[point.b];
+    s.round = is_round(contacts.bodies, point.a) || is_round(contacts.bodies, point.b);
+    s.length = point.length;
+    s.initial = states_.initial();
+    if (law_.reads_velocities()) {
+        const Plane drive = wall_velocity(contacts, point, contact);
+        s.approach = minus(contact_velocity(contact, contacts.bodies.twist), drive);
+        s.free = minus(contact_velocity(contact, free), drive);
+    }
+    return s;
+}
+
+ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
+                                 std::vector<BodyMobility> mobilities, double step) {
+    check_materials(contacts);
+    ContactProblem problem{std::move(mobilities), free, {}, 0.0};
+    problem.contacts.reserve(contacts.points.size());
+    situations_.clear();
+    terms_.clear();
+    attraction_.clear();
+    const std::vector<double> share = shares(contacts.points);
+    bool pulls = false;
+    for (std::size_t k = 0; k < contacts.points.size(); ++k) {
+        Contact contact = bare_contact(contacts.points[k]);
+        ContactSituation now = situation(contacts, k, contact, free, step);
+        now.share = share[k];
+        const ContactState past = law_.remembers() ? states_.of(contacts.keys[k]) : ContactState{};
+        const LawTerms terms = law_.terms(now, past);
+        take_terms(contact, terms, wall_velocity(contacts, contacts.points[k], contact));
+        if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
+        attraction_.push_back(step * terms.attraction);
+        pulls = pulls || terms.attraction != 0.0;
+        problem.contacts.push_back(contact);
+    }
+    if (pulls) pull(problem);
+    return problem;
+}
+
+// What holds a pair at rest may cancel with the pull to the last digit.
+void ContactLaws::pull(ContactProblem& problem) const {
+    std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(attraction_.size())));
+    for (std::size_t i = 0; i < pulled.size(); ++i)
+        problem.cancelled =
+            std::max(problem.cancelled, norm(pulled[i].velocity - problem.free[i].velocity));
+    problem.free = std::move(pulled);
+}
+
+Impulses ContactLaws::felt(const Impulses& solution) const {
+    Impulses result = solution;
+    for (std::size_t k = 0; k < result.size(); ++k) result[k][0] -= attraction_[k];
+    return result;
+}
+
+void ContactLaws::find_states(const DetectedContacts& contacts, const Impulses& solution) {
+    std::vector<RememberedState> next;
+    for (std::size_t k = 0; k < situations_.size(); ++k) {
+        const ContactKey& key = contacts.keys[k];
+        const ContactOutcome outcome{terms_[k], in_plane(solution[k])};
+        next.push_back({key, law_.remember(situations_[k], states_.of(key), outcome)});
+    }
+    states_.find(std::move(next));
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// From contact points to the contact problem: the law of every contact with its surfaces and its
+// past, and after the solve what it remembers.
+//
+// Attraction (law.hpp): the solver finds r~, the bodies feel r = r~ - dt c n. The second part is
+// known, so it goes into the problem's free velocities.
+#pragma once
+
+#include <vector>
+
+#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/laws/contact_states.hpp"
+#include "granular_adapter/nscd/problem/contact_problem.hpp"
+
+namespace turbidite::nscd {
+
+/// Contact points with the names under which they are remembered.
+struct DetectedContacts {
+    const std::vector<ContactPoint>& points;
+    const std::vector<ContactKey>& keys;
+    const Bodies& bodies;  ///< velocities at the start of the step
+    const std::vector<Wall>& walls;
+};
+
+class ContactLaws {
+ public:
+    /// Throws std::invalid_argument on unknown names, on parameters that are missing or out of
+    /// range, and on rolling resistance of shapes with corners.
+    ContactLaws(const LawChoice& choice, const LawSettings& settings, SurfaceTable surfaces,
+                const ShapeTable& shapes);
+
+    const ContactLaw& law() const { return law_; }
+    const SurfaceTable& surfaces() const { return surfaces_; }
+
+    /// The same laws and what contacts remember, with other surfaces. Throws as the constructor.
+    ContactLaws with(SurfaceTable surfaces) const;
+
+    /// The problem of a step from free velocities without contacts. Throws std::invalid_argument
+    /// naming a body or wall whose material is not in the table.
+    ContactProblem pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
+                        std::vector<BodyMobility> mobilities, double step);
+
+    /// What the bodies feel, from the solution of the problem posed last [N s].
+    Impulses felt(const Impulses& solution) const;
+
+    /// Takes in the solution of the problem posed last.
+    void find_states(const DetectedContacts& contacts, const Impulses& solution);
+
+    ContactStates& states() { return states_; }
+    const ContactStates& states() const { return states_; }
+
+ private:
+    ContactSituation situation(const DetectedContacts& contacts, std::size_t k,
+                               const Contact& contact, const std::vector<Twist>& free,
+                               double step) const;
+    Surface surface(const DetectedContacts& contacts, const ContactPoint& point) const;
+    void pull(ContactProblem& problem) const;
+    bool is_round(const Bodies& bodies, std::int32_t body) const;
+    bool all_round() const;
+    void check_shapes() const;
+    std::vector<double> shares(const std::vector<ContactPoint>& points) const;
+    void check_materials(const DetectedContacts& contacts) const;
+
+    LawChoice choice_;
+    LawSettings settings_;
+    SurfaceTable surfaces_;
+    std::vector<std::uint8_t> round_;  ///< by shape: a disc
+    ContactLaw law_;
+    ContactStates states_;
+    std::vector<ContactSituation> situations_;  ///< of the last problem, where the law remembers
+    std::vector<LawTerms> terms_;               ///< alike
+    std::vector<double> attraction_;            ///< dt c of the last problem [N s]
+};
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/laws/contact_states.hpp"
+
+#include <algorithm>
+
+namespace turbidite::nscd {
+namespace {
+
+bool by_key(const RememberedState& a, const RememberedState& b) {
+    return a.key < b.key;
+}
+
+}  // namespace
+
+ContactState ContactStates::of(const ContactKey& key) const {
+    const auto at =
+        std::lower_bound(accepted_.begin(), accepted_.end(), RememberedState{key, {}}, by_key);
+    return at != accepted_.end() && at->key == key ? at->state : ContactState{};
+}
+
+void ContactStates::find(std::vector<RememberedState> next) {
+    std::erase_if(next, [](const RememberedState& s) { return s.state == ContactState{}; });
+    std::sort(next.begin(), next.end(), by_key);
+    found_ = std::move(next);
+}
+
+void ContactStates::accept() {
+    started_ = true;
+    accepted_ = found_;
+}
+
+void ContactStates::replace(Saved saved) {
+    started_ = saved.started;
+    accepted_ = std::move(saved.accepted);
+    found_ = std::move(saved.found);
+}
+
+}  // namespace turbidite::nscd

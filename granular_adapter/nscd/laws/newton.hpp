@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Newton's impact law: u_n^+ = -e u_n^- where the contact acts, u_t^+ = -e_t u_t^- where it does
+// not slide; in impacts only. As a change of variables
+//
+//     b_n = min(b_n, e u_n^-),   b_t = e_t u_t^-
+//
+// With friction and several contacts, different e and e_t do not bound the energy in all cases;
+// Moreau's law does.
+#pragma once
+
+#include "granular_adapter/nscd/laws/law.hpp"
+
+namespace turbidite::nscd {
+
+class Newton final : public LawPart {
+ public:
+    /// Throws std::invalid_argument unless the threshold is >= 0.
+    Newton(const LawSettings& settings, const SurfaceTable& surfaces);
+    void add(const ContactSituation& situation, LawTerms& terms) const override;
+    bool reads_velocities() const override { return true; }
+    bool idle() const override { return idle_; }
+
+ private:
+    double threshold_;
+    bool idle_;
+};
+
+}  // namespace turbidite::nscd

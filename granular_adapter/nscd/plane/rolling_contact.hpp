@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// One contact with resistance to rolling, in (n, t, roll): friction and rolling both bounded by the
+// normal impulse (contact_problem.hpp),
+//
+//     0 <= u_n perp r_n >= 0,   |r_t| <= mu r_n,   |m| <= rho r_n,   each against its velocity.
+//
+// Given r_n, (t, m) solve a convex problem on a box: one solution, in closed form. With
+// c(x, l) = min(l, max(-l, x)) the best moment for a given t is m(t) = c(-(b_r + W_tr t)/W_rr, M),
+// so t is the zero of
+//
+//     W_tt t + b_t + c(-W_tr (b_r + W_tr t)/W_rr, |W_tr| M),
+//
+// the larger of g_- and the smaller of g_+ and g_0, three rising lines (moment at either limit,
+// moment free): the zero of a larger one is the smaller of the zeros, and the other way round.
+//
+// Discs have W_nt = W_nr = 0, and r_n comes first. Otherwise u_n along the solutions (t, m) of r_n
+// is piecewise linear in r_n, b_n < 0 at zero and rising at last, so it passes zero on one of nine
+// pieces (t at a limit or free, m alike): all are tried, and the one with the least natural map is
+// it. Where several solve the contact (strong coupling), the first in a fixed order is taken.
+//
+// The natural map projects on the pyramid |t| <= mu n, |m| <= rho n: with n given, t and m are
+// clamped, and n is the zero of the smallest of four rising lines, hence the largest of four zeros.
+// Moments are divided by a length so that they count as impulses.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/protocol/records.hpp"
+#include "granular_adapter/nscd/plane/one_contact.hpp"
+
+namespace turbidite::nscd {
+
+/// The length that makes moments impulses in norms: sqrt(W_nn/W_rr) [m].
+inline double rolling_length(const Block& w) {
+    return std::sqrt(w.nn / w.rr);
+}
+
+/// (t, m) against b = (b_t, b_r) on the box |t| <= limit_t, |m| <= limit_m; needs W_rr > 0.
+inline Plane solve_on_box(const Block& w, const Plane& b, double limit_t, double limit_m) {
+    const double held = std::abs(w.tr) * limit_m;
+    const double low = -(b[0] + held) / w.tt, high = -(b[0] - held) / w.tt;
+    const double free = -(b[0] - w.tr * b[1] / w.rr) / (w.tt - w.tr * w.tr / w.rr);
+    const double t = std::clamp(std::clamp(free, low, high), -limit_t, limit_t);
+    return {t, std::clamp(-(b[1] + w.tr * t) / w.rr, -limit_m, limit_m)};
+}
+
+/// r with u = W r + b solving the contact; needs W_rr > 0.
+Vec3 solve_rolling_contact(const Block& w, const Vec3& b, double friction, double rolling);
+
+/// The same without resistance to rolling.
+inline Vec3 without_rolling(const Block& w, const Vec3& b, double friction) {
+    const Plane r = solve_contact(w, {b[0], b[1]}, friction);
+    return {r[0], r[1], 0.0};
+}
+
+/// Nearest point of the pyramid |t| <= mu n, |m| <= rho n, all three of one unit.
+inline Vec3 project_on_pyramid(const Vec3& x, double mu, double rho) {
+    const double t = mu * std::abs(x[1]), m = rho * std::abs(x[2]);
+    const double both = (x[0] + t + m) / (1.0 + mu * mu + rho * rho);
+    const double one = std::max((x[0] + t) / (1.0 + mu * mu), (x[0] + m) / (1.0 + rho * rho));
+    const double n = std::max({0.0, x[0], one, both});
+    return {n, std::clamp(x[1], -mu * n, mu * n), std::clamp(x[2], -rho * n, rho * n)};
+}
+
+/// r - P_K(r - s (u + (mu |u_t| + rho |w|, 0, 0))), the moment over `length`; zero exactly at a
+/// solution [N s].
+inline Vec3 rolling_natural_map(const Vec3& r, const Vec3& u, double mu, double rho, double s,
+                                double length) {
+    const double moment = r[2] / length, spin = u[2] * length;
+    const Vec3 nearest =
+        project_on_pyramid({r[0] - s * (u[0] + mu * std::abs(u[1]) + rho * std::abs(u[2])),
+                            r[1] - s * u[1], moment - s * spin},
+                           mu, rho / length);
+    return {r[0] - nearest[0], r[1] - nearest[1], moment - nearest[2]};
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/problem/delassus.hpp"
+
+#include <algorithm>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+double moment(const Vec3& arm, const Vec3& direction) {
+    return arm[0] * direction[1] - arm[1] * direction[0];
+}
+
+/// One body's share of W_kk: (d_i, arm x d_i) . M^-1 (d_j, arm x d_j) for d = n, t. Isotropic
+/// bodies need no product of directions, which would not be exactly orthonormal.
+void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
+    const double n = moment(arm, contact.normal), t = moment(arm, contact.tangent);
+    if (body.isotropic()) {
+        w.nn += body.xx + body.ss * n * n;
+        w.nt += body.ss * n * t;
+        w.tt += body.xx + body.ss * t * t;
+        return;
+    }
+    const PlanarVector along_n{contact.normal[0], contact.normal[1], n};
+    const PlanarVector along_t{contact.tangent[0], contact.tangent[1], t};
+    const PlanarVector answer = body * along_t;
+    w.nn += dot(along_n, body * along_n);
+    w.nt += dot(along_n, answer);
+    w.tt += dot(along_t, answer);
+}
+
+/// The same for a unit moment: (0, 0, 1).
+void add_rolling_share(Block& w, const Contact& contact, const Vec3& arm,
+                       const BodyMobility& body) {
+    const double n = moment(arm, contact.normal), t = moment(arm, contact.tangent);
+    const PlanarVector answer = body * PlanarVector{0.0, 0.0, 1.0};
+    w.nr += dot(PlanarVector{contact.normal[0], contact.normal[1], n}, answer);
+    w.tr += dot(PlanarVector{contact.tangent[0], contact.tangent[1], t}, answer);
+    w.rr += answer.spin;
+}
+
+/// n and t rounded leave about 1e-17 of an exact zero.
+void drop_rounding(Block& w) {
+    if (std::abs(w.nt) < 1e-14 * std::min(w.nn, w.tt)) w.nt = 0.0;
+    if (w.nr * w.nr < 1e-28 * w.nn * w.rr) w.nr = 0.0;
+}
+
+/// To rounding: then a spin, whatever drives it, moves nothing along n.
+bool is_along_normal(const Contact& contact, const Vec3& arm) {
+    return std::abs(moment(arm, contact.normal)) <= 1e-14 * norm(arm);
+}
+
+Block block_of(const ContactProblem& problem, const Contact& contact) {
+    Block w;
+    const auto add = [&](const Vec3& arm, const BodyMobility& body) {
+        add_share(w, contact, arm, body);
+        if (contact.rolling > 0.0) add_rolling_share(w, contact, arm, body);
+    };
+    add(contact.arm_b, problem.bodies[contact.b]);
+    if (contact.a >= 0) add(contact.arm_a, problem.bodies[contact.a]);
+    drop_rounding(w);
+    return w;
+}
+
+}  // namespace
+
+// Blocks alone do not tell whether W is diagonal: shares of two bodies may cancel, and a driven
+// body has none.
+Delassus::Delassus(const ContactProblem& problem)
+    : problem_(problem),
+      diagonal_(std::all_of(problem.bodies.begin(), problem.bodies.end(),
+                            [](const BodyMobility& body) { return body.isotropic(); })) {
+    blocks_.reserve(problem.contacts.size());
+    for (const Contact& contact : problem.contacts) {
+        const Block w = block_of(problem, contact);
+        diagonal_ = diagonal_ && w.nt == 0.0 && w.nr == 0.0 &&
+                    is_along_normal(contact, contact.arm_b) &&
+                    is_along_normal(contact, contact.arm_a);
+        rolling_ = rolling_ || w.rr > 0.0;
+        blocks_.push_back(w);
+    }
+}
+
+Impulses Delassus::apply(const Impulses& r) const {
+    const std::vector<Twist> rest(problem_.free.size());
+    const std::vector<Twist> v =
+        body_velocities({problem_.bodies, rest, problem_.contacts, 0.0}, r);
+    Impulses u;
+    u.reserve(r.size());
+    for (const Contact& contact : problem_.contacts) u.push_back(contact_velocity(contact, v));
+    return u;
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Which axes repeat, and the minimum image on them.
+#pragma once
+
+#include <cmath>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+
+struct PeriodicBox {
+    Vec3 lower{};   ///< [m]
+    Vec3 length{};  ///< [m]; zero: the axis does not repeat
+
+    bool repeats(int axis) const { return length[axis] > 0.0; }
+
+    /// The shortest of all images of a distance vector.
+    Vec3 minimum_image(Vec3 d) const {
+        for (int axis = 0; axis < 3; ++axis)
+            if (repeats(axis)) d[axis] -= length[axis] * std::nearbyint(d[axis] / length[axis]);
+        return d;
+    }
+
+    /// The image of a point that lies in [lower, lower + length).
+    Vec3 wrap(Vec3 x) const {
+        for (int axis = 0; axis < 3; ++axis)
+            if (repeats(axis))
+                x[axis] -= length[axis] * std::floor((x[axis] - lower[axis]) / length[axis]);
+        return x;
+    }
+};
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A contact problem as the text that Siconos reads (frictionContact_new_from_filename): find r, u
+// with
+//
+//     u = W r + q,   q = H^T v_free + b,   Signorini-Coulomb between u and r
+//
+// two components (n, t) per contact, contacts in the order of the problem. W by 2x2 blocks (storage
+// type 1, NM_SPARSE_BLOCK), every number with 17 digits, so that reading gives the same bits. W in
+// 1/kg, q in m/s, or in whatever units the problem has.
+//
+//     2                              dimension
+//     N                              contacts
+//     1  2N  2N                      storage type, rows, columns (each on a line)
+//     B  N  N                        blocks, block rows, block columns (each on a line)
+//     2 4 ... 2N   twice             ends of block rows and block columns
+//     N+1  B                         lengths of the next two (each on a line)
+//     row starts; block columns
+//     per block: its number, then W_nn, W_tn, W_nt, W_tt (each on a line)
+//     q; mu
+#pragma once
+
+#include <iosfwd>
+
+#include "granular_adapter/nscd/problem/contact_problem.hpp"
+
+namespace turbidite::nscd {
+
+/// Throws std::invalid_argument when there is no contact or one that resists rolling: the format
+/// has no word for either.
+void write_problem(std::ostream& out, const ContactProblem& problem);
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/problem/warm_start.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+bool by_key(const RememberedContact& a, const RememberedContact& b) {
+    return a.key < b.key;
+}
+
+// Keys are looked up in the order of a step's contacts, which has nothing to do with theirs: a
+// binary search would miss the cache a dozen times for each.
+std::size_t scrambled(const ContactKey& key) {
+    std::uint64_t h = static_cast<std::uint64_t>(key.first) * 0x9e3779b97f4a7c15u;
+    h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(key.second)) * 0x9e3779b97f4a7c15u;
+    const auto rest = static_cast<std::uint64_t>(key.feature) * 2 + (key.wall != 0 ? 1 : 0);
+    h = (h ^ (h >> 32) ^ rest) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(h ^ (h >> 32));
+}
+
+std::vector<std::int32_t> hash_table(const std::vector<RememberedContact>& contacts) {
+    if (contacts.empty()) return {};
+    std::vector<std::int32_t> places(std::bit_ceil(2 * contacts.size()), -1);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        std::size_t at = scrambled(contacts[i].key);
+        while (places[at & (places.size() - 1)] >= 0) ++at;
+        places[at & (places.size() - 1)] = static_cast<std::int32_t>(i);
+    }
+    return places;
+}
+
+}  // namespace
+
+void ContactMemory::remember(const std::vector<ContactKey>& keys, const std::vector<Vec3>& impulses,
+                             double step) {
+    std::vector<RememberedContact> contacts;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+        if (impulses[k][0] > 0.0) contacts.push_back({keys[k], (1.0 / step) * impulses[k]});
+    replace(std::move(contacts));
+}
+
+Vec3 ContactMemory::guess(const ContactKey& key, double step) const {
+    if (places_.empty()) return {};
+    for (std::size_t at = scrambled(key);; ++at) {
+        const std::int32_t place = places_[at & (places_.size() - 1)];
+        if (place < 0) return {};
+        const RememberedContact& contact = contacts_[static_cast<std::size_t>(place)];
+        if (contact.key == key) return step * contact.force;
+    }
+}
+
+void ContactMemory::replace(std::vector<RememberedContact> contacts) {
+    contacts_ = std::move(contacts);
+    std::sort(contacts_.begin(), contacts_.end(), by_key);
+    places_ = hash_table(contacts_);
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/solvers/central_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turbidite::nscd {
+namespace {
+
+constexpr double predicted = 0.9;    ///< deviation that a prediction may have
+constexpr double corrected = 0.3;    ///< that a step may end with
+constexpr double least_left = 0.02;  ///< of a factor after a prediction
+constexpr double least_z = 1e-3;     ///< of z
+constexpr int most_corrections = 4;
+constexpr double stalling = 0.9;  ///< reduction of the deviation that is none
+constexpr int shortenings = 40, trials = 14;
+// Below this, products in units of the problem, velocities are rounding.
+constexpr double least_product = 5e-15;
+
+}  // namespace
+
+/// Around the base, lengths in relative changes.
+struct CentralPath::Prediction {
+    PathChange tangent;     ///< per ln z
+    PathChange correction;  ///< onto the curve, across the tangent
+    PathChange first, second;
+};
+
+CentralPath::CentralPath(const ScaledContacts& contacts, double size)
+    : system_(contacts, size), point_(system_.start()) {}
+
+bool CentralPath::linearise() {
+    ++factorisations_;
+    return system_.linearise(point_);
+}
+
+CentralPath::Prediction CentralPath::prediction() {
+    Prediction p;
+    p.tangent = system_.tangent();
+    const double square = system_.dot(point_, p.tangent, p.tangent);
+    const auto across = [&](PathChange change) {
+        add(change, -system_.dot(point_, p.tangent, change) / square, p.tangent);
+        return change;
+    };
+    p.correction = across(system_.correction());
+    p.first = p.tangent;
+    add(p.first, -1.0 - system_.sign() / std::sqrt(square), p.tangent);
+    p.second = across(system_.curvature(p.first));
+    return p;
+}
+
+/// Shortens the step until its end is near the curve.
+bool CentralPath::predict(const PathPoint& base, const Prediction& p) {
+    for (int k = 0; k < shortenings; ++k, length_ *= 0.7) {
+        PathChange change = p.correction;
+        add(change, length_, p.first);
+        add(change, 0.5 * length_ * length_, p.second);
+        if (!(base.z + change.z > least_z * base.z) ||
+            !(system_.decrease(base, change) < 1.0 - least_left))
+            continue;
+        point_ = base;
+        add(point_, 1.0, change);
+        if (system_.deviation(point_) < predicted) return true;
+    }
+    return false;
+}
+
+bool CentralPath::correct(const PathPoint& base, const PathChange& tangent, std::int64_t budget) {
+    double before = 1.0;
+    for (corrections_ = 0;; ++corrections_) {
+        const double deviation = system_.deviation(point_);
+        if (deviation < corrected) return true;
+        if (corrections_ == most_corrections || factorisations_ >= budget ||
+            (corrections_ > 1 && !(deviation < stalling * before)) || !linearise())
+            return false;
+        before = deviation;
+        PathChange change = system_.correction();
+        const PathChange along = system_.tangent();
+        add(change, -system_.dot(base, tangent, change) / system_.dot(base, tangent, along), along);
+        const double most =
+            std::max(system_.decrease(point_, change), std::abs(change.z / point_.z));
+        add(point_, std::min(1.0, 0.9 / most), change);
+    }
+}
+
+bool CentralPath::advance(std::int64_t budget) {
+    if (factorisations_ >= budget || system_.product(point_) < least_product || !linearise())
+        return false;
+    const PathPoint base = point_;
+    Prediction p = prediction();
+    for (int trial = 0; trial < trials && factorisations_ <= budget; ++trial) {
+        const double length = length_;
+        const bool ready = predict(base, p);
+        if (ready && correct(base, p.tangent, budget)) {
+            length_ *= corrections_ < 2 ? 2.5 : corrections_ == 2 ? 1.3 : 0.7;
+            return true;
+        }
+        if (!ready && trial > 0) break;
+        // The base is near the curve: without the correction a short enough step is, too.
+        p.correction = p.first;
+        add(p.correction, -1.0, p.first);
+        length_ = ready ? 0.4 * length_ : length;
+    }
+    point_ = base;
+    return false;
+}
+
+}  // namespace turbidite::nscd

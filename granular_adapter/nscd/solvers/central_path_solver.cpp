@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/solvers/central_path_solver.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/solvers/central_path.hpp"
+#include "granular_adapter/nscd/solvers/check_schedule.hpp"
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+// As long as a path of fifty factorisations, in large packings.
+constexpr std::int64_t sweeps_per_turn = 8000;
+// Sizes that paths start from (path_system.hpp), in turn, and how long the first may be.
+constexpr std::array<double, 6> sizes = {10.0, 1.0, 100.0, 3.0, 30.0, 300.0};
+constexpr std::int64_t first_budget = 300, paths_per_budget = 3, most_doublings = 5;
+// Sweeps finish what is below `finishing`, or are tried again at less than `retry` of it.
+constexpr double finishing = 1e-5, retry = 0.3;
+constexpr std::int64_t finishing_sweeps = 200;
+
+/// One solve: the best impulses so far, and what was spent.
+class Search {
+ public:
+    Search(const ContactProblem& problem, const Impulses& guess, const SolverSettings& settings)
+        : problem_(problem), settings_(settings), w_(problem), floor_(rounding_floor(problem, w_)) {
+        best_.impulses = guess;
+        best_.converged = false;
+    }
+
+    std::int64_t left() const { return settings_.max_iterations - used_; }
+    bool over() const { return best_.converged || left() <= 0; }
+
+    void sweep() { take_if_better(sweeps_from(best_.impulses, sweeps_per_turn)); }
+
+    void follow(const ScaledContacts& contacts, double size, std::int64_t budget) {
+        CentralPath path(contacts, size);
+        std::int64_t counted = 0;
+        const auto count = [&] {
+            used_ += path.factorisations() - counted;
+            counted = path.factorisations();
+        };
+        double finish_below = finishing;
+        const std::int64_t most = std::min(budget, left());
+        while (!over() && path.advance(std::min(most, path.factorisations() + left()))) {
+            count();
+            const double residual = look(contacts, path.point());
+            if (over() || residual > finish_below) continue;
+            finish_below = retry * residual;
+            take_if_better(sweeps_from(latest_.impulses, finishing_sweeps));
+        }
+        count();
+    }
+
+    SolverResult result() {
+        best_.iterations = used_;
+        best_.velocities = body_velocities(problem_, best_.impulses);
+        best_.change = measures(problem_, w_, best_.velocities, best_.impulses, floor_).change;
+        return std::move(best_);
+    }
+
+    const Delassus& delassus() const { return w_; }
+
+ private:
+    SolverResult sweeps_from(const Impulses& start, std::int64_t most) {
+        SolverSettings turn = settings_;
+        turn.max_iterations = std::min(most, left());
+        SolverResult result = Nlgs().solve(problem_, start, turn);
+        used_ += result.iterations;
+        return result;
+    }
+
+    void take_if_better(SolverResult result) {
+        if (looked_ && !(result.residual < best_.residual)) return;
+        best_ = std::move(result);
+        looked_ = true;
+    }
+
+    double look(const ScaledContacts& contacts, const PathPoint& point) {
+        latest_.impulses.resize(contacts.size());
+        for (std::size_t k = 0; k < contacts.size(); ++k)
+            latest_.impulses[k] = contacts.physical(k, point.r[k]);
+        latest_.residual = natural_map_residual(
+            problem_, w_, body_velocities(problem_, latest_.impulses), latest_.impulses, floor_);
+        latest_.converged = latest_.residual <= settings_.tolerance;
+        take_if_better(latest_);
+        return latest_.residual;
+    }
+
+    const ContactProblem& problem_;
+    const SolverSettings& settings_;
+    Delassus w_;
+    double floor_;
+    SolverResult best_, latest_;
+    bool looked_ = false;
+    std::int64_t used_ = 0;
+};
+
+}  // namespace
+
+SolverResult CentralPathSolver::solve(const ContactProblem& problem, const Impulses& guess,
+                                      const SolverSettings& settings) const {
+    check_settings(settings);
+    if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, {}, true};
+    Search search(problem, guess, settings);
+    search.sweep();
+    if (!search.over()) {
+        const ScaledContacts contacts(problem, search.delassus());
+        for (std::size_t turn = 0; !search.over(); ++turn) {
+            const std::int64_t doublings =
+                std::min<std::int64_t>(most_doublings, turn / paths_per_budget);
+            search.follow(contacts, sizes[turn % sizes.size()], first_budget << doublings);
+            if (!search.over()) search.sweep();
+        }
+    }
+    return search.result();
+}
+
+}  // namespace turbidite::nscd

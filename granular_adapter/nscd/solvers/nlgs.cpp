@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
+#include "granular_adapter/nscd/solvers/check_schedule.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_train.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+// What a layout costs, in updates of a group for each of its groups. A new one is due when the
+// updates that it would have spared since the last one come to that.
+constexpr double layout_cost = 12.0;
+
+// Fewer contacts than this are swept faster by one thread (docs/performance.md).
+constexpr std::size_t threaded_contacts = 6000;
+
+int useful_threads(const SolverSettings& settings, std::size_t contacts) {
+    return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);
+}
+
+/// What solve() is asked.
+struct Call {
+    const ContactProblem& problem;
+    const Delassus& w;
+    const Impulses& guess;
+    const SolverSettings& settings;
+    Instructions instructions;
+};
+
+template <class Rows>
+class Iteration {
+ public:
+    explicit Iteration(const Call& call)
+        : problem_(call.problem),
+          w_(call.w),
+          settings_(call.settings),
+          sweeps_(sweeps<Rows>(call.instructions)),
+          pairs_(moved_pairs(call.problem)),
+          team_(useful_threads(call.settings, call.guess.size())),
+          floor_(rounding_floor(call.problem, call.w)) {
+        result_.impulses = call.guess;
+        for (Vec3& r : result_.impulses)
+            if (!(r[0] > 0.0)) r = {};
+        result_.converged = false;
+    }
+
+    SolverResult run() {
+        lay_out();
+        while (!result_.converged && result_.iterations < settings_.max_iterations) {
+            const std::int64_t before = result_.iterations;
+            sweep_until_check();
+            if (looks_good() || result_.iterations == settings_.max_iterations)
+                look();
+            else
+                adapt(result_.iterations - before);
+        }
+        return std::move(result_);
+    }
+
+ private:
+    void lay_out() {
+        result_.velocities = body_velocities(problem_, result_.impulses);
+        std::vector<std::uint8_t> active(pairs_.size());
+        for (std::size_t k = 0; k < active.size(); ++k) active[k] = is_active(k) ? 1 : 0;
+        layout_.emplace(problem_, w_, pairs_, result_.impulses, result_.velocities,
+                        schedule(active));
+        train_.emplace(sweeps_, *layout_);
+    }
+
+    Schedule schedule(const std::vector<std::uint8_t>& active) const {
+        const ScheduleSettings shape{.width = Rows::width};
+        return make_schedule(pairs_, active, problem_.bodies.size(), shape);
+    }
+
+    /// Has an impulse, or closes with the velocities of the first guess.
+    bool is_active(std::size_t k) const {
+        if (result_.impulses[k][0] > 0.0) return true;
+        const Contact& c = problem_.contacts[k];
+        return contact_velocity(c, result_.velocities)[0] + c.bias[0] < 0.0;
+    }
+
+    void sweep_until_check() {
+        std::size_t count = 1;
+        while (!check_due(++result_.iterations, settings_)) ++count;
+        train_->run(count, team_);
+    }
+
+    bool looks_good() const {
+        const auto& active = train_->active_sums();
+        const auto& resting = train_->resting_sums();
+        const double error = total(active.error) + total(resting.error);
+        const double size = total(active.size) + total(resting.size);
+        return error <= settings_.tolerance * settings_.tolerance * (size + floor_);
+    }
+
+    /// The published residual, of one consistent state.
+    void look() {
+        layout_->collect(result_.impulses);
+        result_.velocities = body_velocities(problem_, result_.impulses);
+        const Measures found = measures(problem_, w_, result_.velocities, result_.impulses, floor_);
+        result_.residual = found.residual;
+        result_.change = found.change;
+        result_.converged = result_.residual <= settings_.tolerance;
+    }
+
+    /// Rent or buy: a new layout once the updates of groups without impulse have cost as much.
+    void adapt(std::int64_t sweeps) {
+        const double loaded =
+            total(train_->active_sums().loaded) + total(train_->resting_sums().loaded);
+        const auto awake = std::count(layout_->awake.begin(), layout_->awake.end(), 1);
+        const double visited = layout_->schedule.active + static_cast<double>(awake);
+        wasted_ += static_cast<double>(sweeps) * (visited - loaded / Rows::width);
+        if (wasted_ < layout_cost * layout_->schedule.all) return;
+        layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
+        wasted_ = 0.0;
+    }
+
+    const ContactProblem& problem_;
+    const Delassus& w_;
+    const SolverSettings& settings_;
+    Sweeps<Rows> sweeps_;
+    std::vector<MovedPair> pairs_;
+    ThreadTeam team_;
+    double floor_;
+    SolverResult result_;
+    std::optional<SweepLayout<Rows>> layout_;
+    std::optional<SweepTrain<Rows>> train_;
+    double wasted_ = 0.0;  ///< updates of groups since the last layout
+};
+
+template <class Rows>
+SolverResult iterate(const Call& call) {
+    return Iteration<Rows>(call).run();
+}
+
+}  // namespace
+
+SolverResult Nlgs::solve(const ContactProblem& problem, const Impulses& guess,
+                         const SolverSettings& settings) const {
+    check_settings(settings);
+    if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, {}, true};
+    const Delassus w(problem);
+    const Call call{problem, w, guess, settings, instructions_};
+    if (w.diagonal())
+        return w.rolling() ? iterate<RollingDiscRows<4>>(call) : iterate<DiscRows<4>>(call);
+    return w.rolling() ? iterate<GeneralRollingRows<1>>(call) : iterate<GeneralRows<4>>(call);
+}
+
+}  // namespace turbidite::nscd

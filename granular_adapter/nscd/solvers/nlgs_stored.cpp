@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/solvers/nlgs_stored.hpp"
+
+#include <stdexcept>
+
+#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/solvers/check_schedule.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+struct Sweeper {
+    const DelassusMatrix w;
+    const std::vector<Plane> free;
+    std::vector<double> friction;
+    std::vector<Plane> r;
+    double error = 0.0, size = 0.0;  ///< sum |natural map|^2 and sum |r|^2 of a measured pass
+
+    Sweeper(const ContactProblem& problem, const Impulses& guess)
+        : w(problem), free(free_contact_velocities(problem)) {
+        for (const Contact& contact : problem.contacts) friction.push_back(contact.friction);
+        for (const Vec3& impulse : guess) r.push_back({impulse[0], impulse[1]});
+    }
+
+    /// u of contact k without its own impulse.
+    Plane others(std::size_t k) const {
+        double n = free[k][0], t = free[k][1];
+        const std::int64_t end = w.row_start[k + 1];
+        for (std::int64_t e = w.row_start[k]; e < end; ++e) {
+            const Coupling& c = w.coupling[e];
+            const Plane& rj = r[w.column[e]];
+            n += c.by_n[0] * rj[0] + c.by_t[0] * rj[1];
+            t += c.by_n[1] * rj[0] + c.by_t[1] * rj[1];
+        }
+        return {n, t};
+    }
+
+    void measure(std::size_t k, const Plane& b) {
+        const Block& own = w.diagonal[k];
+        const Plane u = {b[0] + own.nn * r[k][0] + own.nt * r[k][1],
+                         b[1] + own.nt * r[k][0] + own.tt * r[k][1]};
+        const Plane f = natural_map(r[k], u, friction[k], 1.0 / own.nn);
+        error += f[0] * f[0] + f[1] * f[1];
+        size += r[k][0] * r[k][0] + r[k][1] * r[k][1];
+    }
+
+    template <bool measured>
+    void sweep() {
+        error = size = 0.0;
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            const Plane b = others(k);
+            if constexpr (measured) measure(k, b);
+            r[k] = solve_contact(w.diagonal[k], b, friction[k]);
+        }
+    }
+
+    void unpack(Impulses& impulses) const {
+        for (std::size_t k = 0; k < r.size(); ++k) impulses[k] = {r[k][0], r[k][1], 0.0};
+    }
+};
+
+void refuse_rolling(const ContactProblem& problem) {
+    if (has_rolling(problem))
+        throw std::invalid_argument(
+            "contact solver nlgs-stored does not know rolling resistance, which the contact law "
+            "asks for: use nlgs or central-path");
+}
+
+}  // namespace
+
+SolverResult NlgsStored::solve(const ContactProblem& problem, const Impulses& guess,
+                               const SolverSettings& settings) const {
+    check_settings(settings);
+    refuse_rolling(problem);
+    if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, {}, true};
+    Sweeper sweeper(problem, guess);
+    const double floor = rounding_floor(problem);
+    const double target = settings.tolerance * settings.tolerance;
+    SolverResult result;
+    result.impulses = guess;
+    result.converged = false;
+    while (!result.converged && result.iterations < settings.max_iterations) {
+        if (!check_due(++result.iterations, settings)) {
+            sweeper.sweep<false>();
+            continue;
+        }
+        sweeper.sweep<true>();
+        const bool last = result.iterations == settings.max_iterations;
+        if (!last && !(sweeper.error <= target * (sweeper.size + floor))) continue;
+        sweeper.unpack(result.impulses);
+        result.residual = natural_map_residual(problem, result.impulses);
+        result.converged = result.residual <= settings.tolerance;
+    }
+    result.change = change_measures(problem, result.impulses);
+    result.velocities = body_velocities(problem, result.impulses);
+    return result;
+}
+
+}  // namespace turbidite::nscd

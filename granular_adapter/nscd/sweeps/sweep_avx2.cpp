@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The sweeps for AVX2. Only what sweep_kernel.hpp defines is compiled for it: everything included
+// before stays portable, as inline functions may end up in any other part of a program.
+#include <stdexcept>
+
+#include "granular_adapter/nscd/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace turbidite::nscd::avx2 {
+#include "granular_adapter/nscd/sweeps/sweep_kernel.hpp"
+}  // namespace turbidite::nscd::avx2
+#pragma GCC pop_options
+
+namespace turbidite::nscd {
+
+bool available(Instructions instructions) {
+    return instructions == Instructions::portable || __builtin_cpu_supports("avx2");
+}
+
+template <class Rows>
+Sweeps<Rows> avx2_sweeps() {
+    return avx2::sweeps<Rows>();
+}
+
+}  // namespace turbidite::nscd
+
+#else
+
+namespace turbidite::nscd {
+
+bool available(Instructions instructions) {
+    return instructions == Instructions::portable;
+}
+
+template <class Rows>
+Sweeps<Rows> avx2_sweeps() {
+    throw std::invalid_argument("contact sweeps: this program has none for AVX2");
+}
+
+}  // namespace turbidite::nscd
+
+#endif
+
+namespace turbidite::nscd {
+
+template Sweeps<DiscRows<4>> avx2_sweeps();
+template Sweeps<DiscRows<1>> avx2_sweeps();
+template Sweeps<RollingDiscRows<4>> avx2_sweeps();
+template Sweeps<RollingDiscRows<1>> avx2_sweeps();
+template Sweeps<GeneralRows<4>> avx2_sweeps();
+template Sweeps<GeneralRows<1>> avx2_sweeps();
+template Sweeps<GeneralRollingRows<1>> avx2_sweeps();
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Fills one lane of a group of rows (sweep_rows.hpp) with one contact.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+#include "granular_adapter/nscd/problem/contact_problem.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+
+namespace turbidite::nscd {
+
+/// A contact with what belongs to it; an immovable partner has no mobility.
+struct PackedContact {
+    const Contact& contact;
+    const Block& w;
+    BodyMobility a, b;
+    Vec3 r;
+    std::int32_t slot_a, slot_b;
+};
+
+template <int lanes>
+void fill(DiscRows<lanes>& rows, int lane, const PackedContact& packed);
+template <int lanes>
+void fill(RollingDiscRows<lanes>& rows, int lane, const PackedContact& packed);
+template <int lanes>
+void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed);
+void fill(GeneralRollingRows<1>& rows, int lane, const PackedContact& packed);
+
+/// A lane without contact.
+template <class Rows>
+void fill_empty(Rows& rows, int lane, std::int32_t slot) {
+    rows.a[lane] = rows.b[lane] = slot;
+    rows.bias_n.v[lane] = 1.0;
+    if constexpr (requires { rows.length.v; }) rows.length.v[lane] = 1.0;
+}
+
+/// All that rows hold are lanes of doubles, and the places of the bodies.
+template <class Rows>
+void copy_lane(const Rows& from, int lane_from, Rows& to, int lane_to) {
+    using Base = RowBase<Rows::width>;
+    constexpr std::size_t size = sizeof(typename Base::Values), value = sizeof(double);
+    constexpr std::size_t places = offsetof(Base, a);
+    static_assert(sizeof(Rows) % size == 0 && places % size == 0 && 2 * sizeof(Base::a) == size);
+    const auto* const source = reinterpret_cast<const std::byte*>(&from) + value * lane_from;
+    auto* const target = reinterpret_cast<std::byte*>(&to) + value * lane_to;
+    for (std::size_t at = 0; at < sizeof(Rows); at += size)
+        if (at != places) std::memcpy(target + at, source + at, value);
+    to.a[lane_to] = from.a[lane_from];
+    to.b[lane_to] = from.b[lane_from];
+}
+
+template <class Rows>
+Vec3 impulse(const Rows& rows, int lane) {
+    Vec3 r{rows.rn.v[lane], rows.rt.v[lane], 0.0};
+    if constexpr (requires { rows.roll.v; })
+        r[2] = rows.roll.v[lane];
+    else if constexpr (requires { rows.roll; })
+        r[2] = rows.roll;
+    return r;
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Several sweeps at once over the same groups, with the result of one after the other, bit for bit.
+//
+// Sweep s + 1 may do a stretch as soon as sweep s has done every stretch that touches one of its
+// bodies. As contacts come in an order of space, that is a short way ahead; so sweeps follow each
+// other closely, like the wagons of a train, and find in the cache what the first one fetched from
+// memory. Threads take successive wagons. Who updates a group when changes nothing in what is read
+// and written: results do not depend on the number of threads.
+#pragma once
+
+#include <atomic>
+#include <cstring>
+#include <vector>
+
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/thread_team.hpp"
+
+namespace turbidite::nscd {
+
+template <class Rows>
+class SweepTrain {
+ public:
+    using Sums = PassSums<Rows::width>;
+
+    SweepTrain(const Sweeps<Rows>& sweeps, SweepLayout<Rows>& layout)
+        : sweeps_(sweeps), layout_(layout) {}
+
+    /// Runs as many sweeps. All of them update the active groups and those that are awake; the last
+    /// one measures on its way, asks the groups at rest, and wakes those with an impulse.
+    void run(std::size_t sweeps, ThreadTeam& team) {
+        active_sums_ = resting_sums_ = {};
+        progress_ = std::vector<Progress>(sweeps);
+        const auto share = [&](int thread) {
+            return sweeps * static_cast<std::size_t>(thread) /
+                   static_cast<std::size_t>(team.size());
+        };
+        team.run([&](int thread) { drive(share(thread), share(thread + 1)); });
+    }
+
+    /// Of the last sweep; active groups, and those at rest.
+    const Sums& active_sums() const { return active_sums_; }
+    const Sums& resting_sums() const { return resting_sums_; }
+
+ private:
+    /// Stretches done by a wagon; a cache line of its own.
+    struct alignas(64) Progress {
+        std::atomic<std::size_t> stretches{0};
+        Progress() = default;
+        Progress(const Progress&) {}
+    };
+
+    const std::vector<Stretch>& stretches() const { return layout_.schedule.stretches; }
+    std::size_t done(std::size_t wagon) const {
+        return progress_[wagon].stretches.load(std::memory_order_relaxed);
+    }
+    bool finished(std::size_t wagon) const { return done(wagon) == stretches().size(); }
+
+    bool clear(std::size_t wagon) const {
+        return wagon == 0 || progress_[wagon - 1].stretches.load(std::memory_order_acquire) >=
+                                 static_cast<std::size_t>(stretches()[done(wagon)].after);
+    }
+
+    void advance(std::size_t wagon) {
+        const std::size_t at = done(wagon);
+        const bool last = wagon + 1 == progress_.size();
+        last ? measure(stretches()[at]) : sweep(stretches()[at]);
+        progress_[wagon].stretches.store(at + 1, std::memory_order_release);
+    }
+
+    Rows* row(std::int32_t group) { return layout_.rows.data() + group; }
+    std::uint8_t& awake(std::int32_t group) {
+        return layout_.awake[static_cast<std::size_t>(group - layout_.schedule.active)];
+    }
+
+    /// The first one that is awake, or the end; most are not.
+    std::int32_t next_awake(const GroupRange& range) {
+        if (range.first >= range.last) return range.last;
+        const std::uint8_t* const from = &awake(range.first);
+        const auto* const found = static_cast<const std::uint8_t*>(
+            std::memchr(from, 1, static_cast<std::size_t>(range.last - range.first)));
+        return found == nullptr ? range.last
+                                : range.first + static_cast<std::int32_t>(found - from);
+    }
+
+    void sweep(const Stretch& stretch) {
+        PlaneBody* const bodies = layout_.bodies.data();
+        sweeps_.plain(row(stretch.active.first), row(stretch.active.last), bodies);
+        for (std::int32_t group = next_awake(stretch.resting); group < stretch.resting.last;
+             group = next_awake({group + 1, stretch.resting.last}))
+            sweeps_.plain(row(group), row(group) + 1, bodies);
+    }
+
+    void measure(const Stretch& stretch) {
+        PlaneBody* const bodies = layout_.bodies.data();
+        sweeps_.measured(row(stretch.active.first), row(stretch.active.last), bodies, active_sums_);
+        if (stretch.resting.first < stretch.resting.last)
+            sweeps_.asked(row(stretch.resting.first), row(stretch.resting.last), bodies,
+                          resting_sums_, &awake(stretch.resting.first));
+    }
+
+    /// The wagons [first, last) by one thread: a stretch each in turn, as far as those before
+    /// allow.
+    void drive(std::size_t first, std::size_t last) {
+        ThreadTeam::Patience patience;
+        while (first < last) {
+            bool moved = false;
+            for (std::size_t wagon = first; wagon < last; ++wagon) {
+                if (finished(wagon)) continue;
+                if (!clear(wagon)) break;
+                advance(wagon);
+                moved = true;
+            }
+            while (first < last && finished(first)) ++first;
+            if (moved)
+                patience = {};
+            else
+                patience.wait();
+        }
+    }
+
+    Sweeps<Rows> sweeps_;
+    SweepLayout<Rows>& layout_;
+    std::vector<Progress> progress_;
+    Sums active_sums_, resting_sums_;
+};
+
+}  // namespace turbidite::nscd

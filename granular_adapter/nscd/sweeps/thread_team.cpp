@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/sweeps/thread_team.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+// About 20 microseconds, what a few blocks of a sweep take. A thread that waits longer has lost its
+// processor or its partner has.
+constexpr int hot_turns = 500;
+
+void pause_briefly() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+void ThreadTeam::Patience::wait() {
+    if (++turns_ < hot_turns)
+        pause_briefly();
+    else
+        std::this_thread::yield();
+}
+
+ThreadTeam::ThreadTeam(int size) {
+    for (int number = 1; number < size; ++number)
+        threads_.emplace_back([this, number] { serve(number); });
+}
+
+ThreadTeam::~ThreadTeam() {
+    order_.store(-1, std::memory_order_release);
+    order_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+}
+
+void ThreadTeam::run(const std::function<void(int)>& work) {
+    if (threads_.empty()) return work(0);
+    work_ = &work;
+    busy_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
+    order_.fetch_add(1, std::memory_order_release);
+    order_.notify_all();
+    work(0);
+    Patience patience;
+    while (busy_.load(std::memory_order_acquire) > 0) patience.wait();
+}
+
+void ThreadTeam::serve(int number) {
+    for (std::int64_t seen = 0;;) {
+        Patience patience;
+        for (int turn = 0; turn < hot_turns && order_.load(std::memory_order_acquire) == seen;
+             ++turn)
+            patience.wait();
+        order_.wait(seen, std::memory_order_acquire);
+        seen = order_.load(std::memory_order_acquire);
+        if (seen < 0) return;
+        (*work_)(number);
+        busy_.fetch_sub(1, std::memory_order_release);
+    }
+}
+
+}  // namespace turbidite::nscd

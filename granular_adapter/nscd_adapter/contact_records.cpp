@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd_adapter/contact_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite {
+namespace {
+
+using nscd::operator+, nscd::operator-, nscd::operator*;
+
+// A local problem that slides puts its impulse on the cone to round-off.
+constexpr double at_limit = 1.0 - 1e-9;
+
+/// From the solution of the contact problem: its cone is the law's, also where a law pulls. What is
+/// pulled and not pressed neither slides nor rolls.
+std::int32_t status_of(const nscd::Contact& contact, const Vec3& solution) {
+    std::int32_t status = 0;
+    if (!(solution[0] > 0.0)) return status;
+    if (std::abs(solution[1]) >= at_limit * contact.friction * solution[0])
+        status |= ContactStatus::sliding;
+    if (contact.rolling > 0.0 && std::abs(solution[2]) >= at_limit * contact.rolling * solution[0])
+        status |= ContactStatus::rolling;
+    return status;
+}
+
+ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
+    const nscd::Bodies& bodies = engine.bodies();
+    const nscd::ContactPoint& point = engine.points()[k];
+    const nscd::Contact& contact = engine.problem().contacts[k];
+    const Vec3& impulse = engine.impulses()[k];
+    ContactRecord record;
+    record.b = bodies.id[point.b];
+    if (point.wall >= 0)
+        record.wall = engine.walls()[static_cast<std::size_t>(point.wall)].key;
+    else
+        record.a = bodies.id[point.a];
+    record.feature = point.feature;
+    record.status = status_of(contact, engine.solution()[k]);
+    record.gap = point.gap;
+    record.length = point.length;
+    record.point = bodies.position[point.b] + point.arm_b;
+    record.normal = point.normal;
+    record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;
+    record.impulse = world_impulse(contact, impulse);
+    record.rolling_impulse = {0.0, 0.0, impulse[2]};
+    return record;
+}
+
+}  // namespace
+
+std::vector<ContactRecord> contact_records(const nscd::Engine& engine) {
+    std::vector<ContactRecord> records;
+    // Where a pull and the pressure it makes cancel, the bodies touch although they feel nothing.
+    for (std::size_t k = 0; k < engine.points().size(); ++k)
+        if (engine.impulses()[k] != Vec3{} || engine.solution()[k] != Vec3{})
+            records.push_back(record_of(engine, k));
+    std::sort(records.begin(), records.end(), contact_before);
+    return records;
+}
+
+void drop_contacts_of(const std::vector<GrainId>& gone, std::vector<ContactRecord>& contacts) {
+    if (gone.empty()) return;
+    const std::unordered_set<GrainId> left(gone.begin(), gone.end());
+    std::erase_if(contacts, [&](const ContactRecord& contact) {
+        return left.count(contact.b) > 0 || (contact.wall < 0 && left.count(contact.a) > 0);
+    });
+}
+
+}  // namespace turbidite

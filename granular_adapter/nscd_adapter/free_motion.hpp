@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the contact problem of scheme `joint` starts from: the fluid's answers for free grains, in
+// the plane and in the order of the bodies.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+#include "granular_adapter/nscd/plane/mobility.hpp"
+#include "granular_adapter/nscd/problem/bodies.hpp"
+
+namespace turbidite {
+
+struct FreeMotion {
+    std::vector<nscd::Twist> velocities;         ///< U^F, omega^F
+    std::vector<nscd::BodyMobility> mobilities;  ///< A^-1
+};
+
+/// `when` ends the sentence of an error ("in window 3"). Throws std::runtime_error naming a grain
+/// with no answer, or two, or one that the host holds fast; PhysicsRefused when an effective
+/// inertia is not positive definite or a velocity not a number.
+FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
+                       const std::string& when);
+
+}  // namespace turbidite

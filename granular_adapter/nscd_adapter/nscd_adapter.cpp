@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "coupler/protocol/freed_memory.hpp"
+#include "granular_adapter/grains/case_bodies.hpp"
+#include "granular_adapter/grains/inner_walls.hpp"
+#include "granular_adapter/nscd/detection/broad_phase.hpp"
+#include "granular_adapter/nscd/laws/law_list.hpp"
+#include "granular_adapter/nscd_adapter/contact_records.hpp"
+#include "granular_adapter/nscd_adapter/contact_settings.hpp"
+#include "granular_adapter/nscd_adapter/free_motion.hpp"
+
+namespace turbidite {
+namespace {
+
+class StopWatch {
+ public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+ private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string in_window(const Window& window) {
+    return "in window " + std::to_string(window.index);
+}
+
+nscd::Engine& initialised(const std::unique_ptr<nscd::Engine>& engine) {
+    if (!engine) throw std::logic_error("the contact engine is asked before initialise()");
+    return *engine;
+}
+
+}  // namespace
+
+NscdAdapter::NscdAdapter(std::string adapter_name, std::string host_code)
+    : adapter_name_(std::move(adapter_name)), host_code_(std::move(host_code)) {
+    keep_freed_memory();
+}
+
+Hello NscdAdapter::describe() const {
+    Hello hello;
+    hello.role = Role::grains;
+    hello.adapter = adapter_name_;
+    hello.adapter_version = TURBIDITE_VERSION;
+    hello.host_code = host_code_;
+    hello.dimension = 2;
+    hello.capabilities.saves_state = true;
+    hello.capabilities.restores_within_window = true;
+    hello.capabilities.serialises_state = true;
+    hello.capabilities.effective_inertia = true;
+    for (const auto& entry : nscd::wall_detector_list())
+        hello.capabilities.shapes.push_back(entry.kind);
+    for (const auto& entry : nscd::law_list())
+        if (entry.make) hello.capabilities.contact_laws.push_back(entry.name);
+    return hello;
+}
+
+Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
+                               const std::vector<GrainState>& grains) {
+    const StopWatch watch;
+    dumps_ = ProblemDumps(settings, run_folder_);
+    fluid_ = settings.flag("fluid.enabled");
+    joint_ = fluid_ && settings.text("coupling.scheme") == "joint";
+    positions_ = parse_positions(settings.text("coupling.positions"));
+    borders_ = lay_borders(settings);
+    std::vector<nscd::Wall> walls = walls_of(borders_);
+    for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
+        walls.push_back(wall);
+    engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
+    add_grains(bodies(), settings, shapes, grains);
+    nscd::check_periods(bodies().radius, engine().settings().box);
+    check_inside(bodies(), borders_, "at the start");
+    report_ = {};
+    report_.max_penetration = engine_->max_penetration();
+    report_.wall_seconds = watch.seconds();
+    return motion();
+}
+
+Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
+    const StopWatch watch;
+    begin_round();
+    check_inside(bodies(), borders_, in_window(window) + " before contacts");
+    report_ = {};
+    report_.max_penetration = engine().max_penetration();
+    const nscd::StepReport step = solve_contacts(window, responses);
+    check_inside(bodies(), borders_, in_window(window) + " after contacts");
+    contact_twists_ = bodies().twist;
+    report_.contacts = step.contacts;
+    report_.iterations = step.iterations;
+    report_.residual = step.residual;
+    report_.quad = step.change.quad;
+    report_.max = step.change.max;
+    report_.converged = step.converged;
+    report_.wall_seconds = watch.seconds();
+    return motion();
+}
+
+// An advance that is repeated before the kick begins at t^n again; contact impulses are kept.
+void NscdAdapter::begin_round() {
+    const bool again = !contact_twists_.empty() && contact_twists_.size() == bodies().size();
+    if (again)
+        bodies().twist = start_twists_;
+    else
+        start_twists_ = bodies().twist;
+}
+
+nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
+                                             const std::vector<FreeResponse>& responses) {
+    if (joint_) {
+        FreeMotion free = free_motion(bodies(), responses, in_window(window));
+        return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
+    }
+    if (!responses.empty())
+        throw std::runtime_error("responses of the fluid came " + in_window(window) +
+                                 ", but coupling.scheme is not joint");
+    return engine().step(window.step);
+}
+
+Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
+    const StopWatch watch;
+    if (contact_twists_.size() != bodies().size())
+        throw std::logic_error("apply_kick needs an advance of the same window before it");
+    dumps_.after(window, engine().problem());
+    if (fluid_ || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
+    check_inside(bodies(), borders_, in_window(window) + " after the kick");
+    std::optional<std::vector<ContactRecord>> contacts;
+    if (window.write_output) contacts = contact_records(engine());
+    const bool with_contact = joint_ || positions_ == Positions::contact;
+    engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
+    contact_twists_.clear();
+    remove_leavers();
+    check_inside(bodies(), borders_, in_window(window) + " after motion");
+    report_.removed = static_cast<std::int64_t>(removed_.size());
+    report_.max_penetration = engine().max_penetration();
+    Motion result = motion();
+    if (contacts) drop_contacts_of(removed_, *contacts);
+    result.contacts = std::move(contacts);
+    result.report.wall_seconds = report_.wall_seconds = watch.seconds();
+    return result;
+}
+
+SavedState NscdAdapter::save() const {
+    return engine().save();
+}
+
+void NscdAdapter::restore(const SavedState& state) {
+    engine().restore(state);
+    contact_twists_.clear();
+    removed_.clear();
+}
+
+const nscd::Engine& NscdAdapter::engine() const {
+    return initialised(engine_);
+}
+
+nscd::Engine& NscdAdapter::engine() {
+    return initialised(engine_);
+}
+
+NscdAdapter::Positions NscdAdapter::parse_positions(const std::string& text) {
+    if (text == "corrected") return Positions::corrected;
+    if (text == "contact") return Positions::contact;
+    throw std::invalid_argument("coupling.positions = \"" + text +
+                                "\"; allowed: corrected, contact");
+}
+
+nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) const {
+    nscd::EngineSettings result = contact_settings(settings);
+    result.gravity = {0.0, -settings.real("run.gravity"), 0.0};
+    if (borders_[0].side == BorderKind::cyclic) result.box.length[0] = settings.real("run.size_x");
+    if (borders_[2].side == BorderKind::cyclic) result.box.length[1] = settings.real("run.size_y");
+    return result;
+}
+
+void NscdAdapter::remove_leavers() {
+    const nscd::Bodies& all = bodies();
+    const std::vector<std::uint8_t> stays = those_inside(all, borders_);
+    removed_.clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!stays[i]) removed_.push_back(all.id[i]);
+    if (!removed_.empty()) engine().keep(stays);
+}
+
+Motion NscdAdapter::motion() const {
+    return {grain_states(bodies()), report_};
+}
+
+}  // namespace turbidite

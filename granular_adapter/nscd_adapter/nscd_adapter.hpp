@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The contact engine as a grains adapter: step 4 of the splitting (Topin 2011, Eqs. 16-19) with the
+// immersed inertia of shapes/immersed_body, then motion with the velocities that
+// `coupling.positions` asks for. Under `coupling.scheme: joint` free velocities and inertia are the
+// fluid's, advance may be repeated within a window, and grains move with the contact velocities.
+// Hosts such as YADE wrap it: they overwrite bodies() before a call and read them after.
+//
+// Walls inside the box (run.walls) are plates that hold grains on both sides, at rest or moving.
+//
+// Reads: contact.*, coupling.scheme, coupling.positions, domain.{left,right,bottom,top},
+// fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupler/participant/adapter.hpp"
+#include "granular_adapter/grains/borders.hpp"
+#include "granular_adapter/nscd/engine/engine.hpp"
+#include "granular_adapter/nscd_adapter/problem_dumps.hpp"
+
+namespace turbidite {
+
+class NscdAdapter final : public GrainsAdapter {
+ public:
+    /// Names under which it introduces itself; a host gives its own ("yade-nscd", "YADE 2023.02a").
+    explicit NscdAdapter(std::string adapter_name = "standalone-nscd",
+                         std::string host_code = "none");
+
+    /// Where contact.dump_interval writes; before initialise(). Without it: the working folder.
+    void set_run_folder(std::filesystem::path folder) { run_folder_ = std::move(folder); }
+
+    Hello describe() const override;
+    Motion initialise(const Settings& settings, const ShapeTable& shapes,
+                      const std::vector<GrainState>& grains) override;
+    /// Under `joint` one response per grain, otherwise none. Throws std::runtime_error naming a
+    /// grain that has none or two, PhysicsRefused when an effective inertia is not positive
+    /// definite. Repeated before the kick it starts from t^n again, with the impulses found.
+    Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
+
+    /// One kick per grain, or none at all when the case has no fluid. Throws std::runtime_error
+    /// naming a grain that has no kick or two, or a kick of an unknown grain.
+    Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override;
+
+    SavedState save() const override;
+
+    /// After initialise() with the same settings.
+    void restore(const SavedState& state) override;
+
+    /// Between two calls a host may overwrite whatever it owns: positions, velocities, loads,
+    /// flags.
+    nscd::Bodies& bodies() { return engine().bodies(); }
+    const nscd::Bodies& bodies() const { return engine().bodies(); }
+
+    /// The last window's contacts, for the host's own pictures.
+    const nscd::Engine& engine() const;
+    nscd::Engine& engine();
+
+    /// Impulses of the last window as bytes, for hosts that keep bodies in their own files:
+    /// take_over_contacts() in the new process makes its first window start from them.
+    std::vector<char> contact_memory() const { return engine().save_memory(); }
+    void take_over_contacts(const std::vector<char>& bytes) { engine().restore_memory(bytes); }
+
+    /// Ids that left in the last apply_kick.
+    const std::vector<GrainId>& removed() const { return removed_; }
+
+ private:
+    enum class Positions { corrected, contact };
+
+    static Positions parse_positions(const std::string& text);
+    nscd::EngineSettings engine_settings(const Settings& settings) const;
+    void begin_round();
+    nscd::StepReport solve_contacts(const Window& window,
+                                    const std::vector<FreeResponse>& responses);
+    void remove_leavers();
+    Motion motion() const;
+
+    std::string adapter_name_;
+    std::string host_code_;
+    std::filesystem::path run_folder_ = ".";
+    ProblemDumps dumps_;
+    bool fluid_ = true;
+    bool joint_ = false;
+    Positions positions_ = Positions::corrected;
+    std::vector<Border> borders_;
+    std::unique_ptr<nscd::Engine> engine_;
+    std::vector<nscd::Twist> start_twists_;    ///< U^n of this window
+    std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window
+    std::vector<GrainId> removed_;
+    ContactReport report_;  ///< of this window
+};
+
+}  // namespace turbidite

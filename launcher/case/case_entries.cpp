@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/case_entries.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace turbidite {
+namespace {
+
+CaseProblem sentence(const std::string& source, int line, const std::string& fault,
+                     const std::string& allowed, const std::string& remedy) {
+    return {.source = source,
+            .line = line,
+            .key = {},
+            .value = {},
+            .fault = fault,
+            .allowed = allowed,
+            .remedy = remedy};
+}
+
+std::string item_text(const YAML::Node& node) {
+    return node.IsScalar() ? node.Scalar() : YAML::Dump(node);
+}
+
+CaseEntry leaf(const std::string& key, const YAML::Node& node) {
+    CaseEntry entry;
+    entry.key = key;
+    entry.is_null = node.IsNull();
+    entry.is_list = node.IsSequence();
+    if (node.IsScalar()) entry.value = node.Scalar();
+    if (!entry.is_list) return entry;
+    for (const YAML::Node& item : node) {
+        entry.items.push_back(item_text(item));
+        entry.value += (entry.value.empty() ? "" : ", ") + entry.items.back();
+    }
+    entry.value = "[" + entry.value + "]";
+    return entry;
+}
+
+struct Place {
+    std::string source;
+    bool has_lines = true;
+};
+
+void flatten(const std::string& prefix, const YAML::Node& node, const Place& place,
+             std::vector<CaseEntry>& entries) {
+    for (const auto& item : node) {
+        const std::string key = prefix + item_text(item.first);
+        if (item.second.IsMap()) {
+            flatten(key + ".", item.second, place, entries);
+            continue;
+        }
+        CaseEntry entry = leaf(key, item.second);
+        entry.source = place.source;
+        entry.line = place.has_lines ? item.first.Mark().line + 1 : 0;
+        entries.push_back(entry);
+    }
+}
+
+void report_repeated(CaseEntries& result) {
+    for (std::size_t i = 0; i < result.entries.size(); ++i) {
+        const CaseEntry& entry = result.entries[i];
+        const auto end = result.entries.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto first = std::find_if(result.entries.begin(), end, [&](const CaseEntry& other) {
+            return other.key == entry.key;
+        });
+        if (first == end) continue;
+        result.problems.push_back(
+            {.source = entry.source,
+             .line = entry.line,
+             .key = entry.key,
+             .value = entry.value,
+             .fault = "is given twice",
+             .allowed = fmt::format("It is already {} in line {}.", first->value, first->line),
+             .remedy = "Keep one of the two."});
+    }
+}
+
+void read_document(const std::string& text, const Place& place, CaseEntries& result) {
+    try {
+        const YAML::Node document = YAML::Load(text);
+        if (!document.IsMap())
+            result.problems.push_back(sentence(place.source, 0, "holds no keys",
+                                               "A case is a list of `key: value` in groups.",
+                                               "See configs/ for examples."));
+        else
+            flatten("", document, place, result.entries);
+    } catch (const YAML::Exception& error) {
+        const int line = place.has_lines ? error.mark.line + 1 : 0;
+        result.problems.push_back(sentence(place.source, line, "is not YAML: " + error.msg,
+                                           "A case is a list of `key: value` in groups.",
+                                           "Correct this line; indentation counts."));
+    }
+}
+
+void read_file(const std::filesystem::path& file, CaseEntries& result) {
+    std::ifstream input(file);
+    std::stringstream text;
+    if (std::filesystem::is_directory(file) || !input || !(text << input.rdbuf())) {
+        result.problems.push_back(sentence(file.string(), 0, "cannot be read",
+                                           "A case file (YAML) is needed.", "Check the path."));
+        return;
+    }
+    read_document(text.str(), {file.filename().string()}, result);
+}
+
+CaseEntries read_override(const std::string& text) {
+    const Place place{"--set", false};
+    CaseEntries result;
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        result.problems.push_back(sentence("--set " + text, 0, "has no value",
+                                           "An override is key=value.",
+                                           "Write for example --set contact.friction=0.5."));
+        return result;
+    }
+    read_document(text.substr(0, equals) + ": " + text.substr(equals + 1), place, result);
+    return result;
+}
+
+void replace(const CaseEntry& entry, std::vector<CaseEntry>& entries) {
+    const auto same = [&](const CaseEntry& other) { return other.key == entry.key; };
+    entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
+    entries.push_back(entry);
+}
+
+}  // namespace
+
+const CaseEntry* CaseEntries::find(const std::string& key) const {
+    const auto at = std::find_if(entries.begin(), entries.end(),
+                                 [&](const CaseEntry& entry) { return entry.key == key; });
+    return at == entries.end() ? nullptr : &*at;
+}
+
+CaseEntries read_case_entries(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides) {
+    CaseEntries result;
+    read_file(file, result);
+    report_repeated(result);
+    for (const std::string& text : overrides) {
+        CaseEntries extra = read_override(text);
+        for (const CaseEntry& entry : extra.entries) replace(entry, result.entries);
+        for (CaseProblem& problem : extra.problems) result.problems.push_back(std::move(problem));
+    }
+    return result;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/case_error.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace turbidite {
+namespace {
+
+std::string place(const CaseProblem& problem) {
+    if (problem.line > 0) return fmt::format("{} line {}: ", problem.source, problem.line);
+    return problem.source.empty() ? "" : problem.source + ": ";
+}
+
+std::string statement(const CaseProblem& problem) {
+    if (problem.key.empty()) return problem.fault;
+    if (!problem.fault.empty()) return problem.key + " " + problem.fault;
+    return problem.key + " = " + problem.value;
+}
+
+std::string advice(const CaseProblem& problem) {
+    const bool both = !problem.allowed.empty() && !problem.remedy.empty();
+    return problem.allowed + (both ? " " : "") + problem.remedy;
+}
+
+}  // namespace
+
+std::string format_problems(const std::vector<CaseProblem>& problems) {
+    std::string text;
+    for (const CaseProblem& problem : problems)
+        text += fmt::format("{}{}\n  {}\n", place(problem), statement(problem), advice(problem));
+    return text + fmt::format("{} error{}, nothing was started. Exit code 2.", problems.size(),
+                              problems.size() == 1 ? "" : "s");
+}
+
+CaseRefused::CaseRefused(std::vector<CaseProblem> problems)
+    : Failure(ExitCode::bad_input, format_problems(problems)), problems_(std::move(problems)) {}
+
+}  // namespace turbidite

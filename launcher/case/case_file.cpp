@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "coupler/protocol/case_hash.hpp"
+#include "launcher/case/case_entries.hpp"
+#include "launcher/case/case_rules.hpp"
+#include "launcher/case/grain_forms.hpp"
+#include "launcher/case/inner_walls.hpp"
+#include "launcher/case/key_check.hpp"
+#include "launcher/case/key_value.hpp"
+#include "launcher/case/population.hpp"
+#include "launcher/case/resolved_text.hpp"
+#include "launcher/case/run_folder.hpp"
+#include "launcher/case/soft_contact.hpp"
+
+namespace turbidite {
+namespace {
+
+// The run folder holds a copy of the grains; the resolved case names that one, so that it can be
+// moved to another machine with its folder.
+constexpr auto copied_grains = "grains/initial.csv";
+constexpr auto copied_walls = "grains/walls.csv";
+
+struct Population {
+    Packing grains;
+    PopulationSource source;
+    std::vector<std::string> notes;
+};
+
+PackingBox packing_box(const Settings& settings) {
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    return {.width = size.at(0),
+            .height = size.at(1),
+            .periodic_x = settings.text("domain.left") == "cyclic",
+            .periodic_y = settings.text("domain.bottom") == "cyclic"};
+}
+
+SolidSides solid_sides(const Settings& settings) {
+    const auto solid = [&](const char* key) { return settings.text(key) == "wall"; };
+    return {solid("domain.left"), solid("domain.right"), solid("domain.bottom"),
+            solid("domain.top")};
+}
+
+std::optional<PackingRegion> packing_region(const Settings& settings) {
+    if (!settings.has("grains.region")) return std::nullopt;
+    const auto size = real_list("grains.region", settings.text("grains.region"));
+    return PackingRegion{size.at(0), size.at(1)};
+}
+
+PackingRequest packing_request(const Settings& settings, const GrainForms& forms) {
+    const bool counted = settings.has("grains.count");
+    return {.box = packing_box(settings),
+            .region = packing_region(settings),
+            .compacity = settings.real("grains.compacity"),
+            .count = counted ? settings.integer("grains.count") : 0,
+            .jitter = settings.real("grains.jitter"),
+            .seed = static_cast<std::uint64_t>(settings.integer("random.seed")),
+            .forms = &forms,
+            .size_ratio = settings.real("grains.size_ratio")};
+}
+
+const GeneratorEntry& generator(const std::string& name) {
+    const auto& list = generator_list();
+    return *std::find_if(list.begin(), list.end(),
+                         [&](const GeneratorEntry& entry) { return entry.name == name; });
+}
+
+// The key whose value a generator refuses.
+std::string blamed_key(const Settings& settings) {
+    return settings.text("grains.generator") == "lattice" ? "grains.compacity" : "grains.count";
+}
+
+Population generated_grains(const Settings& settings, const GrainForms& forms,
+                            CaseEntries& entries) {
+    PackingResult result =
+        generator(settings.text("grains.generator")).make(packing_request(settings, forms));
+    const std::string key = blamed_key(settings);
+    const CaseEntry* entry = entries.find(key);
+    const std::string file = entries.entries.front().source;
+    if (!result.refusal.empty())
+        entries.problems.push_back({.source = entry ? entry->source : file,
+                                    .line = entry ? entry->line : 0,
+                                    .key = key,
+                                    .value = settings.text(key) + (entry ? "" : " (default)"),
+                                    .fault = {},
+                                    .allowed = result.refusal,
+                                    .remedy = {}});
+    return {std::move(result.grains), {file, {}}, std::move(result.notes)};
+}
+
+CaseProblem missing_file(const CaseEntries& entries, const std::string& key,
+                         const std::filesystem::path& file) {
+    const CaseEntry* entry = entries.find(key);
+    return {.source = entry ? entry->source : file.string(),
+            .line = entry ? entry->line : 0,
+            .key = key,
+            .value = entry ? entry->value : file.filename().string(),
+            .fault = {},
+            .allowed = fmt::format("There is no file {}.", file.lexically_normal().string()),
+            .remedy = "Paths are relative to the folder of the case file."};
+}
+
+Population grains_from_file(const std::filesystem::path& file, const GrainForms& forms,
+                            CaseEntries& entries) {
+    if (!std::filesystem::is_regular_file(file)) {
+        entries.problems.push_back(missing_file(entries, "grains.file", file));
+        return {};
+    }
+    PopulationFile read = read_population_csv(file, forms);
+    for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
+    if (!read.problems.empty()) return {};  // places that could not be read would be judged as 0
+    return {std::move(read.grains), std::move(read.source), {}};
+}
+
+void check_grains(const Population& population, const Settings& settings, const GrainForms& forms,
+                  CaseEntries& entries) {
+    auto problems = check_population(population.grains, population.source, packing_box(settings),
+                                     solid_sides(settings), forms);
+    for (CaseProblem& problem : problems) entries.problems.push_back(std::move(problem));
+}
+
+// A region that was refused would only be refused again, grain by grain.
+bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
+    const CaseEntry* entry = entries.find("grains.region");
+    if (entry == nullptr || entry->is_null) return false;
+    if (!settings.has("grains.region")) return true;
+    const auto region = packing_region(settings);
+    const PackingBox box = packing_box(settings);
+    return region->width > box.width || region->height > box.height;
+}
+
+/// Grains of the given file, else of grains.file, else generated. Needs a valid box.
+Population make_population(Settings& settings, const GrainForms& forms, CaseEntries& entries,
+                           const std::filesystem::path& folder,
+                           const std::filesystem::path& given) {
+    for (const char* key : {"domain.size", "domain.left", "domain.right", "domain.bottom",
+                            "domain.top", "grains.generator", "grains.compacity", "grains.jitter",
+                            "grains.size_ratio", "random.seed"})
+        if (!settings.has(key)) return {};
+    if (region_is_refused(settings, entries)) return {};
+    const bool from_file = !given.empty() || settings.has("grains.file");
+    // A valid count is missing: the generator has nothing to go by.
+    const bool uncounted =
+        settings.text("grains.generator") == "random" && !settings.has("grains.count");
+    if (!from_file && uncounted) return {};
+    Population population =
+        !given.empty() ? grains_from_file(given, forms, entries)
+        : from_file    ? grains_from_file(folder / settings.text("grains.file"), forms, entries)
+                       : generated_grains(settings, forms, entries);
+    check_grains(population, settings, forms, entries);
+    if (settings.has("grains.file")) settings.set("grains.file", std::string(copied_grains));
+    return population;
+}
+
+/// The forms, unless the keys that they follow from were refused.
+std::optional<GrainForms> forms_of(const Settings& settings) {
+    const bool polygon = settings.has("grains.shape") && settings.text("grains.shape") == "polygon";
+    if (!settings.has("grains.shape") || (polygon && !settings.has("grains.vertices")))
+        return std::nullopt;
+    if (settings.has("grains.vertices") &&
+        !outline_fault(real_list("grains.vertices", settings.text("grains.vertices"))).empty())
+        return std::nullopt;
+    return make_grain_forms(settings);
+}
+
+std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
+                                  const GrainForms& forms, const std::filesystem::path& folder,
+                                  CaseEntries& entries) {
+    if (!settings.has("domain.walls_file")) return {};
+    const auto file = folder / settings.text("domain.walls_file");
+    if (!std::filesystem::is_regular_file(file)) {
+        entries.problems.push_back(missing_file(entries, "domain.walls_file", file));
+        return {};
+    }
+    InnerWalls read = read_walls_csv(file);
+    if (read.problems.empty())
+        read.problems = check_walls(read.walls, grains, forms, file.filename().string());
+    for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
+    settings.set("domain.walls_file", std::string(copied_walls));
+    return std::move(read.walls);
+}
+
+Quaternion turned(double angle) {
+    if (angle == 0.0) return {1.0, 0.0, 0.0, 0.0};
+    return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
+}
+
+std::vector<GrainState> grain_states(const Packing& grains, const Settings& settings,
+                                     const Scales& scales) {
+    std::vector<GrainState> states;
+    for (const PlacedGrain& grain : grains) {
+        GrainState state;
+        state.id = grain.id;
+        state.shape = grain.shape;
+        state.orientation = turned(grain.angle);
+        state.radius = grain.radius * scales.diameter;
+        state.density = settings.real("grains.density_ratio") * scales.fluid_density;
+        state.position = {grain.x * scales.diameter, grain.y * scales.diameter, 0.0};
+        states.push_back(state);
+    }
+    return states;
+}
+
+double height_of(const Packing& grains) {
+    double height = 0.0;
+    for (const PlacedGrain& grain : grains) height = std::max(height, grain.y + grain.radius);
+    return height;
+}
+
+/// What molecular dynamics takes its contacts and sub-steps from.
+void set_soft_contact(Settings& settings, const Packing& grains) {
+    if (settings.text("grains.adapter") != "yade-md") return;
+    const SoftContact contact = soft_contact(settings, height_of(grains));
+    settings.set("run.md_frequency", contact.frequency);
+    settings.set("run.md_damping", contact.damping);
+    settings.set("run.md_substeps", contact.substeps);
+}
+
+ResolvedCase finish(Settings settings, Population population, std::vector<InnerWall> walls,
+                    const GrainForms& forms) {
+    ResolvedCase result;
+    result.scales = make_scales(settings);
+    result.grains_csv = population_csv(population.grains, forms);
+    result.walls_csv = walls.empty() ? "" : walls_csv(walls);
+    result.yaml =
+        resolved_text(settings, population.grains.size(), result.grains_csv, result.walls_csv);
+    result.notes = std::move(population.notes);
+    for (const std::string& note : forms.notes) result.notes.push_back(note);
+    for (std::string& note : rule_notes(settings)) result.notes.push_back(std::move(note));
+    result.shapes = used_shapes(population.grains, forms);
+    result.population = grain_states(population.grains, settings, result.scales);
+    set_run_values(settings, result.scales);
+    settings.set("run.walls",
+                 walls_setting(walls, result.scales, settings.real("contact.friction")));
+    set_soft_contact(settings, population.grains);
+    result.packing = std::move(population.grains);
+    settings.set("run.hash", case_hash(result.yaml));
+    result.settings = std::move(settings);
+    return result;
+}
+
+std::string file_text(const std::filesystem::path& file) {
+    std::ifstream input(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(input), {}};
+}
+
+ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
+                     const std::filesystem::path& given_grains) {
+    if (entries.entries.empty() && !entries.problems.empty())
+        throw CaseRefused(std::move(entries.problems));
+    Settings settings = check_keys(entries);
+    check_rules(settings, entries);
+    const std::optional<GrainForms> forms = forms_of(settings);
+    if (!forms) throw CaseRefused(std::move(entries.problems));
+    Population population = make_population(settings, *forms, entries, folder, given_grains);
+    std::vector<InnerWall> walls = make_walls(settings, population.grains, *forms, folder, entries);
+    if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
+    return finish(std::move(settings), std::move(population), std::move(walls), *forms);
+}
+
+}  // namespace
+
+ResolvedCase load_case(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+    ResolvedCase result = resolve(read_case_entries(file, overrides), file.parent_path(), {});
+    result.name = file.stem().string();
+    return result;
+}
+
+ResolvedCase load_run_folder(const std::filesystem::path& folder) {
+    const RunFolder paths{folder};
+    ResolvedCase result =
+        resolve(read_case_entries(paths.resolved_case(), {}), folder, paths.initial_grains());
+    result.name = std::filesystem::absolute(folder).lexically_normal().filename().string();
+    // Every program of the job hashes the file itself, which may have been edited by hand.
+    result.settings.set("run.hash", case_hash(file_text(paths.resolved_case())));
+    return result;
+}
+
+}  // namespace turbidite

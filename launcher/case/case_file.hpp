@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// From a case file (YAML) to the resolved case: every key with its value, defaults filled in, the
+// grains placed, the run's physical values. Anything wrong is collected and thrown together
+// (CaseRefused, exit code 2).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+#include "coupler/protocol/settings.hpp"
+#include "launcher/case/case_error.hpp"
+#include "launcher/case/packing.hpp"
+#include "launcher/case/scales.hpp"
+
+namespace turbidite {
+
+struct ResolvedCase {
+    std::string name;                    ///< file name without its ending; names the run folder
+    Settings settings;                   ///< all keys and the run.* values, run.hash included
+    std::vector<GrainState> population;  ///< at rest, run units, in the order of the packing
+    ShapeTable shapes;                   ///< GrainState::shape indexes it
+    Packing packing;                     ///< the same grains in D
+    std::string grains_csv;              ///< the same grains as a grains file
+    std::string walls_csv;               ///< walls inside the box; empty when there are none
+    std::string yaml;                    ///< resolved case; loads to itself
+    std::vector<std::string> notes;      ///< what the user should know, one sentence each
+    Scales scales;
+};
+
+/// Overrides are the arguments of --set, `key=value` with the value in YAML.
+ResolvedCase load_case(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides = {});
+
+/// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: what `turbidite run` prepared.
+ResolvedCase load_run_folder(const std::filesystem::path& folder);
+
+}  // namespace turbidite

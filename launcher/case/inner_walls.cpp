@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/inner_walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "launcher/case/csv_table.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double shortest = 1e-6;          // [D]
+constexpr std::size_t most_problems = 10;  // a wall through a packing cuts many grains
+
+const CsvForm& csv_form() {
+    static const CsvForm form = {
+        {"id", "x1", "y1", "x2", "y2", "vx", "vy", "spin", "px", "py", "friction"},
+        {"id", "x1", "y1", "x2", "y2"},
+        "The first line must read id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction]; lengths in D, "
+        "velocities in u_c, spin in 1/t_c.",
+        "wall"};
+    return form;
+}
+
+/// The number that a column stands for.
+double* number_of(InnerWall& wall, const std::string& column) {
+    const std::map<std::string, double*> numbers = {
+        {"x1", &wall.from[0]}, {"y1", &wall.from[1]},     {"x2", &wall.to[0]},
+        {"y2", &wall.to[1]},   {"vx", &wall.velocity[0]}, {"vy", &wall.velocity[1]},
+        {"spin", &wall.spin}};
+    if (const auto at = numbers.find(column); at != numbers.end()) return at->second;
+    if (column == "friction") return &wall.friction.emplace();
+    if (!wall.pivot) wall.pivot.emplace();
+    return &(*wall.pivot)[column == "px" ? 0 : 1];
+}
+
+void check_wall(CsvTable& table, int line, const InnerWall& wall) {
+    const double length = std::hypot(wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]);
+    if (!(length > shortest))
+        table.refuse(line, fmt::format("wall {} has length {:.4g}", wall.id, length),
+                     "Its ends must be apart.", "Move one of them.");
+    if (wall.friction && !(*wall.friction >= 0.0))
+        table.refuse(line, fmt::format("wall {}: friction = {}", wall.id, *wall.friction),
+                     "A friction coefficient must be zero or positive.",
+                     "Use 0 for a smooth wall.");
+}
+
+InnerWall wall_of(CsvTable& table, const CsvTable::Row& row) {
+    InnerWall wall;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const std::string &column = table.columns[i], &text = row.fields[i];
+        if (column == "id") {
+            wall.id = whole_number(table, row.line, column, text).value_or(0);
+            continue;
+        }
+        const auto number = finite_number(table, row.line, column, text, "Give a number.");
+        *number_of(wall, column) = number.value_or(0.0);
+    }
+    return wall;
+}
+
+/// Columns that mean something only together.
+void check_together(CsvTable& table, const char* one, const char* other) {
+    const auto& columns = table.columns;
+    const auto has = [&](const char* name) {
+        return std::find(columns.begin(), columns.end(), name) != columns.end();
+    };
+    if (has(one) == has(other)) return;
+    table.refuse(1, fmt::format("of the columns {} and {} only one is there", one, other),
+                 csv_form().sentence, "Add the other.");
+}
+
+Point2 middle(const InnerWall& wall) {
+    return {0.5 * (wall.from[0] + wall.to[0]), 0.5 * (wall.from[1] + wall.to[1])};
+}
+
+}  // namespace
+
+InnerWalls read_walls_csv(const std::filesystem::path& file) {
+    CsvTable table = read_csv(file, csv_form());
+    if (!table.columns.empty()) {
+        check_together(table, "vx", "vy");
+        check_together(table, "px", "py");
+    }
+    InnerWalls result;
+    std::map<GrainId, int> first;
+    for (const CsvTable::Row& row : table.rows) {
+        const std::size_t before = table.problems.size();
+        const InnerWall wall = wall_of(table, row);
+        if (table.problems.size() == before) check_wall(table, row.line, wall);
+        if (const auto [at, fresh] = first.emplace(wall.id, row.line); !fresh)
+            table.refuse(row.line, fmt::format("wall id {} is given twice", wall.id),
+                         fmt::format("It is already in line {}.", at->second),
+                         "Renumber one of them.");
+        result.walls.push_back(wall);
+    }
+    result.problems = std::move(table.problems);
+    return result;
+}
+
+std::string walls_csv(const std::vector<InnerWall>& walls) {
+    const bool with_friction = std::all_of(walls.begin(), walls.end(),
+                                           [](const InnerWall& w) { return bool(w.friction); });
+    std::string text = "id,x1,y1,x2,y2,vx,vy,spin,px,py";
+    text += with_friction ? ",friction\n" : "\n";
+    for (const InnerWall& wall : walls) {
+        const Point2 pivot = wall.pivot.value_or(middle(wall));
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", wall.id, wall.from[0], wall.from[1],
+                            wall.to[0], wall.to[1], wall.velocity[0], wall.velocity[1], wall.spin,
+                            pivot[0], pivot[1]);
+        text += with_friction ? fmt::format(",{}\n", *wall.friction) : "\n";
+    }
+    return text;
+}
+
+std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
+                                     const GrainForms& forms, const std::string& source) {
+    std::vector<CaseProblem> problems;
+    for (const InnerWall& wall : walls) {
+        const PlacedOutline plate{middle(wall), 0.0, {wall.from, wall.to}};
+        for (const PlacedGrain& grain : grains) {
+            const double gap = surface_gap(plate, placed_outline(grain, forms));
+            if (gap >= -touching_tolerance || problems.size() >= most_problems) continue;
+            problems.push_back(
+                {.source = source,
+                 .line = 0,
+                 .key = {},
+                 .value = {},
+                 .fault = fmt::format("wall {} cuts grain {} at ({}, {}) by {:.4g} D", wall.id,
+                                      grain.id, grain.x, grain.y, -gap),
+                 .allowed = "Grains may touch a wall but not overlap with it.",
+                 .remedy = "Move the wall or the grain."});
+        }
+    }
+    return problems;
+}
+
+std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
+                          double friction) {
+    const double d = scales.diameter, u = scales.velocity;
+    std::string text;
+    for (const InnerWall& wall : walls) {
+        const Point2 pivot = wall.pivot.value_or(middle(wall));
+        text += fmt::format("{}{} {} {} {} {} {} {} {} {} {} {}", text.empty() ? "" : ";", wall.id,
+                            wall.from[0] * d, wall.from[1] * d, wall.to[0] * d, wall.to[1] * d,
+                            wall.velocity[0] * u, wall.velocity[1] * u, wall.spin / scales.time,
+                            pivot[0] * d, pivot[1] * d, wall.friction.value_or(friction));
+    }
+    return text;
+}
+
+}  // namespace turbidite

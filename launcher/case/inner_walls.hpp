@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Walls inside the box, from a CSV file (`domain.walls_file`):
+//
+//     id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction]
+//
+// Each is a thin plate from (x1, y1) to (x2, y2) that holds grains on both sides. It follows a
+// prescribed motion: its pivot moves at (vx, vy), and it turns about the pivot. Lengths in D,
+// velocities in u_c, spin in 1/t_c; at rest, pivot in the middle and contact.friction unless given.
+// A plate that moves along itself and is long enough is a belt.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/case/population.hpp"
+#include "launcher/case/scales.hpp"
+
+namespace turbidite {
+
+struct InnerWall {
+    GrainId id = 0;
+    Point2 from{}, to{};             ///< [D]
+    Point2 velocity{};               ///< [u_c]
+    double spin = 0.0;               ///< [1/t_c]
+    std::optional<Point2> pivot;     ///< [D]
+    std::optional<double> friction;  ///< mu
+};
+
+struct InnerWalls {
+    std::vector<InnerWall> walls;
+    std::vector<CaseProblem> problems;
+};
+InnerWalls read_walls_csv(const std::filesystem::path& file);
+
+/// Every column; reads back to the same walls.
+std::string walls_csv(const std::vector<InnerWall>& walls);
+
+/// Grains that a plate cuts at the start, by how much.
+std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
+                                     const GrainForms& forms, const std::string& source);
+
+/// The value of `run.walls`: walls separated by `;`, each
+/// `id x1 y1 x2 y2 vx vy spin px py friction` in the run's units.
+std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
+                          double friction);
+
+}  // namespace turbidite

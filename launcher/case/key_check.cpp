@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/key_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "launcher/case/key_value.hpp"
+#include "launcher/case/keys.hpp"
+#include "launcher/case/nearest_name.hpp"
+
+namespace turbidite {
+namespace {
+
+/// The value in its normal form, or nothing when it is refused (the problem is filled in).
+using Checked = std::optional<std::string>;
+
+CaseProblem problem_of(const CaseEntry& entry, const KeySpec& key) {
+    return {.source = entry.source,
+            .line = entry.line,
+            .key = entry.key,
+            .value = entry.value,
+            .fault = {},
+            .allowed = allowed_values(key),
+            .remedy = key.remedy};
+}
+
+Checked check_choice(const KeySpec& key, const std::string& value, CaseProblem& problem) {
+    std::vector<std::string> available;
+    for (const Choice& choice : key.choices) {
+        if (choice.available) available.push_back(choice.name);
+        if (choice.name != value) continue;
+        if (choice.available) return value;
+        problem.allowed = value + " is not available in this version. " + problem.allowed;
+    }
+    problem.remedy = fmt::format("Use {}.", nearest_name(value, available));
+    return std::nullopt;
+}
+
+Checked check_real(const KeySpec& key, const std::string& value, CaseProblem& problem) {
+    const auto number = parse_real(value);
+    if (number && std::isfinite(*number) && key.range.contains(*number)) return real_text(*number);
+    if (!number) problem.allowed = fmt::format("\"{}\" is not a number. ", value) + problem.allowed;
+    if (number && !std::isfinite(*number))
+        problem.allowed = "The value must be finite. " + problem.allowed;
+    return std::nullopt;
+}
+
+Checked check_integer(const KeySpec& key, const std::string& value, CaseProblem& problem) {
+    const auto number = parse_integer(value);
+    if (number && key.range.contains(static_cast<double>(*number))) return std::to_string(*number);
+    if (!number)
+        problem.allowed = fmt::format("\"{}\" is not a whole number. ", value) + problem.allowed;
+    return std::nullopt;
+}
+
+Checked check_list(const KeySpec& key, const CaseEntry& entry) {
+    if (key.entries > 0 && static_cast<int>(entry.items.size()) != key.entries) return std::nullopt;
+    std::vector<double> values;
+    for (const std::string& item : entry.items) {
+        const auto number = parse_real(item);
+        if (!number || !std::isfinite(*number) || !key.range.contains(*number)) return std::nullopt;
+        values.push_back(*number);
+    }
+    return list_text(values);
+}
+
+Checked check_flag(const std::string& value) {
+    const auto flag = parse_flag(value);
+    return flag ? Checked(*flag ? "true" : "false") : std::nullopt;
+}
+
+Checked check_value(const KeySpec& key, const CaseEntry& entry, CaseProblem& problem) {
+    if (key.type == KeyType::real_list) return check_list(key, entry);
+    if (entry.is_list) {
+        problem.allowed = fmt::format("A list cannot stand here. {}", problem.allowed);
+        return std::nullopt;
+    }
+    switch (key.type) {
+        case KeyType::choice:
+            return check_choice(key, entry.value, problem);
+        case KeyType::real:
+            return check_real(key, entry.value, problem);
+        case KeyType::integer:
+            return check_integer(key, entry.value, problem);
+        case KeyType::flag:
+            return check_flag(entry.value);
+        default:
+            return entry.value.empty() ? std::nullopt : Checked(entry.value);
+    }
+}
+
+bool is_group(const std::string& name) {
+    const auto names = key_names();
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& key) { return group_of(key) == name; });
+}
+
+CaseProblem unknown_key(const CaseEntry& entry) {
+    CaseProblem problem{.source = entry.source,
+                        .line = entry.line,
+                        .key = entry.key,
+                        .value = entry.value,
+                        .fault = "is unknown",
+                        .allowed = {},
+                        .remedy = "`turbidite keys` lists them all."};
+    if (is_group(entry.key)) {
+        problem.fault = "is a group of keys, not a key";
+        problem.allowed = "Its keys stand below it, indented.";
+        return problem;
+    }
+    const KeySpec& nearest = *find_key(nearest_name(entry.key, key_names()));
+    problem.allowed = fmt::format("Did you mean {}? ({})", nearest.name, nearest.help);
+    return problem;
+}
+
+void check_entry(const CaseEntry& entry, Settings& settings, std::vector<CaseProblem>& problems) {
+    const KeySpec* key = find_key(entry.key);
+    if (key == nullptr) return problems.push_back(unknown_key(entry));
+    if (entry.is_null && key->need == Need::optional) return;
+    CaseProblem problem = problem_of(entry, *key);
+    if (entry.is_null) {
+        problem.fault = "has no value";
+        return problems.push_back(problem);
+    }
+    if (!key->available) {
+        problem.allowed = "This key is not available in this version.";
+        problem.remedy = "Remove it.";
+        return problems.push_back(problem);
+    }
+    const Checked value = check_value(*key, entry, problem);
+    if (value)
+        settings.set(entry.key, *value);
+    else
+        problems.push_back(problem);
+}
+
+void fill_defaults(const CaseEntries& entries, Settings& settings) {
+    for (const KeySpec& key : key_table())
+        if (key.need == Need::fallback && entries.find(key.name) == nullptr)
+            settings.set(key.name, key.fallback);
+}
+
+CaseProblem missing_key(const std::string& source, const KeySpec& key) {
+    const std::string reason = key.when.empty() ? "" : fmt::format(" (needed with {})", key.when);
+    return {.source = source,
+            .line = 0,
+            .key = key.name,
+            .value = {},
+            .fault = "is missing" + reason,
+            .allowed = allowed_values(key),
+            .remedy = key.remedy.empty() ? fmt::format("Add it: {}.", key.help) : key.remedy};
+}
+
+bool is_needed(const KeySpec& key, const Settings& settings) {
+    if (key.need == Need::required) return true;
+    return key.need == Need::conditional && key.required(settings);
+}
+
+}  // namespace
+
+Settings check_keys(CaseEntries& entries) {
+    Settings settings;
+    const std::string source = entries.entries.empty() ? "" : entries.entries.front().source;
+    for (const CaseEntry& entry : entries.entries) check_entry(entry, settings, entries.problems);
+    fill_defaults(entries, settings);
+    for (const KeySpec& key : key_table())
+        if (is_needed(key, settings) && entries.find(key.name) == nullptr)
+            entries.problems.push_back(missing_key(source, key));
+    return settings;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/nearest_name.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace turbidite {
+namespace {
+
+std::string last_part(const std::string& name) {
+    return name.substr(name.rfind('.') + 1);
+}
+
+// A name without its group is compared with the last parts, at the price of one edit.
+std::size_t distance(const std::string& name, const std::string& known) {
+    const std::size_t whole = edit_distance(name, known);
+    if (name.find('.') != std::string::npos) return whole;
+    return std::min(whole, edit_distance(name, last_part(known)) + 1);
+}
+
+}  // namespace
+
+std::size_t edit_distance(const std::string& from, const std::string& to) {
+    const std::size_t n = to.size();
+    std::vector<std::size_t> before(n + 1), last(n + 1), now(n + 1);
+    for (std::size_t j = 0; j <= n; ++j) last[j] = j;
+    for (std::size_t i = 1; i <= from.size(); ++i) {
+        now[0] = i;
+        for (std::size_t j = 1; j <= n; ++j) {
+            const std::size_t replace = last[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
+            now[j] = std::min({last[j] + 1, now[j - 1] + 1, replace});
+            if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1])
+                now[j] = std::min(now[j], before[j - 2] + 1);
+        }
+        before.swap(last);
+        last.swap(now);
+    }
+    return last[n];
+}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t smallest = std::numeric_limits<std::size_t>::max();
+    for (const std::string& candidate : known) {
+        const std::size_t edits = distance(name, candidate);
+        if (edits >= smallest) continue;
+        smallest = edits;
+        best = candidate;
+    }
+    return best;
+}
+
+}  // namespace turbidite

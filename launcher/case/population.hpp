@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle]`, lengths in D, angles in rad;
+// `grains.shape` and its radius unless given), and what must hold for any population: ids once,
+// radii positive, nobody outside, nobody overlapping, all by true shapes.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "launcher/case/case_error.hpp"
+#include "launcher/case/grain_forms.hpp"
+#include "launcher/case/packing.hpp"
+
+namespace turbidite {
+
+/// `source` and `line(i)` say where grain i came from, in error texts.
+struct PopulationSource {
+    std::string name;        ///< file name; for generators, the case file
+    std::vector<int> lines;  ///< line of each grain; empty for generators
+};
+
+struct PopulationFile {
+    Packing grains;
+    PopulationSource source;
+    std::vector<CaseProblem> problems;
+};
+PopulationFile read_population_csv(const std::filesystem::path& file,
+                                   const GrainForms& forms = plain_discs());
+
+/// Numbers round-trip exactly. Columns for shape and angle only where a grain is not round.
+std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs());
+
+/// A side that is a wall keeps the whole grain inside; of the others the centre must be inside.
+struct SolidSides {
+    bool left = true, right = true, bottom = true, top = true;
+};
+
+std::vector<CaseProblem> check_population(const Packing& grains, const PopulationSource& source,
+                                          const PackingBox& box, const SolidSides& walls,
+                                          const GrainForms& forms = plain_discs());
+
+}  // namespace turbidite

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/resolved_text.hpp"
+
+#include <fmt/format.h>
+
+#include "coupler/protocol/case_hash.hpp"
+#include "launcher/case/keys.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result + "\"";
+}
+
+std::string value_text(const KeySpec& key, const Settings& settings) {
+    if (!settings.has(key.name)) return "~";
+    const std::string& value = settings.text(key.name);
+    return key.type == KeyType::text ? quoted(value) : value;
+}
+
+std::string line_of(const KeySpec& key, const Settings& settings) {
+    const std::string group = group_of(key.name);
+    const std::string name = group.empty() ? key.name : "  " + key.name.substr(group.size() + 1);
+    const std::string unit = key.unit.empty() ? "" : "  # " + key.unit;
+    return fmt::format("{}: {}{}\n", name, value_text(key, settings), unit);
+}
+
+// `~` is no value for keys that need one only in other circumstances, so they are left out.
+bool is_written(const KeySpec& key, const Settings& settings) {
+    if (!key.available) return false;
+    return settings.has(key.name) || key.need == Need::optional;
+}
+
+}  // namespace
+
+std::string resolved_text(const Settings& settings, std::size_t grains,
+                          const std::string& grains_csv, const std::string& walls_csv) {
+    std::string text = fmt::format(
+        "# Resolved case: every key, defaults filled in.\n# {} grains, fingerprint {}\n", grains,
+        case_hash(grains_csv));
+    if (!walls_csv.empty())
+        text += fmt::format("# Walls inside the box, fingerprint {}\n", case_hash(walls_csv));
+    std::string group;
+    for (const KeySpec& key : key_table()) {
+        if (!is_written(key, settings)) continue;
+        if (group_of(key.name) != group) text += group_of(key.name) + ":\n";
+        group = group_of(key.name);
+        text += line_of(key, settings);
+    }
+    return text;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "launcher/case/key_value.hpp"
+
+namespace turbidite {
+namespace {
+
+double reynolds_velocity_viscosity(const Settings& settings, Scales& scales) {
+    if (!settings.has("fluid.reynolds")) return 0.0;
+    scales.reynolds = settings.real("fluid.reynolds");
+    return scales.velocity * scales.diameter / scales.reynolds;
+}
+
+Scales avalanche(const Settings& settings) {
+    Scales scales{.kind = "avalanche"};
+    scales.viscosity = reynolds_velocity_viscosity(settings, scales);
+    return scales;
+}
+
+Scales sedimentation(const Settings& settings) {
+    Scales scales{.kind = "sedimentation"};
+    const double unit_gravity = sedimentation_velocity(
+        1.0, 1.0, settings.real("grains.density_ratio"), settings.real("scales.compacity"));
+    scales.gravity = 1.0 / (unit_gravity * unit_gravity);
+    scales.viscosity = reynolds_velocity_viscosity(settings, scales);
+    return scales;
+}
+
+Scales physical(const Settings& settings) {
+    Scales scales{.kind = "physical"};
+    scales.diameter = settings.real("scales.diameter");
+    scales.gravity = settings.real("scales.gravity");
+    scales.fluid_density = settings.real("scales.fluid_density");
+    scales.viscosity = settings.real("scales.viscosity");
+    scales.velocity = settings.has("scales.velocity")
+                          ? settings.real("scales.velocity")
+                          : sedimentation_velocity(scales.diameter, scales.gravity,
+                                                   settings.real("grains.density_ratio"),
+                                                   settings.real("scales.compacity"));
+    scales.time = scales.diameter / scales.velocity;
+    scales.reynolds = scales.velocity * scales.diameter / scales.viscosity;
+    return scales;
+}
+
+void set_run_times(Settings& settings, double time_scale) {
+    const double step = settings.real("time.step");
+    const auto windows = std::llround(settings.real("time.end") / step);
+    // An interval beyond the end means the end.
+    const double interval = std::min(settings.real("output.interval"), settings.real("time.end"));
+    const auto every = std::max(1LL, std::llround(interval / step));
+    settings.set("run.step", step * time_scale);
+    settings.set("run.windows", std::int64_t{windows});
+    settings.set("run.output_every", std::int64_t{every});
+}
+
+}  // namespace
+
+double sedimentation_velocity(double diameter, double gravity, double density_ratio,
+                              double compacity) {
+    const double fall = std::numbers::pi * diameter / 2.0 * (density_ratio - 1.0) * gravity;
+    return std::sqrt(fall) * std::pow(1.0 - compacity, 5);
+}
+
+Scales make_scales(const Settings& settings) {
+    const std::string& kind = settings.text("scales.kind");
+    if (kind == "avalanche") return avalanche(settings);
+    if (kind == "sedimentation") return sedimentation(settings);
+    return physical(settings);
+}
+
+void set_run_values(Settings& settings, const Scales& scales) {
+    const bool wet = settings.flag("fluid.enabled");
+    const std::vector<double> size = real_list("domain.size", settings.text("domain.size"));
+    settings.set("run.diameter", scales.diameter);
+    settings.set("run.velocity_scale", scales.velocity);
+    settings.set("run.time_scale", scales.time);
+    settings.set("run.gravity", scales.gravity);
+    // m g of a disc of diameter D, per unit length, in air: what forces of contact laws are given
+    // in.
+    settings.set("run.grain_weight", std::numbers::pi / 4.0 * scales.diameter * scales.diameter *
+                                         settings.real("grains.density_ratio") *
+                                         scales.fluid_density * scales.gravity);
+    settings.set("run.fluid_density", wet ? scales.fluid_density : 0.0);
+    settings.set("run.viscosity", wet ? scales.viscosity : 0.0);
+    settings.set("run.size_x", size.at(0) * scales.diameter);
+    settings.set("run.size_y", size.at(1) * scales.diameter);
+    settings.set("run.size_z", scales.diameter);
+    set_run_times(settings, scales.time);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/commands/case_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "launcher/case/key_value.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string fluid_line(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    if (!settings.flag("fluid.enabled")) return "  fluid: none\n";
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    const double cells = settings.real("fluid.cells_per_diameter");
+    return fmt::format("  fluid: {:.0f} x {:.0f} cells, Re = {:.4g}\n", size[0] * cells,
+                       size[1] * cells, resolved.scales.reynolds);
+}
+
+std::string md_line(const Settings& settings) {
+    if (!settings.has("run.md_substeps")) return "";
+    const double frequency = settings.real("run.md_frequency");
+    const double fall = settings.real("run.gravity") / settings.real("run.diameter");
+    return fmt::format(
+        "  molecular dynamics: stiffness {:.3g} m g/D, damping {:.3g} of critical, contact time "
+        "{:.3g} t_c, {} sub-steps per window\n",
+        frequency * frequency / (2.0 * fall), settings.real("run.md_damping"),
+        std::numbers::pi / frequency / settings.real("run.time_scale"),
+        settings.integer("run.md_substeps"));
+}
+
+}  // namespace
+
+std::string case_summary(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    std::string text =
+        fmt::format("{}: {} grains ({}) in {} D\n", resolved.name, resolved.population.size(),
+                    settings.text("grains.adapter"), settings.text("domain.size"));
+    text += fluid_line(resolved);
+    text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
+                        settings.integer("run.windows"), settings.text("time.step"),
+                        resolved.scales.time, resolved.scales.velocity);
+    text += md_line(settings);
+    for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
+    return text;
+}
+
+}  // namespace turbidite

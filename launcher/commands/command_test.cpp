@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite test: ctest in the folder this program was built in.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "coupler/protocol/failure.hpp"
+#include "launcher/commands/command.hpp"
+#include "launcher/job/launch_line.hpp"
+
+namespace turbidite {
+namespace {
+
+// Tests that start MPI jobs carry one of these labels.
+constexpr auto slow_labels = "system|physics|protocol";
+
+int test(bool unit_only) {
+    std::vector<std::string> line{"ctest", "--test-dir", find_programs().build(),
+                                  "--output-on-failure"};
+    if (unit_only) line.insert(line.end(), {"-LE", slow_labels});
+    std::fflush(nullptr);
+    const bool passed = std::system(shell_line(line).c_str()) == 0;
+    return static_cast<int>(passed ? ExitCode::done : ExitCode::tests_failed);
+}
+
+}  // namespace
+
+CommandAction declare_test(CLI::App& app) {
+    const auto unit_only = std::make_shared<bool>(false);
+    app.add_flag("--unit", *unit_only, "leave out the tests that run whole jobs");
+    return [unit_only] { return test(*unit_only); };
+}
+
+}  // namespace turbidite

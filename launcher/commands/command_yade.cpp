@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite yade SCRIPT: YADE with the contact engine in reach of its scripts (docs/yade.md).
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/failure.hpp"
+#include "launcher/commands/command.hpp"
+#include "launcher/job/programs.hpp"
+
+namespace turbidite {
+namespace {
+
+struct YadeOptions {
+    std::string script;
+    int threads = 1;
+    bool interactive = false;
+    std::vector<std::string> arguments;  ///< of the script
+};
+
+void show_packages_to_python(const std::string& folder) {
+    const char* before = std::getenv("PYTHONPATH");
+    const std::string path = before && *before ? folder + ":" + before : folder;
+    setenv("PYTHONPATH", path.c_str(), 1);
+}
+
+// Without -x an error opens a prompt, and a script that nobody watches waits for ever.
+std::vector<std::string> command_line(const YadeOptions& options, const Programs& programs) {
+    std::vector<std::string> line{programs.yade(), "-j", std::to_string(options.threads)};
+    if (!options.interactive) line.insert(line.end(), {"-n", "-x"});
+    line.push_back(options.script);
+    line.insert(line.end(), options.arguments.begin(), options.arguments.end());
+    return line;
+}
+
+/// Returns only when YADE cannot be started.
+int run_yade(const YadeOptions& options) {
+    const Programs programs = find_programs();
+    show_packages_to_python(programs.yade_folder());
+    std::vector<std::string> line = command_line(options, programs);
+    std::vector<char*> words;
+    for (std::string& word : line) words.push_back(word.data());
+    words.push_back(nullptr);
+    execv(words[0], words.data());
+    throw Failure(ExitCode::participant_failed, fmt::format("turbidite: {} cannot be started: {}",
+                                                            words[0], std::strerror(errno)));
+}
+
+}  // namespace
+
+CommandAction declare_yade(CLI::App& app) {
+    const auto options = std::make_shared<YadeOptions>();
+    app.add_option("SCRIPT", options->script, "Python script or saved scene of YADE")
+        ->required()
+        ->check(CLI::ExistingFile);
+    app.add_option("-j,--threads", options->threads, "threads of YADE's own engines")
+        ->check(CLI::PositiveNumber);
+    app.add_flag("--interactive", options->interactive,
+                 "with YADE's prompt, and its 3-D view where there is a display");
+    app.prefix_command();  // what follows the script is the script's
+    return [options, &app] {
+        options->arguments = app.remaining();
+        return run_yade(*options);
+    };
+}
+
+}  // namespace turbidite

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/job.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr int cannot_start = 127;
+constexpr int grace_seconds = 5;  // between SIGTERM, which mpirun passes on, and SIGKILL
+
+sigset_t watched_signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&set, signal);
+    return set;
+}
+
+/// Signals wait in a queue while the job runs, so none is lost between two looks at it.
+class BlockedSignals {
+ public:
+    BlockedSignals() : set_(watched_signals()) { sigprocmask(SIG_BLOCK, &set_, &old_); }
+    ~BlockedSignals() { sigprocmask(SIG_SETMASK, &old_, nullptr); }
+    BlockedSignals(const BlockedSignals&) = delete;
+    BlockedSignals& operator=(const BlockedSignals&) = delete;
+
+    const sigset_t& set() const { return set_; }
+    const sigset_t& old() const { return old_; }
+
+ private:
+    sigset_t set_;
+    sigset_t old_;
+};
+
+[[noreturn]] void become(const JobOrder& order, const sigset_t& mask, pid_t parent) {
+    setsid();
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // a job must not outlive a killed `turbidite`
+    if (getppid() != parent) _exit(cannot_start);
+    sigprocmask(SIG_SETMASK, &mask, nullptr);
+    const int log = open(order.error_log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (log >= 0) dup2(log, STDERR_FILENO);
+    const int nothing = open("/dev/null", O_RDONLY);
+    if (nothing >= 0) dup2(nothing, STDIN_FILENO);
+    std::vector<char*> arguments;
+    for (const std::string& argument : order.arguments)
+        arguments.push_back(const_cast<char*>(argument.c_str()));
+    arguments.push_back(nullptr);
+    execvp(arguments[0], arguments.data());
+    _exit(cannot_start);
+}
+
+/// Session of a process from /proc/PID/stat: the fourth field after the name in parentheses.
+pid_t session_of(const std::filesystem::path& process) {
+    std::ifstream file(process / "stat");
+    std::string text;
+    std::getline(file, text, '\0');
+    const auto end_of_name = text.rfind(')');
+    if (end_of_name == std::string::npos) return 0;
+    char state = 0;
+    int parent = 0, group = 0, session = 0;
+    std::sscanf(text.c_str() + end_of_name + 1, " %c %d %d %d", &state, &parent, &group, &session);
+    return session;
+}
+
+// mpirun gives every rank a process group of its own, but they stay in its session.
+void kill_session(pid_t session) {
+    std::error_code ignored;  // processes end while we look
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
+        const std::string name = entry.path().filename();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        if (session_of(entry.path()) == session) kill(std::stoi(name), SIGKILL);
+    }
+}
+
+// Looks without collecting: until then the number of the session belongs to nobody else.
+bool has_ended(pid_t child) {
+    siginfo_t info{};
+    return waitid(P_PID, child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
+}
+
+void end_session(pid_t child, const BlockedSignals& signals) {
+    kill(-child, SIGTERM);
+    const std::time_t deadline = std::time(nullptr) + grace_seconds;
+    const timespec tick{0, 100'000'000};
+    while (!has_ended(child) && std::time(nullptr) < deadline)
+        sigtimedwait(&signals.set(), nullptr, &tick);
+}
+
+int code_of(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) {
+    JobEnd end;
+    while (!has_ended(child)) {
+        const int signal = sigwaitinfo(&signals.set(), nullptr);
+        if (signal == SIGCHLD || signal < 0) continue;
+        if (end.signal == 0) {
+            end.signal = signal;
+            order.request_stop(signal);
+            continue;
+        }
+        end.killed = true;
+        end_session(child, signals);
+        break;
+    }
+    kill_session(child);  // an mpirun that was killed leaves its ranks behind
+    int status = 0;
+    waitpid(child, &status, 0);
+    end.status = code_of(status);
+    return end;
+}
+
+}  // namespace
+
+JobEnd run_job(const JobOrder& order) {
+    const BlockedSignals signals;
+    const pid_t self = getpid();
+    const pid_t child = fork();
+    if (child < 0)
+        throw Failure(ExitCode::participant_failed,
+                      "cannot start " + order.arguments.at(0) + ": " + std::strerror(errno));
+    if (child == 0) become(order, signals.old(), self);
+    const JobEnd end = watch(child, order, signals);
+    if (end.status == cannot_start && !end.killed)
+        throw Failure(ExitCode::participant_failed,
+                      order.arguments.at(0) + " cannot be started: is it installed?");
+    return end;
+}
+
+}  // namespace turbidite

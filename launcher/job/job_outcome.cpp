@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/job_outcome.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <deque>
+#include <fstream>
+#include <regex>
+#include <utility>
+#include <vector>
+
+#include "launcher/job/run_json.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr std::size_t lines_shown = 6;
+
+std::deque<std::string> last_lines(const std::filesystem::path& file) {
+    std::ifstream input(file);
+    std::deque<std::string> lines;
+    for (std::string line; std::getline(input, line);) {
+        if (line.empty()) continue;
+        lines.push_back(line);
+        if (lines.size() > lines_shown) lines.pop_front();
+    }
+    return lines;
+}
+
+std::string tail(const RunFolder& folder, const std::filesystem::path& log) {
+    const auto lines = last_lines(log);
+    if (lines.empty()) return "";
+    std::string text =
+        fmt::format("  Last lines of {}:\n", std::filesystem::relative(log, folder.root).string());
+    for (const std::string& line : lines) text += "    " + line + "\n";
+    return text;
+}
+
+std::vector<std::filesystem::path> log_files(const RunFolder& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code gone;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.logs(), gone)) {
+        const auto& file = entry.path();
+        const bool told = file == folder.log("mpirun") || file == folder.log("blockMesh");
+        if (file.extension() == ".log" && !told) files.push_back(file);
+    }
+    std::sort(files.begin(), files.end());
+    files.insert(files.begin(), folder.log("mpirun"));
+    return files;
+}
+
+ExitCode signal_code(int signal) {
+    return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+}
+
+// mpirun passes on the exit code of the rank that ended first; of those only ours mean something.
+ExitCode code_of_status(int status) {
+    for (const ExitCode code :
+         {ExitCode::handshake_refused, ExitCode::stalled, ExitCode::physics_refused})
+        if (status == static_cast<int>(code)) return code;
+    return ExitCode::participant_failed;
+}
+
+std::string rank_name(const std::string& number, const std::vector<std::string>& ranks) {
+    const auto rank = static_cast<std::size_t>(std::stoul(number));
+    return rank < ranks.size() ? ranks[rank] : "world rank " + number;
+}
+
+/// Which program ended first, as mpirun tells it; empty when it does not.
+std::string first_to_end(const std::filesystem::path& log, const std::vector<std::string>& ranks) {
+    static const std::regex by_signal(R"(process rank (\d{1,9}) .* exited on signal (.*)\.)");
+    static const std::regex process(R"(Process name: \[\[\d+,\d+\],(\d{1,9})\])");
+    static const std::regex status(R"(Exit code: +(\d+))");
+    std::ifstream input(log);
+    std::string who;
+    std::smatch match;
+    for (std::string line; std::getline(input, line);) {
+        if (std::regex_search(line, match, by_signal))
+            return fmt::format("{} was ended by signal {}", rank_name(match[1], ranks),
+                               match[2].str());
+        if (std::regex_search(line, match, process)) who = rank_name(match[1], ranks);
+        if (!who.empty() && std::regex_search(line, match, status))
+            return fmt::format("{} ended with status {}", who, match[1].str());
+    }
+    return "";
+}
+
+/// What the coupler said last, for when the disk had no room for its record; empty without.
+std::string last_word(const std::filesystem::path& log) {
+    const std::string sign = "turbidite: ";
+    std::ifstream input(log);
+    std::string word;
+    for (std::string line; std::getline(input, line);)
+        if (line.rfind(sign, 0) == 0) word = line.substr(sign.size());
+    return word;
+}
+
+JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
+                          const std::vector<std::string>& ranks) {
+    if (end.killed) return {signal_code(end.signal), "killed on request"};
+    if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
+    const std::string word = last_word(folder.log("coupler"));
+    if (!word.empty()) return {code_of_status(end.status), word};
+    const std::string first = first_to_end(folder.log("mpirun"), ranks);
+    if (!first.empty()) return {code_of_status(end.status), first + "; look into its log"};
+    return {code_of_status(end.status),
+            fmt::format("mpirun ended with status {} without naming a program: it was killed, or a "
+                        "program of the job never started",
+                        end.status)};
+}
+
+// A word that cannot be kept is still said.
+void keep_outcome(const RunFolder& folder, nlohmann::ordered_json record, JobOutcome& outcome) {
+    try {
+        write_run_json(folder.record(), record);
+    } catch (const std::exception& error) {
+        const std::string fault = error.what();
+        if (outcome.error.find(fault) == std::string::npos) outcome.error += "; " + fault;
+    }
+}
+
+}  // namespace
+
+JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
+                          const std::vector<std::string>& ranks) {
+    auto record = read_run_json(folder.record());
+    if (const auto code = record.find("exit_code");
+        code != record.end() && code->is_number_integer())
+        return {static_cast<ExitCode>(code->get<int>()), record.value("error", std::string())};
+    JobOutcome outcome = without_a_word(folder, end, ranks);
+    record["status"] = end.signal == 0 ? "failed" : "interrupted";
+    record["exit_code"] = static_cast<int>(outcome.code);
+    record["error"] = outcome.error;
+    keep_outcome(folder, std::move(record), outcome);
+    return outcome;
+}
+
+std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
+    if (outcome.code == ExitCode::done)
+        return fmt::format(
+            "Done. Results in {}: report.html, history.csv; for ParaView "
+            "grains/grains.pvd{}.\n",
+            folder.root.string(),
+            std::filesystem::exists(folder.fluid()) ? " and fluid/fluid.foam" : "");
+    const bool asked_for =
+        outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
+    return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n",
+                       asked_for ? "Interrupted: " : "The run failed: ", outcome.error,
+                       asked_for ? "" : log_tails(folder), folder.root.string(),
+                       static_cast<int>(outcome.code));
+}
+
+std::string log_tails(const RunFolder& folder) {
+    std::string text;
+    for (const auto& log : log_files(folder)) text += tail(folder, log);
+    return text;
+}
+
+}  // namespace turbidite

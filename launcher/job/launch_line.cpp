@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/launch_line.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Arguments standalone_nscd(const Programs& programs, const std::string& run) {
+    return {programs.grains(), run};
+}
+
+// -x: a Python error ends the program instead of opening a prompt, at which the job would hang.
+Arguments yade_nscd(const Programs& programs, const std::string& run) {
+    return {programs.yade(), "-n", "-x", programs.yade_nscd(), run};
+}
+
+Arguments yade_md(const Programs& programs, const std::string& run) {
+    return {programs.yade(), "-n", "-x", programs.yade_md(), run};
+}
+
+/// Every granular adapter that can be started, by its name in `grains.adapter`.
+struct GrainsProgram {
+    const char* adapter;
+    Arguments (*command)(const Programs&, const std::string& run);
+    std::vector<std::filesystem::path> (*needs)(const Programs&);
+};
+
+const std::vector<GrainsProgram>& grains_programs() {
+    static const std::vector<GrainsProgram> table = {
+        {"yade-nscd", yade_nscd,
+         [](const Programs& p) {
+             return std::vector{p.yade(), p.yade_nscd(), p.yade_extension()};
+         }},
+        {"yade-md", yade_md,
+         [](const Programs& p) {
+             return std::vector{p.yade(), p.yade_md(), p.yade_extension()};
+         }},
+        {"standalone-nscd", standalone_nscd,
+         [](const Programs& p) { return std::vector{p.grains()}; }},
+    };
+    return table;
+}
+
+const GrainsProgram& grains_program(const std::string& adapter) {
+    for (const GrainsProgram& program : grains_programs())
+        if (adapter == program.adapter) return program;
+    throw Failure(ExitCode::bad_input,
+                  "grains.adapter = " + adapter + " has no program in this version");
+}
+
+void append(Arguments& to, const Arguments& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+std::string python_path(const LaunchSite& site) {
+    const std::string ours = site.programs.yade_folder().string();
+    return site.python.empty() ? ours : ours + ":" + site.python;
+}
+
+// mpirun exports -x to the program of the same part only, so every part repeats it.
+Arguments part(std::int64_t ranks, const LaunchSite& site, const Arguments& command) {
+    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam, "-x", "OMP_NUM_THREADS=1",
+                   "-x", "PYTHONPATH=" + python_path(site), "-n", std::to_string(ranks)};
+    append(part, command);
+    return part;
+}
+
+Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
+    Arguments part{programs.fluid(), "-case", folder.fluid()};
+    if (ranks > 1) part.push_back("-parallel");
+    return part;
+}
+
+bool is_plain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-+=./:,@%", c) != nullptr;
+}
+
+std::string shell_quoted(const std::string& text) {
+    if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+}  // namespace
+
+LaunchSite this_site() {
+    const char* openfoam = std::getenv("WM_PROJECT_DIR");
+    const char* python = std::getenv("PYTHONPATH");
+    return {.programs = find_programs(),
+            .as_root = geteuid() == 0,
+            .openfoam = openfoam ? openfoam : "/usr/share/openfoam",
+            .python = python ? python : ""};
+}
+
+// Copying between processes through the kernel is forbidden in most containers; mpirun would warn.
+std::vector<std::string> mpirun_options(const LaunchSite& site) {
+    Arguments options{"mpirun"};
+    if (site.as_root) options.push_back("--allow-run-as-root");
+    append(options, {"--oversubscribe", "--bind-to", "none", "--mca",
+                     "btl_vader_single_copy_mechanism", "none"});
+    return options;
+}
+
+std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
+                                          const LaunchSite& site) {
+    const Programs& programs = site.programs;
+    Arguments line = mpirun_options(site);
+    append(line, part(1, site, {programs.coupler(), folder.root}));
+    if (settings.flag("fluid.enabled")) {
+        const std::int64_t ranks = settings.integer("fluid.ranks");
+        line.push_back(":");
+        append(line, part(ranks, site, fluid_command(ranks, folder, programs)));
+    }
+    line.push_back(":");
+    append(line,
+           part(settings.integer("grains.ranks"), site,
+                grains_program(settings.text("grains.adapter")).command(programs, folder.root)));
+    return line;
+}
+
+std::vector<std::string> rank_names(const Settings& settings) {
+    std::vector<std::string> names{"coupler"};
+    const auto add = [&](const std::string& role) {
+        for (std::int64_t rank = 0; rank < settings.integer(role + ".ranks"); ++rank)
+            names.push_back(role + " rank " + std::to_string(rank));
+    };
+    if (settings.flag("fluid.enabled")) add("fluid");
+    add("grains");
+    return names;
+}
+
+std::string shell_line(const std::vector<std::string>& arguments) {
+    std::string line;
+    for (const std::string& argument : arguments) {
+        if (!line.empty()) line += ' ';
+        line += shell_quoted(argument);
+    }
+    return line;
+}
+
+std::vector<std::filesystem::path> needed_programs(const Settings& settings,
+                                                   const Programs& programs) {
+    std::vector<std::filesystem::path> needed{programs.coupler()};
+    if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid());
+    for (const auto& file : grains_program(settings.text("grains.adapter")).needs(programs))
+        needed.push_back(file);
+    return needed;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/prepare_run.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+#include <fstream>
+
+#include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "launcher/job/launch_line.hpp"
+#include "launcher/job/run_json.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string local_time(const char* form) {
+    const std::tm now = fmt::localtime(std::time(nullptr));
+    char text[64];
+    std::strftime(text, sizeof text, form, &now);
+    return text;
+}
+
+bool is_plain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+}
+
+// Two runs started within one second, even at the same time, get numbers: whoever creates the
+// folder has it.
+fs::path fresh_folder(std::string case_name) {
+    std::replace_if(
+        case_name.begin(), case_name.end(), [](char c) { return !is_plain(c); }, '_');
+    const fs::path wanted = fs::path("runs") / (case_name + "-" + local_time("%Y%m%d-%H%M%S"));
+    fs::create_directories("runs");
+    fs::path folder = wanted;
+    for (int i = 2; !fs::create_directory(folder); ++i)
+        folder = wanted.string() + "-" + std::to_string(i);
+    return folder;
+}
+
+bool holds_something(const fs::path& folder) {
+    return fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder));
+}
+
+bool is_run_folder(const RunFolder& folder) {
+    return fs::exists(folder.resolved_case()) || fs::exists(folder.record());
+}
+
+// Only what a run writes, so that a mistyped --out --force costs nothing else.
+void empty_run_folder(const RunFolder& folder) {
+    for (const fs::path& part :
+         {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
+          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.stop()})
+        fs::remove_all(part);
+}
+
+Failure folder_refused(const fs::path& out, const std::string& fault, const std::string& remedy) {
+    return Failure(ExitCode::bad_input,
+                   fmt::format("--out = {} {}\n  {}\nNothing was started. Exit code 2.",
+                               out.string(), fault, remedy));
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream output(file, std::ios::binary);
+    output << text;
+    if (!output.flush())
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + file.string() + ": is the disk full?");
+}
+
+/// By the index that grains carry; corners as x, y of unit circumscribed radius.
+nlohmann::ordered_json shape_table(const ShapeTable& shapes) {
+    auto table = nlohmann::ordered_json::array();
+    for (const ShapeRecord& shape : shapes)
+        table.push_back({{"kind", shape.kind}, {"vertices", shape.vertices}});
+    return table;
+}
+
+nlohmann::ordered_json first_record(const ResolvedCase& resolved,
+                                    const std::vector<std::string>& command) {
+    const Scales& scales = resolved.scales;
+    return {{"status", "prepared"},
+            {"exit_code", nullptr},
+            {"error", ""},
+            {"case", resolved.name},
+            {"case_hash", resolved.settings.text("run.hash")},
+            {"versions", {{"turbidite", TURBIDITE_VERSION}}},
+            {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
+            {"scales", scales.kind},
+            {"D", scales.diameter},
+            {"u_c", scales.velocity},
+            {"t_c", scales.time},
+            {"g", scales.gravity},
+            {"rho", scales.fluid_density},
+            {"nu", scales.viscosity},
+            {"reynolds", scales.reynolds},
+            {"seed", resolved.settings.integer("random.seed")},
+            {"grains", resolved.population.size()},
+            {"shapes", shape_table(resolved.shapes)},
+            {"windows", resolved.settings.integer("run.windows")},
+            {"notes", resolved.notes},
+            {"command", shell_line(command)}};
+}
+
+}  // namespace
+
+namespace {
+
+RunFolder folder_for(const fs::path& wanted, bool force) {
+    // The trailing slash of `--out DIR/` would become an empty last part.
+    const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
+    if (folder.root.string().find_first_of(" \t\n\"'") != std::string::npos)
+        throw folder_refused(folder.root, "has a space or a quote in its path",
+                             "OpenFOAM drops these from file names. Choose another --out.");
+    if (force && is_run_folder(folder))
+        empty_run_folder(folder);
+    else if (holds_something(folder.root))
+        throw folder_refused(wanted, "already holds something",
+                             "A run needs a new or empty folder. Choose another --out, or add "
+                             "--force to overwrite the run that is there.");
+    for (const fs::path& part : {folder.grains(), folder.logs()}) fs::create_directories(part);
+    return folder;
+}
+
+}  // namespace
+
+RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
+    fs::path wanted = order.out;
+    try {
+        if (wanted.empty()) wanted = fresh_folder(case_name);
+        return folder_for(wanted, order.force);
+    } catch (const fs::filesystem_error& error) {
+        throw folder_refused(wanted.empty() ? "runs" : wanted,
+                             "cannot be created: " + error.code().message(),
+                             "Choose a folder you may write to.");
+    }
+}
+
+void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
+                 const std::vector<std::string>& command) {
+    write_text(folder.resolved_case(), resolved.yaml);
+    write_text(folder.initial_grains(), resolved.grains_csv);
+    if (!resolved.walls_csv.empty()) write_text(folder.walls(), resolved.walls_csv);
+    write_run_json(folder.record(), first_record(resolved, command));
+    if (!resolved.settings.flag("fluid.enabled")) return;
+    write_fluid_case(resolved.settings, folder.fluid());
+    build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
+    if (resolved.settings.integer("fluid.ranks") > 1)
+        decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
+}
+
+void require_programs(const Settings& settings, const std::vector<fs::path>& needed) {
+    for (const fs::path& program : needed) {
+        if (fs::exists(program)) continue;
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{} is not there, but the case needs it (grains.adapter = {}, "
+                                  "fluid.enabled = {})\n  Build or install it with ./turbidite, or "
+                                  "choose another adapter.\nNothing was started. Exit code 2.",
+                                  program.string(), settings.text("grains.adapter"),
+                                  settings.text("fluid.enabled")));
+    }
+}
+
+}  // namespace turbidite

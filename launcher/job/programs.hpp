@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where the programs and scripts of the job are: beside the running program in the build folder,
+// those of the report in the source tree.
+#pragma once
+
+#include <filesystem>
+
+namespace turbidite {
+
+struct Programs {
+    std::filesystem::path folder;   ///< BUILD/bin, absolute
+    std::filesystem::path library;  ///< BUILD/lib
+    std::filesystem::path source;   ///< top of the source tree
+
+    std::filesystem::path build() const { return folder.parent_path(); }
+    std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
+    std::filesystem::path fluid() const { return folder / "turbidite-fluid"; }
+    std::filesystem::path grains() const { return folder / "turbidite-grains"; }
+    std::filesystem::path yade() const { return "/usr/bin/yade"; }
+    /// The extension that YADE's Python imports, and the scripts beside it.
+    std::filesystem::path yade_folder() const { return library / "yade"; }
+    std::filesystem::path yade_extension() const { return yade_folder() / "turbidite_yade.so"; }
+    std::filesystem::path yade_nscd() const { return yade_folder() / "turbidite_yade_nscd.py"; }
+    std::filesystem::path yade_md() const { return yade_folder() / "turbidite_yade_md.py"; }
+    std::filesystem::path python() const { return "/usr/bin/python3"; }
+    std::filesystem::path report() const { return source / "launcher/report/report.py"; }
+    std::filesystem::path compare() const { return source / "launcher/report/compare.py"; }
+};
+
+/// Those of the running program.
+Programs find_programs();
+
+}  // namespace turbidite

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/report/report_script.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "launcher/job/launch_line.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Exit status of a script; -1 when it did not end by itself.
+int run_script(const Programs& programs, const std::filesystem::path& script,
+               const std::vector<std::string>& arguments) {
+    // -B: no __pycache__ in the source tree.
+    std::vector<std::string> line{programs.python(), "-B", script};
+    line.insert(line.end(), arguments.begin(), arguments.end());
+    const int status = std::system(shell_line(line).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+void require_run_folder(const std::filesystem::path& directory) {
+    if (std::filesystem::exists(RunFolder{directory}.resolved_case())) return;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} is no run folder: it has no case.yaml\n  Give a folder that "
+                              "`turbidite run` made. Exit code 2.",
+                              directory.string()));
+}
+
+bool write_report(const RunFolder& folder, const Programs& programs) {
+    return run_script(programs, programs.report(), {folder.root}) == 0;
+}
+
+ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
+                          bool each, const Programs& programs) {
+    std::vector<std::string> arguments;
+    if (each) arguments.push_back("--each");
+    arguments.push_back(page);
+    for (const RunFolder& run : runs) arguments.push_back(run.root);
+    const int status = run_script(programs, programs.compare(), arguments);
+    for (const ExitCode code : {ExitCode::done, ExitCode::bad_input})
+        if (status == static_cast<int>(code)) return code;
+    return ExitCode::participant_failed;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite COMMAND: the commands are one table; every one is a file command_*.cpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "coupler/protocol/failure.hpp"
+#include "launcher/case/nearest_name.hpp"
+#include "launcher/commands/command.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr auto description =
+    "Turbidite: immersed granular flows, OpenFOAM and YADE coupled by a distributed-multiplier "
+    "fictitious-domain method.";
+
+constexpr auto footer =
+    "Exit codes: 0 done, 1 a test or benchmark failed, 2 bad usage or case, 3 handshake refused,\n"
+    "4 a program of the job failed, 5 stalled, 6 physics refused (NaN, overlap, grain through a "
+    "wall),\n130/143 interrupted.";
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> table = {
+        {"run", "run a case: validate, prepare a folder, start the job, write report.html",
+         declare_run},
+        {"check", "validate a case, all errors at once", declare_check},
+        {"report", "write report.html of a run folder", declare_report},
+        {"compare", "the same quantities of several runs on one page, differences quantified",
+         declare_compare},
+        {"keys", "print every key of a case file with unit, default and range", declare_keys},
+        {"test", "run the tests", declare_test},
+        {"bench", "time this software beside others", declare_bench},
+        {"yade", "run a script of your own in YADE with the contact engine", declare_yade},
+    };
+    return table;
+}
+
+int act(const CommandAction& action) {
+    try {
+        return action();
+    } catch (const Failure& failure) {
+        std::fflush(stdout);
+        fmt::print(stderr, "{}\n", failure.what());
+        return static_cast<int>(failure.code());
+    } catch (const std::exception& error) {
+        std::fflush(stdout);
+        fmt::print(stderr, "turbidite: {}\n", error.what());
+        return static_cast<int>(ExitCode::participant_failed);
+    }
+}
+
+/// Empty when the first word names a command or is an option.
+std::string unknown_command(int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return "";
+    std::vector<std::string> names;
+    for (const Command& command : commands()) names.push_back(command.name);
+    if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
+    return fmt::format(
+        "turbidite: there is no command \"{}\"\n  Did you mean {}? The commands are "
+        "{}.",
+        argv[1], nearest_name(argv[1], names), fmt::join(names, ", "));
+}
+
+int turbidite_main(int argc, char** argv) {
+    if (const std::string complaint = unknown_command(argc, argv); !complaint.empty()) {
+        fmt::print(stderr, "{}\n", complaint);
+        return static_cast<int>(ExitCode::bad_input);
+    }
+    CLI::App app{description, "turbidite"};
+    app.set_version_flag("--version", "turbidite " TURBIDITE_VERSION);
+    app.require_subcommand(1);
+    app.footer(footer);
+    CommandAction action;
+    for (const Command& command : commands()) {
+        CLI::App* options = app.add_subcommand(command.name, command.help);
+        options->callback([&action, run = command.declare(*options)] { action = run; });
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+        app.exit(error);
+        return static_cast<int>(asked_for ? ExitCode::done : ExitCode::bad_input);
+    }
+    return act(action);
+}
+
+}  // namespace
+}  // namespace turbidite
+
+int main(int argc, char** argv) {
+    return turbidite::turbidite_main(argc, argv);
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The child process: its exit code, its own session, what signals do.
+#include "launcher/job/job.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "coupler/protocol/failure.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+class JobTest : public ::testing::Test {
+ protected:
+    ScratchFolder scratch;
+    int requests = 0;
+
+    JobEnd run(const std::string& script) {
+        return run_job({.arguments = {"sh", "-c", script},
+                        .error_log = scratch.path() / "stderr",
+                        .request_stop = [this](int) {
+                            ++requests;
+                            scratch.write("STOP", "");
+                        }});
+    }
+
+    std::string text(const std::string& name) {
+        std::ifstream file(scratch.path() / name);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+};
+
+// Signals go to the thread that waits in run_job: this process has them blocked everywhere else.
+class Later {
+ public:
+    Later(int count, int signal) {
+        sigset_t set;
+        sigemptyset(&set);
+        sigaddset(&set, signal);
+        pthread_sigmask(SIG_BLOCK, &set, nullptr);
+        thread_ = std::thread([count, signal] {
+            for (int i = 0; i < count; ++i) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(400));
+                kill(getpid(), signal);
+            }
+        });
+    }
+    ~Later() { thread_.join(); }
+
+ private:
+    std::thread thread_;
+};
+
+TEST_F(JobTest, PassesExitCodesOn) {
+    EXPECT_EQ(run("exit 0").status, 0);
+    EXPECT_EQ(run("exit 6").status, 6);
+    EXPECT_EQ(run("kill -9 $$").status, 128 + 9);
+}
+
+TEST_F(JobTest, KeepsErrorsInAFile) {
+    run("echo oops >&2");
+    EXPECT_EQ(text("stderr"), "oops\n");
+}
+
+TEST_F(JobTest, RunsInItsOwnSession) {
+    // In /proc/PID/stat the session is the fourth field after the name.
+    run("awk '{print $6 == $1}' /proc/$$/stat >&2");
+    EXPECT_EQ(text("stderr"), "1\n");
+}
+
+TEST_F(JobTest, NamesAProgramThatIsNotThere) {
+    try {
+        run_job({.arguments = {"turbidite-no-such-program"},
+                 .error_log = scratch.path() / "stderr",
+                 .request_stop = [](int) {}});
+        FAIL() << "a missing program ran";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::participant_failed);
+        EXPECT_NE(std::string(failure.what()).find("turbidite-no-such-program"), std::string::npos);
+    }
+}
+
+TEST_F(JobTest, FirstSignalIsAWish) {
+    const std::string stop = (scratch.path() / "STOP").string();
+    const Later signal(1, SIGTERM);
+    const JobEnd end = run("until [ -e " + stop + " ]; do sleep 0.05; done; exit 7");
+    EXPECT_EQ(end.signal, SIGTERM);
+    EXPECT_FALSE(end.killed);
+    EXPECT_EQ(end.status, 7);
+    EXPECT_EQ(requests, 1);
+}
+
+TEST_F(JobTest, SecondSignalKillsTheWholeSession) {
+    // A grandchild in a process group of its own, as mpirun makes them, deaf to SIGTERM.
+    const std::string pid_file = (scratch.path() / "pid").string();
+    const Later signals(2, SIGINT);
+    const JobEnd end = run("set -m; (trap '' TERM; sh -c 'echo $PPID' > " + pid_file +
+                           "; while :; do sleep 1; done) & wait");
+    EXPECT_TRUE(end.killed);
+    EXPECT_EQ(requests, 1);
+    const pid_t grandchild = std::stoi(text("pid"));
+    ASSERT_GT(grandchild, 1);
+    for (int i = 0; i < 50 && kill(grandchild, 0) == 0; ++i) {
+        std::ifstream stat("/proc/" + std::to_string(grandchild) + "/stat");
+        std::string line;
+        std::getline(stat, line);
+        if (line.find(") Z ") != std::string::npos) break;  // dead, not yet collected by init
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        ASSERT_LT(i, 49) << "the grandchild is alive: " << line;
+    }
+}
+
+}  // namespace
+}  // namespace turbidite

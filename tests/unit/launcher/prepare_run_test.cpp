@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/prepare_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "coupler/protocol/failure.hpp"
+#include "launcher/job/run_json.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+std::string refusal(const RunOrder& order) {
+    try {
+        make_run_folder(order, "case");
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::bad_input);
+        return failure.what();
+    }
+    return "";
+}
+
+ResolvedCase dry_case(const ScratchFolder& scratch) {
+    return load_case(scratch.write("dry.yaml",
+                                   "domain: {size: [8, 9]}\ngrains: {count: 7}\n"
+                                   "fluid: {enabled: false}\ntime: {step: 0.1, end: 1}\n"));
+}
+
+TEST(PrepareRun, FolderIsAbsoluteAndNew) {
+    const ScratchFolder scratch;
+    const RunFolder folder = make_run_folder({.out = scratch.path() / "new/run/"}, "case");
+    EXPECT_EQ(folder.root, scratch.path() / "new/run");
+    EXPECT_TRUE(fs::is_directory(folder.logs()));
+}
+
+TEST(PrepareRun, RefusesAFolderInUse) {
+    const ScratchFolder scratch;
+    scratch.write("run/case.yaml", "old");
+    const std::string text = refusal({.out = scratch.path() / "run"});
+    EXPECT_SAYS(text, "already holds something");
+    EXPECT_SAYS(text, "--force");
+    EXPECT_SAYS(text, "Exit code 2.");
+}
+
+TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
+    const ScratchFolder scratch;
+    scratch.write("run/case.yaml", "old");
+    scratch.write("run/STOP", "130");
+    scratch.write("run/thesis.tex", "mine");
+    const RunFolder folder =
+        make_run_folder({.out = scratch.path() / "run", .force = true}, "case");
+    EXPECT_FALSE(fs::exists(folder.resolved_case()));
+    EXPECT_FALSE(fs::exists(folder.stop()));
+    EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
+}
+
+// logs/ and fluid/ are common names: without a run beside them they are somebody else's.
+TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
+    const ScratchFolder scratch;
+    scratch.write("home/logs/diary.log", "mine");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "home", .force = true}),
+                "already holds something");
+    EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
+}
+
+TEST(PrepareRun, DefaultFolderIsFreshAndPlain) {
+    const ScratchFolder scratch;
+    const fs::path before = fs::current_path();
+    fs::current_path(scratch.path());
+    const RunFolder first = make_run_folder({}, "my \"case\"");
+    const RunFolder second = make_run_folder({}, "my \"case\"");
+    fs::current_path(before);
+    EXPECT_NE(first.root, second.root);
+    EXPECT_SAYS(first.root.filename().string(), "my__case_-");
+}
+
+TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
+    const ScratchFolder scratch;
+    scratch.write("file", "x");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}),
+                "already holds something");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}), "has a space or a quote in its path");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "file/run"}), "cannot be created");
+}
+
+TEST(PrepareRun, RunFolderLoadsToTheSameCase) {
+    const ScratchFolder scratch;
+    const ResolvedCase resolved = dry_case(scratch);
+    const RunFolder folder = make_run_folder({.out = scratch.path() / "run"}, resolved.name);
+    prepare_run(resolved, folder, {"mpirun", "x"});
+    EXPECT_EQ(load_run_folder(folder.root).settings.entries(), resolved.settings.entries());
+    const auto record = read_run_json(folder.record());
+    EXPECT_EQ(record.at("case_hash"), resolved.settings.text("run.hash"));
+    EXPECT_EQ(record.at("command"), "mpirun x");
+    EXPECT_EQ(record.at("grains"), 7);
+    EXPECT_EQ(record.at("windows"), 10);
+    EXPECT_TRUE(record.at("exit_code").is_null());
+}
+
+TEST(PrepareRun, MissingProgramsAreNamed) {
+    const ScratchFolder scratch;
+    try {
+        require_programs(dry_case(scratch).settings, {scratch.path() / "turbidite-nothing"});
+        FAIL() << "a missing program was accepted";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::bad_input);
+        EXPECT_SAYS(std::string(failure.what()), "turbidite-nothing is not there");
+    }
+}
+
+}  // namespace
+}  // namespace turbidite
