@@ -1,48 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite bench [NAME]: side-by-side timings (bench/).
-#include <fmt/format.h>
-
-#include <memory>
-
-#include "bench/run_benchmark.hpp"
-#include "coupler/protocol/failure.hpp"
+// turbidite bench [NAME] [OPTIONS]: becomes turbidite-bench, which has the options (bench/).
 #include "launcher/commands/command.hpp"
+#include "launcher/job/hand_over.hpp"
+#include "launcher/job/programs.hpp"
 
 namespace turbidite {
 namespace {
 
-struct BenchOptions {
-    std::string name;
-    bench::BenchOrder order;
-    bool list = false;
-};
-
-int run_bench(BenchOptions options) {
-    if (options.list) {
-        fmt::print("{}", bench::benchmark_overview());
-        return static_cast<int>(ExitCode::done);
-    }
-    if (!options.name.empty()) options.order.benchmarks = {options.name};
-    const bool complete = bench::run_benchmarks(options.order);
-    return static_cast<int>(complete ? ExitCode::done : ExitCode::tests_failed);
+[[noreturn]] int run_bench(const std::vector<std::string>& arguments) {
+    std::vector<std::string> line{find_programs().bench()};
+    line.insert(line.end(), arguments.begin(), arguments.end());
+    hand_over(std::move(line));
 }
 
 }  // namespace
 
 CommandAction declare_bench(CLI::App& app) {
-    const auto options = std::make_shared<BenchOptions>();
-    app.add_option("NAME", options->name, "benchmark; all unless given");
-    app.add_option("--figure", options->order.figures, "this figure only; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("NAME");
-    app.add_option("--json", options->order.json,
-                   "also write the figures to FILE: name -> {value, unit, command}")
-        ->type_name("FILE");
-    app.add_flag("--quick", options->order.quick,
-                 "tiny meshes, one repeat: shows that everything works, measures nothing");
-    app.add_flag("--list", options->list, "print the names of benchmarks and figures");
-    return [options] { return run_bench(*options); };
+    app.set_help_flag();  // --help goes through, like everything else
+    app.prefix_command();
+    return [&app]() -> int { return run_bench(app.remaining()); };
 }
 
 }  // namespace turbidite

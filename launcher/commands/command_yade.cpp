@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // turbidite yade SCRIPT: YADE with the contact engine in reach of its scripts (docs/yade.md).
-#include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "coupler/protocol/failure.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/job/hand_over.hpp"
 #include "launcher/job/programs.hpp"
 
 namespace turbidite {
@@ -40,17 +36,10 @@ std::vector<std::string> command_line(const YadeOptions& options, const Programs
     return line;
 }
 
-/// Returns only when YADE cannot be started.
 int run_yade(const YadeOptions& options) {
     const Programs programs = find_programs();
     show_packages_to_python(programs.yade_folder());
-    std::vector<std::string> line = command_line(options, programs);
-    std::vector<char*> words;
-    for (std::string& word : line) words.push_back(word.data());
-    words.push_back(nullptr);
-    execv(words[0], words.data());
-    throw Failure(ExitCode::participant_failed, fmt::format("turbidite: {} cannot be started: {}",
-                                                            words[0], std::strerror(errno)));
+    hand_over(command_line(options, programs));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct Programs {
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
     std::filesystem::path fluid() const { return folder / "turbidite-fluid"; }
     std::filesystem::path grains() const { return folder / "turbidite-grains"; }
+    std::filesystem::path bench() const { return folder / "turbidite-bench"; }
     std::filesystem::path yade() const { return "/usr/bin/yade"; }
     /// The extension that YADE's Python imports, and the scripts beside it.
     std::filesystem::path yade_folder() const { return library / "yade"; }

@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# The bootstrap on a machine where packages are missing, played by a fake dpkg-query: it must name all
-# of them, install nothing and leave with 2. usage: bootstrap_test.sh PROJECT_FOLDER
+# The bootstrap on a fake Debian. Where packages are missing it must name all of them, install nothing and
+# leave with 2. Where all are there it must build what the command needs and nothing else, and hand over.
+# usage: bootstrap_test.sh PROJECT_FOLDER
 set -euo pipefail
 
 project=$1
@@ -39,3 +40,52 @@ for package in cmake openfoam ninja-build libgtest-dev; do
 done
 if grep -qE '^(yade|g\+\+) ' <<<"$output"; then broken "an installed package is called missing"; fi
 [[ ! -e $work/installed ]] || broken "an installer was called although TURBIDITE_NO_INSTALL forbids it"
+
+# ---- a machine with all packages, and a build folder whose targets only write down that they were built ----
+
+cat >"$work/bin/dpkg-query" <<'FAKE'
+#!/bin/bash
+for name; do case $name in --*) ;; *) echo "$name installed" ;; esac; done
+FAKE
+build="$work/a checkout/build/release"
+mkdir -p "$build/bin" "$work/headers"
+printf '#!/bin/bash\necho "arguments: $*"\nexit 5\n' >"$build/bin/turbidite"
+chmod +x "$build/bin/turbidite"
+printf 'root %s\nheaders %s\n' "$work/a checkout" "$work/headers" >"$build/.configured"
+cat >"$build/build.ninja" <<NINJA
+rule write
+  command = echo \$out >>"$work/built"
+build run_programs: write
+build bench_programs: write run_programs
+build tests: write bench_programs
+build all: phony run_programs bench_programs tests
+default all
+NINJA
+
+# $1 is the command, $2 what must be built, in one line.
+builds() {
+    rm -f "$work/built"
+    code=0
+    output=$(cd / && PATH="$work/bin:$PATH" TURBIDITE_OPENFOAM_INCLUDE="$work/headers" \
+        "$work/a link" $1 2>&1) || code=$?
+    [[ $code == 5 ]] || broken "\"$1\": exit code $code, expected the program's own, 5"
+    [[ $output == *"arguments: $1"* ]] || broken "\"$1\": the arguments did not reach the program"
+    [[ $(sort "$work/built" | xargs) == "$2" ]] || broken "\"$1\" built: $(xargs <"$work/built"); expected: $2"
+}
+
+builds "run a.yaml --out b" "run_programs"
+builds "yade c.py" "run_programs"
+builds "bench fluid" "bench_programs run_programs"
+builds "test --unit" "bench_programs run_programs tests"
+builds "" "run_programs"
+for target in run_programs bench_programs; do
+    grep -q "^add_custom_target($target " "$project/CMakeLists.txt" || broken "CMake has no target $target"
+done
+
+# A build that fails is told with its words and its own code, and the program is not started.
+printf 'rule fail\n  command = echo the compiler is not well; false\nbuild run_programs: fail\n' >"$build/build.ninja"
+code=0
+output=$(cd / && PATH="$work/bin:$PATH" TURBIDITE_OPENFOAM_INCLUDE="$work/headers" "$work/a link" run 2>&1) || code=$?
+[[ $code == 7 ]] || broken "exit code $code of a build that fails, expected 7"
+[[ $output == *"the compiler is not well"* ]] || broken "the words of a build that fails are missing"
+[[ $output != *"arguments:"* ]] || broken "a program was started although the build failed"
