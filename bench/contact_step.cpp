@@ -32,9 +32,9 @@ struct Totals {
     double candidates = 0.0, contacts = 0.0, sweeps = 0.0, updates = 0.0, converged = 0.0;
 
     void add(const nscd::SolverResult& result) {
-        const auto loaded =
-            static_cast<double>(std::count_if(result.impulses.begin(), result.impulses.end(),
-                                              [](const Vec3& r) { return r[0] > 0.0; }));
+        const auto loaded = static_cast<double>(
+            std::count_if(result.impulses.begin(), result.impulses.end(),
+                          [](const nscd::ContactVector& r) { return r.n > 0.0; }));
         candidates += static_cast<double>(result.impulses.size());
         contacts += loaded;
         sweeps += static_cast<double>(result.iterations);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "granular_adapter/nscd/plane/one_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 namespace turbidite::siconos {
 
@@ -16,11 +16,11 @@ double error_measure(const nscd::ContactProblem& problem, const nscd::Impulses& 
     const auto squared = [](const Plane& x) { return x[0] * x[0] + x[1] * x[1]; };
     for (std::size_t k = 0; k < impulses.size(); ++k) {
         const nscd::Contact& contact = problem.contacts[k];
-        const auto biased = [&](const Vec3& u) {
-            return Plane{u[0] + contact.bias[0], u[1] + contact.bias[1]};
+        const auto biased = [&](const nscd::ContactVector& u) {
+            return Plane{u.n + contact.bias.n, u.t + contact.bias.t};
         };
         const Plane u = biased(nscd::contact_velocity(contact, v));
-        const Plane r{impulses[k][0], impulses[k][1]};
+        const Plane r{impulses[k].n, impulses[k].t};
         error += squared(nscd::natural_map(r, u, contact.friction, 1.0));
         size_q += squared(biased(nscd::contact_velocity(contact, problem.free)));
         size_r += squared(r);

@@ -21,7 +21,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem/problem_file.hpp"
+#include "granular_adapter/nscd/problem/plane/problem_file.hpp"
 
 namespace turbidite::siconos {
 namespace {
@@ -80,7 +80,8 @@ nscd::ContactProblem dimensionless(const nscd::ContactProblem& problem, const Sc
         for (double& x : v) x /= scale.speed;
     };
     for (nscd::Twist& twist : result.free) shrink(twist.velocity), shrink(twist.spin);
-    for (nscd::Contact& contact : result.contacts) shrink(contact.bias);
+    for (nscd::Contact& contact : result.contacts)
+        contact.bias = (1.0 / scale.speed) * contact.bias;
     return result;
 }
 
@@ -139,15 +140,16 @@ Solution Problem::solve(const std::string& solver, double tolerance, int most_it
 
 std::vector<double> flat(const nscd::Impulses& impulses, const Scale& scale) {
     std::vector<double> result;
-    for (const Vec3& r : impulses)
-        for (int d = 0; d < 2; ++d) result.push_back(r[d] / (scale.mass * scale.speed));
+    for (const nscd::ContactVector& r : impulses)
+        for (const double x : {r.n, r.t}) result.push_back(x / (scale.mass * scale.speed));
     return result;
 }
 
 nscd::Impulses impulses_of(const std::vector<double>& flat, const Scale& scale) {
     nscd::Impulses result(flat.size() / 2);
+    const double unit = scale.mass * scale.speed;
     for (std::size_t k = 0; k < result.size(); ++k)
-        for (int d = 0; d < 2; ++d) result[k][d] = flat[2 * k + d] * scale.mass * scale.speed;
+        result[k] = nscd::in_plane(flat[2 * k] * unit, flat[2 * k + 1] * unit);
     return result;
 }
 

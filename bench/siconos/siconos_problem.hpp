@@ -36,7 +36,7 @@ struct Solution {
 
 class Problem {
  public:
-    /// Through the text file of nscd/problem/problem_file.hpp, which Siconos reads.
+    /// Through the text file of nscd/problem/plane/problem_file.hpp, which Siconos reads.
     Problem(const nscd::ContactProblem& problem, const Scale& scale);
     explicit Problem(const std::filesystem::path& file);
     ~Problem();

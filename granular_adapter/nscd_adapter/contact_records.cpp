@@ -17,12 +17,12 @@ constexpr double at_limit = 1.0 - 1e-9;
 
 /// From the solution of the contact problem: its cone is the law's, also where a law pulls. What is
 /// pulled and not pressed neither slides nor rolls.
-std::int32_t status_of(const nscd::Contact& contact, const Vec3& solution) {
+std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& solution) {
     std::int32_t status = 0;
-    if (!(solution[0] > 0.0)) return status;
-    if (std::abs(solution[1]) >= at_limit * contact.friction * solution[0])
+    if (!(solution.n > 0.0)) return status;
+    if (nscd::tangential(solution) >= at_limit * contact.friction * solution.n)
         status |= ContactStatus::sliding;
-    if (contact.rolling > 0.0 && std::abs(solution[2]) >= at_limit * contact.rolling * solution[0])
+    if (contact.rolling > 0.0 && std::abs(solution.roll) >= at_limit * contact.rolling * solution.n)
         status |= ContactStatus::rolling;
     return status;
 }
@@ -31,7 +31,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     const nscd::Bodies& bodies = engine.bodies();
     const nscd::ContactPoint& point = engine.points()[k];
     const nscd::Contact& contact = engine.problem().contacts[k];
-    const Vec3& impulse = engine.impulses()[k];
+    const nscd::ContactVector& impulse = engine.impulses()[k];
     ContactRecord record;
     record.b = bodies.id[point.b];
     if (point.wall >= 0)
@@ -46,7 +46,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     record.normal = point.normal;
     record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;
     record.impulse = world_impulse(contact, impulse);
-    record.rolling_impulse = {0.0, 0.0, impulse[2]};
+    record.rolling_impulse = {0.0, 0.0, impulse.roll};
     return record;
 }
 
@@ -56,7 +56,8 @@ std::vector<ContactRecord> contact_records(const nscd::Engine& engine) {
     std::vector<ContactRecord> records;
     // Where a pull and the pressure it makes cancel, the bodies touch although they feel nothing.
     for (std::size_t k = 0; k < engine.points().size(); ++k)
-        if (engine.impulses()[k] != Vec3{} || engine.solution()[k] != Vec3{})
+        if (engine.impulses()[k] != nscd::ContactVector{} ||
+            engine.solution()[k] != nscd::ContactVector{})
             records.push_back(record_of(engine, k));
     std::sort(records.begin(), records.end(), contact_before);
     return records;

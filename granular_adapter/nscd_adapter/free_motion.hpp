@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
-#include "granular_adapter/nscd/plane/mobility.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/plane/mobility.hpp"
 
 namespace turbidite {
 

@@ -57,7 +57,7 @@ Hello NscdAdapter::describe() const {
     for (const auto& entry : nscd::wall_detector_list())
         hello.capabilities.shapes.push_back(entry.kind);
     for (const auto& entry : nscd::law_list())
-        if (entry.make) hello.capabilities.contact_laws.push_back(entry.name);
+        if (!entry.adds_nothing()) hello.capabilities.contact_laws.push_back(entry.name);
     return hello;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // contact.dump_interval: the contact problems of a run as files RUN/contacts/problem_STEP.dat
-// (nscd/problem/problem_file.hpp), STEP as in history.csv. Steps without contacts leave no file.
+// (nscd/problem/plane/problem_file.hpp), STEP as in history.csv. Steps without contacts leave no
+// file.
 //
 // Reads: contact.dump_interval, time.step (both in t_c).
 #pragma once

@@ -89,7 +89,7 @@ std::vector<ContactForce> ContactHost::contacts() const {
     const auto& points = engine_->points();
     std::vector<ContactForce> result;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const Vec3 force = (1.0 / last_step_) * engine_->impulses()[k];
+        const nscd::ContactVector force = (1.0 / last_step_) * engine_->impulses()[k];
         if (force == Vec3{}) continue;
         const nscd::ContactPoint& point = points[k];
         const auto b = static_cast<std::size_t>(point.b);
@@ -102,9 +102,9 @@ std::vector<ContactForce> ContactHost::contacts() const {
         contact.point[2] = heights_[b];
         contact.normal = point.normal;
         contact.gap = point.gap;
-        contact.normal_force = force[0];
-        contact.tangential_force = force[1];
-        contact.rolling_moment = force[2];
+        contact.normal_force = force.n;
+        contact.tangential_force = force.t;
+        contact.rolling_moment = force.roll;
         result.push_back(contact);
     }
     return result;

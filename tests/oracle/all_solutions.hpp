@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "problems.hpp"
 
 namespace turbidite::judged {

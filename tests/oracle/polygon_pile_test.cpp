@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "judged.hpp"
 #include "polygons.hpp"

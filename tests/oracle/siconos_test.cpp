@@ -11,7 +11,7 @@
 #include "bench/siconos/dry_column.hpp"
 #include "bench/siconos/same_measure.hpp"
 #include "bench/siconos/siconos_problem.hpp"
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "judged.hpp"
 #include "problems.hpp"
@@ -85,7 +85,7 @@ TEST(SiconosMeasure, IsWhatWeTakeItFor) {
     for (const Named& named : problems_of_columns()) {
         nscd::Impulses r(named.problem.contacts.size());
         for (std::size_t k = 0; k < r.size(); ++k)
-            r[k] = {std::sin(double(k)) + 0.5, 0.2 * std::cos(3.0 * double(k)), 0.0};
+            r[k] = nscd::in_plane(std::sin(double(k)) + 0.5, 0.2 * std::cos(3.0 * double(k)));
         const double theirs = siconos::Problem(named.problem, {}).error(siconos::flat(r, {}));
         EXPECT_NEAR(siconos::error_measure(named.problem, r), theirs, 1e-12 * theirs);
         EXPECT_GT(theirs, 1e-3);

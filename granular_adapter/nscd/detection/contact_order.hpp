@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/detection/contact_point.hpp"
 
 namespace turbidite::nscd {
 

@@ -85,8 +85,8 @@ Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::ve
     : settings_(settings),
       narrow_phase_(shapes),
       walls_(std::move(walls)),
-      laws_(settings.law, settings.law_settings, surface_table(settings), shapes),
-      solver_(make_solver(settings.solver)) {
+      laws_(settings.law, settings.law_settings, surface_table(settings), shapes, settings.laws),
+      solver_(make_solver(settings.solver, settings.solvers)) {
     check_theta(settings_.theta, laws_.surfaces().largest_restitution());
     for (const Wall& wall : walls_) check_wall(wall);
 }
@@ -160,11 +160,11 @@ double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<doub
     for (std::size_t k = 0; k < found.size(); ++k) {
         Contact& contact = problem_.contacts[k];
         const double wanted = std::max(0.0, found[k]), change = wanted - shortfalls[k];
-        const double u = contact_velocity(contact, velocities)[0] + contact.bias[0];
+        const double u = contact_velocity(contact, velocities).n + contact.bias.n;
         if (dt * u < change)
             largest =
                 std::max(largest, change / bodies_.radius[static_cast<std::size_t>(contact.b)]);
-        contact.bias[0] -= change / dt;
+        contact.bias.n -= change / dt;
         shortfalls[k] = wanted;
     }
     return largest;
@@ -297,8 +297,8 @@ void Engine::hand_out(const std::vector<Twist>& velocities) {
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const Contact& contact = problem_.contacts[k];
         const Vec3 p = world_impulse(contact, impulses_[k]);
-        add(contact.b, contact.arm_b, p, impulses_[k][2]);
-        if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -impulses_[k][2]);
+        add(contact.b, contact.arm_b, p, impulses_[k].roll);
+        if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -impulses_[k].roll);
     }
 }
 

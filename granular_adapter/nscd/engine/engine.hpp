@@ -28,7 +28,7 @@
 #include "granular_adapter/nscd/problem/periodic_box.hpp"
 #include "granular_adapter/nscd/problem/walls.hpp"
 #include "granular_adapter/nscd/problem/warm_start.hpp"
-#include "granular_adapter/nscd/solvers/solver.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
 
@@ -41,6 +41,8 @@ struct EngineSettings {
     LawChoice law;
     LawSettings law_settings;
     std::string solver = "nlgs";
+    LawList laws = law_list();           ///< what names of laws are looked up in
+    SolverList solvers = solver_list();  ///< and those of solvers
     SolverSettings solver_settings;
     PeriodicBox box;
 };

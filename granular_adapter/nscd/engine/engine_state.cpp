@@ -7,7 +7,7 @@ namespace turbidite::nscd {
 namespace {
 
 constexpr std::uint64_t bodies_format = 0x334445534354ULL;
-constexpr std::uint64_t memory_format = 0x334d454d4354ULL;
+constexpr std::uint64_t memory_format = 0x344d454d4354ULL;
 
 /// Where a wall is and how it moves; the rest comes from the settings.
 template <class Visit, class AnyWall>

@@ -1,13 +1,39 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/laws/capillary.hpp"
-
+//
+// Liquid bridges (after Richefeu et al. 2006): form on contact, break at the rupture distance
+// adhesion_range, and pull with
+//
+//     c(g) = kappa sqrt(R1 R2) exp(-g/lambda),   c(0) where the bodies overlap
+//
+// lambda = adhesion_length. At a wall 2 R stands for sqrt(R1 R2), as Derjaguin's approximation has
+// it for a plane. kappa is Surface::adhesion over the reference radius. Points of a pair share the
+// force; the R of a polygon is that of its circumscribed circle.
 #include <algorithm>
 #include <cmath>
 
 #include "granular_adapter/nscd/laws/adhesion_settings.hpp"
+#include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {
 namespace {
+
+class Capillary final : public LawPart {
+ public:
+    /// Throws std::invalid_argument when adhesion, range or length is missing.
+    Capillary(const LawSettings& settings, const SurfaceTable& surfaces);
+    void add(const ContactSituation& situation, LawTerms& terms) const override;
+    double remember(const ContactSituation& situation,
+                    const ContactOutcome& outcome) const override;
+    bool remembers() const override { return true; }
+    double range() const override { return range_; }
+
+ private:
+    bool bridged(const ContactSituation& situation) const;
+
+    double range_;
+    double length_;
+    double radius_;  ///< of reference
+};
 
 constexpr double none = 0.0, bridge = 1.0;
 
@@ -15,8 +41,6 @@ double effective_radius(const ContactSituation& situation) {
     if (std::isinf(situation.radius_a)) return 2.0 * situation.radius_b;
     return std::sqrt(situation.radius_a * situation.radius_b);
 }
-
-}  // namespace
 
 Capillary::Capillary(const LawSettings& settings, const SurfaceTable& surfaces)
     : range_(settings.adhesion_range),
@@ -39,6 +63,13 @@ void Capillary::add(const ContactSituation& situation, LawTerms& terms) const {
 
 double Capillary::remember(const ContactSituation& situation, const ContactOutcome& outcome) const {
     return bridged(situation) || outcome.pressed() ? bridge : none;
+}
+
+}  // namespace
+
+std::unique_ptr<const LawPart> make_capillary(const LawSettings& settings,
+                                              const SurfaceTable& surfaces) {
+    return std::make_unique<Capillary>(settings, surfaces);
 }
 
 }  // namespace turbidite::nscd

@@ -6,12 +6,12 @@
 namespace turbidite::nscd {
 
 ContactLaw::ContactLaw(const LawChoice& choice, const LawSettings& settings,
-                       const SurfaceTable& surfaces) {
+                       const SurfaceTable& surfaces, LawList laws) {
     const std::array<const std::string*, law_slots> names = {
         &choice.gap, &choice.friction, &choice.adhesion, &choice.impact, &choice.rolling};
     for (std::size_t slot = 0; slot < law_slots; ++slot) {
         std::shared_ptr<const LawPart> law =
-            make_law_part(static_cast<LawSlot>(slot), *names[slot], settings, surfaces);
+            make_law_part(static_cast<LawSlot>(slot), *names[slot], settings, surfaces, laws);
         if (!law || law->idle()) continue;
         remembers_ = remembers_ || law->remembers();
         reads_velocities_ = reads_velocities_ || law->reads_velocities();

@@ -26,9 +26,10 @@ using ContactState = std::array<double, law_slots>;
 
 class ContactLaw {
  public:
-    /// Throws std::invalid_argument on unknown names and on parameters that are missing or out of
-    /// range.
-    ContactLaw(const LawChoice& choice, const LawSettings& settings, const SurfaceTable& surfaces);
+    /// Names are looked up in `laws`. Throws std::invalid_argument on unknown ones and on
+    /// parameters that are missing or out of range.
+    ContactLaw(const LawChoice& choice, const LawSettings& settings, const SurfaceTable& surfaces,
+               LawList laws = law_list());
 
     LawTerms terms(ContactSituation situation, const ContactState& state) const;
     ContactState remember(ContactSituation situation, const ContactState& state,

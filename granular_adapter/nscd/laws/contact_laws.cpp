@@ -23,48 +23,48 @@ Contact bare_contact(const ContactPoint& p) {
     return contact;
 }
 
-/// `drive`: velocity of the wall, which is no body of the problem, in the contact's frame.
-void take_terms(Contact& contact, const LawTerms& terms, const Plane& drive) {
+/// `approach`: u^-; `drive`: velocity of the wall, which is no body of the problem. Both in the
+/// contact's frame.
+void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& approach,
+                const ContactVector& drive) {
+    ContactVector bias{terms.normal_bias, 0.0, 0.0, 0.0};
+    if (terms.tangential_restitution != 0.0) {
+        bias.t = terms.tangential_restitution * approach.t;
+        bias.s = terms.tangential_restitution * approach.s;
+    }
     contact.friction = terms.friction;
-    contact.bias = {terms.normal_bias - drive[0], terms.tangential_bias - drive[1], 0.0};
+    contact.bias = bias - drive;
     contact.rolling = terms.rolling;
-}
-
-Plane in_plane(const Vec3& u) {
-    return {u[0], u[1]};
-}
-
-Plane minus(const Vec3& u, const Plane& v) {
-    return {u[0] - v[0], u[1] - v[1]};
 }
 
 const Wall& wall_of(const DetectedContacts& contacts, const ContactPoint& point) {
     return contacts.walls[static_cast<std::size_t>(point.wall)];
 }
 
-Plane wall_velocity(const DetectedContacts& contacts, const ContactPoint& point,
-                    const Contact& contact) {
+ContactVector wall_velocity(const DetectedContacts& contacts, const ContactPoint& point,
+                            const Contact& contact) {
     if (point.wall < 0 || !is_moving(wall_of(contacts, point))) return {};
     const Vec3 v =
         velocity_at(wall_of(contacts, point), contacts.bodies.position[point.b] + point.arm_b);
-    return {dot(contact.normal, v), dot(contact.tangent, v)};
+    return in_plane(dot(contact.normal, v), dot(contact.tangent, v));
 }
 
 }  // namespace
 
 ContactLaws::ContactLaws(const LawChoice& choice, const LawSettings& settings,
-                         SurfaceTable surfaces, const ShapeTable& shapes)
+                         SurfaceTable surfaces, const ShapeTable& shapes, LawList laws)
     : choice_(choice),
+      list_(laws),
       settings_(settings),
       surfaces_(std::move(surfaces)),
-      law_(choice_, settings_, surfaces_) {
+      law_(choice_, settings_, surfaces_, list_) {
     for (const ShapeRecord& shape : shapes) round_.push_back(shape.kind == "disc");
     check_shapes();
 }
 
 ContactLaws ContactLaws::with(SurfaceTable surfaces) const {
     ContactLaws result = *this;
-    result.law_ = ContactLaw(choice_, settings_, surfaces);
+    result.law_ = ContactLaw(choice_, settings_, surfaces, list_);
     result.surfaces_ = std::move(surfaces);
     result.check_shapes();
     return result;
@@ -122,24 +122,16 @@ Surface ContactLaws::surface(const DetectedContacts& contacts, const ContactPoin
     return result;
 }
 
-ContactSituation ContactLaws::situation(const DetectedContacts& contacts, std::size_t k,
-                                        const Contact& contact, const std::vector<Twist>& free,
-                                        double step) const {
-    const ContactPoint& point = contacts.points[k];
+ContactSituation ContactLaws::situation(const DetectedContacts& contacts,
+                                        const ContactPoint& point) const {
     ContactSituation s;
     s.gap = point.gap;
-    s.step = step;
     s.surface = surface(contacts, point);
     if (point.a >= 0) s.radius_a = contacts.bodies.radius[point.a];
     s.radius_b = contacts.bodies.radius[point.b];
     s.round = is_round(contacts.bodies, point.a) || is_round(contacts.bodies, point.b);
     s.length = point.length;
     s.initial = states_.initial();
-    if (law_.reads_velocities()) {
-        const Plane drive = wall_velocity(contacts, point, contact);
-        s.approach = minus(contact_velocity(contact, contacts.bodies.twist), drive);
-        s.free = minus(contact_velocity(contact, free), drive);
-    }
     return s;
 }
 
@@ -154,12 +146,21 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
     const std::vector<double> share = shares(contacts.points);
     bool pulls = false;
     for (std::size_t k = 0; k < contacts.points.size(); ++k) {
-        Contact contact = bare_contact(contacts.points[k]);
-        ContactSituation now = situation(contacts, k, contact, free, step);
+        const ContactPoint& point = contacts.points[k];
+        Contact contact = bare_contact(point);
+        const ContactVector drive = wall_velocity(contacts, point, contact);
+        ContactVector approach;
+        ContactSituation now = situation(contacts, point);
+        now.step = step;
         now.share = share[k];
+        if (law_.reads_velocities()) {
+            approach = contact_velocity(contact, contacts.bodies.twist) - drive;
+            now.approach = magnitudes(approach);
+            now.free = magnitudes(contact_velocity(contact, free) - drive);
+        }
         const ContactState past = law_.remembers() ? states_.of(contacts.keys[k]) : ContactState{};
         const LawTerms terms = law_.terms(now, past);
-        take_terms(contact, terms, wall_velocity(contacts, contacts.points[k], contact));
+        take_terms(contact, terms, approach, drive);
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         attraction_.push_back(step * terms.attraction);
         pulls = pulls || terms.attraction != 0.0;
@@ -180,7 +181,7 @@ void ContactLaws::pull(ContactProblem& problem) const {
 
 Impulses ContactLaws::felt(const Impulses& solution) const {
     Impulses result = solution;
-    for (std::size_t k = 0; k < result.size(); ++k) result[k][0] -= attraction_[k];
+    for (std::size_t k = 0; k < result.size(); ++k) result[k].n -= attraction_[k];
     return result;
 }
 
@@ -188,7 +189,7 @@ void ContactLaws::find_states(const DetectedContacts& contacts, const Impulses& 
     std::vector<RememberedState> next;
     for (std::size_t k = 0; k < situations_.size(); ++k) {
         const ContactKey& key = contacts.keys[k];
-        const ContactOutcome outcome{terms_[k], in_plane(solution[k])};
+        const ContactOutcome outcome{terms_[k], magnitudes(solution[k])};
         next.push_back({key, law_.remember(situations_[k], states_.of(key), outcome)});
     }
     states_.find(std::move(next));

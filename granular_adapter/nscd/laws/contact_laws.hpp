@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/detection/contact_point.hpp"
 #include "granular_adapter/nscd/laws/contact_states.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
 
@@ -28,7 +28,7 @@ class ContactLaws {
     /// Throws std::invalid_argument on unknown names, on parameters that are missing or out of
     /// range, and on rolling resistance of shapes with corners.
     ContactLaws(const LawChoice& choice, const LawSettings& settings, SurfaceTable surfaces,
-                const ShapeTable& shapes);
+                const ShapeTable& shapes, LawList laws = law_list());
 
     const ContactLaw& law() const { return law_; }
     const SurfaceTable& surfaces() const { return surfaces_; }
@@ -51,9 +51,7 @@ class ContactLaws {
     const ContactStates& states() const { return states_; }
 
  private:
-    ContactSituation situation(const DetectedContacts& contacts, std::size_t k,
-                               const Contact& contact, const std::vector<Twist>& free,
-                               double step) const;
+    ContactSituation situation(const DetectedContacts& contacts, const ContactPoint& point) const;
     Surface surface(const DetectedContacts& contacts, const ContactPoint& point) const;
     void pull(ContactProblem& problem) const;
     bool is_round(const Bodies& bodies, std::int32_t body) const;
@@ -63,6 +61,7 @@ class ContactLaws {
     void check_materials(const DetectedContacts& contacts) const;
 
     LawChoice choice_;
+    LawList list_;
     LawSettings settings_;
     SurfaceTable surfaces_;
     std::vector<std::uint8_t> round_;  ///< by shape: a disc

@@ -7,11 +7,11 @@
 namespace turbidite::nscd {
 
 bool in_impact(const ContactSituation& s, double threshold) {
-    return s.approach[0] < -threshold && (touching(s) || s.gap + s.step * s.free[0] <= 0.0);
+    return s.approach.n < -threshold && (touching(s) || s.gap + s.step * s.free.n <= 0.0);
 }
 
 void demand_rebound(const ContactSituation& s, double restitution, LawTerms& terms) {
-    terms.normal_bias = std::min(terms.normal_bias, restitution * s.approach[0]);
+    terms.normal_bias = std::min(terms.normal_bias, restitution * s.approach.n);
 }
 
 bool never_bounces(const SurfaceTable& surfaces) {

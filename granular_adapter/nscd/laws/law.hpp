@@ -10,18 +10,27 @@
 // stays the same and the law exact. A law costs nothing in the solver's loop.
 //
 // The law of a contact is made of parts, one per slot, which add to the terms one after another.
+// Parts know of velocities and impulses the normal component and the size of the tangential one,
+// (x_n, |x_t|), so that they are the same in the plane and in space.
 #pragma once
 
 #include <limits>
 
 #include "granular_adapter/nscd/laws/surface.hpp"
-#include "granular_adapter/nscd/plane/one_contact.hpp"
+#include "granular_adapter/nscd/names/contact_names.hpp"
+#include "granular_adapter/nscd/problem/contact_vector.hpp"
 
 namespace turbidite::nscd {
 
-/// What parts decide, in the order in which they do.
-enum class LawSlot { gap, friction, adhesion, impact, rolling };
-inline constexpr std::size_t law_slots = 5;
+/// (x_n, |x_t|) of a velocity or an impulse.
+struct Magnitudes {
+    double n = 0.0;
+    double t = 0.0;
+};
+
+inline Magnitudes magnitudes(const ContactVector& x) {
+    return {x.n, tangential(x)};
+}
 
 /// What a part may look at.
 struct ContactSituation {
@@ -33,8 +42,8 @@ struct ContactSituation {
     bool round = true;     ///< one of the two is a disc: a point stands for the whole contact
     double length = 0.0;   ///< of the face that the point stands for, else zero [m]
     double share = 1.0;    ///< one over the pair's points within the law's range
-    Plane approach{};      ///< u at the start of the step, wall motion included [m/s]
-    Plane free{};          ///< u without contact impulses [m/s]
+    Magnitudes approach;   ///< u^-: at the start of the step, wall motion included [m/s]
+    Magnitudes free;       ///< u without contact impulses [m/s]
     double state = 0.0;    ///< what this part remembered; 0: a contact it does not know
     bool initial = false;  ///< first step of a run, in which bonds are made
 };
@@ -50,21 +59,21 @@ inline bool touching(const ContactSituation& s) {
 }
 
 struct LawTerms {
-    double friction = 0.0;         ///< mu
-    double normal_bias = 0.0;      ///< b_n [m/s]
-    double tangential_bias = 0.0;  ///< b_t [m/s]
-    double attraction = 0.0;       ///< c, pulls the pair together whatever the solver finds [N]
-    double rolling = 0.0;          ///< lever of the rolling resistance [m]
+    double friction = 0.0;                ///< mu
+    double normal_bias = 0.0;             ///< b_n [m/s]
+    double tangential_restitution = 0.0;  ///< e_t: b_t = e_t u_t^-
+    double attraction = 0.0;  ///< c, pulls the pair together whatever the solver finds [N]
+    double rolling = 0.0;     ///< lever of the rolling resistance [m]
 };
 
 /// What became of the contact in the step.
 struct ContactOutcome {
     LawTerms terms;
-    Plane impulse{};  ///< r~ [N s]
+    Magnitudes impulse;  ///< r~ [N s]
 
-    bool pressed() const { return impulse[0] > 0.0; }
+    bool pressed() const { return impulse.n > 0.0; }
     /// Pressed and inside the cone.
-    bool sticks() const { return pressed() && std::abs(impulse[1]) < terms.friction * impulse[0]; }
+    bool sticks() const { return pressed() && impulse.t < terms.friction * impulse.n; }
 };
 
 /// Parameters of all parts that are not the surfaces'; each part reads its own.

@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/laws/static_dynamic.hpp"
-
+//
+// Dry friction with two coefficients: the static one for a contact that stuck in the last step, or
+// that is new and does not move along the tangent; the sliding one for all others.
+//
+// The step in which a stuck contact gives way still has the static coefficient.
 #include <stdexcept>
 #include <string>
+
+#include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {
 namespace {
 
-constexpr double unknown = 0.0, stuck = 1.0, sliding = 2.0;
+class StaticDynamic final : public LawPart {
+ public:
+    /// Throws std::invalid_argument where static friction is missing or below that of sliding.
+    StaticDynamic(const LawSettings& settings, const SurfaceTable& surfaces);
+    void add(const ContactSituation& situation, LawTerms& terms) const override;
+    double remember(const ContactSituation& situation,
+                    const ContactOutcome& outcome) const override;
+    bool remembers() const override { return true; }
+    bool reads_velocities() const override { return true; }
+};
 
-}  // namespace
+constexpr double unknown = 0.0, stuck = 1.0, sliding = 2.0;
 
 StaticDynamic::StaticDynamic(const LawSettings&, const SurfaceTable& surfaces) {
     for (const Surface& pair : surfaces.all_pairs())
@@ -20,7 +34,7 @@ StaticDynamic::StaticDynamic(const LawSettings&, const SurfaceTable& surfaces) {
 }
 
 void StaticDynamic::add(const ContactSituation& situation, LawTerms& terms) const {
-    const bool at_rest = situation.state == unknown && situation.approach[1] == 0.0;
+    const bool at_rest = situation.state == unknown && situation.approach.t == 0.0;
     terms.friction = situation.state == stuck || at_rest ? situation.surface.static_friction
                                                          : situation.surface.friction;
 }
@@ -28,6 +42,13 @@ void StaticDynamic::add(const ContactSituation& situation, LawTerms& terms) cons
 double StaticDynamic::remember(const ContactSituation&, const ContactOutcome& outcome) const {
     if (!outcome.pressed()) return unknown;
     return outcome.sticks() ? stuck : sliding;
+}
+
+}  // namespace
+
+std::unique_ptr<const LawPart> make_static_dynamic(const LawSettings& settings,
+                                                   const SurfaceTable& surfaces) {
+    return std::make_unique<StaticDynamic>(settings, surfaces);
 }
 
 }  // namespace turbidite::nscd

@@ -8,8 +8,7 @@ namespace {
 
 /// Impulse p at the end of `arm` and moment impulse m.
 void push(Twist& twist, const BodyMobility& body, const Vec3& arm, const Vec3& p, double m) {
-    const double moment = arm[0] * p[1] - arm[1] * p[0] + m;
-    const PlanarVector change = body * PlanarVector{p[0], p[1], moment};
+    const PlanarVector change = body * PlanarVector{p[0], p[1], cross_z(arm, p) + m};
     twist.velocity[0] += change.x;
     twist.velocity[1] += change.y;
     twist.spin[2] += change.spin;
@@ -21,7 +20,7 @@ Vec3 tangent_of(const Vec3& normal) {
     return {-normal[1], normal[0], 0.0};
 }
 
-Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v) {
+ContactVector contact_velocity(const Contact& contact, const std::vector<Twist>& v) {
     const Twist& b = v[static_cast<std::size_t>(contact.b)];
     double x = b.velocity[0] - b.spin[2] * contact.arm_b[1];
     double y = b.velocity[1] + b.spin[2] * contact.arm_b[0];
@@ -33,22 +32,22 @@ Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v) {
         spin -= a.spin[2];
     }
     const Vec3 &n = contact.normal, &t = contact.tangent;
-    return {n[0] * x + n[1] * y, t[0] * x + t[1] * y, spin};
+    return in_plane(n[0] * x + n[1] * y, t[0] * x + t[1] * y, spin);
 }
 
-Vec3 world_impulse(const Contact& contact, const Vec3& r) {
-    return r[0] * contact.normal + r[1] * contact.tangent;
+Vec3 world_impulse(const Contact& contact, const ContactVector& r) {
+    return r.n * contact.normal + r.t * contact.tangent;
 }
 
 std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r) {
     std::vector<Twist> v = problem.free;
     for (std::size_t k = 0; k < r.size(); ++k) {
-        if (r[k] == Vec3{}) continue;
+        if (r[k] == ContactVector{}) continue;
         const Contact& contact = problem.contacts[k];
         const Vec3 p = world_impulse(contact, r[k]);
-        push(v[contact.b], problem.bodies[contact.b], contact.arm_b, p, r[k][2]);
+        push(v[contact.b], problem.bodies[contact.b], contact.arm_b, p, r[k].roll);
         if (contact.a >= 0)
-            push(v[contact.a], problem.bodies[contact.a], contact.arm_a, -1.0 * p, -r[k][2]);
+            push(v[contact.a], problem.bodies[contact.a], contact.arm_a, -1.0 * p, -r[k].roll);
     }
     return v;
 }

@@ -7,26 +7,27 @@
 //     0 <= u_n  perp  r_n >= 0     Signorini, on velocities and gaps at once (b_n holds g/dt)
 //     |r_t| <= mu r_n, and r_t = -mu r_n u_t/|u_t| unless u_t = 0       Coulomb
 //
-// r [N s] are impulses over the step; body b receives +r, body a (if any) -r. Vectors in contact
-// frames have three components. In the plane they are (n, t, roll): the third is the rolling moment
-// impulse m [N m s] on b (-m on a), conjugate to the relative spin w = spin_b - spin_a,
+// r [N s] are impulses over the step; body b receives +r, body a (if any) -r. The rolling moment
+// impulse m [N m s] acts on b (-m on a), conjugate to the relative spin w = spin_b - spin_a,
 //
 //     |m| <= rolling r_n, and m = -rolling r_n w/|w| unless w = 0    rolling resistance
 //
-// zero wherever `rolling` is zero. Nothing here knows shapes, laws or solvers.
+// zero wherever `rolling` is zero. Vectors in contact frames have room for space
+// (contact_vector.hpp); mobilities and the operators H and H^T are those of the plane. Nothing here
+// knows shapes, laws or solvers.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "granular_adapter/nscd/plane/mobility.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/contact_vector.hpp"
+#include "granular_adapter/nscd/problem/plane/mobility.hpp"
 
 namespace turbidite::nscd {
 
-/// In the contact frame (n, t, roll).
-using Impulses = std::vector<Vec3>;
+/// In the contact frames.
+using Impulses = std::vector<ContactVector>;
 
 struct Contact {
     std::int32_t a = -1;  ///< -1: at rest, immovable
@@ -36,7 +37,7 @@ struct Contact {
     Vec3 arm_a{};    ///< centre to contact point [m]
     Vec3 arm_b{};
     double friction = 0.0;  ///< mu
-    Vec3 bias{};            ///< b [m/s]
+    ContactVector bias;     ///< b [m/s]
     double rolling = 0.0;   ///< lever of the rolling resistance, mu_r times a radius [m]
 };
 
@@ -52,13 +53,13 @@ struct ContactProblem {
 /// t = e_z x n.
 Vec3 tangent_of(const Vec3& normal);
 
-/// H_k^T v of one contact, bias left out: (u_n, u_t, w).
-Vec3 contact_velocity(const Contact& contact, const std::vector<Twist>& v);
+/// H_k^T v of one contact, bias left out: u_n, u_t and w.
+ContactVector contact_velocity(const Contact& contact, const std::vector<Twist>& v);
 
 /// v_free + M^-1 H r.
 std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r);
 
-/// The force part of H_k r_k as a vector [N s]; the moment impulse r[2] comes on top.
-Vec3 world_impulse(const Contact& contact, const Vec3& r);
+/// The force part of H_k r_k as a vector [N s]; the moment impulse r.roll comes on top.
+Vec3 world_impulse(const Contact& contact, const ContactVector& r);
 
 }  // namespace turbidite::nscd

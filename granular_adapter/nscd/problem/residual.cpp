@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "granular_adapter/nscd/plane/rolling_contact.hpp"
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
@@ -18,9 +18,8 @@ double squared(const Plane& x) {
     return x[0] * x[0] + x[1] * x[1];
 }
 
-Vec3 biased_velocity(const Contact& contact, const std::vector<Twist>& v) {
-    const Vec3 u = contact_velocity(contact, v);
-    return {u[0] + contact.bias[0], u[1] + contact.bias[1], u[2]};
+ContactVector biased_velocity(const Contact& contact, const std::vector<Twist>& v) {
+    return contact_velocity(contact, v) + contact.bias;
 }
 
 /// One contact's |natural map|^2 and |r|^2.
@@ -28,35 +27,40 @@ struct Terms {
     double error, size;
 };
 
-Terms rolling_terms(const Contact& contact, const Block& w, const Vec3& r, const Vec3& u) {
-    const double length = rolling_length(w), moment = r[2] / length;
-    const Vec3 f = rolling_natural_map(r, u, contact.friction, contact.rolling, 1.0 / w.nn, length);
-    return {dot(f, f), r[0] * r[0] + r[1] * r[1] + moment * moment};
+Terms rolling_terms(const Contact& contact, const Block& w, const ContactVector& r,
+                    const ContactVector& u) {
+    const double length = rolling_length(w), moment = r.roll / length;
+    const ContactVector f =
+        rolling_natural_map(r, u, contact.friction, contact.rolling, 1.0 / w.nn, length);
+    return {f.n * f.n + f.t * f.t + f.roll * f.roll, r.n * r.n + r.t * r.t + moment * moment};
 }
 
-Terms terms(const Contact& contact, const Block& w, const Vec3& r, const Vec3& u) {
+Terms terms(const Contact& contact, const Block& w, const ContactVector& r,
+            const ContactVector& u) {
     if (w.rr > 0.0) return rolling_terms(contact, w, r, u);
-    const Plane impulse{r[0], r[1]};
-    return {squared(natural_map(impulse, {u[0], u[1]}, contact.friction, 1.0 / w.nn)),
+    const Plane impulse{r.n, r.t};
+    return {squared(natural_map(impulse, {u.n, u.t}, contact.friction, 1.0 / w.nn)),
             squared(impulse)};
 }
 
 /// W_kk r.
-Vec3 times(const Block& w, const Vec3& r) {
-    return {w.nn * r[0] + w.nt * r[1] + w.nr * r[2], w.nt * r[0] + w.tt * r[1] + w.tr * r[2],
-            w.nr * r[0] + w.tr * r[1] + w.rr * r[2]};
+ContactVector times(const Block& w, const ContactVector& r) {
+    return in_plane(w.nn * r.n + w.nt * r.t + w.nr * r.roll,
+                    w.nt * r.n + w.tt * r.t + w.tr * r.roll,
+                    w.nr * r.n + w.tr * r.t + w.rr * r.roll);
 }
 
 /// |u|^2 with spins as velocities.
-double squared(const Block& w, const Vec3& u) {
-    const double rolling = w.rr > 0.0 ? u[2] * u[2] * (w.nn / w.rr) : 0.0;
-    return u[0] * u[0] + u[1] * u[1] + rolling;
+double squared(const Block& w, const ContactVector& u) {
+    const double rolling = w.rr > 0.0 ? u.roll * u.roll * (w.nn / w.rr) : 0.0;
+    return u.n * u.n + u.t * u.t + rolling;
 }
 
 struct MapSums {
     double error = 0.0, size = 0.0;
 
-    void add(const Contact& contact, const Block& w, const Vec3& r, const Vec3& u) {
+    void add(const Contact& contact, const Block& w, const ContactVector& r,
+             const ContactVector& u) {
         const Terms term = terms(contact, w, r, u);
         error += term.error;
         size += term.size;
@@ -67,7 +71,7 @@ struct MapSums {
     }
 };
 
-Vec3 solution(const Contact& contact, const Block& w, const Vec3& b) {
+ContactVector solution(const Contact& contact, const Block& w, const ContactVector& b) {
     return w.rr > 0.0 ? solve_rolling_contact(w, b, contact.friction, contact.rolling)
                       : without_rolling(w, b, contact.friction);
 }
@@ -75,9 +79,10 @@ Vec3 solution(const Contact& contact, const Block& w, const Vec3& b) {
 struct ChangeSums {
     double change = 0.0, largest = 0.0, scale = 0.0;
 
-    void add(const Contact& contact, const Block& w, const Vec3& old, const Vec3& u) {
-        if (old == Vec3{} && u[0] >= 0.0) return;
-        const Vec3 next = solution(contact, w, u - times(w, old));
+    void add(const Contact& contact, const Block& w, const ContactVector& old,
+             const ContactVector& u) {
+        if (old == ContactVector{} && u.n >= 0.0) return;
+        const ContactVector next = solution(contact, w, u - times(w, old));
         const double du = squared(w, times(w, next - old));
         change += du;
         largest = std::max(largest, du);
@@ -138,7 +143,7 @@ Measures measures(const ContactProblem& problem, const Delassus& w, const std::v
     ChangeSums change;
     for (std::size_t k = 0; k < r.size(); ++k) {
         const Contact& contact = problem.contacts[k];
-        const Vec3 u = biased_velocity(contact, v);
+        const ContactVector u = biased_velocity(contact, v);
         map.add(contact, w.block(k), r[k], u);
         change.add(contact, w.block(k), r[k], u);
     }

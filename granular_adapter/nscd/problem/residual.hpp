@@ -15,7 +15,7 @@
 //
 // A slowly converging packing passes those far from the solution: they are for comparison only.
 //
-// Where a contact resists rolling the natural map projects (n, t, roll) on |r_t| <= mu r_n, |m| <=
+// Where a contact resists rolling the natural map projects n, t and roll on |r_t| <= mu r_n, |m| <=
 // rho r_n (rolling_contact.hpp). Moments are divided, spins multiplied, by sqrt(W_nn/W_rr).
 #pragma once
 

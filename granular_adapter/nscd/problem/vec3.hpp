@@ -28,6 +28,11 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// (a x b)_z: in the plane, the moment of b at the end of an arm a.
+inline double cross_z(const Vec3& a, const Vec3& b) {
+    return a[0] * b[1] - a[1] * b[0];
+}
+
 inline double norm(const Vec3& a) {
     return std::sqrt(dot(a, a));
 }

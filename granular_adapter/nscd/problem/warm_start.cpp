@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
-
 namespace turbidite::nscd {
 namespace {
 
@@ -36,15 +34,15 @@ std::vector<std::int32_t> hash_table(const std::vector<RememberedContact>& conta
 
 }  // namespace
 
-void ContactMemory::remember(const std::vector<ContactKey>& keys, const std::vector<Vec3>& impulses,
-                             double step) {
+void ContactMemory::remember(const std::vector<ContactKey>& keys,
+                             const std::vector<ContactVector>& impulses, double step) {
     std::vector<RememberedContact> contacts;
     for (std::size_t k = 0; k < keys.size(); ++k)
-        if (impulses[k][0] > 0.0) contacts.push_back({keys[k], (1.0 / step) * impulses[k]});
+        if (impulses[k].n > 0.0) contacts.push_back({keys[k], (1.0 / step) * impulses[k]});
     replace(std::move(contacts));
 }
 
-Vec3 ContactMemory::guess(const ContactKey& key, double step) const {
+ContactVector ContactMemory::guess(const ContactKey& key, double step) const {
     if (places_.empty()) return {};
     for (std::size_t at = scrambled(key);; ++at) {
         const std::int32_t place = places_[at & (places_.size() - 1)];

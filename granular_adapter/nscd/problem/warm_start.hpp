@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
+#include "granular_adapter/nscd/problem/contact_vector.hpp"
 
 namespace turbidite::nscd {
 
@@ -24,17 +25,17 @@ struct ContactKey {
 
 struct RememberedContact {
     ContactKey key;
-    Vec3 force{};  ///< J/dt, contact frame [N]
+    ContactVector force;  ///< J/dt [N]
 };
 
 class ContactMemory {
  public:
     /// Forgets all and takes these; `keys` must be distinct. Contacts without impulse are left out.
-    void remember(const std::vector<ContactKey>& keys, const std::vector<Vec3>& impulses,
+    void remember(const std::vector<ContactKey>& keys, const std::vector<ContactVector>& impulses,
                   double step);
 
     /// The remembered force times the step, zero for a new contact.
-    Vec3 guess(const ContactKey& key, double step) const;
+    ContactVector guess(const ContactKey& key, double step) const;
 
     void forget() { replace({}); }
     const std::vector<RememberedContact>& contacts() const { return contacts_; }

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/solvers/central_path.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -116,6 +117,10 @@ SolverResult CentralPathSolver::solve(const ContactProblem& problem, const Impul
         }
     }
     return search.result();
+}
+
+std::unique_ptr<const ContactSolver> make_central_path() {
+    return std::make_unique<CentralPathSolver>();
 }
 
 }  // namespace turbidite::nscd

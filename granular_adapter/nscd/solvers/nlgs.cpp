@@ -5,11 +5,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_train.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -46,8 +47,8 @@ class Iteration {
           team_(useful_threads(call.settings, call.guess.size())),
           floor_(rounding_floor(call.problem, call.w)) {
         result_.impulses = call.guess;
-        for (Vec3& r : result_.impulses)
-            if (!(r[0] > 0.0)) r = {};
+        for (ContactVector& r : result_.impulses)
+            if (!(r.n > 0.0)) r = {};
         result_.converged = false;
     }
 
@@ -71,7 +72,7 @@ class Iteration {
         for (std::size_t k = 0; k < active.size(); ++k) active[k] = is_active(k) ? 1 : 0;
         layout_.emplace(problem_, w_, pairs_, result_.impulses, result_.velocities,
                         schedule(active));
-        train_.emplace(sweeps_, *layout_);
+        pipeline_.emplace(sweeps_, *layout_);
     }
 
     Schedule schedule(const std::vector<std::uint8_t>& active) const {
@@ -81,20 +82,20 @@ class Iteration {
 
     /// Has an impulse, or closes with the velocities of the first guess.
     bool is_active(std::size_t k) const {
-        if (result_.impulses[k][0] > 0.0) return true;
+        if (result_.impulses[k].n > 0.0) return true;
         const Contact& c = problem_.contacts[k];
-        return contact_velocity(c, result_.velocities)[0] + c.bias[0] < 0.0;
+        return contact_velocity(c, result_.velocities).n + c.bias.n < 0.0;
     }
 
     void sweep_until_check() {
         std::size_t count = 1;
         while (!check_due(++result_.iterations, settings_)) ++count;
-        train_->run(count, team_);
+        pipeline_->run(count, team_);
     }
 
     bool looks_good() const {
-        const auto& active = train_->active_sums();
-        const auto& resting = train_->resting_sums();
+        const auto& active = pipeline_->active_sums();
+        const auto& resting = pipeline_->resting_sums();
         const double error = total(active.error) + total(resting.error);
         const double size = total(active.size) + total(resting.size);
         return error <= settings_.tolerance * settings_.tolerance * (size + floor_);
@@ -113,7 +114,7 @@ class Iteration {
     /// Rent or buy: a new layout once the updates of groups without impulse have cost as much.
     void adapt(std::int64_t sweeps) {
         const double loaded =
-            total(train_->active_sums().loaded) + total(train_->resting_sums().loaded);
+            total(pipeline_->active_sums().loaded) + total(pipeline_->resting_sums().loaded);
         const auto awake = std::count(layout_->awake.begin(), layout_->awake.end(), 1);
         const double visited = layout_->schedule.active + static_cast<double>(awake);
         wasted_ += static_cast<double>(sweeps) * (visited - loaded / Rows::width);
@@ -131,7 +132,7 @@ class Iteration {
     double floor_;
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
-    std::optional<SweepTrain<Rows>> train_;
+    std::optional<SweepPipeline<Rows>> pipeline_;
     double wasted_ = 0.0;  ///< updates of groups since the last layout
 };
 
@@ -151,6 +152,10 @@ SolverResult Nlgs::solve(const ContactProblem& problem, const Impulses& guess,
     if (w.diagonal())
         return w.rolling() ? iterate<RollingDiscRows<4>>(call) : iterate<DiscRows<4>>(call);
     return w.rolling() ? iterate<GeneralRollingRows<1>>(call) : iterate<GeneralRows<4>>(call);
+}
+
+std::unique_ptr<const ContactSolver> make_nlgs() {
+    return std::make_unique<Nlgs>();
 }
 
 }  // namespace turbidite::nscd

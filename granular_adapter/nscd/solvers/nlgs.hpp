@@ -11,11 +11,12 @@
 // Contacts that have no impulse and do not close rest: they are in groups of their own, which
 // sweeps leave out until a measuring sweep, which asks all of them, finds one that closes.
 //
-// How it is done fast, with the same bits: contact_schedule.hpp, sweep_kernel.hpp, sweep_train.hpp.
+// How it is done fast, with the same bits: contact_schedule.hpp, sweep_kernel.hpp,
+// sweep_pipeline.hpp.
 #pragma once
 
 #include "granular_adapter/nscd/solvers/solver.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 namespace turbidite::nscd {
 

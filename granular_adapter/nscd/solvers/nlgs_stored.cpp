@@ -3,8 +3,9 @@
 
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -19,7 +20,7 @@ struct Sweeper {
     Sweeper(const ContactProblem& problem, const Impulses& guess)
         : w(problem), free(free_contact_velocities(problem)) {
         for (const Contact& contact : problem.contacts) friction.push_back(contact.friction);
-        for (const Vec3& impulse : guess) r.push_back({impulse[0], impulse[1]});
+        for (const ContactVector& impulse : guess) r.push_back({impulse.n, impulse.t});
     }
 
     /// u of contact k without its own impulse.
@@ -55,7 +56,7 @@ struct Sweeper {
     }
 
     void unpack(Impulses& impulses) const {
-        for (std::size_t k = 0; k < r.size(); ++k) impulses[k] = {r[k][0], r[k][1], 0.0};
+        for (std::size_t k = 0; k < r.size(); ++k) impulses[k] = in_plane(r[k][0], r[k][1]);
     }
 };
 
@@ -94,6 +95,10 @@ SolverResult NlgsStored::solve(const ContactProblem& problem, const Impulses& gu
     result.change = change_measures(problem, result.impulses);
     result.velocities = body_velocities(problem, result.impulses);
     return result;
+}
+
+std::unique_ptr<const ContactSolver> make_nlgs_stored() {
+    return std::make_unique<NlgsStored>();
 }
 
 }  // namespace turbidite::nscd

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "granular_adapter/nscd/plane/rolling_contact.hpp"
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
@@ -31,8 +31,8 @@ Matrix3d root(const BodyMobility& m) {
 Matrix3d rows(const Contact& contact, const Vec3& arm, const BodyMobility& body,
               const ScaledContact& scales) {
     Matrix3d h;
-    h.row(0) << contact.normal[0], contact.normal[1], cross(arm, contact.normal)[2];
-    h.row(1) << contact.tangent[0], contact.tangent[1], cross(arm, contact.tangent)[2];
+    h.row(0) << contact.normal[0], contact.normal[1], cross_z(arm, contact.normal);
+    h.row(1) << contact.tangent[0], contact.tangent[1], cross_z(arm, contact.tangent);
     h.row(2) << 0.0, 0.0, scales.length;
     return h * root(body) / scales.impulse;
 }
@@ -54,10 +54,8 @@ ScaledContacts::ScaledContacts(const ContactProblem& problem, const Delassus& w)
         scaled.at_b = rows(contact, contact.arm_b, problem.bodies[contact.b], scaled);
         if (contact.a >= 0)
             scaled.at_a = rows(contact, contact.arm_a, problem.bodies[contact.a], scaled);
-        const Vec3 u = contact_velocity(contact, problem.free);
-        scaled.free =
-            Vector3d(u[0] + contact.bias[0], u[1] + contact.bias[1], u[2] * scaled.length) /
-            scaled.impulse;
+        const ContactVector u = contact_velocity(contact, problem.free) + contact.bias;
+        scaled.free = Vector3d(u.n, u.t, u.roll * scaled.length) / scaled.impulse;
         contacts_.push_back(scaled);
     }
 }
@@ -75,12 +73,12 @@ void ScaledContacts::push(std::size_t k, const Vector3d& r, Eigen::VectorXd& y) 
     if (contact.a >= 0) y.segment<3>(3 * contact.a) -= contact.at_a.transpose() * r;
 }
 
-Vec3 ScaledContacts::physical(std::size_t k, const Vector3d& r) const {
+ContactVector ScaledContacts::physical(std::size_t k, const Vector3d& r) const {
     const ScaledContact& contact = contacts_[k];
     const double n = std::max(0.0, r[0]) / contact.impulse;
     const double t = r[1] / contact.impulse, m = r[2] * contact.length / contact.impulse;
     const double most = contact.friction * n, turn = contact.rolling * contact.length * n;
-    return {n, std::clamp(t, -most, most), std::clamp(m, -turn, turn)};
+    return in_plane(n, std::clamp(t, -most, most), std::clamp(m, -turn, turn));
 }
 
 }  // namespace turbidite::nscd

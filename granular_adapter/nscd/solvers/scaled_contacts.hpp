@@ -45,7 +45,7 @@ class ScaledContacts {
     void push(std::size_t k, const Eigen::Vector3d& r, Eigen::VectorXd& y) const;
 
     /// In the units of the problem, moved into the cone where it is outside.
-    Vec3 physical(std::size_t k, const Eigen::Vector3d& r) const;
+    ContactVector physical(std::size_t k, const Eigen::Vector3d& r) const;
 
  private:
     std::vector<ScaledContact> contacts_;

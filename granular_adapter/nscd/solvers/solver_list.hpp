@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every contact solver there is, by name. A new solver: one file pair, one line in solver_list.cpp.
+// Every contact solver there is, by name: the lines of names/solver_table.def.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "granular_adapter/nscd/solvers/solver.hpp"
 
 namespace turbidite::nscd {
 
+using MakeSolver = std::unique_ptr<const ContactSolver>();
+
+#define TURBIDITE_SOLVER(name, description, make) MakeSolver make;
+#include "granular_adapter/nscd/names/solver_table.def"
+#undef TURBIDITE_SOLVER
+
 struct SolverEntry {
     std::string name;
     std::string description;
-    std::unique_ptr<const ContactSolver> (*make)();
+    MakeSolver* make;
 };
-const std::vector<SolverEntry>& solver_list();
+
+/// What a name is looked up in; whoever brings solvers of its own hands over a longer one.
+using SolverList = std::span<const SolverEntry>;
+SolverList solver_list();
 
 /// Throws std::invalid_argument that lists the known solvers.
-std::unique_ptr<const ContactSolver> make_solver(const std::string& name);
+std::unique_ptr<const ContactSolver> make_solver(const std::string& name,
+                                                 SolverList solvers = solver_list());
 
 }  // namespace turbidite::nscd

@@ -9,7 +9,7 @@
 // velocities apart, so that the processor works on several at once.
 //
 // Groups open at a time are few, so that a contact is never far from its place in the order: memory
-// is read in order, and a second sweep may follow a first one closely (sweep_train.hpp).
+// is read in order, and a second sweep may follow a first one closely (sweep_pipeline.hpp).
 //
 // Contacts that are expected to have an impulse share groups with each other only, and so do those
 // that rest. Sweeps may leave out groups at rest (nlgs.cpp). Stretch by stretch of the order they

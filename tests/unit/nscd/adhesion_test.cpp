@@ -65,8 +65,8 @@ TEST(Wet, HoldsUpToExactlyItsForce) {
         Engine holds = pair_at(0.0, adhesive(law));
         EXPECT_NEAR(pulled_right(holds, c * (1 - 1e-9), 50), 0.0, 1e-13);
         EXPECT_NEAR(holds.bodies().contact_impulse[1][0], -c * dt, 1e-9) << "the real force";
-        EXPECT_NEAR(holds.impulses()[0][0], -c * dt, 1e-9);
-        EXPECT_NEAR(holds.solution()[0][0], 0.0, 1e-9) << "what the solver found";
+        EXPECT_NEAR(holds.impulses()[0].n, -c * dt, 1e-9);
+        EXPECT_NEAR(holds.solution()[0].n, 0.0, 1e-9) << "what the solver found";
         Engine parts = pair_at(0.0, adhesive(law));
         EXPECT_NEAR(pulled_right(parts, c + 0.1, 50), 50 * dt * 0.1 / mass, 1e-12);
     }
@@ -78,7 +78,7 @@ TEST(Wet, PullsWithinItsRange) {
     EXPECT_NEAR(pulled_right(engine, 0.0, 1), -dt * c / mass, 1e-13);
     EXPECT_NEAR(pulled_right(engine, 0.0, 100), 0.0, 1e-13);
     EXPECT_NEAR(engine.bodies().position[1][0], 1.0, 1e-12);
-    EXPECT_NEAR(engine.solution()[0][0], c * dt, 1e-12);
+    EXPECT_NEAR(engine.solution()[0].n, c * dt, 1e-12);
     EXPECT_NEAR(engine.bodies().contact_impulse[1][0], 0.0, 1e-12);
     Engine beyond = pair_at(0.0501, adhesive("wet"));
     EXPECT_EQ(pulled_right(beyond, 0.0, 10), 0.0);
@@ -251,7 +251,7 @@ TEST(Adhesion, ImpulsesBalanceUnderTheHostsMobilities) {
             EXPECT_NEAR(momentum.y, b.contact_impulse[i][1], 1e-12);
             EXPECT_NEAR(momentum.spin, b.contact_angular_impulse[i][2], 1e-12);
         }
-        for (const Vec3& r : engine.impulses()) most = std::max(most, -r[0]);
+        for (const ContactVector& r : engine.impulses()) most = std::max(most, -r.n);
         engine.move(dt);
     }
     EXPECT_GT(most, 0.1 * c * dt) << "some pair must be pulled, or this tests nothing";

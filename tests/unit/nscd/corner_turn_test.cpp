@@ -80,7 +80,7 @@ TEST(CornerTurn, ForeseesTheGapAtTheEnd) {
                                              engine.bodies().twist,
                                              dt},
                                             table)[0];
-    const double u = contact_velocity(engine.problem().contacts[0], engine.bodies().twist)[0];
+    const double u = contact_velocity(engine.problem().contacts[0], engine.bodies().twist).n;
     engine.move(dt);
     const auto after = scenes::between(shapes, engine.bodies(), 0, 1, 0.5);
     ASSERT_EQ(after.size(), 1u);

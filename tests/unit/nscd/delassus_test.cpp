@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,13 @@
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
+#include "planar.hpp"
 #include "problems.hpp"
 
 namespace turbidite::nscd {
 namespace {
+
+using planar::component;
 
 using problems::dense;
 using problems::dense_delassus;
@@ -116,11 +119,11 @@ TEST(Delassus, IsTheDenseProductForAnyMobility) {
         EXPECT_NEAR(w.block(k).tt, reference(2 * k + 1, 2 * k + 1), 1e-14);
         for (int d = 0; d < 2; ++d) {
             Impulses unit(6);
-            unit[k][d] = 1.0;
+            component(unit[k], d) = 1.0;
             const Impulses column = w.apply(unit);
             for (int j = 0; j < 6; ++j)
                 for (int e = 0; e < 2; ++e)
-                    EXPECT_NEAR(column[j][e], reference(2 * j + e, 2 * k + d), 1e-14);
+                    EXPECT_NEAR(component(column[j], e), reference(2 * j + e, 2 * k + d), 1e-14);
         }
     }
 }
@@ -132,11 +135,11 @@ TEST(Nlgs, MatchesADirectSolveWhereAllContactsStick) {
     std::vector<PlanarTensor> inertia;
     ContactProblem problem = wet_chain(6, inertia);
     for (Contact& contact : problem.contacts)
-        contact.friction = 50.0, contact.bias = {-20.0, 0.0, 0.0};
+        contact.friction = 50.0, contact.bias = in_plane(-20.0, 0.0);
     Eigen::VectorXd b(12);
     for (int k = 0; k < 6; ++k) {
-        const Vec3 u = contact_velocity(problem.contacts[k], problem.free);
-        b(2 * k) = u[0] + problem.contacts[k].bias[0], b(2 * k + 1) = u[1];
+        const ContactVector u = contact_velocity(problem.contacts[k], problem.free);
+        b(2 * k) = u.n + problem.contacts[k].bias.n, b(2 * k + 1) = u.t;
     }
     const Eigen::VectorXd reference = -dense_delassus(problem).ldlt().solve(b);
     for (int k = 0; k < 6; ++k) {
@@ -150,7 +153,8 @@ TEST(Nlgs, MatchesADirectSolveWhereAllContactsStick) {
     ASSERT_TRUE(result.converged);
     for (int k = 0; k < 6; ++k)
         for (int d = 0; d < 2; ++d)
-            EXPECT_NEAR(result.impulses[k][d], reference(2 * k + d), 1e-10 * reference.norm());
+            EXPECT_NEAR(component(result.impulses[k], d), reference(2 * k + d),
+                        1e-10 * reference.norm());
 }
 
 // With slip and lift-off: admissible by the published residual, and A (U - U^F) = J body by body.
@@ -215,7 +219,8 @@ TEST(Nlgs, GeneralRowsGiveTheAnswerOfTheFastOnes) {
     ASSERT_TRUE(a.converged && b.converged);
     EXPECT_EQ(a.iterations, b.iterations);
     for (std::size_t k = 0; k < 10; ++k)
-        for (int d = 0; d < 2; ++d) EXPECT_NEAR(a.impulses[k][d], b.impulses[k][d], 1e-12);
+        for (int d = 0; d < 2; ++d)
+            EXPECT_NEAR(component(a.impulses[k], d), component(b.impulses[k], d), 1e-12);
 }
 
 // Column by column: the diagonal block of contact k is what a unit impulse at k does to k.
@@ -225,14 +230,14 @@ TEST(Delassus, BlocksAgreeWithTheOperator) {
     EXPECT_FALSE(w.diagonal());
     for (std::size_t k = 0; k < 5; ++k) {
         Impulses unit(5);
-        unit[k] = {1.0, 0.0, 0.0};
-        const Vec3 un = w.apply(unit)[k];
-        unit[k] = {0.0, 1.0, 0.0};
-        const Vec3 ut = w.apply(unit)[k];
-        EXPECT_NEAR(un[0], w.block(k).nn, 1e-14);
-        EXPECT_NEAR(un[1], w.block(k).nt, 1e-14);
-        EXPECT_NEAR(ut[0], w.block(k).nt, 1e-14);
-        EXPECT_NEAR(ut[1], w.block(k).tt, 1e-14);
+        unit[k] = in_plane(1.0, 0.0);
+        const ContactVector un = w.apply(unit)[k];
+        unit[k] = in_plane(0.0, 1.0);
+        const ContactVector ut = w.apply(unit)[k];
+        EXPECT_NEAR(un.n, w.block(k).nn, 1e-14);
+        EXPECT_NEAR(un.t, w.block(k).nt, 1e-14);
+        EXPECT_NEAR(ut.n, w.block(k).nt, 1e-14);
+        EXPECT_NEAR(ut.t, w.block(k).tt, 1e-14);
     }
 }
 
@@ -245,7 +250,7 @@ TEST(Delassus, IsSymmetric) {
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     Impulses x(6), y(6);
     for (std::size_t k = 0; k < 6; ++k)
-        x[k] = {any(random), any(random), 0.0}, y[k] = {any(random), any(random), 0.0};
+        x[k] = in_plane(any(random), any(random)), y[k] = in_plane(any(random), any(random));
     const Impulses wx = w.apply(x), wy = w.apply(y);
     double xwy = 0.0, ywx = 0.0;
     for (std::size_t k = 0; k < 6; ++k) xwy += dot(x[k], wy[k]), ywx += dot(y[k], wx[k]);
@@ -284,15 +289,15 @@ TEST(Nlgs, SaysThatItDidNotConverge) {
 TEST(Residual, IsTheShareOfTheImpulseThatIsWrong) {
     Contact contact = touch(-1, 0, {}, {});
     const ContactProblem problem{{{1.0, 1.0}}, {{-1.0 * contact.normal, {}}}, {contact}};
-    EXPECT_NEAR(natural_map_residual(problem, {{1.0, 0.0, 0.0}}), 0.0, 1e-15);
-    EXPECT_NEAR(natural_map_residual(problem, {{0.9, 0.0, 0.0}}), 0.1 / 0.9, 1e-14);
+    EXPECT_NEAR(natural_map_residual(problem, {in_plane(1.0, 0.0)}), 0.0, 1e-15);
+    EXPECT_NEAR(natural_map_residual(problem, {in_plane(0.9, 0.0)}), 0.1 / 0.9, 1e-14);
 }
 
 // The same at r_n = 0.9: one update makes it 1, du = 0.1, R = 0.95, so quad = max = 0.1/0.95.
 TEST(Residual, ChangeMeasuresLookAtOneUpdate) {
     Contact contact = touch(-1, 0, {}, {});
     const ContactProblem problem{{{1.0, 1.0}}, {{-1.0 * contact.normal, {}}}, {contact}};
-    const ChangeMeasures change = change_measures(problem, {{0.9, 0.0, 0.0}});
+    const ChangeMeasures change = change_measures(problem, {in_plane(0.9, 0.0)});
     EXPECT_NEAR(change.quad, 0.1 / 0.95, 1e-14);
     EXPECT_NEAR(change.max, 0.1 / 0.95, 1e-14);
 }

@@ -124,11 +124,12 @@ TEST(Engine, ContactsAreAdmissible) {
     engine.step(0.01);
     for (std::size_t k = 0; k < engine.points().size(); ++k) {
         const Contact& contact = engine.problem().contacts[k];
-        const Vec3 u = contact_velocity(contact, engine.bodies().twist), r = engine.impulses()[k];
-        EXPECT_GE(r[0], 0.0);
-        EXPECT_LE(std::abs(r[1]), 0.3 * r[0] * (1 + 1e-15));
-        EXPECT_GE(u[0] + contact.bias[0], -1e-7);
-        EXPECT_LE(std::abs((u[0] + contact.bias[0]) * r[0]), 1e-8);
+        const ContactVector u = contact_velocity(contact, engine.bodies().twist),
+                            r = engine.impulses()[k];
+        EXPECT_GE(r.n, 0.0);
+        EXPECT_LE(std::abs(r.t), 0.3 * r.n * (1 + 1e-15));
+        EXPECT_GE(u.n + contact.bias.n, -1e-7);
+        EXPECT_LE(std::abs((u.n + contact.bias.n) * r.n), 1e-8);
     }
 }
 

@@ -82,8 +82,8 @@ TEST(Impact, FrictionStopsSlipAtTheContact) {
     engine.step(0.01);
     const double mass = std::numbers::pi / 4;
     ASSERT_EQ(engine.impulses().size(), 1u);
-    EXPECT_NEAR(engine.impulses()[0][0], mass / 2, 1e-13);
-    EXPECT_NEAR(std::abs(engine.impulses()[0][1]), mass / 12, 1e-13);
+    EXPECT_NEAR(engine.impulses()[0].n, mass / 2, 1e-13);
+    EXPECT_NEAR(std::abs(engine.impulses()[0].t), mass / 12, 1e-13);
     const Twist low = engine.bodies().twist[0], high = engine.bodies().twist[1];
     EXPECT_NEAR(high.velocity[0] + 0.5 * high.spin[2], low.velocity[0] - 0.5 * low.spin[2], 1e-13);
 }

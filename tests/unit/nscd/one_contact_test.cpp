@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/plane/one_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -50,7 +50,7 @@ TEST(Block, StackStandsStill) {
     scenes::run(engine, 2.0, dt);
     double floor = 0.0;
     for (std::size_t k = 0; k < engine.points().size(); ++k)
-        if (engine.points()[k].wall >= 0) floor += engine.impulses()[k][0];
+        if (engine.points()[k].wall >= 0) floor += engine.impulses()[k].n;
     EXPECT_NEAR(floor, 5.0 * dt, 1e-9);
     for (int i = 0; i < 5; ++i) {
         EXPECT_NEAR(engine.bodies().position[i][0], 0.05 * (i % 2), 1e-8);

@@ -64,7 +64,7 @@ inline ContactProblem random_problem(const Recipe& recipe) {
         contact.arm_b = {0.5 * any(random), 0.5 * any(random), 0.0};
         contact.friction = 0.5 * recipe.friction * (1.0 + any(random));
         contact.rolling = 0.5 * recipe.rolling * (1.0 + any(random));
-        contact.bias = {0.2 * any(random), 0.0, 0.0};
+        contact.bias = in_plane(0.2 * any(random), 0.0);
         problem.contacts.push_back(contact);
     };
     for (int i = 1; i < recipe.bodies; ++i) touch(i % 4 == 1 ? -1 : i - 1, i);

@@ -206,8 +206,8 @@ TEST(Restitution, EnergyChangesByTheWorkOfImpulses) {
         engine.step(dt);
         for (std::size_t k = 0; k < engine.points().size(); ++k) {
             const Contact& contact = engine.problem().contacts[k];
-            const Vec3 old = contact_velocity(contact, before);
-            const Vec3 now = contact_velocity(contact, engine.bodies().twist);
+            const ContactVector old = contact_velocity(contact, before);
+            const ContactVector now = contact_velocity(contact, engine.bodies().twist);
             work += 0.5 * dot(engine.impulses()[k], old + now);
         }
         engine.move(dt);

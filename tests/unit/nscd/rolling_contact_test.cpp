@@ -1,38 +1,41 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <random>
 
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
+#include "planar.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {
 namespace {
 
-Vec3 velocity(const Block& w, const Vec3& b, const Vec3& r) {
-    return {b[0] + w.nn * r[0] + w.nt * r[1] + w.nr * r[2],
-            b[1] + w.nt * r[0] + w.tt * r[1] + w.tr * r[2],
-            b[2] + w.nr * r[0] + w.tr * r[1] + w.rr * r[2]};
+ContactVector velocity(const Block& w, const ContactVector& b, const ContactVector& r) {
+    return in_plane(b.n + w.nn * r.n + w.nt * r.t + w.nr * r.roll,
+                    b.t + w.nt * r.n + w.tt * r.t + w.tr * r.roll,
+                    b.roll + w.nr * r.n + w.tr * r.t + w.rr * r.roll);
 }
 
 /// The law itself, term by term; relative to what the numbers allow.
-void expect_solved(const Block& w, const Vec3& b, const Vec3& r, double mu, double rho) {
-    const Vec3 u = velocity(w, b, r);
-    const double scale = norm(b) + 1e-300, size = std::max(norm(r), 1e-300);
+void expect_solved(const Block& w, const ContactVector& b, const ContactVector& r, double mu,
+                   double rho) {
+    const ContactVector u = velocity(w, b, r);
+    const double scale = std::sqrt(dot(b, b)) + 1e-300,
+                 size = std::max(std::sqrt(dot(r, r)), 1e-300);
     const double eps = 1e-10 * scale;
-    EXPECT_GE(r[0], 0.0);
-    EXPECT_GE(u[0], -eps);
-    EXPECT_LE(std::abs(u[0] * r[0]), eps * size);
-    EXPECT_LE(std::abs(r[1]), mu * r[0] * (1.0 + 1e-15));
-    EXPECT_LE(std::abs(r[2]), rho * r[0] * (1.0 + 1e-15));
-    EXPECT_NEAR(r[1] * u[1], -mu * r[0] * std::abs(u[1]), eps * size) << "friction opposes slip";
-    EXPECT_NEAR(r[2] * u[2], -rho * r[0] * std::abs(u[2]), eps * size) << "rolling alike";
+    EXPECT_GE(r.n, 0.0);
+    EXPECT_GE(u.n, -eps);
+    EXPECT_LE(std::abs(u.n * r.n), eps * size);
+    EXPECT_LE(std::abs(r.t), mu * r.n * (1.0 + 1e-15));
+    EXPECT_LE(std::abs(r.roll), rho * r.n * (1.0 + 1e-15));
+    EXPECT_NEAR(r.t * u.t, -mu * r.n * std::abs(u.t), eps * size) << "friction opposes slip";
+    EXPECT_NEAR(r.roll * u.roll, -rho * r.n * std::abs(u.roll), eps * size) << "rolling alike";
 }
 
 class RollingContact : public ::testing::Test {
@@ -55,7 +58,7 @@ class RollingContact : public ::testing::Test {
 TEST_F(RollingContact, DiscsAreSolvedExactly) {
     for (int i = 0; i < 100000; ++i) {
         const Block w = random_block(true);
-        const Vec3 b{any() - 0.5, any(), any()};
+        const ContactVector b = in_plane(any() - 0.5, any(), any());
         const double mu = 1.0 + any(), rho = 0.5 * (1.0 + any());
         expect_solved(w, b, solve_rolling_contact(w, b, mu, rho), mu, rho);
         if (HasFailure()) FAIL() << "case " << i;
@@ -65,7 +68,7 @@ TEST_F(RollingContact, DiscsAreSolvedExactly) {
 TEST_F(RollingContact, AnyWIsSolvedExactly) {
     for (int i = 0; i < 100000; ++i) {
         const Block w = random_block(false);
-        const Vec3 b{any() - 0.5, any(), any()};
+        const ContactVector b = in_plane(any() - 0.5, any(), any());
         const double mu = 1.0 + any(), rho = 0.5 * (1.0 + any());
         expect_solved(w, b, solve_rolling_contact(w, b, mu, rho), mu, rho);
         if (HasFailure()) FAIL() << "case " << i;
@@ -76,29 +79,29 @@ TEST_F(RollingContact, AnyWIsSolvedExactly) {
 TEST_F(RollingContact, IsCoulombWithoutResistance) {
     for (int i = 0; i < 1000; ++i) {
         const Block w = random_block(i % 2 == 0);
-        const Vec3 b{any() - 0.5, any(), any()};
+        const ContactVector b = in_plane(any() - 0.5, any(), any());
         const double mu = 1.0 + any();
-        const Plane plane = solve_contact(w, {b[0], b[1]}, mu);
-        const Vec3 r = solve_rolling_contact(w, b, mu, 0.0);
+        const Plane plane = solve_contact(w, {b.n, b.t}, mu);
+        const ContactVector r = solve_rolling_contact(w, b, mu, 0.0);
         // With strong coupling two solutions may exist: then this one must be as good.
-        if (std::abs(r[0] - plane[0]) > 1e-9 * (1.0 + plane[0]))
-            expect_solved({w.nn, w.nt, w.tt}, {b[0], b[1], 0.0}, {r[0], r[1], 0.0}, mu, 0.0);
-        EXPECT_EQ(r[2], 0.0);
+        if (std::abs(r.n - plane[0]) > 1e-9 * (1.0 + plane[0]))
+            expect_solved({w.nn, w.nt, w.tt}, in_plane(b.n, b.t), in_plane(r.n, r.t), mu, 0.0);
+        EXPECT_EQ(r.roll, 0.0);
     }
 }
 
 // The projection is the nearest point: no other point of the pyramid is closer.
 TEST_F(RollingContact, ProjectionIsTheNearestPoint) {
     for (int i = 0; i < 20000; ++i) {
-        const Vec3 x{2.0 * any(), 2.0 * any(), 2.0 * any()};
+        const ContactVector x = in_plane(2.0 * any(), 2.0 * any(), 2.0 * any());
         const double mu = 1.0 + any(), rho = 1.0 + any();
-        const Vec3 p = project_on_pyramid(x, mu, rho);
-        EXPECT_LE(std::abs(p[1]), mu * p[0] * (1 + 1e-15) + 1e-300);
-        EXPECT_LE(std::abs(p[2]), rho * p[0] * (1 + 1e-15) + 1e-300);
+        const ContactVector p = project_on_pyramid(x, mu, rho);
+        EXPECT_LE(std::abs(p.t), mu * p.n * (1 + 1e-15) + 1e-300);
+        EXPECT_LE(std::abs(p.roll), rho * p.n * (1 + 1e-15) + 1e-300);
         // Moreau: x - p is normal to p and in the polar cone.
-        const Vec3 q = x - p;
+        const ContactVector q = x - p;
         EXPECT_NEAR(dot(p, q), 0.0, 1e-12);
-        EXPECT_LE(q[0] + mu * std::abs(q[1]) + rho * std::abs(q[2]), 1e-12);
+        EXPECT_LE(q.n + mu * std::abs(q.t) + rho * std::abs(q.roll), 1e-12);
     }
 }
 
@@ -126,7 +129,7 @@ TEST(RollingResistance, HoldsADiscOnASlopeBelowItsAngle) {
         const double speed = result.velocities[0].velocity[0];
         if (tangent < 0.1) {
             EXPECT_NEAR(speed, 0.0, 1e-15);
-            EXPECT_NEAR(result.impulses[0][2], 0.5 * body.mass * 0.01 * g[0], 1e-12)
+            EXPECT_NEAR(result.impulses[0].roll, 0.5 * body.mass * 0.01 * g[0], 1e-12)
                 << "the moment that weight has about the contact";
         } else {
             // (m + I/R2) a = m g sin - rho m g cos / R
@@ -154,13 +157,13 @@ TEST(RollingResistance, DelassusHasTheRowOfMoments) {
     const Delassus w(problem);
     for (int d = 0; d < 3; ++d) {
         Impulses unit(1);
-        unit[0][d] = 1.0;
-        const Vec3 u = w.apply(unit)[0];
+        planar::component(unit[0], d) = 1.0;
+        const ContactVector u = w.apply(unit)[0];
         const Block& block = w.block(0);
         const double row[3][3] = {{block.nn, block.nt, block.nr},
                                   {block.nt, block.tt, block.tr},
                                   {block.nr, block.tr, block.rr}};
-        for (int e = 0; e < 3; ++e) EXPECT_NEAR(u[e], row[e][d], 1e-15);
+        for (int e = 0; e < 3; ++e) EXPECT_NEAR(planar::component(u, e), row[e][d], 1e-15);
     }
     EXPECT_TRUE(w.rolling());
 }

@@ -5,9 +5,10 @@
 
 #include <cstring>
 
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
+#include "planar.hpp"
 #include "problems.hpp"
 #include "scenes.hpp"
 
@@ -66,9 +67,9 @@ TEST_P(EverySolver, SolvesProblemsWithAnyMobilityAndArms) {
         EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-10);
         EXPECT_EQ(natural_map_residual(problem, result.impulses), result.residual);
         for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
-            const Vec3& r = result.impulses[k];
-            EXPECT_GE(r[0], 0.0);
-            EXPECT_LE(std::abs(r[1]), problem.contacts[k].friction * r[0] * (1.0 + 1e-15));
+            const ContactVector& r = result.impulses[k];
+            EXPECT_GE(r.n, 0.0);
+            EXPECT_LE(std::abs(r.t), problem.contacts[k].friction * r.n * (1.0 + 1e-15));
         }
     }
 }
@@ -187,7 +188,8 @@ TEST(NlgsStored, SweepsInTheOrderOfTheContacts) {
             const SolverResult result = solve("nlgs-stored", problem, settings);
             for (std::size_t k = 0; k < free.size(); ++k)
                 for (int d = 0; d < 2; ++d)
-                    EXPECT_NEAR(result.impulses[k][d], r[2 * k + d], 1e-12 * r.norm());
+                    EXPECT_NEAR(planar::component(result.impulses[k], d), r[2 * k + d],
+                                1e-12 * r.norm());
         }
     }
 }

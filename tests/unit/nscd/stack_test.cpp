@@ -30,8 +30,8 @@ TEST(Stack, ReactionsEqualTheWeightsAbove) {
         int contacts = 0;
         for (std::size_t k = 0; k < engine.points().size(); ++k) {
             const double above = height - double(engine.bodies().id[engine.points()[k].b]);
-            EXPECT_NEAR(engine.impulses()[k][0], above * weight, 2e-6 * weight);
-            EXPECT_NEAR(engine.impulses()[k][1], 0.0, 2e-6 * weight);
+            EXPECT_NEAR(engine.impulses()[k].n, above * weight, 2e-6 * weight);
+            EXPECT_NEAR(engine.impulses()[k].t, 0.0, 2e-6 * weight);
             ++contacts;
         }
         EXPECT_EQ(contacts, height);
@@ -47,7 +47,7 @@ TEST(Stack, FloorCarriesTheTotalWeight) {
     const double weight = std::numbers::pi / 4 * 0.01;
     double floor = 0.0, momentum = 0.0;
     for (std::size_t k = 0; k < engine.points().size(); ++k)
-        if (engine.points()[k].wall >= 0) floor += engine.impulses()[k][0];
+        if (engine.points()[k].wall >= 0) floor += engine.impulses()[k].n;
     for (std::size_t i = 0; i < engine.bodies().size(); ++i)
         momentum += engine.bodies().mass[i] * engine.bodies().twist[i].velocity[1];
     EXPECT_NEAR(floor - momentum, height * weight, 1e-12 * height * weight);

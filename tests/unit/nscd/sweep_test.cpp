@@ -11,8 +11,9 @@
 #include "granular_adapter/nscd/detection/contact_order.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_train.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
+#include "planar.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {
@@ -45,7 +46,7 @@ ContactProblem lattice(int columns, int rows, Kind kind) {
                    -0.5 * c.normal[1] + skew * c.tangent[1], 0.0};
         if (a >= 0) c.arm_a = {-c.arm_b[0], -c.arm_b[1], 0.0};
         c.friction = 0.3 + 0.2 * any(random);
-        c.bias = {0.3 * any(random), 0.0, 0.0};
+        c.bias = in_plane(0.3 * any(random), 0.0);
         if (kind == Kind::rolling_discs || kind == Kind::general_rolling)
             c.rolling = a % 3 == 0 ? 0.0 : 0.05;
         problem.contacts.push_back(c);
@@ -89,24 +90,24 @@ void wake_some(Layout& layout) {
     for (std::size_t g = 0; g < layout.awake.size(); ++g) layout.awake[g] = g % 3 == 0 ? 1 : 0;
 }
 
-constexpr int trains = 2;
-constexpr std::size_t wagons = 5;
+constexpr int runs = 2;
+constexpr std::size_t sweeps_per_run = 5;
 
 template <class Rows>
-Impulses after_trains(const ContactProblem& problem, Instructions instructions,
-                      const Schedule& schedule, int threads) {
+Impulses after_runs(const ContactProblem& problem, Instructions instructions,
+                    const Schedule& schedule, int threads) {
     const Delassus w(problem);
     SweepLayout<Rows> layout = laid_out<Rows>(problem, w, schedule);
     wake_some(layout);
-    SweepTrain<Rows> train(sweeps<Rows>(instructions), layout);
+    SweepPipeline<Rows> pipeline(sweeps<Rows>(instructions), layout);
     ThreadTeam team(threads);
-    for (int i = 0; i < trains; ++i) train.run(wagons, team);
+    for (int i = 0; i < runs; ++i) pipeline.run(sweeps_per_run, team);
     Impulses r(problem.contacts.size());
     layout.collect(r);
     return r;
 }
 
-/// What trains should do, one contact after the other.
+/// What pipelines should do, one contact after the other.
 template <class Rows>
 class OneByOne {
  public:
@@ -118,9 +119,9 @@ class OneByOne {
             awake_.push_back((g - grouped.active) % 3 == 0);
     }
 
-    Impulses after_trains(std::size_t contacts) {
-        for (int i = 0; i < trains; ++i)
-            for (std::size_t wagon = 0; wagon < wagons; ++wagon) sweep(wagon + 1 == wagons);
+    Impulses after_runs(std::size_t contacts) {
+        for (int i = 0; i < runs; ++i)
+            for (std::size_t s = 0; s < sweeps_per_run; ++s) sweep(s + 1 == sweeps_per_run);
         Impulses r(contacts);
         layout_.collect(r);
         return r;
@@ -170,11 +171,12 @@ class OneByOne {
 };
 
 bool same_bits(const Impulses& a, const Impulses& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+    return a.size() == b.size() &&
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(ContactVector)) == 0;
 }
 
 bool moves_something(const Impulses& r) {
-    return std::count_if(r.begin(), r.end(), [](const Vec3& x) { return x[0] > 0.0; }) >
+    return std::count_if(r.begin(), r.end(), [](const ContactVector& x) { return x.n > 0.0; }) >
            static_cast<std::ptrdiff_t>(r.size() / 4);
 }
 
@@ -191,12 +193,12 @@ void expect_the_bits_of_one_after_the_other(Kind kind) {
         const Schedule schedule =
             scheduled(problem, {.width = Grouped::width, .distance = distance, .stretch = 100});
         const Impulses reference =
-            OneByOne<Single>(problem, schedule).after_trains(problem.contacts.size());
+            OneByOne<Single>(problem, schedule).after_runs(problem.contacts.size());
         ASSERT_TRUE(moves_something(reference));
         for (const Instructions instructions : all_instructions())
             for (const int threads : {1, 2, 3})
                 EXPECT_TRUE(same_bits(
-                    reference, after_trains<Grouped>(problem, instructions, schedule, threads)))
+                    reference, after_runs<Grouped>(problem, instructions, schedule, threads)))
                     << static_cast<int>(instructions) << " " << distance << " " << threads;
     }
 }
@@ -338,7 +340,8 @@ TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
         const Delassus w(problem);
         Impulses r(problem.contacts.size());
         for (std::size_t k = 0; k < r.size(); ++k)
-            r[k] = {0.1 * double(k % 3), 0.02 * double(k % 2), w.block(k).rr > 0.0 ? 0.001 : 0.0};
+            r[k] = in_plane(0.1 * double(k % 3), 0.02 * double(k % 2),
+                            w.block(k).rr > 0.0 ? 0.001 : 0.0);
         const std::vector<Twist> v = body_velocities(problem, r);
         const std::vector<MovedPair> pairs = moved_pairs(problem);
         const auto sum = [&]<class Rows>(Rows) {
@@ -367,13 +370,13 @@ void expect_state_survives_rearrangement(Kind kind) {
     const Delassus w(problem);
     Schedule first = scheduled(problem, {.width = Rows::width, .distance = 1, .stretch = 40});
     SweepLayout<Rows> layout = laid_out<Rows>(problem, w, std::move(first));
-    SweepTrain<Rows> train(sweeps<Rows>(best_instructions()), layout);
+    SweepPipeline<Rows> pipeline(sweeps<Rows>(best_instructions()), layout);
     ThreadTeam team(1);
-    train.run(3, team);
+    pipeline.run(3, team);
     Impulses before(pairs.size()), after(pairs.size());
     layout.collect(before);
     const std::vector<std::uint8_t> loaded = layout.loaded(pairs.size());
-    for (std::size_t k = 0; k < pairs.size(); ++k) EXPECT_EQ(loaded[k] != 0, before[k][0] > 0.0);
+    for (std::size_t k = 0; k < pairs.size(); ++k) EXPECT_EQ(loaded[k] != 0, before[k].n > 0.0);
     layout.rearrange(make_schedule(pairs, loaded, problem.bodies.size(),
                                    {.width = Rows::width, .distance = 3, .stretch = 70}));
     layout.collect(after);
@@ -381,14 +384,15 @@ void expect_state_survives_rearrangement(Kind kind) {
     // Rows came along: a layout from scratch goes on the same way but for its rounded velocities.
     SweepLayout<Rows> fresh(problem, w, pairs, before, body_velocities(problem, before),
                             layout.schedule);
-    SweepTrain<Rows> other(sweeps<Rows>(best_instructions()), fresh);
-    train.run(4, team);
+    SweepPipeline<Rows> other(sweeps<Rows>(best_instructions()), fresh);
+    pipeline.run(4, team);
     other.run(4, team);
     Impulses expected(pairs.size());
     layout.collect(after);
     fresh.collect(expected);
     for (std::size_t k = 0; k < pairs.size(); ++k)
-        for (int i = 0; i < 3; ++i) EXPECT_NEAR(after[k][i], expected[k][i], 1e-12);
+        for (int i = 0; i < 3; ++i)
+            EXPECT_NEAR(planar::component(after[k], i), planar::component(expected[k], i), 1e-12);
     EXPECT_TRUE(moves_something(after));
 }
 
@@ -400,7 +404,7 @@ TEST(SweepLayout, GoesOnFromTheSameStateInOtherGroups) {
 }
 
 // A contact at rest is not swept until a measuring sweep finds that it closes.
-TEST(SweepTrain, WakesWhatCloses) {
+TEST(SweepPipeline, WakesWhatCloses) {
     ContactProblem problem;
     problem.bodies.push_back(BodyMobility(1.0, 2.0));
     problem.free.push_back({{0.0, -1.0, 0.0}, {}});
@@ -414,15 +418,15 @@ TEST(SweepTrain, WakesWhatCloses) {
     const Schedule schedule = make_schedule(moved_pairs(problem), {0}, 1, {.width = 4});
     EXPECT_EQ(schedule.active, 0);
     SweepLayout<DiscRows<4>> layout = laid_out<DiscRows<4>>(problem, w, schedule);
-    SweepTrain<DiscRows<4>> train(sweeps<DiscRows<4>>(best_instructions()), layout);
+    SweepPipeline<DiscRows<4>> pipeline(sweeps<DiscRows<4>>(best_instructions()), layout);
     ThreadTeam team(1);
     Impulses r(1);
-    train.run(1, team);
+    pipeline.run(1, team);
     layout.collect(r);
-    EXPECT_EQ(r[0][0], 1.0);
+    EXPECT_EQ(r[0].n, 1.0);
     EXPECT_EQ(layout.awake, std::vector<std::uint8_t>{1});
-    EXPECT_EQ(total(train.resting_sums().loaded), 1.0);
-    EXPECT_GT(total(train.resting_sums().error), 0.0) << "the state that it met was not solved";
+    EXPECT_EQ(total(pipeline.resting_sums().loaded), 1.0);
+    EXPECT_GT(total(pipeline.resting_sums().error), 0.0) << "the state that it met was not solved";
 }
 
 SolverSettings few_sweeps(std::int64_t threads) {

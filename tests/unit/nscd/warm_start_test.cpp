@@ -12,12 +12,12 @@ namespace {
 TEST(ContactMemory, KeepsForcesAndMatchesByKey) {
     ContactMemory memory;
     memory.remember({{7, 9, 0, 0}, {3, 9, 1, 0}, {7, 9, 0, 1}},
-                    {{0.2, -0.1, 0.0}, {0.4, 0.0, 0.0}, {0.0, 0.0, 0.0}}, 0.01);
-    EXPECT_NEAR(memory.guess({7, 9, 0, 0}, 0.005)[0], 0.1, 1e-16);
-    EXPECT_NEAR(memory.guess({7, 9, 0, 0}, 0.005)[1], -0.05, 1e-16);
-    EXPECT_NEAR(memory.guess({3, 9, 1, 0}, 0.01)[0], 0.4, 1e-16);
-    EXPECT_EQ(memory.guess({3, 9, 0, 0}, 0.01), (Vec3{}));
-    EXPECT_EQ(memory.guess({7, 9, 0, 1}, 0.01), (Vec3{}));
+                    {in_plane(0.2, -0.1), in_plane(0.4, 0.0), {}}, 0.01);
+    EXPECT_NEAR(memory.guess({7, 9, 0, 0}, 0.005).n, 0.1, 1e-16);
+    EXPECT_NEAR(memory.guess({7, 9, 0, 0}, 0.005).t, -0.05, 1e-16);
+    EXPECT_NEAR(memory.guess({3, 9, 1, 0}, 0.01).n, 0.4, 1e-16);
+    EXPECT_EQ(memory.guess({3, 9, 0, 0}, 0.01), (ContactVector{}));
+    EXPECT_EQ(memory.guess({7, 9, 0, 1}, 0.01), (ContactVector{}));
     EXPECT_EQ(memory.contacts().size(), 2u);
 }
 

@@ -58,7 +58,7 @@ class Shortfall {
     double foreseen(std::size_t k) const {
         const ContactPoint& p = step_.points[k];
         const Contact& contact = step_.contacts[k];
-        double speed = contact_velocity(contact, step_.velocities)[0];
+        double speed = contact_velocity(contact, step_.velocities).n;
         if (p.wall >= 0)
             speed -= dot(p.normal, velocity_at(wall(p), step_.bodies.position[p.b] + p.arm_b));
         return p.gap + step_.dt * speed;

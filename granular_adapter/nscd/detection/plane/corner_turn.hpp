@@ -13,7 +13,8 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/detection/contact_point.hpp"
+#include "granular_adapter/nscd/detection/plane/placed_polygons.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 namespace turbidite::nscd {

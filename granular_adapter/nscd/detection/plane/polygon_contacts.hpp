@@ -7,7 +7,9 @@
 // order in which bodies are asked nor on which polygon is the reference of a manifold.
 #pragma once
 
-#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include <vector>
+
+#include "granular_adapter/nscd/detection/contact_point.hpp"
 
 namespace turbidite::nscd {
 

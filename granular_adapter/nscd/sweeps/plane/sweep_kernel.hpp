@@ -282,29 +282,29 @@ TURBIDITE_INLINE void update(GeneralRows<width>& row, PlaneBody* bodies, PassSum
 template <bool measure>
 TURBIDITE_INLINE void update(GeneralRollingRows<1>& row, PlaneBody* bodies, PassSums<1>& sums) {
     Met<GeneralRollingRows<1>> met(row, bodies);
-    const Vec3 r{met.rn, met.rt, row.roll};
-    const Vec3 u{normal_velocity(row, met), general_tangential_velocity(row, met),
-                 met.b.spin - met.a.spin};
+    const ContactVector r = in_plane(met.rn, met.rt, row.roll);
+    const ContactVector u = in_plane(
+        normal_velocity(row, met), general_tangential_velocity(row, met), met.b.spin - met.a.spin);
     if constexpr (measure) {
-        const Vec3 f =
+        const ContactVector f =
             rolling_natural_map(r, u, met.mu, row.rolling, load(row.inverse_nn), row.length);
         const double moment = row.roll / row.length;
-        sums.error.v[0] += f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
-        sums.size.v[0] += r[0] * r[0] + r[1] * r[1] + moment * moment;
+        sums.error.v[0] += f.n * f.n + f.t * f.t + f.roll * f.roll;
+        sums.size.v[0] += r.n * r.n + r.t * r.t + moment * moment;
     }
     const Block& w = row.w;
-    const Vec3 b{u[0] - w.nn * r[0] - w.nt * r[1] - w.nr * r[2],
-                 u[1] - w.nt * r[0] - w.tt * r[1] - w.tr * r[2],
-                 u[2] - w.nr * r[0] - w.tr * r[1] - w.rr * r[2]};
-    const Vec3 next = row.rolling > 0.0 ? solve_rolling_contact(w, b, met.mu, row.rolling)
-                                        : without_rolling(w, b, met.mu);
-    if constexpr (measure) count_loaded(sums, next[0]);
-    general_push(row, met, next[0] - r[0], next[1] - r[1]);
-    const double dm = next[2] - r[2];
+    const ContactVector b = in_plane(u.n - w.nn * r.n - w.nt * r.t - w.nr * r.roll,
+                                     u.t - w.nt * r.n - w.tt * r.t - w.tr * r.roll,
+                                     u.roll - w.nr * r.n - w.tr * r.t - w.rr * r.roll);
+    const ContactVector next = row.rolling > 0.0 ? solve_rolling_contact(w, b, met.mu, row.rolling)
+                                                 : without_rolling(w, b, met.mu);
+    if constexpr (measure) count_loaded(sums, next.n);
+    general_push(row, met, next.n - r.n, next.t - r.t);
+    const double dm = next.roll - r.roll;
     met.a.x -= row.a_rx * dm, met.a.y -= row.a_ry * dm, met.a.spin -= row.a_rs * dm;
     met.b.x += row.b_rx * dm, met.b.y += row.b_ry * dm, met.b.spin += row.b_rs * dm;
-    row.roll = next[2];
-    met.keep(row, next[0], next[1], bodies);
+    row.roll = next.roll;
+    met.keep(row, next.n, next.t, bodies);
 }
 
 template <class Rows>
@@ -327,7 +327,7 @@ TURBIDITE_INLINE bool any(const Four& x) {
 
 /// Some contact of the group has an impulse or closes.
 template <class Rows>
-TURBIDITE_INLINE bool stirs(const Rows& row, const PlaneBody* bodies) {
+TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     const Met<Rows> met(row, bodies);
     const Real<Rows::width> zero{};
     return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
@@ -338,7 +338,7 @@ void sweep_asked(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width
                  std::uint8_t* awake) {
     for (Rows* row = begin; row != end; ++row, ++awake) {
         *awake = 0;
-        if (!stirs(*row, bodies)) continue;
+        if (!needs_update(*row, bodies)) continue;
         update<true>(*row, bodies, sums);
         *awake = any(load(row->rn)) ? 1 : 0;
     }

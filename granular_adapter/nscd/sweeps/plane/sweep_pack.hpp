@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 namespace turbidite::nscd {
 
@@ -16,7 +16,7 @@ struct PackedContact {
     const Contact& contact;
     const Block& w;
     BodyMobility a, b;
-    Vec3 r;
+    ContactVector r;
     std::int32_t slot_a, slot_b;
 };
 
@@ -52,12 +52,12 @@ void copy_lane(const Rows& from, int lane_from, Rows& to, int lane_to) {
 }
 
 template <class Rows>
-Vec3 impulse(const Rows& rows, int lane) {
-    Vec3 r{rows.rn.v[lane], rows.rt.v[lane], 0.0};
+ContactVector impulse(const Rows& rows, int lane) {
+    ContactVector r = in_plane(rows.rn.v[lane], rows.rt.v[lane]);
     if constexpr (requires { rows.roll.v; })
-        r[2] = rows.roll.v[lane];
+        r.roll = rows.roll.v[lane];
     else if constexpr (requires { rows.roll; })
-        r[2] = rows.roll;
+        r.roll = rows.roll;
     return r;
 }
 

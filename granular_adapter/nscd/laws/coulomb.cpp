@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Dry friction with one coefficient.
-#pragma once
-
-#include "granular_adapter/nscd/laws/law.hpp"
+#include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {
+namespace {
 
 class Coulomb final : public LawPart {
  public:
@@ -14,5 +13,12 @@ class Coulomb final : public LawPart {
         terms.friction = situation.surface.friction;
     }
 };
+
+}  // namespace
+
+std::unique_ptr<const LawPart> make_coulomb(const LawSettings& settings,
+                                            const SurfaceTable& surfaces) {
+    return std::make_unique<Coulomb>(settings, surfaces);
+}
 
 }  // namespace turbidite::nscd

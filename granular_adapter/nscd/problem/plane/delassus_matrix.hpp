@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "granular_adapter/nscd/plane/one_contact.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 namespace turbidite::nscd {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 
 #include <algorithm>
 
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
@@ -22,7 +22,7 @@ End end_of(const Contact& contact, std::int32_t index, bool at_b) {
     End end{index, {}};
     for (int d = 0; d < 2; ++d) {
         const Vec3& e = d == 0 ? contact.normal : contact.tangent;
-        end.direction[d] = {sign * e[0], sign * e[1], sign * cross(arm, e)[2]};
+        end.direction[d] = {sign * e[0], sign * e[1], sign * cross_z(arm, e)};
     }
     return end;
 }
@@ -112,8 +112,8 @@ std::vector<Plane> free_contact_velocities(const ContactProblem& problem) {
     std::vector<Plane> u;
     u.reserve(problem.contacts.size());
     for (const Contact& contact : problem.contacts) {
-        const Vec3 free = contact_velocity(contact, problem.free);
-        u.push_back({free[0] + contact.bias[0], free[1] + contact.bias[1]});
+        const ContactVector free = contact_velocity(contact, problem.free) + contact.bias;
+        u.push_back({free.n, free.t});
     }
     return u;
 }

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Several sweeps at once over the same groups, with the result of one after the other, bit for bit.
+// Several sweeps at once over the same groups, as a pipeline, with the result of one after the
+// other, bit for bit.
 //
-// Sweep s + 1 may do a stretch as soon as sweep s has done every stretch that touches one of its
-// bodies. As contacts come in an order of space, that is a short way ahead; so sweeps follow each
-// other closely, like the wagons of a train, and find in the cache what the first one fetched from
-// memory. Threads take successive wagons. Who updates a group when changes nothing in what is read
-// and written: results do not depend on the number of threads.
+// Sweep s + 1 may do a stretch as soon as sweep s has done every
+// stretch that touches one of its bodies. As contacts come in an order of space, that is a short
+// way ahead; so sweeps follow each other closely and find in the cache what the first one fetched
+// from memory. Threads take successive sweeps. Who updates a group when changes nothing in what is
+// read and written: results do not depend on the number of threads.
 #pragma once
 
 #include <atomic>
 #include <cstring>
 #include <vector>
 
-#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 #include "granular_adapter/nscd/sweeps/thread_team.hpp"
 
 namespace turbidite::nscd {
 
 template <class Rows>
-class SweepTrain {
+class SweepPipeline {
  public:
     using Sums = PassSums<Rows::width>;
 
-    SweepTrain(const Sweeps<Rows>& sweeps, SweepLayout<Rows>& layout)
+    SweepPipeline(const Sweeps<Rows>& sweeps, SweepLayout<Rows>& layout)
         : sweeps_(sweeps), layout_(layout) {}
 
     /// Runs as many sweeps. All of them update the active groups and those that are awake; the last
@@ -44,7 +45,7 @@ class SweepTrain {
     const Sums& resting_sums() const { return resting_sums_; }
 
  private:
-    /// Stretches done by a wagon; a cache line of its own.
+    /// Stretches done by a sweep; a cache line of its own.
     struct alignas(64) Progress {
         std::atomic<std::size_t> stretches{0};
         Progress() = default;
@@ -52,21 +53,21 @@ class SweepTrain {
     };
 
     const std::vector<Stretch>& stretches() const { return layout_.schedule.stretches; }
-    std::size_t done(std::size_t wagon) const {
-        return progress_[wagon].stretches.load(std::memory_order_relaxed);
+    std::size_t done(std::size_t sweep) const {
+        return progress_[sweep].stretches.load(std::memory_order_relaxed);
     }
-    bool finished(std::size_t wagon) const { return done(wagon) == stretches().size(); }
+    bool finished(std::size_t sweep) const { return done(sweep) == stretches().size(); }
 
-    bool clear(std::size_t wagon) const {
-        return wagon == 0 || progress_[wagon - 1].stretches.load(std::memory_order_acquire) >=
-                                 static_cast<std::size_t>(stretches()[done(wagon)].after);
+    bool clear(std::size_t sweep) const {
+        return sweep == 0 || progress_[sweep - 1].stretches.load(std::memory_order_acquire) >=
+                                 static_cast<std::size_t>(stretches()[done(sweep)].after);
     }
 
-    void advance(std::size_t wagon) {
-        const std::size_t at = done(wagon);
-        const bool last = wagon + 1 == progress_.size();
-        last ? measure(stretches()[at]) : sweep(stretches()[at]);
-        progress_[wagon].stretches.store(at + 1, std::memory_order_release);
+    void advance(std::size_t sweep) {
+        const std::size_t at = done(sweep);
+        const bool last = sweep + 1 == progress_.size();
+        last ? measure(stretches()[at]) : update(stretches()[at]);
+        progress_[sweep].stretches.store(at + 1, std::memory_order_release);
     }
 
     Rows* row(std::int32_t group) { return layout_.rows.data() + group; }
@@ -84,7 +85,7 @@ class SweepTrain {
                                 : range.first + static_cast<std::int32_t>(found - from);
     }
 
-    void sweep(const Stretch& stretch) {
+    void update(const Stretch& stretch) {
         PlaneBody* const bodies = layout_.bodies.data();
         sweeps_.plain(row(stretch.active.first), row(stretch.active.last), bodies);
         for (std::int32_t group = next_awake(stretch.resting); group < stretch.resting.last;
@@ -100,16 +101,16 @@ class SweepTrain {
                           resting_sums_, &awake(stretch.resting.first));
     }
 
-    /// The wagons [first, last) by one thread: a stretch each in turn, as far as those before
+    /// The sweeps [first, last) by one thread: a stretch each in turn, as far as those before
     /// allow.
     void drive(std::size_t first, std::size_t last) {
         ThreadTeam::Patience patience;
         while (first < last) {
             bool moved = false;
-            for (std::size_t wagon = first; wagon < last; ++wagon) {
-                if (finished(wagon)) continue;
-                if (!clear(wagon)) break;
-                advance(wagon);
+            for (std::size_t sweep = first; sweep < last; ++sweep) {
+                if (finished(sweep)) continue;
+                if (!clear(sweep)) break;
+                advance(sweep);
                 moved = true;
             }
             while (first < last && finished(first)) ++first;

@@ -6,9 +6,9 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/sweeps/contact_schedule.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_pack.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_pack.hpp"
 
 namespace turbidite::nscd {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_layout.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/plane/one_contact.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 namespace turbidite::nscd {
 
@@ -23,7 +23,7 @@ class Delassus {
 
     const Block& block(std::size_t contact) const { return blocks_[contact]; }
 
-    /// W r: (u_n, u_t, w) of every contact.
+    /// W r: u_n, u_t and w of every contact.
     Impulses apply(const Impulses& r) const;
 
     /// True when arms are along the normals, no block couples and every mobility is isotropic.

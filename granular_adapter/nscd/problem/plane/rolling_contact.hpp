@@ -27,8 +27,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupler/protocol/records.hpp"
-#include "granular_adapter/nscd/plane/one_contact.hpp"
+#include "granular_adapter/nscd/problem/contact_vector.hpp"
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 namespace turbidite::nscd {
 
@@ -47,33 +47,34 @@ inline Plane solve_on_box(const Block& w, const Plane& b, double limit_t, double
 }
 
 /// r with u = W r + b solving the contact; needs W_rr > 0.
-Vec3 solve_rolling_contact(const Block& w, const Vec3& b, double friction, double rolling);
+ContactVector solve_rolling_contact(const Block& w, const ContactVector& b, double friction,
+                                    double rolling);
 
 /// The same without resistance to rolling.
-inline Vec3 without_rolling(const Block& w, const Vec3& b, double friction) {
-    const Plane r = solve_contact(w, {b[0], b[1]}, friction);
-    return {r[0], r[1], 0.0};
+inline ContactVector without_rolling(const Block& w, const ContactVector& b, double friction) {
+    const Plane r = solve_contact(w, {b.n, b.t}, friction);
+    return in_plane(r[0], r[1]);
 }
 
 /// Nearest point of the pyramid |t| <= mu n, |m| <= rho n, all three of one unit.
-inline Vec3 project_on_pyramid(const Vec3& x, double mu, double rho) {
-    const double t = mu * std::abs(x[1]), m = rho * std::abs(x[2]);
-    const double both = (x[0] + t + m) / (1.0 + mu * mu + rho * rho);
-    const double one = std::max((x[0] + t) / (1.0 + mu * mu), (x[0] + m) / (1.0 + rho * rho));
-    const double n = std::max({0.0, x[0], one, both});
-    return {n, std::clamp(x[1], -mu * n, mu * n), std::clamp(x[2], -rho * n, rho * n)};
+inline ContactVector project_on_pyramid(const ContactVector& x, double mu, double rho) {
+    const double t = mu * std::abs(x.t), m = rho * std::abs(x.roll);
+    const double both = (x.n + t + m) / (1.0 + mu * mu + rho * rho);
+    const double one = std::max((x.n + t) / (1.0 + mu * mu), (x.n + m) / (1.0 + rho * rho));
+    const double n = std::max({0.0, x.n, one, both});
+    return in_plane(n, std::clamp(x.t, -mu * n, mu * n), std::clamp(x.roll, -rho * n, rho * n));
 }
 
 /// r - P_K(r - s (u + (mu |u_t| + rho |w|, 0, 0))), the moment over `length`; zero exactly at a
 /// solution [N s].
-inline Vec3 rolling_natural_map(const Vec3& r, const Vec3& u, double mu, double rho, double s,
-                                double length) {
-    const double moment = r[2] / length, spin = u[2] * length;
-    const Vec3 nearest =
-        project_on_pyramid({r[0] - s * (u[0] + mu * std::abs(u[1]) + rho * std::abs(u[2])),
-                            r[1] - s * u[1], moment - s * spin},
+inline ContactVector rolling_natural_map(const ContactVector& r, const ContactVector& u, double mu,
+                                         double rho, double s, double length) {
+    const double moment = r.roll / length, spin = u.roll * length;
+    const ContactVector nearest =
+        project_on_pyramid(in_plane(r.n - s * (u.n + mu * std::abs(u.t) + rho * std::abs(u.roll)),
+                                    r.t - s * u.t, moment - s * spin),
                            mu, rho / length);
-    return {r[0] - nearest[0], r[1] - nearest[1], moment - nearest[2]};
+    return in_plane(r.n - nearest.n, r.t - nearest.t, moment - nearest.roll);
 }
 
 }  // namespace turbidite::nscd

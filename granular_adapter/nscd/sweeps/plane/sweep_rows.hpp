@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "granular_adapter/nscd/plane/one_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 namespace turbidite::nscd {
 

@@ -3,8 +3,8 @@
 // The sweeps for any processor, and the choice at run time.
 #include <stdexcept>
 
-#include "granular_adapter/nscd/plane/rolling_contact.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
 // Vectors of four doubles travel in two registers here; no function hands them to another library.
@@ -13,7 +13,7 @@
 
 namespace turbidite::nscd {
 namespace portable {
-#include "granular_adapter/nscd/sweeps/sweep_kernel.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_kernel.hpp"
 }  // namespace portable
 
 Instructions best_instructions() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/plane/mobility.hpp"
+#include "granular_adapter/nscd/problem/plane/mobility.hpp"
 
 namespace turbidite::nscd {
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/sweeps/sweep_pack.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_pack.hpp"
 
-#include "granular_adapter/nscd/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {
-
-double moment_arm(const Vec3& arm, const Vec3& direction) {
-    return cross(arm, direction)[2];
-}
 
 template <int lanes>
 void fill_base(RowBase<lanes>& rows, int lane, const PackedContact& packed) {
@@ -18,11 +14,11 @@ void fill_base(RowBase<lanes>& rows, int lane, const PackedContact& packed) {
     rows.b[lane] = packed.slot_b;
     rows.nx.v[lane] = contact.normal[0];
     rows.ny.v[lane] = contact.normal[1];
-    rows.bias_n.v[lane] = contact.bias[0];
-    rows.bias_t.v[lane] = contact.bias[1];
+    rows.bias_n.v[lane] = contact.bias.n;
+    rows.bias_t.v[lane] = contact.bias.t;
     rows.friction.v[lane] = contact.friction;
-    rows.rn.v[lane] = packed.r[0];
-    rows.rt.v[lane] = packed.r[1];
+    rows.rn.v[lane] = packed.r.n;
+    rows.rt.v[lane] = packed.r.t;
 }
 
 /// M^-1 (d, arm x d).
@@ -41,8 +37,8 @@ template <int lanes>
 void fill(DiscRows<lanes>& rows, int lane, const PackedContact& packed) {
     fill_base(rows, lane, packed);
     const Contact& contact = packed.contact;
-    rows.arm_a.v[lane] = moment_arm(contact.arm_a, contact.tangent);
-    rows.arm_b.v[lane] = moment_arm(contact.arm_b, contact.tangent);
+    rows.arm_a.v[lane] = cross_z(contact.arm_a, contact.tangent);
+    rows.arm_b.v[lane] = cross_z(contact.arm_b, contact.tangent);
     rows.turn_a.v[lane] = packed.a.ss * rows.arm_a.v[lane];
     rows.turn_b.v[lane] = packed.b.ss * rows.arm_b.v[lane];
     rows.inverse_nn.v[lane] = 1.0 / packed.w.nn;
@@ -55,7 +51,7 @@ void fill(RollingDiscRows<lanes>& rows, int lane, const PackedContact& packed) {
     const Block& w = packed.w;
     const double inverse_rr = w.rr > 0.0 ? 1.0 / w.rr : 0.0;
     rows.rolling.v[lane] = lever(packed);
-    rows.roll.v[lane] = packed.r[2];
+    rows.roll.v[lane] = packed.r.roll;
     rows.spin_a.v[lane] = packed.a.ss;
     rows.spin_b.v[lane] = packed.b.ss;
     rows.tt.v[lane] = w.tt;
@@ -72,10 +68,10 @@ void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed) {
     const Contact& contact = packed.contact;
     const Block& w = packed.w;
     const double x = contact.normal[0], y = contact.normal[1];
-    const double arm_an = moment_arm(contact.arm_a, contact.normal);
-    const double arm_at = moment_arm(contact.arm_a, contact.tangent);
-    const double arm_bn = moment_arm(contact.arm_b, contact.normal);
-    const double arm_bt = moment_arm(contact.arm_b, contact.tangent);
+    const double arm_an = cross_z(contact.arm_a, contact.normal);
+    const double arm_at = cross_z(contact.arm_a, contact.tangent);
+    const double arm_bn = cross_z(contact.arm_b, contact.normal);
+    const double arm_bt = cross_z(contact.arm_b, contact.tangent);
     rows.arm_an.v[lane] = arm_an, rows.arm_at.v[lane] = arm_at;
     rows.arm_bn.v[lane] = arm_bn, rows.arm_bt.v[lane] = arm_bt;
     const PlanarVector an = answer(packed.a, x, y, arm_an), at = answer(packed.a, -y, x, arm_at);
@@ -97,7 +93,7 @@ void fill(GeneralRollingRows<1>& rows, int lane, const PackedContact& packed) {
     rows.a_rx = a.x, rows.a_ry = a.y, rows.a_rs = a.spin;
     rows.b_rx = b.x, rows.b_ry = b.y, rows.b_rs = b.spin;
     rows.rolling = lever(packed);
-    rows.roll = packed.r[2];
+    rows.roll = packed.r.roll;
     rows.length = packed.w.rr > 0.0 ? rolling_length(packed.w) : 1.0;
     rows.w = packed.w;
 }

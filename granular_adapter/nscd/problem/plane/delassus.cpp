@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/problem/delassus.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 
 #include <algorithm>
 
@@ -8,14 +8,10 @@
 namespace turbidite::nscd {
 namespace {
 
-double moment(const Vec3& arm, const Vec3& direction) {
-    return arm[0] * direction[1] - arm[1] * direction[0];
-}
-
 /// One body's share of W_kk: (d_i, arm x d_i) . M^-1 (d_j, arm x d_j) for d = n, t. Isotropic
 /// bodies need no product of directions, which would not be exactly orthonormal.
 void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
-    const double n = moment(arm, contact.normal), t = moment(arm, contact.tangent);
+    const double n = cross_z(arm, contact.normal), t = cross_z(arm, contact.tangent);
     if (body.isotropic()) {
         w.nn += body.xx + body.ss * n * n;
         w.nt += body.ss * n * t;
@@ -33,7 +29,7 @@ void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobi
 /// The same for a unit moment: (0, 0, 1).
 void add_rolling_share(Block& w, const Contact& contact, const Vec3& arm,
                        const BodyMobility& body) {
-    const double n = moment(arm, contact.normal), t = moment(arm, contact.tangent);
+    const double n = cross_z(arm, contact.normal), t = cross_z(arm, contact.tangent);
     const PlanarVector answer = body * PlanarVector{0.0, 0.0, 1.0};
     w.nr += dot(PlanarVector{contact.normal[0], contact.normal[1], n}, answer);
     w.tr += dot(PlanarVector{contact.tangent[0], contact.tangent[1], t}, answer);
@@ -48,7 +44,7 @@ void drop_rounding(Block& w) {
 
 /// To rounding: then a spin, whatever drives it, moves nothing along n.
 bool is_along_normal(const Contact& contact, const Vec3& arm) {
-    return std::abs(moment(arm, contact.normal)) <= 1e-14 * norm(arm);
+    return std::abs(cross_z(arm, contact.normal)) <= 1e-14 * norm(arm);
 }
 
 Block block_of(const ContactProblem& problem, const Contact& contact) {

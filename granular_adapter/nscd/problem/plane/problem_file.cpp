@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/problem/problem_file.hpp"
+#include "granular_adapter/nscd/problem/plane/problem_file.hpp"
 
 #include <cstdio>
 #include <ostream>
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem/delassus_matrix.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -4,15 +4,15 @@
 // before stays portable, as inline functions may end up in any other part of a program.
 #include <stdexcept>
 
-#include "granular_adapter/nscd/plane/rolling_contact.hpp"
-#include "granular_adapter/nscd/sweeps/sweep_rows.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace turbidite::nscd::avx2 {
-#include "granular_adapter/nscd/sweeps/sweep_kernel.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_kernel.hpp"
 }  // namespace turbidite::nscd::avx2
 #pragma GCC pop_options
 

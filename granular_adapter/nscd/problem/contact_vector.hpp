@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A velocity or an impulse in the frame of its contact:
+//
+//     n      along the normal, from a to b                                    [m/s] [N s]
+//     t, s   along the two tangents, s = n x t                                [m/s] [N s]
+//     roll   about s: spin of b relative to a, moment impulse on b     [rad/s] [N m s]
+//
+// In the plane s = e_z: nothing moves along it and every spin is about it. In space a second
+// rolling component, about t, will stand beside `roll`; whoever writes in_plane() has no use for
+// either.
+#pragma once
+
+#include <cmath>
+
+namespace turbidite::nscd {
+
+struct ContactVector {
+    double n = 0.0;
+    double t = 0.0;
+    double s = 0.0;
+    double roll = 0.0;
+
+    constexpr ContactVector() = default;
+    constexpr ContactVector(double n, double t, double s, double roll)
+        : n(n), t(t), s(s), roll(roll) {}
+
+    bool operator==(const ContactVector&) const = default;
+};
+
+/// With s = 0.
+constexpr ContactVector in_plane(double n, double t, double roll = 0.0) {
+    return {n, t, 0.0, roll};
+}
+
+inline ContactVector operator+(const ContactVector& a, const ContactVector& b) {
+    return {a.n + b.n, a.t + b.t, a.s + b.s, a.roll + b.roll};
+}
+inline ContactVector operator-(const ContactVector& a, const ContactVector& b) {
+    return {a.n - b.n, a.t - b.t, a.s - b.s, a.roll - b.roll};
+}
+inline ContactVector operator*(double factor, const ContactVector& a) {
+    return {factor * a.n, factor * a.t, factor * a.s, factor * a.roll};
+}
+
+/// r . u: the work of an impulse.
+inline double dot(const ContactVector& a, const ContactVector& b) {
+    return a.n * b.n + a.t * b.t + a.s * b.s + a.roll * b.roll;
+}
+
+/// |u_t|: of the tangential part, whatever its direction.
+inline double tangential(const ContactVector& u) {
+    return std::hypot(u.t, u.s);
+}
+
+/// Of the part along the normal and the tangents, without rolling.
+inline double norm(const ContactVector& u) {
+    return std::sqrt(u.n * u.n + u.t * u.t + u.s * u.s);
+}
+
+}  // namespace turbidite::nscd

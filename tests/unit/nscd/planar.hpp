@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Contact vectors of the plane as matrices count them: 0 normal, 1 tangent, 2 roll.
+#pragma once
+
+#include "granular_adapter/nscd/problem/contact_vector.hpp"
+
+namespace turbidite::nscd::planar {
+
+inline double& component(ContactVector& x, int i) {
+    return i == 0 ? x.n : i == 1 ? x.t : x.roll;
+}
+
+inline double component(const ContactVector& x, int i) {
+    return i == 0 ? x.n : i == 1 ? x.t : x.roll;
+}
+
+}  // namespace turbidite::nscd::planar
