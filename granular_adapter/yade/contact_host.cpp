@@ -90,7 +90,7 @@ std::vector<ContactForce> ContactHost::contacts() const {
     std::vector<ContactForce> result;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const nscd::ContactVector force = (1.0 / last_step_) * engine_->impulses()[k];
-        if (force == Vec3{}) continue;
+        if (force == nscd::ContactVector{}) continue;
         const nscd::ContactPoint& point = points[k];
         const auto b = static_cast<std::size_t>(point.b);
         ContactForce contact;
