@@ -2,10 +2,8 @@
 //
 // grains.adapter: yade-md as a user meets it, beside yade-nscd where both must agree.
 #include <cmath>
-#include <map>
-#include <sstream>
-#include <vector>
 
+#include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
@@ -14,38 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string program = TURBIDITE_PROGRAM;
-
-using Columns = std::map<std::string, std::vector<double>>;
-
-/// Empty cells are not-a-number.
-Columns columns_of(const std::string& history) {
-    std::istringstream lines(history);
-    std::string line, cell;
-    std::getline(lines, line);
-    std::vector<std::string> names;
-    for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
-    Columns columns;
-    while (std::getline(lines, line)) {
-        std::istringstream row(line + ",");
-        for (std::size_t i = 0; i < names.size() && std::getline(row, cell, ','); ++i)
-            columns[names[i]].push_back(cell.empty() ? NAN : std::stod(cell));
-    }
-    return columns;
-}
-
-double largest(const std::vector<double>& values) {
-    double result = 0.0;
-    for (const double value : values) result = std::max(result, std::abs(value));
-    return result;
-}
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-    EXPECT_EQ(a.size(), b.size());
-    double result = 0.0;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        result = std::max(result, std::abs(a[i] - b[i]));
-    return result;
-}
 
 class MolecularDynamics : public ShellTest {
  protected:
