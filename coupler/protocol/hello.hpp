@@ -12,11 +12,11 @@ namespace turbidite {
 
 /// Major versions must be equal; of the minor ones the smaller rules, down to `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 2;
+inline constexpr std::int32_t protocol_minor = 3;
 
-/// The oldest minor version that is understood: since then a Motion may carry contacts, and a
-/// contact report leaves out what its adapter does not have.
-inline constexpr std::int32_t oldest_minor = 2;
+/// The oldest minor version that is understood: since then a grain has a material and may keep its
+/// velocity.
+inline constexpr std::int32_t oldest_minor = 3;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 

@@ -29,10 +29,12 @@ using Quaternion = std::array<double, 4>;  // w, x, y, z; unit
 /// (1 - theta) dt U): everybody, fluid included, sees the grain there.
 struct GrainState {
     GrainId id = 0;
-    std::int32_t shape = 0;  ///< index into ShapeTable
-    double radius = 0.0;     ///< circumscribed radius R [m]
-    double density = 0.0;    ///< rho_s [kg/m3]
-    Vec3 position{};         ///< q [m]
+    std::int32_t shape = 0;     ///< index into ShapeTable
+    std::int32_t material = 0;  ///< 0: the coefficients of contact.*; 1: first of run.materials
+    bool prescribed = false;    ///< keeps its velocity and spin whatever acts on it
+    double radius = 0.0;        ///< circumscribed radius R [m]
+    double density = 0.0;       ///< rho_s [kg/m3]
+    Vec3 position{};            ///< q [m]
     Quaternion orientation{1.0, 0.0, 0.0, 0.0};
     Vec3 velocity{};                 ///< U [m/s]
     Vec3 angular_velocity{};         ///< omega [rad/s]

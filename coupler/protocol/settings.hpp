@@ -11,6 +11,9 @@
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.size_x    run.size_y  run.size_z                    domain [m]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
+//     run.wall_motions                      granular_adapter/grains/wall_motions
+//     run.materials                         names of materials 1, 2, ... with a space between, whose
+//                                           coefficients are contact.materials.NAME.*
 //
 // Valid C++17.
 #pragma once

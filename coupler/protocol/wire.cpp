@@ -77,7 +77,8 @@ void maybe(Reader& code, std::optional<Value>& value, Visit visit) {
 constexpr auto plain = [](auto& code, auto& value) { code(value); };
 
 constexpr auto visit_grain = [](auto& code, auto& g) {
-    code(g.id), code(g.shape), code(g.radius), code(g.density);
+    code(g.id), code(g.shape), code(g.material), code(g.prescribed);
+    code(g.radius), code(g.density);
     array(code, g.position), array(code, g.orientation);
     array(code, g.velocity), array(code, g.angular_velocity);
     array(code, g.contact_impulse), array(code, g.contact_angular_impulse);

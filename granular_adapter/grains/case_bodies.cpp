@@ -28,6 +28,8 @@ nscd::Body immersed(const GrainState& grain, const Shape& shape, double fluid_de
     nscd::Body body;
     body.id = grain.id;
     body.shape = grain.shape;
+    body.material = grain.material;
+    body.fixed = grain.prescribed;
     body.radius = grain.radius;
     body.density = grain.density;
     body.mass = inertia.effective_mass;
@@ -71,6 +73,8 @@ std::vector<GrainState> grain_states(const nscd::Bodies& bodies) {
         GrainState& state = states[i];
         state.id = bodies.id[i];
         state.shape = bodies.shape[i];
+        state.material = bodies.material[i];
+        state.prescribed = bodies.fixed[i] != 0;
         state.radius = bodies.radius[i];
         state.density = bodies.density[i];
         state.position = bodies.position[i];

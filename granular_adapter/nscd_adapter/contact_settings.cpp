@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd_adapter/contact_settings.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 namespace turbidite {
 namespace {
 
@@ -10,6 +13,65 @@ void take(const Settings& settings, const char* key, double unit, double& value)
 
 void take(const Settings& settings, const char* key, std::string& name) {
     if (settings.has(key)) name = settings.text(key);
+}
+
+/// A coefficient of a surface: its key below contact, contact.materials.NAME and contact.pairs.A-B.
+struct Coefficient {
+    const char* key;
+    double nscd::Surface::*value;
+};
+constexpr Coefficient coefficients[] = {
+    {"friction", &nscd::Surface::friction},
+    {"static_friction", &nscd::Surface::static_friction},
+    {"restitution", &nscd::Surface::restitution},
+    {"restitution_tangential", &nscd::Surface::restitution_tangential},
+    {"rolling_friction", &nscd::Surface::rolling_friction},
+    {"adhesion_force", &nscd::Surface::adhesion},
+};
+
+/// Those that the group gives; the others stay.
+nscd::Surface with_group(nscd::Surface surface, const Settings& settings,
+                         const std::string& group) {
+    for (const Coefficient& coefficient : coefficients) {
+        const std::string key = group + "." + coefficient.key;
+        if (!settings.has(key)) continue;
+        const bool force = coefficient.value == &nscd::Surface::adhesion;
+        const double unit = force ? settings.real("run.grain_weight") : 1.0;
+        surface.*coefficient.value = unit * settings.real(key);
+    }
+    return surface;
+}
+
+/// "default" and the names of run.materials, in the order of the surfaces.
+std::vector<std::string> material_names(const Settings& settings) {
+    std::vector<std::string> names{"default"};
+    if (!settings.has("run.materials")) return names;
+    std::istringstream list(settings.text("run.materials"));
+    for (std::string name; list >> name;) names.push_back(name);
+    return names;
+}
+
+/// Surfaces of contact.materials.NAME and values of contact.pairs.A-B, on top of what the rule of
+/// surface.hpp gives.
+void take_materials(const Settings& settings, nscd::EngineSettings& result) {
+    const std::vector<std::string> names = material_names(settings);
+    for (std::size_t i = 1; i < names.size(); ++i)
+        result.surfaces.push_back(
+            with_group(result.surfaces[0], settings, "contact.materials." + names[i]));
+    const nscd::SurfaceTable rule(result.surfaces);
+    for (std::int32_t a = 0; a < rule.size(); ++a)
+        for (std::int32_t b = 0; b < rule.size(); ++b) {
+            const std::string group = "contact.pairs." + names[static_cast<std::size_t>(a)] + "-" +
+                                      names[static_cast<std::size_t>(b)] + ".";
+            const auto& entries = settings.entries();
+            const bool given = std::any_of(entries.begin(), entries.end(), [&](const auto& entry) {
+                return entry.first.rfind(group, 0) == 0;
+            });
+            if (given)
+                result.surface_pairs.push_back(
+                    {a, b,
+                     with_group(rule.pair(a, b), settings, group.substr(0, group.size() - 1))});
+        }
 }
 
 nscd::Surface surface(const Settings& settings) {
@@ -45,6 +107,7 @@ nscd::EngineSettings contact_settings(const Settings& settings) {
     take(settings, "contact.law", result.law.friction);
     take(settings, "contact.impact", result.law.impact);
     take_adhesion(settings, result);
+    take_materials(settings, result);
     take(settings, "contact.recovery_fraction", 1.0, result.law_settings.recovery_fraction);
     take(settings, "contact.recovery_speed", velocity, result.law_settings.recovery_speed);
     take(settings, "contact.restitution_speed", velocity, result.law_settings.restitution_speed);

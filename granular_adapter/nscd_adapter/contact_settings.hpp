@@ -5,6 +5,10 @@
 // Forces are physical ones in weights of a grain in air (run.grain_weight). The contact problem of
 // a coupled run has inertia cM and weight cMg with physical contact forces, so they enter as they
 // are.
+//
+// Material 0 has the coefficients of contact.*; those of run.materials follow, each with what
+// contact.materials.NAME says otherwise. A pair has the smaller of both, or what
+// contact.pairs.A-B says; the first material is called "default" there.
 #pragma once
 
 #include "coupler/protocol/settings.hpp"

@@ -69,6 +69,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     joint_ = fluid_ && settings.text("coupling.scheme") == "joint";
     positions_ = parse_positions(settings.text("coupling.positions"));
     borders_ = lay_borders(settings);
+    moved_walls_ = moved_walls(settings);
     std::vector<nscd::Wall> walls = walls_of(borders_);
     for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
         walls.push_back(wall);
@@ -86,6 +87,7 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     const StopWatch watch;
     begin_round();
     check_inside(bodies(), borders_, in_window(window) + " before contacts");
+    set_velocities(engine().walls(), moved_walls_, window.time, window.step);
     report_ = {};
     report_.max_penetration = engine().max_penetration();
     const nscd::StepReport step = solve_contacts(window, responses);
@@ -133,6 +135,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     if (window.write_output) contacts = contact_records(engine());
     const bool with_contact = joint_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
+    if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
     contact_twists_.clear();
     remove_leavers();
     check_inside(bodies(), borders_, in_window(window) + " after motion");
@@ -151,6 +154,7 @@ SavedState NscdAdapter::save() const {
 
 void NscdAdapter::restore(const SavedState& state) {
     engine().restore(state);
+    follow_walls(borders_, engine().walls());
     contact_twists_.clear();
     removed_.clear();
 }

@@ -6,7 +6,9 @@
 // fluid's, advance may be repeated within a window, and grains move with the contact velocities.
 // Hosts such as YADE wrap it: they overwrite bodies() before a call and read them after.
 //
-// Walls inside the box (run.walls) are plates that hold grains on both sides, at rest or moving.
+// Walls inside the box (run.walls) are plates that hold grains on both sides. They and the sides of
+// the box rest or move as run.wall_motions says. Grains whose motion is prescribed keep their
+// velocity; the materials of grains and their pairs are in contact_settings.hpp.
 //
 // Reads: contact.*, coupling.scheme, coupling.positions, domain.{left,right,bottom,top},
 // fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
@@ -20,6 +22,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "granular_adapter/grains/borders.hpp"
+#include "granular_adapter/grains/wall_motions.hpp"
 #include "granular_adapter/nscd/engine/engine.hpp"
 #include "granular_adapter/nscd_adapter/problem_dumps.hpp"
 
@@ -87,6 +90,7 @@ class NscdAdapter final : public GrainsAdapter {
     bool joint_ = false;
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;
+    std::vector<MovedWall> moved_walls_;
     std::unique_ptr<nscd::Engine> engine_;
     std::vector<nscd::Twist> start_twists_;    ///< U^n of this window
     std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window

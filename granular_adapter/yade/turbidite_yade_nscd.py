@@ -45,7 +45,7 @@ class Store:
 
     def __init__(self, case):
         options = {key.removeprefix('contact.'): value for key, value in case.items()
-                   if key.startswith('contact.') and key != 'contact.friction'}
+                   if key.startswith('contact.') and key.count('.') == 1 and key != 'contact.friction'}
         for key, unit in self.UNITS.items():
             if key in options:
                 options[key] = repr(float(options[key]) * float(case[unit]))
@@ -61,14 +61,13 @@ class Scene:
 
     def __init__(self):
         self.body_of = {}  # grain id -> body id
+        self.labels = []   # of YADE's materials, by the grains' index
         self.case = {}
 
     def create(self, settings, grains):
         """Adds walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
         self.case = settings
-        O.materials.append(FrictMat(
-            density=grains[0]['density'] if grains else 1.0,
-            frictionAngle=math.atan(float(settings['contact.friction'])), label='grains'))
+        self._create_materials(settings, grains[0]['density'] if grains else 1.0)
         self._create_walls(settings)
         states, turns = [], []
         for grain in grains:
@@ -78,7 +77,7 @@ class Scene:
             # Of a body per unit length, with the inertia that contacts see.
             state.mass = grain['mass']
             state.inertia = Vector3(0.5, 0.5, 1) * grain['inertia']
-            state.blockedDOFs = 'zXY'
+            state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else 'zXY'
             state.vel = grain['velocity']
             state.angVel = grain['angular_velocity']
             self.body_of[grain['id']] = O.bodies.append(body)
@@ -86,21 +85,32 @@ class Scene:
         O.dt = float(settings['run.step'])
         return states, turns
 
+    def _create_materials(self, settings, density):
+        """For the scene's own use; the contact engine has its own table of them."""
+        for name in ['grains'] + settings.get('run.materials', '').split():
+            friction = settings.get('contact.materials.%s.friction' % name, settings['contact.friction'])
+            O.materials.append(FrictMat(
+                density=density, frictionAngle=math.atan(float(friction)), label=name))
+            self.labels.append(name)
+
     def _create_disc(self, grain):
-        return utils.sphere(grain['position'], grain['radius'], material='grains')
+        return utils.sphere(grain['position'], grain['radius'], material=self.labels[grain['material']])
 
     def _create_polygon(self, grain):
         """YADE turns it to its principal axes; the participant writes the orientation with those."""
-        body = turbidite_contact.polygon(grain['vertices'], material='grains')
+        body = turbidite_contact.polygon(grain['vertices'], material=self.labels[grain['material']])
         body.state.pos = grain['position']
         return body
 
     def _create_walls(self, settings):
         sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
                  'bottom': (1, 0.0, 1), 'top': (1, float(settings['run.size_y']), -1)}
-        for side, (axis, position, sense) in sides.items():
-            if settings['domain.' + side] == 'wall':
-                O.bodies.append(utils.wall(position, axis, sense=sense, material='grains'))
+        self.sides = [O.bodies.append(utils.wall(position, axis, sense=sense, material='grains'))
+                      for side, (axis, position, sense) in sides.items() if settings['domain.' + side] == 'wall']
+
+    def side_states(self):
+        """Of the sides that are walls: left, right, bottom, top."""
+        return [O.bodies[i].state for i in self.sides]
 
     def create_plates(self, half_lengths):
         """Walls inside the box, along x around the origin; the participant puts and moves them.

@@ -55,6 +55,14 @@ BodyMotion plate_motion(const nscd::Wall& wall) {
             {0.0, 0.0, wall.spin}};
 }
 
+/// Of a side of the box: YADE's wall stands at the coordinate along its axis.
+BodyMotion side_motion(const nscd::Wall& wall) {
+    const int axis = std::abs(wall.normal[0]) > 0.5 ? 0 : 1;
+    Vec3 place{};
+    place[axis] = wall.point[axis];
+    return {place, {1.0, 0.0, 0.0, 0.0}, wall.velocity, {}};
+}
+
 }  // namespace
 
 YadeAdapter::YadeAdapter(python::object scene, std::string yade_version)
@@ -68,6 +76,7 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
         scene_.attr("create")(settings_dict(settings), grain_list(bodies, shapes));
     states_ = BodyStates(made[0]);
     turns_ = turns_of(made[1]);
+    sides_ = BodyStates(scene_.attr("side_states")());
     plates_ = BodyStates(scene_.attr("create_plates")(plate_list(engine_.engine().walls())));
     if (states_.size() != bodies.size())
         throw Failure(ExitCode::participant_failed,
@@ -97,9 +106,12 @@ void YadeAdapter::write_bodies() {
                             bodies.twist[i].velocity, bodies.twist[i].spin});
         states_.write(i, written_.back());
     }
-    std::size_t plate = 0;
+    std::size_t plate = 0, side = 0;
     for (const nscd::Wall& wall : std::as_const(engine_).engine().walls())
-        if (is_plate(wall)) plates_.write(plate++, plate_motion(wall));
+        if (is_plate(wall))
+            plates_.write(plate++, plate_motion(wall));
+        else
+            sides_.write(side++, side_motion(wall));
 }
 
 Motion YadeAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {

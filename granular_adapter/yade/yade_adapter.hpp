@@ -45,7 +45,8 @@ class YadeAdapter final : public GrainsAdapter {
     NscdAdapter engine_;
     BodyStates states_;
     std::vector<Turn> turns_;
-    BodyStates plates_;                ///< walls inside the box, for YADE's eyes
+    BodyStates sides_;                 ///< walls of the box, for YADE's eyes
+    BodyStates plates_;                ///< walls inside it
     std::vector<BodyMotion> written_;  ///< last, by body
 };
 

@@ -24,6 +24,8 @@ python::list vertex_list(const std::vector<Point2>& outline, double radius) {
 python::dict grain_dict(const nscd::Bodies& bodies, std::size_t i) {
     python::dict grain;
     grain["id"] = bodies.id[i];
+    grain["material"] = bodies.material[i];
+    grain["prescribed"] = bodies.fixed[i] != 0;
     grain["radius"] = bodies.radius[i];
     grain["density"] = bodies.density[i];
     grain["mass"] = bodies.mass[i];
