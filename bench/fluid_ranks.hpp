@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "coupler/transport/exchange_plan.hpp"
+#include "coupler/hub/exchange_plan.hpp"
 #include "coupler/transport/world.hpp"
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 

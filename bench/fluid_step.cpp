@@ -81,7 +81,8 @@ Sample run(const Options& options, FluidRanks& ranks) {
         ranks.meet();
         clock.start();
         fluid.advance(window);
-        const Kicks answer = fluid.impose(window, moving);
+        fluid.correct(window, moving);
+        const Kicks answer = fluid.impose(window);
         ranks.meet();
         if (n >= options.warm_up) {
             clock.stop();

@@ -51,7 +51,8 @@ RunStatus couple(const std::string& directory) {
     watch.disarm();
     Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"));
     Hub hub({resolved.settings, resolved.shapes, resolved.population},
-            hub_files(RunFolder{directory}), *meeting.grains, meeting.fluid.get());
+            hub_files(RunFolder{directory}), *meeting.grains, meeting.fluid.get(),
+            find_scheme(resolved.settings.text("run.scheme")));
     return hub.run();
 }
 

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/handshake.hpp"
 
+#include <algorithm>
+
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 
-Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes) {
+namespace {
+
+bool has(const Order& order, Kind kind) {
+    return std::any_of(order.begin(), order.end(),
+                       [kind](const Step& step) { return step.kind == kind; });
+}
+
+}  // namespace
+
+Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes,
+                        const SchemeEntry& scheme) {
     const bool grains = role == Role::grains;
     Expectation expected;
     expected.role = role;
@@ -14,17 +26,19 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
     expected.ranks =
         static_cast<std::int32_t>(settings.integer(grains ? "grains.ranks" : "fluid.ranks"));
     expected.case_hash = settings.text("run.hash");
-    expected.scheme = settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
+    expected.scheme = scheme.name;
+    expected.effective_inertia =
+        has(scheme.order(role), grains ? Kind::contact_input : Kind::response);
     for (const ShapeRecord& shape : shapes) expected.shapes.push_back(shape.kind);
     return expected;
 }
 
 void shake_hands(const std::vector<ParticipantLink*>& links, const Settings& settings,
-                 const ShapeTable& shapes, Watch& watch) {
+                 const ShapeTable& shapes, const SchemeEntry& scheme, Watch& watch) {
     std::string report;
     for (ParticipantLink* link : links) {
         watch.wait_for(*link, Kind::hello);
-        const Expectation expected = expectation(link->role(), settings, shapes);
+        const Expectation expected = expectation(link->role(), settings, shapes, scheme);
         const std::vector<Hello> hellos = link->take<Hello>(Kind::hello);
         for (int rank = 0; rank < link->ranks(); ++rank) {
             link->set_hello(rank, hellos[rank]);

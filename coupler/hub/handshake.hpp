@@ -6,17 +6,19 @@
 
 #include <vector>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/hub/watch.hpp"
 #include "coupler/protocol/settings.hpp"
 
 namespace turbidite {
 
 /// What the case expects of the participant in this role.
-Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes);
+Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes,
+                        const SchemeEntry& scheme);
 
 /// Collects the hellos of all ranks of all links. Throws Failure (handshake refused) with every
 /// mismatch.
 void shake_hands(const std::vector<ParticipantLink*>& links, const Settings& settings,
-                 const ShapeTable& shapes, Watch& watch);
+                 const ShapeTable& shapes, const SchemeEntry& scheme, Watch& watch);
 
 }  // namespace turbidite

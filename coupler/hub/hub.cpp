@@ -7,8 +7,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "coupler/hub/domain.hpp"
 #include "coupler/hub/handshake.hpp"
+#include "coupler/hub/schemes/exchanges.hpp"
+#include "coupler/protocol/domain.hpp"
 
 namespace turbidite {
 namespace {
@@ -35,8 +36,16 @@ bool on_terminal() {
     return wish != nullptr && std::string(wish) == "terminal";
 }
 
-std::string scheme_name(const Settings& settings) {
-    return settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
+/// What every rank said of itself, and who it is even if it said nothing.
+std::vector<Hello> hellos(const std::vector<ParticipantLink*>& links) {
+    std::vector<Hello> all;
+    for (const ParticipantLink* link : links)
+        for (int rank = 0; rank < link->ranks(); ++rank) {
+            all.push_back(link->hello(rank));
+            all.back().role = link->role();
+            all.back().rank = rank;
+        }
+    return all;
 }
 
 double routing_margin(const Settings& settings) {
@@ -46,7 +55,8 @@ double routing_margin(const Settings& settings) {
 
 }  // namespace
 
-Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid)
+Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
+         const SchemeEntry& scheme)
     : case_(std::move(the_case)),
       files_(std::move(files)),
       progress_(files_.log, on_terminal(), case_.settings.integer("run.windows")),
@@ -59,20 +69,57 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid)
              case_.settings.real("limits.stall_hard"),
              [this](const std::string& text) { progress_.say(text); }),
       kick_rule_(case_.settings, case_.shapes),
-      scheme_(make_scheme(scheme_name(case_.settings), case_.settings)),
+      order_(scheme),
+      scheme_(scheme.make(case_.settings)),
       ledger_(case_.settings, case_.population.size()),
-      history_(files_.history, case_.settings, kick_rule_),
-      grain_series_(files_.series, case_.shapes),
-      contact_series_(files_.series) {}
+      output_(files_.history, files_.series, case_.settings, case_.shapes) {}
 
 Hub::~Hub() = default;
+
+/// One window, from t^n to t^{n+1}.
+void Hub::play(const Window& window) {
+    WindowResult result = scheme_->play(window, output_.state(), cast());
+    if (fluid_)
+        result.grain_balance =
+            kick_rule_.defect(result.kicks.kicks, output_.state(), result.motion, window.step);
+    ledger_.check(result);
+    output_.record(window, std::move(result), watch_.take_waited());
+    if (window.write_output) output_.write();
+}
+
+// A run that is asked to stop plays one more window and writes it, so that history, grains and
+// fields end together.
+void Hub::play_windows() {
+    const std::int64_t windows = case_.settings.integer("run.windows");
+    for (std::int64_t index = 0; index < windows; ++index) {
+        const std::optional<ExitCode> stop = requested_stop();
+        const Window now = window(index, stop || index + 1 == windows);
+        play(now);
+        progress_.show(output_.row(), case_.settings, now.write_output);
+        if (stop && index + 1 < windows)
+            throw Failure(*stop, fmt::format("stopped on request after window {}, which is written",
+                                             index + 1));
+    }
+}
+
+Window Hub::window(std::int64_t index, bool last) const {
+    Window window;
+    window.index = index;
+    window.step = case_.settings.real("run.step");
+    window.time = static_cast<double>(index) * window.step;
+    window.write_output = last || (index + 1) % case_.settings.integer("run.output_every") == 0;
+    return window;
+}
+
+Cast Hub::cast() {
+    return {grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, kick_rule_};
+}
 
 RunStatus Hub::run() {
     const auto begin = Clock::now();
     try {
         start();
-        for (std::int64_t index = 0; index < case_.settings.integer("run.windows"); ++index)
-            play(index);
+        play_windows();
     } catch (const Failure& failure) {
         status_.code = failure.code();
         status_.reason = failure.what();
@@ -81,38 +128,18 @@ RunStatus Hub::run() {
         status_.reason = error.what();
     }
     status_.wall_seconds = since(begin);
-    tell_unconverged();
-    tell_disagreement();
+    status_.statistics = output_.statistics();
+    for (const std::string& sentence : unconverged_sentences(status_.statistics, case_.settings))
+        progress_.say("turbidite: " + sentence);
     end_and_record();
     return status_;
-}
-
-void Hub::tell_unconverged() {
-    const std::int64_t windows = status_.maxima.unconverged_windows;
-    if (windows == 0) return;
-    progress_.say(
-        fmt::format("turbidite: in {} of {} windows the contact solver used up its {} sweeps "
-                    "(contact.iterations) before contact.tolerance = {}; residual up to {:.1e}. "
-                    "Allow more sweeps.",
-                    windows, status_.windows_done, case_.settings.text("contact.iterations"),
-                    case_.settings.text("contact.tolerance"), status_.contact_residuals.largest()));
-}
-
-void Hub::tell_disagreement() {
-    const auto& joint = status_.maxima.joint;
-    if (!joint || joint->unconverged_windows == 0) return;
-    progress_.say(fmt::format(
-        "turbidite: in {} of {} windows contacts and fluid differ by more than coupling.tolerance "
-        "= {} u_c after coupling.iterations = {} rounds, at most by {:.1e} u_c. Allow more rounds.",
-        joint->unconverged_windows, status_.windows_done, case_.settings.text("coupling.tolerance"),
-        case_.settings.text("coupling.iterations"), joint->mismatch));
 }
 
 // The record comes first: should a participant not leave, the verdict is known all the same. One
 // that cannot be written must not keep the participants from leaving.
 void Hub::end_and_record() {
     try {
-        write_run_record(files_.record, status_, links_);
+        write_run_record(files_.record, status_, hellos(links_));
     } catch (const std::exception& error) {
         if (status_.code == ExitCode::done) status_.code = ExitCode::participant_failed;
         status_.reason += (status_.reason.empty() ? "" : "; ") + std::string(error.what());
@@ -124,110 +151,41 @@ void Hub::end_and_record() {
             ExitCode::done) {  // all windows are played, but the last words are lost
             status_.code = failure.code();
             status_.reason = failure.what();
-            write_run_record(files_.record, status_, links_);
+            write_run_record(files_.record, status_, hellos(links_));
         }
         throw;
     }
 }
 
 void Hub::start() {
-    shake_hands(links_, case_.settings, case_.shapes, watch_);
-    for (ParticipantLink* link : links_) {
-        link->set_scheme(scheme_name(case_.settings));
-        for (int rank = 0; rank < link->ranks(); ++rank) {
-            const Hello& hello = link->hello(rank);
-            progress_.say(fmt::format("{:<14} {} in {} (host {}, pid {})", link->rank_name(rank),
-                                      hello.adapter, hello.host_code, hello.host, hello.pid));
-        }
-        link->send_all(Kind::settings, case_.settings);
-        link->send_all(Kind::shapes, case_.shapes);
-    }
-    grains_.send_each(Kind::population, shares_of(case_.population, grains_.ranks()));
-
+    shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
+    tell_participants();
     std::vector<Box> boxes;
     if (fluid_) {
         watch_.wait_for(*fluid_, Kind::domain);
         boxes = fluid_->take<Box>(Kind::domain);
     }
     plan_.emplace(std::move(boxes), routing_margin(case_.settings), domain_periods(case_.settings));
-    watch_.wait_for(grains_, Kind::state);
-    state_ = plan_->gather(grains_.take<Motion>(Kind::state));
-    ledger_.check_start(state_);
-    Row row;
-    row.state = &state_;
-    history_.append(row);
-    grain_series_.write(0.0, 0, 1.0, state_, {});
+    Cast everybody = cast();
+    Motion state = receive_grains(Kind::state, -1, everybody);
+    ledger_.check_start(state);
+    output_.begin(std::move(state));
+    watch_.take_waited();
 }
 
-Window Hub::window(std::int64_t index) const {
-    const std::int64_t windows = case_.settings.integer("run.windows");
-    const std::int64_t every = case_.settings.integer("run.output_every");
-    Window window;
-    window.index = index;
-    window.step = case_.settings.real("run.step");
-    window.time = static_cast<double>(index) * window.step;
-    window.write_output = (index + 1) % every == 0 || index + 1 == windows;
-    return window;
-}
-
-// A run that is asked to stop plays one more window and writes it, so that history, grains and
-// fields end together.
-void Hub::play(std::int64_t index) {
-    const std::optional<ExitCode> stop = requested_stop();
-    window_start_ = Clock::now();
-    Window now = window(index);
-    now.write_output = now.write_output || stop;
-    Cast cast{grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, kick_rule_};
-    WindowResult result = scheme_->play(now, state_, cast);
-    ledger_.check(now, result);
-    account(now, std::move(result));
-    if (stop && status_.windows_done < case_.settings.integer("run.windows"))
-        throw Failure(*stop, fmt::format("stopped on request after window {}, which is written",
-                                         status_.windows_done));
-}
-
-void Hub::account(const Window& window, WindowResult result) {
-    RunMaxima& maxima = status_.maxima;
-    const FluidReport& fluid = result.kicks.report;
-    const double length = case_.settings.real("run.diameter");
-    const double balance =
-        kick_rule_.defect(result.kicks.kicks, state_, result.motion, window.step);
-    maxima.penetration = std::max(maxima.penetration, result.state.report.max_penetration / length);
-    maxima.grain_balance = std::max(maxima.grain_balance, balance);
-    maxima.fluid_balance = std::max(maxima.fluid_balance, fluid.momentum_defect);
-    maxima.divergence = std::max(
-        maxima.divergence, fluid.divergence * length / case_.settings.real("run.velocity_scale"));
-    maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
-    status_.contact_residuals.take_in(result.motion.report);
-    if (result.joint) maxima.take_in(*result.joint, case_.settings.real("run.velocity_scale"));
-
-    state_ = std::move(result.state);
-    status_.windows_done = window.index + 1;
-    Row row;
-    row.step = window.index + 1;
-    row.time = static_cast<double>(row.step) * window.step;
-    row.state = &state_;
-    row.contact = &result.motion.report;
-    row.fluid = fluid_ ? &fluid : nullptr;
-    row.joint = result.joint ? &*result.joint : nullptr;
-    if (fluid_) row.grain_balance = balance;
-    if (window.write_output) {
-        grain_series_.write(row.time, row.step, window.step, state_, result.kicks.kicks);
-        contact_series_.write(row.time, row.step, window.step, state_);
+void Hub::tell_participants() {
+    for (ParticipantLink* link : links_) {
+        const Order& order = order_.order(link->role());
+        link->set_window_order(order);
+        for (const Hello& hello : hellos({link}))
+            progress_.say(fmt::format("{:<14} {} in {} (host {}, pid {})",
+                                      link->rank_name(hello.rank), hello.adapter, hello.host_code,
+                                      hello.host, hello.pid));
+        link->send_all(Kind::settings, case_.settings);
+        link->send_all(Kind::order, order);
+        link->send_all(Kind::shapes, case_.shapes);
     }
-
-    WallTimes spent;
-    spent.step = since(window_start_);
-    spent.fluid = fluid.wall_seconds;
-    spent.grains = result.motion.report.wall_seconds + state_.report.wall_seconds;
-    spent.coupling = std::max(0.0, spent.step - watch_.take_waited());
-    since_row_.take_in(spent, result.motion.report.converged);
-    if (window.write_output) {
-        row.since = since_row_;
-        history_.append(row);
-        since_row_ = {};
-    }
-    progress_.show(row, case_.settings, window.write_output);
+    grains_.send_each(Kind::population, shares_of(case_.population, grains_.ranks()));
 }
 
 std::optional<ExitCode> Hub::requested_stop() const {

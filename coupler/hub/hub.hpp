@@ -5,13 +5,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 
 #include "coupler/hub/ledger.hpp"
-#include "coupler/output/contact_series.hpp"
-#include "coupler/output/grain_series.hpp"
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/output/progress.hpp"
+#include "coupler/output/run_output.hpp"
 #include "coupler/output/run_record.hpp"
 
 namespace turbidite {
@@ -30,8 +29,9 @@ struct HubFiles {
 
 class Hub {
  public:
-    /// `fluid` is null in dry runs. Channels outlive the hub.
-    Hub(HubCase settings, HubFiles files, Channel& grains, Channel* fluid);
+    /// `fluid` is null in dry runs. `scheme` is find_scheme(run.scheme), or one that is in no list.
+    Hub(HubCase settings, HubFiles files, Channel& grains, Channel* fluid,
+        const SchemeEntry& scheme);
     ~Hub();
 
     /// Plays the whole run. Returns what it also wrote into the run record.
@@ -42,16 +42,17 @@ class Hub {
 
  private:
     void start();
-    void play(std::int64_t index);
-    void account(const Window& window, WindowResult result);
-    void tell_unconverged();
-    void tell_disagreement();
+    void play_windows();
+    void play(const Window& window);
+    Window window(std::int64_t index, bool last) const;
+    Cast cast();
+
+    void tell_participants();
     void end_and_record();
-    /// The code to end with when files_.stop is there, which is then removed.
-    std::optional<ExitCode> requested_stop() const;
     void end(const Verdict& verdict);
     void await_all(bool (ParticipantLink::*condition)(), double limit);
-    Window window(std::int64_t index) const;
+    /// The code to end with when files_.stop is there, which is then removed.
+    std::optional<ExitCode> requested_stop() const;
 
     HubCase case_;
     HubFiles files_;
@@ -62,15 +63,11 @@ class Hub {
     Watch watch_;
     std::optional<ExchangePlan> plan_;
     KickRule kick_rule_;
+    SchemeEntry order_;
     std::unique_ptr<Scheme> scheme_;
     Ledger ledger_;
-    History history_;
-    GrainSeries grain_series_;
-    ContactSeries contact_series_;
-    Motion state_;
-    SinceRow since_row_;
+    RunOutput output_;
     RunStatus status_;
-    std::chrono::steady_clock::time_point window_start_;
 };
 
 }  // namespace turbidite

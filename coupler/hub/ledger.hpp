@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The coupler's books on the grains: how many there must be, that every number is finite, that
-// nothing overlaps beyond tolerance, that the fluid stays divergence-free. Each violation ends the
-// run with exit code 6.
+// What a window must hold to: no grain lost, no overlap beyond tolerance, a fluid that stays
+// divergence-free, multiplier problems that are solved. Each violation ends the run with exit code
+// 6. That numbers are finite is checked where they arrive (schemes/exchanges.hpp).
 #pragma once
 
-#include "coupler/hub/scheme.hpp"
+#include "coupler/output/window_result.hpp"
 #include "coupler/protocol/settings.hpp"
 
 namespace turbidite {
@@ -16,20 +16,23 @@ class Ledger {
 
     /// Throws PhysicsRefused.
     void check_start(const Motion& state) const;
-    void check(const Window& window, const WindowResult& result);
+    void check(const WindowResult& result);
 
  private:
     void check_count(const Motion& state) const;
     void check_overlap(const Motion& state) const;
     void check_divergence(const FluidReport& report);
+    void check_multipliers(const FluidReport& report);
 
     std::size_t population_;
     std::size_t removed_ = 0;
     double diameter_;
-    double rate_;                  ///< u_c / D [1/s]
-    double penetration_limit_;     ///< [D]
-    std::string against_overlap_;  ///< advice in the terms of the adapter
-    int divergent_windows_ = 0;
+    double velocity_;                ///< u_c [m/s]
+    double penetration_limit_;       ///< [D]
+    std::string against_overlap_;    ///< advice in the terms of the adapter
+    std::string multiplier_limits_;  ///< the keys and their values
+    int divergent_windows_ = 0;      ///< running
+    int stopped_windows_ = 0;        ///< whose multiplier problem stopped at its limit, running
 };
 
 }  // namespace turbidite

@@ -8,11 +8,6 @@
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
-namespace {
-
-constexpr bool from_coupler = true;
-
-}  // namespace
 
 ParticipantLink::ParticipantLink(Role role, Channel& channel) : role_(role), channel_(channel) {
     for (int rank = 0; rank < channel.peers(); ++rank)
@@ -24,8 +19,8 @@ std::string ParticipantLink::rank_name(int rank) const {
     return fmt::format("{} rank {}", role_name(role_), rank);
 }
 
-void ParticipantLink::set_scheme(const std::string& scheme) {
-    for (Rank& rank : ranks_) rank.order.set_scheme(scheme);
+void ParticipantLink::set_window_order(const Order& order) {
+    for (Rank& rank : ranks_) rank.order.set_window_order(order);
 }
 
 void ParticipantLink::send(int rank, Kind kind, Bytes payload) {
@@ -45,7 +40,7 @@ bool ParticipantLink::pump() {
 
 void ParticipantLink::take_in(int rank, Message message) {
     Rank& from = ranks_.at(rank);
-    from.order.received(message.envelope, !from_coupler);
+    from.order.received(message.envelope, to_coupler);
     from.since = Clock::now();
     if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload));
     from.inbox.push_back(std::move(message));
@@ -97,7 +92,7 @@ bool ParticipantLink::gone() {
     while (auto frame = channel_.try_receive()) {
         const Envelope envelope = unframe(frame->bytes).envelope;
         if (envelope.kind == Kind::farewell)
-            ranks_.at(frame->peer).order.received(envelope, !from_coupler);
+            ranks_.at(frame->peer).order.received(envelope, to_coupler);
     }
     return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) {
         return rank.order.due().front().kind == Kind::release;

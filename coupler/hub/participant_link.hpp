@@ -25,7 +25,8 @@ class ParticipantLink {
     /// What the rank said of itself; empty before its hello.
     const Hello& hello(int rank) const { return ranks_[rank].hello; }
     void set_hello(int rank, Hello hello) { ranks_[rank].hello = std::move(hello); }
-    void set_scheme(const std::string& scheme);
+    /// Which messages make a window; before the start is over.
+    void set_window_order(const Order& order);
 
     void send(int rank, Kind kind, Bytes payload);
     template <class Record>

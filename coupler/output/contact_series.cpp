@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/output/contact_series.hpp"
 
-#include "coupler/hub/kick.hpp"
+#include "coupler/protocol/grain_index.hpp"
 
 namespace turbidite {
 namespace {
@@ -29,11 +29,11 @@ GrainId first_id(const ContactRecord& contact) {
 
 /// Two per contact: from a to b.
 std::vector<Vec3> line_ends(const Motion& state) {
-    const auto grains = by_id(state);
+    const GrainIndex index(state.grains);
     std::vector<Vec3> ends;
     ends.reserve(2 * state.contacts->size());
     for (const ContactRecord& contact : *state.contacts) {
-        const Vec3& centre = grains.at(contact.b)->position;
+        const Vec3& centre = state.grains.at(index.place(contact.b)).position;
         ends.push_back(minus(centre, contact.branch));
         ends.push_back(centre);
     }

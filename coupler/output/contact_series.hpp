@@ -2,7 +2,7 @@
 //
 // The contacts as a ParaView series: grains/contacts.pvd over one file of lines per output, for
 // force chains. Apply Tube with "Vary Radius: by scalar", scalar `normal_force`. The files are made
-// at the first output at which contacts are told.
+// at the first output that has contacts.
 //
 // A line joins the centres of the two grains, or the contact point at a wall and the centre of the
 // grain; across a cyclic side it ends at the nearest image. The second grain's centre is the one of

@@ -4,28 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupler/hub/domain.hpp"
 #include "coupler/output/pore_volume.hpp"
+#include "coupler/protocol/domain.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 
-void SinceRow::take_in(const WallTimes& spent, bool converged) {
-    ++windows;
-    unconverged += converged ? 0 : 1;
-    wall.step += spent.step;
-    wall.fluid += spent.fluid;
-    wall.grains += spent.grains;
-    wall.coupling += spent.coupling;
-}
-
-Averages averages(const Motion& state, const KickRule& rule) {
+Averages averages(const Motion& state, const ImmersedBodies& bodies) {
     Averages mean;
     const double n = std::max<double>(1.0, static_cast<double>(state.grains.size()));
     mean.front = state.grains.empty() ? 0.0 : -INFINITY;
     for (const GrainState& grain : state.grains) {
         double speed2 = 0.0, spin_energy = 0.0;
-        const ImmersedBody body = rule.body(grain);
+        const ImmersedBody body = bodies(grain);
         for (int i = 0; i < 3; ++i) {
             mean.velocity[i] += grain.velocity[i] / n;
             mean.position[i] += grain.position[i] / n;
@@ -42,10 +33,11 @@ Averages averages(const Motion& state, const KickRule& rule) {
     return mean;
 }
 
-History::History(const std::filesystem::path& file, const Settings& settings, const KickRule& rule)
+History::History(const std::filesystem::path& file, const Settings& settings,
+                 const ShapeTable& shapes)
     : file_(file),
       out_(file, std::ios::trunc),
-      rule_(rule),
+      bodies_(settings, shapes),
       diameter_(settings.real("run.diameter")),
       velocity_(settings.real("run.velocity_scale")),
       time_(settings.real("run.time_scale")),
@@ -61,9 +53,9 @@ RowValues History::values(const Row& row) const {
     std::vector<SolidGrain> solids;
     for (const GrainState& grain : state.grains)
         solids.push_back(
-            {grain.position[0], grain.position[1], rule_.body(grain).mass / grain.density});
+            {grain.position[0], grain.position[1], bodies_(grain).mass / grain.density});
     RowValues values{row,
-                     averages(state, rule_),
+                     averages(state, bodies_),
                      pore_volume(solids, diameter_, period_),
                      {},
                      diameter_,

@@ -9,28 +9,11 @@
 #include <fstream>
 #include <optional>
 
-#include "coupler/hub/scheme.hpp"
 #include "coupler/output/contact_network.hpp"
-#include "coupler/protocol/settings.hpp"
+#include "coupler/output/run_statistics.hpp"
+#include "coupler/shapes/immersed_bodies.hpp"
 
 namespace turbidite {
-
-/// Seconds of a window, or means per window.
-struct WallTimes {
-    double step = 0.0;      ///< the whole window
-    double fluid = 0.0;     ///< in the fluid adapter's own work
-    double grains = 0.0;    ///< in the grains adapter's own work
-    double coupling = 0.0;  ///< in the coupler: routing, checks, output
-};
-
-/// What is summed over the windows since the last row.
-struct SinceRow {
-    std::int64_t windows = 0;
-    std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance
-    WallTimes wall;
-
-    void take_in(const WallTimes& spent, bool converged);
-};
 
 /// Everything a row is made of.
 struct Row {
@@ -54,14 +37,14 @@ struct Averages {
     double mass = 0.0;            ///< sum of m [kg]
     double solid = 0.0;           ///< sum of V [m2]
 };
-Averages averages(const Motion& state, const KickRule& rule);
+Averages averages(const Motion& state, const ImmersedBodies& bodies);
 
 /// A row with what is worked out for it.
 struct RowValues {
     const Row& row;
     Averages mean;
     double pores;                           ///< pore_volume [m2]
-    std::optional<ContactNetwork> network;  ///< empty unless contacts were told
+    std::optional<ContactNetwork> network;  ///< empty unless contacts were sent
     double diameter, velocity, time, gravity;
 };
 
@@ -74,7 +57,7 @@ std::string history_line(const RowValues& values);
 class History {
  public:
     /// Creates the file with its header. Throws Failure when it cannot be written.
-    History(const std::filesystem::path& file, const Settings& settings, const KickRule& rule);
+    History(const std::filesystem::path& file, const Settings& settings, const ShapeTable& shapes);
 
     /// Throws Failure when the disk is full.
     void append(const Row& row);
@@ -84,7 +67,7 @@ class History {
 
     std::filesystem::path file_;
     std::ofstream out_;
-    const KickRule& rule_;
+    ImmersedBodies bodies_;
     double diameter_, velocity_, time_, gravity_;
     double step_;  ///< of a window
     Vec3 period_;

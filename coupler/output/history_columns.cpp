@@ -38,7 +38,7 @@ std::string wall(Cell c, double WallTimes::*part) {
                        c.row.since->wall.*part / static_cast<double>(c.row.since->windows));
 }
 
-// Empty unless contacts were told.
+// Empty unless contacts were sent.
 template <class Value>
 std::string network(Cell c, Value ContactNetwork::*value) {
     return c.network ? number((*c.network).*value) : "";

@@ -20,22 +20,38 @@ double mean_fall(const Motion& state) {
     return state.grains.empty() ? 0.0 : sum / static_cast<double>(state.grains.size());
 }
 
-std::string residuals(const Row& row, double velocity) {
+constexpr auto not_converged = " NOT CONVERGED";
+
+std::string contact_text(const ContactReport& report) {
+    return fmt::format("  contacts {} ({} {}{}{})", report.contacts, report.iterations,
+                       report.residual ? "sweeps" : "sub-steps",
+                       report.residual ? fmt::format(", {:.0e}", *report.residual) : "",
+                       report.converged ? "" : not_converged);
+}
+
+std::string fluid_text(const FluidReport& report, double velocity, double length) {
+    std::string text =
+        fmt::format("  multipliers {} its, {:.0e}{}  Courant {:.2f}", report.multiplier_iterations,
+                    report.multiplier_residual / velocity,
+                    report.multipliers_converged ? "" : not_converged, report.courant);
+    if (report.final_divergence > 0.0)  // looked at in windows with output
+        text += fmt::format("  divergence after step 5 {:.0e} u_c/D",
+                            report.final_divergence * length / velocity);
+    return text;
+}
+
+std::string joint_text(const JointReport& report, double velocity) {
+    std::string text = fmt::format("  rounds {}", report.rounds);
+    if (!report.converged)
+        text += fmt::format("{}: {:.0e} u_c", not_converged, report.mismatch / velocity);
+    return text;
+}
+
+std::string solves(const Row& row, double velocity, double length) {
     std::string text;
-    if (row.contact)
-        text += fmt::format(
-            "  contacts {} ({} {}{}{})", row.contact->contacts, row.contact->iterations,
-            row.contact->residual ? "sweeps" : "sub-steps",
-            row.contact->residual ? fmt::format(", {:.0e}", *row.contact->residual) : "",
-            row.contact->converged ? "" : " NOT CONVERGED");
-    if (row.fluid)
-        text += fmt::format("  multipliers {} its, {:.0e}", row.fluid->multiplier_iterations,
-                            row.fluid->multiplier_residual / velocity);
-    if (row.joint)
-        text += fmt::format("  rounds {}{}", row.joint->rounds,
-                            row.joint->converged ? ""
-                                                 : fmt::format(" NOT CONVERGED: {:.0e} u_c",
-                                                               row.joint->mismatch / velocity));
+    if (row.contact) text += contact_text(*row.contact);
+    if (row.fluid) text += fluid_text(*row.fluid, velocity, length);
+    if (row.joint) text += joint_text(*row.joint, velocity);
     return text;
 }
 
@@ -68,14 +84,15 @@ void Progress::say(const std::string& text) {
 void Progress::show(const Row& row, const Settings& settings, bool due) {
     const double time_scale = settings.real("run.time_scale");
     const double velocity = settings.real("run.velocity_scale");
+    const double length = settings.real("run.diameter");
     if (!due && !(terminal_ && Clock::now() - last_shown_ > refresh)) return;
     last_shown_ = Clock::now();
     const double per_window = seconds_since(start_) / static_cast<double>(row.step);
     const std::string line = fmt::format(
         "window {}/{}  t/t_c {:.3f}  fall {:.4f} u_c  overlap {:.0e} D{}  {:.3f} s/window  left {}",
         row.step, windows_, row.time / time_scale, mean_fall(*row.state) / velocity,
-        row.state->report.max_penetration / settings.real("run.diameter"), residuals(row, velocity),
-        per_window, clock_text(per_window * static_cast<double>(windows_ - row.step)));
+        row.state->report.max_penetration / length, solves(row, velocity, length), per_window,
+        clock_text(per_window * static_cast<double>(windows_ - row.step)));
     if (due) log_ << line << std::endl;
     if (terminal_) {
         std::fputs(("\r\033[K" + line).c_str(), stdout);

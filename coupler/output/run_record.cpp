@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/output/run_record.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "coupler/protocol/largest.hpp"
 #include "coupler/protocol/whole_file.hpp"
 
 namespace turbidite {
@@ -30,29 +27,32 @@ const char* status_word(ExitCode code) {
     }
 }
 
-nlohmann::ordered_json rank_table(const std::vector<ParticipantLink*>& links) {
+nlohmann::ordered_json rank_table(const std::vector<Hello>& ranks) {
     auto table = nlohmann::ordered_json::array();
-    for (const ParticipantLink* link : links)
-        for (int rank = 0; rank < link->ranks(); ++rank) {
-            const Hello& hello = link->hello(rank);
-            table.push_back({{"role", role_name(link->role())},
-                             {"rank", rank},
-                             {"adapter", hello.adapter},
-                             {"adapter_version", hello.adapter_version},
-                             {"host_code", hello.host_code},
-                             {"host", hello.host},
-                             {"pid", hello.pid},
-                             {"log", hello.log_file}});
-        }
+    for (const Hello& hello : ranks)
+        table.push_back({{"role", role_name(hello.role)},
+                         {"rank", hello.rank},
+                         {"adapter", hello.adapter},
+                         {"adapter_version", hello.adapter_version},
+                         {"host_code", hello.host_code},
+                         {"host", hello.host},
+                         {"pid", hello.pid},
+                         {"log", hello.log_file}});
     return table;
 }
 
 nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
+    const FluidMaxima fluid = maxima.fluid.value_or(FluidMaxima{});
     nlohmann::ordered_json table = {{"penetration", maxima.penetration},
                                     {"grain_balance", maxima.grain_balance},
-                                    {"fluid_balance", maxima.fluid_balance},
-                                    {"divergence", maxima.divergence},
+                                    {"fluid_balance", fluid.balance},
+                                    {"divergence", fluid.divergence},
                                     {"unconverged_windows", maxima.unconverged_windows}};
+    if (maxima.fluid) {
+        table["final_divergence"] = fluid.final_divergence;
+        table["courant"] = fluid.courant;
+        table["unconverged_multiplier_windows"] = fluid.unconverged_windows;
+    }
     if (maxima.joint) {
         table["joint_rounds"] = maxima.joint->rounds;
         table["joint_mismatch"] = maxima.joint->mismatch;
@@ -61,40 +61,13 @@ nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
     return table;
 }
 
-nlohmann::ordered_json contact_table(const RunStatus& status) {
-    return {{"unconverged_windows", status.maxima.unconverged_windows},
-            {"residual_p95", status.contact_residuals.quantile(0.95)},
-            {"residual_max", status.contact_residuals.largest()}};
+nlohmann::ordered_json contact_table(const RunStatistics& statistics) {
+    return {{"unconverged_windows", statistics.maxima.unconverged_windows},
+            {"residual_p95", statistics.contact_residuals.quantile(0.95)},
+            {"residual_max", statistics.contact_residuals.largest()}};
 }
 
 }  // namespace
-
-void ContactResiduals::take_in(const ContactReport& report) {
-    if (!report.residual) return;
-    const bool worst = std::isnan(*report.residual);  // which has no place in an order
-    values_.push_back(worst ? INFINITY : *report.residual);
-}
-
-double ContactResiduals::largest() const {
-    return values_.empty() ? 0.0 : *std::max_element(values_.begin(), values_.end());
-}
-
-double ContactResiduals::quantile(double share) const {
-    if (values_.empty()) return 0.0;
-    std::vector<double> sorted = values_;
-    const auto rank =
-        static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(sorted.size()))) - 1;
-    const auto at = sorted.begin() + std::max<std::ptrdiff_t>(rank, 0);
-    std::nth_element(sorted.begin(), at, sorted.end());
-    return *at;
-}
-
-void RunMaxima::take_in(const JointReport& report, double velocity) {
-    if (!joint) joint.emplace();
-    joint->rounds = std::max(joint->rounds, report.rounds);
-    joint->mismatch = largest(joint->mismatch, report.mismatch / velocity);
-    joint->unconverged_windows += report.converged ? 0 : 1;
-}
 
 bool has_verdict(const std::filesystem::path& file) {
     std::ifstream in(file);
@@ -103,7 +76,7 @@ bool has_verdict(const std::filesystem::path& file) {
 }
 
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
-                      const std::vector<ParticipantLink*>& links) {
+                      const std::vector<Hello>& ranks) {
     nlohmann::ordered_json record = nlohmann::ordered_json::object();
     if (std::ifstream old(file); old) {
         record = nlohmann::ordered_json::parse(old, nullptr, false);
@@ -112,11 +85,12 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["status"] = status_word(status.code);
     record["exit_code"] = static_cast<int>(status.code);
     record["error"] = status.reason;
-    record["windows_done"] = status.windows_done;
+    record["windows_done"] = status.statistics.windows_done;
     record["wall_seconds"] = status.wall_seconds;
-    record["maxima"] = maxima_table(status.maxima);
-    if (!status.contact_residuals.empty()) record["contact"] = contact_table(status);
-    record["ranks"] = rank_table(links);
+    record["maxima"] = maxima_table(status.statistics.maxima);
+    if (!status.statistics.contact_residuals.empty())
+        record["contact"] = contact_table(status.statistics);
+    record["ranks"] = rank_table(ranks);
     write_whole(file, [&](std::ostream& out) { out << record.dump(2) << "\n"; });
 }
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The five functions that plug a code into the job: describe, initialise, advance, apply kick
-// (fluid: impose), save/restore; a fluid that takes part in scheme `joint` has two more, respond and
-// correct. The participant library calls them in the order of the scheme; an adapter never sees a
-// message, a rank of another program, or MPI.
+// The functions that plug a code into the job. The participant library calls them as the coupler's
+// messages come in, each message one function, in the order that the coupler tells at the start. An
+// adapter never sees a message, a rank of another program, MPI, or the name of a scheme: what a
+// call means follows from the calls before it in the same window.
+//
+//     grains   window { motion due: advance } { contact_input: advance } kick: apply_kick
+//     fluid    window: advance { bodies: let_fall } { constraint: correct } accept: impose
+//              and respond wherever `response` is due
+//
 //
 // Errors: throw PhysicsRefused (exit code 6) when the physics cannot go on, any other exception for
 // a failure of the program (exit code 4). The text reaches the user with role, rank, host and log.
@@ -35,13 +40,19 @@ class GrainsAdapter {
     virtual Motion initialise(const Settings& settings, const ShapeTable& shapes,
                               const std::vector<GrainState>& grains) = 0;
 
-    /// Step 4: the contact problem without fluid, inertia cM and weight cMg (Topin 2011, Eqs.
-    /// 16-19). Returns configuration q^n and velocities U^{n+4/5}. Under `joint` the responses hold
-    /// free velocities and effective inertia and replace free motion; under `split` they are empty.
+    /// Step 4, the contact problem (Topin 2011, Eqs. 16-19). Returns configuration q^n, velocities
+    /// after the contacts and their impulses.
+    ///
+    /// Without responses (`split`, `dry`) grains move freely by themselves, with inertia cM and
+    /// weight cMg: velocities are U^{n+4/5}. With one response per grain (`joint`) free velocities
+    /// and inertia are the fluid's. Called again before the kick, always with responses, it starts
+    /// from t^n again.
     virtual Motion advance(const Window& window, const std::vector<FreeResponse>& responses) = 0;
 
-    /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. Returns the state at
-    /// t^{n+1}, in windows with output with the contacts of this window.
+    /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. U are the corrected
+    /// velocities, or the contact ones where coupling.positions or responses in this window ask for
+    /// it. Returns the state at t^{n+1}, in windows with output with the contacts of this window.
+    /// Ends the window. In a dry run there are no kicks: contact velocities are final.
     virtual Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) = 0;
 
     virtual SavedState save() const = 0;
@@ -57,23 +68,31 @@ class FluidAdapter {
     /// Reads the fluid case; returns the box of this rank.
     virtual Box initialise(const Settings& settings, const ShapeTable& shapes) = 0;
 
-    /// Steps 1-3: degenerated Stokes, transport, viscosity. Runs while the grains do step 4.
+    /// Steps 1-3: degenerated Stokes, transport, viscosity. Begins the window; under `split` it
+    /// runs while the grains do step 4.
     virtual void advance(const Window& window) = 0;
 
-    /// Scheme `joint` only, once per window: step 5 for grains that feel no contacts, from
-    /// U^n + g dt (grains at t^n are given). Answers for the grains whose centre this rank owns.
-    virtual std::vector<FreeResponse> respond(const Window& window,
-                                              const std::vector<GrainState>& grains) = 0;
+    /// Begins step 5 with grains that feel no contacts (`joint`): given at t^n, they fall from U^n
+    /// over the window together with the fluid.
+    virtual void let_fall(const Window& window, const std::vector<GrainState>& grains) = 0;
 
-    /// Scheme `joint` only, after every contact solve: the grains carry its velocities and contact
-    /// impulses. Answers with corrected free velocities and the mismatch (records.hpp).
-    virtual std::vector<FreeResponse> correct(const Window& window,
-                                              const std::vector<GrainState>& grains) = 0;
+    /// Step 5, Eqs. 9-10, for every grain that touches this rank's box, with the velocities and
+    /// contact impulses of a contact solve.
+    ///
+    /// First in its window (`split`) it takes the grains with the velocities they bring,
+    /// U^{n+4/5}, in which their contact impulses are contained. After let_fall, or after another
+    /// correct, grains keep the velocities they have, and what their contact impulses have changed
+    /// by acts on them and the fluid together, so that momentum stays exact.
+    virtual void correct(const Window& window, const std::vector<GrainState>& grains) = 0;
 
-    /// Step 5, Eqs. 9-10, for every grain that touches this rank's box. Writes fields when the
-    /// window says so. Under `joint` it ends the window: the grains are those of the last
-    /// `correct`, the kick's velocity is its U', so that momentum balances to round-off.
-    virtual Kicks impose(const Window& window, const std::vector<GrainState>& grains) = 0;
+    /// How the grains respond to contact impulses, and by how much the last correct disagreed with
+    /// its contact solve (records.hpp). Of the grains whose centre this rank owns. Not called under
+    /// `split`.
+    virtual std::vector<FreeResponse> respond() = 0;
+
+    /// Ends the window: writes u, and fields when the window says so. Kicks of the grains whose
+    /// centre this rank owns: the velocities that step 5 arrived at.
+    virtual Kicks impose(const Window& window) = 0;
 
     virtual SavedState save() const = 0;
     virtual void restore(const SavedState& state) = 0;

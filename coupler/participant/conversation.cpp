@@ -4,11 +4,6 @@
 #include <utility>
 
 namespace turbidite {
-namespace {
-
-constexpr bool from_coupler = true;
-
-}  // namespace
 
 Conversation::Conversation(Role role, Channel& channel)
     : channel_(channel), order_(role, "coupler") {}
@@ -28,7 +23,7 @@ Message Conversation::next() {
 }
 
 void Conversation::send(Kind kind, Bytes payload) {
-    channel_.send(0, frame({order_.next_sent(kind, !from_coupler), std::move(payload)}));
+    channel_.send(0, frame({order_.next_sent(kind, to_coupler), std::move(payload)}));
 }
 
 Message Conversation::receive() {

@@ -28,7 +28,14 @@ class Conversation {
  public:
     Conversation(Role role, Channel& channel);
 
-    void set_scheme(const std::string& scheme) { order_.set_scheme(scheme); }
+    /// Which messages make a window; before the start is over.
+    void set_window_order(Order order) { order_.set_window_order(std::move(order)); }
+
+    /// Has the present window's last message not passed yet?
+    bool inside_window() const { return order_.inside_window(); }
+
+    /// Is it this side's turn to send this kind?
+    bool due_from_here(Kind kind) const { return order_.is_due(kind, to_coupler); }
 
     /// Longest wait for the coupler [s] before waiting gives up with CouplerSilent.
     void set_limit(double seconds) { limit_ = seconds; }

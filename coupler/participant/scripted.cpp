@@ -24,19 +24,6 @@ double distance(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-void ScriptedBodies::initialise(const Settings& settings, const ShapeTable& shapes) {
-    shapes_.clear();
-    for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
-    fluid_density_ = settings.flag("fluid.enabled") ? settings.real("run.fluid_density") : 0.0;
-    hydrodynamic_radius_ = settings.real("fluid.hydrodynamic_radius");
-    gravity_ = settings.real("run.gravity");
-}
-
-ImmersedBody ScriptedBodies::body(const GrainState& grain) const {
-    return immersed_body(*shapes_.at(grain.shape), grain.radius, grain.density, fluid_density_,
-                         hydrodynamic_radius_);
-}
-
 ScriptedGrains::ScriptedGrains(std::string adapter_name, Fault fault)
     : floor_(-everywhere), fault_(std::move(fault)) {
     hello_.adapter = std::move(adapter_name);
@@ -59,8 +46,8 @@ Hello ScriptedGrains::describe() const {
 Motion ScriptedGrains::initialise(const Settings& settings, const ShapeTable& shapes,
                                   const std::vector<GrainState>& grains) {
     reach("initialise", -1);
-    bodies_.initialise(settings, shapes);
-    joint_ = settings.flag("fluid.enabled") && settings.text("coupling.scheme") == "joint";
+    bodies_ = ImmersedBodies(settings, shapes);
+    gravity_ = settings.real("run.gravity");
     motion_.grains = grains;
     return motion_;
 }
@@ -88,21 +75,22 @@ Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeRespo
     reach("advance", window.index);
     std::unordered_map<GrainId, const FreeResponse*> by_id;
     for (const FreeResponse& response : responses) by_id[response.id] = &response;
+    answered_ = !responses.empty();
     motion_.report = {};
     motion_.report.iterations = 1;
     motion_.contacts.reset();
     contacts_.clear();
     contact_velocities_.clear();
     for (GrainState& grain : motion_.grains) {
-        const ImmersedBody body = bodies_.body(grain);
+        const ImmersedBody body = bodies_(grain);
         double mass = body.effective_mass;
-        if (joint_) {
+        if (answered_) {
             const FreeResponse& response = *by_id.at(grain.id);
             grain.velocity = response.velocity;
             grain.angular_velocity = response.angular_velocity;
             mass = response.inertia[upper_entry(1, 1)];
         } else {
-            grain.velocity[1] -= body.submerged_mass / mass * bodies_.gravity() * window.step;
+            grain.velocity[1] -= body.submerged_mass / mass * gravity_ * window.step;
         }
         touch_floor(grain, mass, window.step);
         contact_velocities_.push_back(grain.velocity);
@@ -120,7 +108,7 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
             grain.velocity = by_id.at(grain.id)->velocity;
             grain.angular_velocity = by_id.at(grain.id)->angular_velocity;
         }
-        const Vec3& carrier = joint_ ? contact_velocities_[i] : grain.velocity;
+        const Vec3& carrier = answered_ ? contact_velocities_[i] : grain.velocity;
         grain.position = plus(grain.position, window.step, carrier);
         const double overlap = floor_ - (grain.position[1] - grain.radius);
         motion_.report.max_penetration = std::max(motion_.report.max_penetration, overlap);
@@ -157,8 +145,8 @@ Hello ScriptedFluid::describe() const {
 
 Box ScriptedFluid::initialise(const Settings& settings, const ShapeTable& shapes) {
     reach("initialise", -1);
-    bodies_.initialise(settings, shapes);
-    joint_ = settings.text("coupling.scheme") == "joint";
+    bodies_ = ImmersedBodies(settings, shapes);
+    gravity_ = settings.real("run.gravity");
     const double slice = settings.real("run.size_x") / ranks_;
     box_ = {{rank_ * slice, -everywhere, -everywhere},
             {(rank_ + 1) * slice, everywhere, everywhere}};
@@ -173,86 +161,84 @@ bool ScriptedFluid::owns(const GrainState& grain) const {
 
 void ScriptedFluid::advance(const Window& window) {
     reach("advance", window.index);
+    grains_.clear();
 }
 
-ScriptedFluid::FreeGrain ScriptedFluid::fall(const GrainState& grain, double step) const {
-    const ImmersedBody body = bodies_.body(grain);
-    FreeGrain motion;
+ScriptedFluid::DraggedGrain ScriptedFluid::dragged(const GrainState& grain, double step,
+                                                   const Vec3& impulse) const {
+    const ImmersedBody body = bodies_(grain);
+    DraggedGrain motion;
+    motion.id = grain.id;
     motion.mass = body.effective_mass + drag_ * step;
     motion.inertia = body.effective_inertia(2, 2);
-    const Vec3 weight{0.0, -body.submerged_mass * bodies_.gravity(), 0.0};
     const Vec3 coasting = plus({}, body.effective_mass / motion.mass, grain.velocity);
-    motion.velocity = plus(coasting, step / motion.mass, weight);
+    motion.velocity = plus(coasting, 1.0 / motion.mass, impulse);
     motion.angular_velocity = grain.angular_velocity;
     return motion;
 }
 
-FreeResponse ScriptedFluid::response(GrainId id, const FreeGrain& motion) const {
+void ScriptedFluid::let_fall(const Window& window, const std::vector<GrainState>& grains) {
+    reach("let_fall", window.index);
+    for (const GrainState& grain : grains) {
+        if (!owns(grain)) continue;
+        const double weight = bodies_(grain).submerged_mass * gravity_;
+        grains_.push_back(dragged(grain, window.step, {0.0, -weight * window.step, 0.0}));
+    }
+}
+
+void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>& grains) {
+    reach("correct", window.index);
+    const bool first = grains_.empty();
+    std::size_t at = 0;
+    for (const GrainState& grain : grains) {
+        if (!owns(grain)) continue;
+        if (first) {
+            grains_.push_back(dragged(grain, window.step, {}));
+            grains_.back().pushed = grain.contact_impulse;
+            grains_.back().angular_pushed = grain.contact_angular_impulse;
+        }
+        push(grains_.at(at++), grain);
+    }
+}
+
+/// What the contact impulses have changed by, and by how much the contact solve is off.
+void ScriptedFluid::push(DraggedGrain& own, const GrainState& solved) {
+    const Vec3 change = plus(solved.contact_impulse, -1.0, own.pushed);
+    const Vec3 turn = plus(solved.contact_angular_impulse, -1.0, own.angular_pushed);
+    own.velocity = plus(own.velocity, 1.0 / own.mass, change);
+    own.angular_velocity = plus(own.angular_velocity, 1.0 / own.inertia, turn);
+    own.pushed = solved.contact_impulse;
+    own.angular_pushed = solved.contact_angular_impulse;
+    own.mismatch = distance(own.velocity, solved.velocity) +
+                   solved.radius * distance(own.angular_velocity, solved.angular_velocity);
+}
+
+FreeResponse ScriptedFluid::response(const DraggedGrain& grain) const {
+    const double mass = response_factor_ * grain.mass, inertia = response_factor_ * grain.inertia;
     FreeResponse response;
-    response.id = id;
-    response.velocity = motion.velocity;
-    response.angular_velocity = motion.angular_velocity;
+    response.id = grain.id;
+    response.velocity = plus(grain.velocity, -1.0 / mass, grain.pushed);
+    response.angular_velocity = plus(grain.angular_velocity, -1.0 / inertia, grain.angular_pushed);
     for (std::size_t i = 0; i < 6; ++i)
-        response.inertia[upper_entry(i, i)] = told_ * (i < 3 ? motion.mass : motion.inertia);
+        response.inertia[upper_entry(i, i)] = i < 3 ? mass : inertia;
+    response.mismatch = grain.mismatch;
     return response;
 }
 
-std::vector<FreeResponse> ScriptedFluid::respond(const Window& window,
-                                                 const std::vector<GrainState>& grains) {
-    reach("respond", window.index);
-    free_.clear();
+std::vector<FreeResponse> ScriptedFluid::respond() {
     std::vector<FreeResponse> responses;
-    for (const GrainState& grain : grains) {
-        if (!owns(grain)) continue;
-        const FreeGrain& motion = free_[grain.id] = fall(grain, window.step);
-        responses.push_back(response(grain.id, motion));
-    }
+    for (const DraggedGrain& grain : grains_) responses.push_back(response(grain));
     return responses;
 }
 
-ScriptedFluid::FreeGrain ScriptedFluid::pushed(const GrainState& grain) const {
-    FreeGrain motion = free_.at(grain.id);
-    motion.velocity = plus(motion.velocity, 1.0 / motion.mass, grain.contact_impulse);
-    motion.angular_velocity =
-        plus(motion.angular_velocity, 1.0 / motion.inertia, grain.contact_angular_impulse);
-    return motion;
-}
-
-std::vector<FreeResponse> ScriptedFluid::correct(const Window& window,
-                                                 const std::vector<GrainState>& grains) {
-    reach("correct", window.index);
-    std::vector<FreeResponse> responses;
-    for (const GrainState& grain : grains) {
-        if (!owns(grain)) continue;
-        const FreeGrain motion = pushed(grain);
-        FreeResponse answer = response(grain.id, motion);
-        answer.velocity =
-            plus(answer.velocity, -1.0 / (told_ * motion.mass), grain.contact_impulse);
-        answer.angular_velocity = plus(answer.angular_velocity, -1.0 / (told_ * motion.inertia),
-                                       grain.contact_angular_impulse);
-        answer.mismatch = distance(motion.velocity, grain.velocity) +
-                          grain.radius * distance(motion.angular_velocity, grain.angular_velocity);
-        responses.push_back(answer);
-    }
-    return responses;
-}
-
-Kicks ScriptedFluid::impose(const Window& window, const std::vector<GrainState>& grains) {
+Kicks ScriptedFluid::impose(const Window& window) {
     reach("impose", window.index);
     Kicks answer;
-    for (const GrainState& grain : grains) {
-        if (!owns(grain)) continue;
+    for (const DraggedGrain& grain : grains_) {
         Kick kick;
         kick.id = grain.id;
-        if (joint_) {
-            const FreeGrain motion = pushed(grain);
-            kick.velocity = motion.velocity;
-            kick.angular_velocity = motion.angular_velocity;
-        } else {
-            const double mass = bodies_.body(grain).effective_mass;
-            kick.velocity = plus({}, 1.0 / (1.0 + drag_ * window.step / mass), grain.velocity);
-            kick.angular_velocity = grain.angular_velocity;
-        }
+        kick.velocity = grain.velocity;
+        kick.angular_velocity = grain.angular_velocity;
         kick.multiplier_impulse = plus({}, -drag_ * window.step, kick.velocity);
         answer.kicks.push_back(kick);
     }

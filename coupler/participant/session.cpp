@@ -16,7 +16,7 @@ struct Session::Talk {
     Conversation conversation;
     Identity identity;
     Outcome outcome;
-    std::string scheme;
+    std::function<std::string()> other_exception = [] { return "an exception of unknown type"; };
 };
 
 Session::Session() = default;
@@ -24,6 +24,10 @@ Session::~Session() = default;
 
 const Outcome& Session::outcome() const {
     return talk_->outcome;
+}
+
+void Session::explain_other_exceptions(std::function<std::string()> text) {
+    talk_->other_exception = std::move(text);
 }
 
 template <class Action>
@@ -41,6 +45,9 @@ bool Session::guarded(Action action) {
         verdict = conversation.fail({static_cast<int>(failure.code()), failure.what()});
     } catch (const std::exception& error) {
         verdict = conversation.fail({static_cast<int>(ExitCode::participant_failed), error.what()});
+    } catch (...) {
+        verdict = conversation.fail(
+            {static_cast<int>(ExitCode::participant_failed), talk_->other_exception()});
     }
     talk_->outcome = {static_cast<ExitCode>(verdict.exit_code), verdict.reason};
     conversation.say_farewell();
@@ -52,7 +59,10 @@ bool Session::start() {
 }
 
 bool Session::step() {
-    return guarded([this] { play_window(); });
+    return guarded([this] {
+        do take(talk_->conversation.receive());
+        while (talk_->conversation.inside_window());
+    });
 }
 
 namespace {
@@ -90,8 +100,7 @@ class RoleSession : public Session {
         Conversation& talk = talk_->conversation;
         talk.send(Kind::hello, encode(complete(adapter_.describe(), role_, talk_->identity)));
         Settings settings = decode<Settings>(talk.receive(Kind::settings));
-        talk_->scheme = settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
-        talk.set_scheme(talk_->scheme);
+        talk.set_window_order(decode<Order>(talk.receive(Kind::order)));
         talk.set_limit(margin_over_coupler * settings.real("limits.stall_hard"));
         return settings;
     }
@@ -106,11 +115,24 @@ class RoleSession : public Session {
         talk_->conversation.send(kind, encode(record));
     }
 
+    bool due(Kind kind) const { return talk_->conversation.due_from_here(kind); }
+
+    /// A message that the order has and this library does not know what to do with.
+    [[noreturn]] void refuse(Kind kind) const {
+        throw OrderViolation(std::string("the ") + role_name(role_) +
+                             " library of protocol version " + std::to_string(protocol_major) +
+                             "." + std::to_string(protocol_minor) + " cannot follow \"" +
+                             kind_name(kind) + "\"");
+    }
+
     Adapter& adapter_;
+    Window window_;  ///< the present one
 
  private:
     Role role_;
 };
+
+using Responses = std::vector<FreeResponse>;
 
 class GrainsSession final : public RoleSession<GrainsAdapter> {
  public:
@@ -125,28 +147,36 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         send(Kind::state, adapter_.initialise(settings, shapes, share.grains));
     }
 
-    void play_window() override {
-        const auto window = receive<Window>(Kind::window);
-        if (talk_->scheme == "joint") return play_rounds(window);
-        const Motion motion = adapter_.advance(window, {});
-        if (talk_->scheme != "dry") send(Kind::motion, motion);
-        const auto kicks = receive<Kicks>(Kind::kick);
-        Motion state = adapter_.apply_kick(window, kicks.kicks);
-        if (talk_->scheme == "dry")  // the window's only report
-            state.report.wall_seconds += motion.report.wall_seconds;
-        send(Kind::state, state);
+    void take(const Message& message) override {
+        switch (message.envelope.kind) {
+            case Kind::window:
+                window_ = decode<Window>(message.payload);
+                solved_ = false;
+                if (due(Kind::motion)) send(Kind::motion, solve({}));
+                return;
+            case Kind::contact_input:
+                return send(Kind::motion, solve(decode<Responses>(message.payload)));
+            case Kind::kick:
+                return send(Kind::state, move(decode<Kicks>(message.payload)));
+            default:
+                refuse(message.envelope.kind);
+        }
     }
 
-    void play_rounds(const Window& window) {
-        Message message = talk_->conversation.receive();
-        for (; message.envelope.kind == Kind::contact_input;
-             message = talk_->conversation.receive()) {
-            const auto responses = decode<std::vector<FreeResponse>>(message.payload);
-            send(Kind::motion, adapter_.advance(window, responses));
-        }
-        const auto kicks = decode<Kicks>(message.payload);
-        send(Kind::state, adapter_.apply_kick(window, kicks.kicks));
+    Motion solve(const Responses& responses) {
+        solved_ = true;
+        return adapter_.advance(window_, responses);
     }
+
+    /// An order that asks for no motion (`dry`) leaves the state as the window's only report.
+    Motion move(const Kicks& kicks) {
+        const double unreported = solved_ ? 0.0 : solve({}).report.wall_seconds;
+        Motion state = adapter_.apply_kick(window_, kicks.kicks);
+        state.report.wall_seconds += unreported;
+        return state;
+    }
+
+    bool solved_ = false;  ///< contacts, in the present window
 };
 
 class FluidSession final : public RoleSession<FluidAdapter> {
@@ -161,25 +191,26 @@ class FluidSession final : public RoleSession<FluidAdapter> {
         send(Kind::domain, adapter_.initialise(settings, shapes));
     }
 
-    void play_window() override {
-        const auto window = receive<Window>(Kind::window);
-        adapter_.advance(window);
-        const Motion motion =
-            talk_->scheme == "joint" ? play_rounds(window) : receive<Motion>(Kind::constraint);
-        send(Kind::kicks, adapter_.impose(window, motion.grains));
+    void take(const Message& message) override {
+        switch (message.envelope.kind) {
+            case Kind::window:
+                window_ = decode<Window>(message.payload);
+                return adapter_.advance(window_);
+            case Kind::bodies:
+                adapter_.let_fall(window_, decode<Motion>(message.payload).grains);
+                return respond_if_due();
+            case Kind::constraint:
+                adapter_.correct(window_, decode<Motion>(message.payload).grains);
+                return respond_if_due();
+            case Kind::accept:
+                return send(Kind::kicks, adapter_.impose(window_));
+            default:
+                refuse(message.envelope.kind);
+        }
     }
 
-    /// Returns the constraint that the coupler accepted.
-    Motion play_rounds(const Window& window) {
-        const auto bodies = receive<Motion>(Kind::bodies);
-        send(Kind::response, adapter_.respond(window, bodies.grains));
-        Motion motion;
-        for (Message message = talk_->conversation.receive();
-             message.envelope.kind == Kind::constraint; message = talk_->conversation.receive()) {
-            motion = decode<Motion>(message.payload);
-            send(Kind::response, adapter_.correct(window, motion.grains));
-        }
-        return motion;
+    void respond_if_due() {
+        if (due(Kind::response)) send(Kind::response, adapter_.respond());
     }
 };
 

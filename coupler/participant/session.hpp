@@ -6,6 +6,7 @@
 // Valid C++17; includes neither MPI nor any host.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,7 @@
 namespace turbidite {
 
 class Channel;
+struct Message;
 
 /// Who this rank is; fills the fields of Hello that the adapter cannot know.
 struct Identity {
@@ -43,6 +45,10 @@ class Session {
 
     const Outcome& outcome() const;
 
+    /// `text` says what an exception is that is none of C++'s own, a host's Python error; it is
+    /// called while that is being handled.
+    void explain_other_exceptions(std::function<std::string()> text);
+
  protected:
     Session();
     struct Talk;
@@ -50,7 +56,8 @@ class Session {
 
  private:
     virtual void begin() = 0;
-    virtual void play_window() = 0;
+    /// Reacts to a message of a window.
+    virtual void take(const Message& message) = 0;
     template <class Action>
     bool guarded(Action action);
 };

@@ -1,50 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/protocol/call_order.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace turbidite {
 namespace {
 
-struct SchemeOrder {
-    const char* scheme;
-    Role role;
-    Order order;
-};
-
-constexpr bool from_coupler = true;
-constexpr bool to_coupler = false;
-
-const std::vector<SchemeOrder> windows = {
-    {"split",
-     Role::fluid,
-     {{Kind::window, from_coupler}, {Kind::constraint, from_coupler}, {Kind::kicks, to_coupler}}},
-    {"split",
-     Role::grains,
-     {{Kind::window, from_coupler},
-      {Kind::motion, to_coupler},
-      {Kind::kick, from_coupler},
-      {Kind::state, to_coupler}}},
-    {"joint",
-     Role::fluid,
-     {{Kind::window, from_coupler},
-      {Kind::bodies, from_coupler},
-      {Kind::response, to_coupler},
-      {Kind::constraint, from_coupler, Times::per_round},
-      {Kind::response, to_coupler, Times::per_round},
-      {Kind::accept, from_coupler},
-      {Kind::kicks, to_coupler}}},
-    {"joint",
-     Role::grains,
-     {{Kind::window, from_coupler},
-      {Kind::contact_input, from_coupler, Times::per_round},
-      {Kind::motion, to_coupler, Times::per_round},
-      {Kind::kick, from_coupler},
-      {Kind::state, to_coupler}}},
-    {"dry",
-     Role::grains,
-     {{Kind::window, from_coupler}, {Kind::kick, from_coupler}, {Kind::state, to_coupler}}},
-};
+constexpr Kind window_kinds[] = {
+    Kind::window, Kind::bodies, Kind::response, Kind::contact_input, Kind::motion,
+    Kind::accept, Kind::kicks,  Kind::kick,     Kind::constraint,    Kind::state};
 
 std::string sender_text(bool sent_by_coupler) {
     return std::string(" from the ") + (sent_by_coupler ? "coupler" : "participant");
@@ -61,32 +27,72 @@ std::string place_text(std::int64_t window, std::int64_t iteration) {
 
 }  // namespace
 
-Order start_order(Role role) {
-    if (role == Role::fluid)
-        return {{Kind::hello, to_coupler},
-                {Kind::settings, from_coupler},
-                {Kind::shapes, from_coupler},
-                {Kind::domain, to_coupler}};
-    return {{Kind::hello, to_coupler},
-            {Kind::settings, from_coupler},
-            {Kind::shapes, from_coupler},
-            {Kind::population, from_coupler},
-            {Kind::state, to_coupler}};
+Bytes encode(const Order& order) {
+    Bytes out;
+    Writer code(out);
+    code(static_cast<std::int64_t>(order.size()));
+    for (const Step& step : order)
+        code(static_cast<std::int32_t>(step.kind)), code(step.from_coupler),
+            code(step.times == Times::per_round);
+    return out;
 }
 
-Order window_order(Role role, const std::string& scheme) {
-    for (const SchemeOrder& entry : windows)
-        if (entry.role == role && scheme == entry.scheme) return entry.order;
-    throw std::invalid_argument("no order of messages for the " + std::string(role_name(role)) +
-                                " in scheme \"" + scheme + "\"");
+template <>
+Order decode(const Bytes& in) {
+    Reader code(in);
+    Order order(code.length());
+    for (Step& step : order) {
+        std::int32_t kind = 0;
+        bool repeated = false;
+        code(kind), code(step.from_coupler), code(repeated);
+        step.kind = static_cast<Kind>(kind);
+        step.times = repeated ? Times::per_round : Times::once;
+    }
+    code.finish();
+    return order;
+}
+
+Order start_order(Role role) {
+    Order order = {{Kind::hello, to_coupler},
+                   {Kind::settings, from_coupler},
+                   {Kind::order, from_coupler},
+                   {Kind::shapes, from_coupler}};
+    if (role == Role::fluid) {
+        order.push_back({Kind::domain, to_coupler});
+    } else {
+        order.push_back({Kind::population, from_coupler});
+        order.push_back({Kind::state, to_coupler});
+    }
+    return order;
+}
+
+void check_window_order(const Order& order) {
+    const auto refuse = [](const std::string& why) {
+        throw std::invalid_argument("the order of a window " + why);
+    };
+    if (order.empty() || order.front().kind != Kind::window || !order.front().from_coupler ||
+        order.front().times != Times::once)
+        refuse("does not begin with \"window\" from the coupler");
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Step& step = order[i];
+        if (std::find(std::begin(window_kinds), std::end(window_kinds), step.kind) ==
+            std::end(window_kinds))
+            refuse("holds \"" + kind_name(step.kind) + "\", which is no message of a window");
+        if (i > 0 && step.kind == Kind::window) refuse("holds \"window\" twice");
+        const bool border = i > 0 && step.times != order[i - 1].times;
+        if (border && !step.from_coupler)
+            refuse("lets \"" + kind_name(step.kind) +
+                   "\" of the participant stand where only the coupler decides on a round");
+    }
+    if (order.back().times == Times::per_round) refuse("ends with a round");
 }
 
 CallOrder::CallOrder(Role role, std::string peer_name)
-    : role_(role), peer_(std::move(peer_name)), order_(start_order(role)) {}
+    : peer_(std::move(peer_name)), order_(start_order(role)) {}
 
-void CallOrder::set_scheme(const std::string& scheme) {
-    window_order(role_, scheme);  // throws for an unknown one
-    scheme_ = scheme;
+void CallOrder::set_window_order(Order order) {
+    check_window_order(order);
+    window_order_ = std::move(order);
 }
 
 bool CallOrder::begins_round(std::size_t place) const {
@@ -112,6 +118,13 @@ std::vector<Step> CallOrder::due() const {
     return steps;
 }
 
+bool CallOrder::is_due(Kind kind, bool sent_by_coupler) const {
+    const std::vector<Step> steps = due();
+    return std::any_of(steps.begin(), steps.end(), [&](const Step& step) {
+        return step.kind == kind && step.from_coupler == sent_by_coupler;
+    });
+}
+
 std::string CallOrder::due_text() const {
     std::string text;
     for (const Step& step : due())
@@ -127,12 +140,10 @@ bool CallOrder::may_interrupt(Kind kind, bool sent_by_coupler) const {
 
 void CallOrder::demand(Kind kind, bool sent_by_coupler, const char* verb) const {
     if (may_interrupt(kind, sent_by_coupler)) return;
-    const std::vector<Step> steps = due();
-    for (const Step& step : steps)
-        if (step.kind == kind && step.from_coupler == sent_by_coupler) return;
+    if (is_due(kind, sent_by_coupler)) return;
     throw OrderViolation(peer_ + ": " + verb + " " + message_text(kind, sent_by_coupler) + " in " +
                          place_text(window_, iteration_) + ", but " + due_text() +
-                         sender_text(steps.front().from_coupler) + " is due");
+                         sender_text(due().front().from_coupler) + " is due");
 }
 
 // The message has been found due: the conversation moves behind it.
@@ -150,9 +161,9 @@ void CallOrder::advance(Kind kind) {
 void CallOrder::begin_window_order() {
     at_ = 0;
     if (started_) return;
-    if (scheme_.empty())
-        throw OrderViolation(peer_ + ": the start is over but no scheme was agreed");
-    order_ = window_order(role_, scheme_);
+    if (window_order_.empty())
+        throw OrderViolation(peer_ + ": the start is over, but the order of a window is not known");
+    order_ = window_order_;
     started_ = true;
 }
 

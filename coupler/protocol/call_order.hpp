@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The legal order of messages, as data. One table per scheme says which message follows which, seen
-// by one participant; both ends check against the same table, so an out-of-order call is an error
-// with a sentence, never a deadlock. Valid C++17.
+// The legal order of messages, as data. A window's order belongs to the scheme that plays it
+// (hub/schemes); the coupler tells it to every participant at the start, and both ends check every
+// message against it: an out-of-order call is an error with a sentence, never a deadlock. Nothing
+// here knows a scheme by name. Valid C++17.
 //
-//     split   window → motion ⇒ constraint → kicks ⇒ kick → state
-//     joint   window → bodies → response { ⇒ contact_input → motion ⇒ constraint → response }
-//             → accept → kicks ⇒ kick → state
-//     dry     window → kick → state            (no fluid; kick is empty and says "move")
-//
-// What stands in braces is a round. It is played once or more; after each the coupler, and nobody
-// else, decides between another round and what follows, so a participant sees which of two kinds
-// comes. The envelope's `iteration` counts the rounds begun in the window.
-//
-// and for everybody, at any time: dismiss → farewell → release, or failure before them.
-//
-// (→ to or from the coupler, ⇒ through the coupler to the other side.) Under `split` the fluid does
-// steps 1-3 between `window` and `constraint` while the grains do step 4 between `window` and
-// `motion`.
+// For everybody, at any time: dismiss → farewell → release, or failure before them.
 #pragma once
 
 #include <stdexcept>
@@ -31,19 +19,34 @@ namespace turbidite {
 /// How often a step is played in one window.
 enum class Times { once, per_round };
 
-/// The scheme's window as seen by one role: the kinds it sends or receives, in order. Neighbouring
-/// `per_round` steps are one round, which begins with a message of the coupler.
+/// One message of an order, as one role sends or receives it.
 struct Step {
     Kind kind;
     bool from_coupler;
     Times times = Times::once;
 };
+
+/// The messages of a window between the coupler and one rank. Neighbouring `per_round` steps are
+/// one round, which is played once or more: after each the coupler, and nobody else, decides
+/// between another round and what follows, so a participant sees which of two kinds comes. The
+/// envelope's `iteration` counts the rounds begun in the window.
 using Order = std::vector<Step>;
 
-/// `scheme` is "split", "joint" or "dry". window_order throws std::invalid_argument for another
-/// name, or for a fluid in a dry run.
+/// For tables of orders.
+inline constexpr bool from_coupler = true;
+inline constexpr bool to_coupler = false;
+
+Bytes encode(const Order&);
+template <>
+Order decode(const Bytes&);
+
+/// What is said before the first window.
 Order start_order(Role role);
-Order window_order(Role role, const std::string& scheme);
+
+/// Throws std::invalid_argument unless the order begins with the coupler's `window`, which comes
+/// once, consists of messages of a window, and every round begins with and is followed by a message
+/// of the coupler.
+void check_window_order(const Order& order);
 
 class OrderViolation : public std::runtime_error {
  public:
@@ -56,22 +59,26 @@ class CallOrder {
  public:
     CallOrder(Role role, std::string peer_name);
 
-    /// After the start the scheme is known.
-    void set_scheme(const std::string& scheme);
+    /// Before the start is over. Throws as check_window_order.
+    void set_window_order(Order order);
 
     /// The envelope for the next message of this kind; throws OrderViolation when it is not due.
-    Envelope next_sent(Kind kind, bool from_coupler);
+    Envelope next_sent(Kind kind, bool by_coupler);
 
     /// Throws OrderViolation unless the envelope is the one that is due: kind, window, iteration,
     /// sequence.
-    void received(const Envelope& envelope, bool from_coupler);
+    void received(const Envelope& envelope, bool by_coupler);
 
     /// Every message that may come next: one, or after a round two, of the same sender. The first
     /// is the one that goes on.
     std::vector<Step> due() const;
+    bool is_due(Kind kind, bool by_coupler) const;
 
     /// "\"motion\"", or after a round "\"accept\" or \"constraint\"".
     std::string due_text() const;
+
+    /// Has the present window's last message not passed yet?
+    bool inside_window() const { return started_ && at_ > 0; }
 
     std::int64_t window() const { return window_; }
     std::int64_t iteration() const { return iteration_; }
@@ -79,16 +86,15 @@ class CallOrder {
  private:
     std::vector<std::size_t> due_places() const;
     bool begins_round(std::size_t place) const;
-    bool may_interrupt(Kind kind, bool from_coupler) const;
-    void demand(Kind kind, bool from_coupler, const char* verb) const;
+    bool may_interrupt(Kind kind, bool by_coupler) const;
+    void demand(Kind kind, bool by_coupler, const char* verb) const;
     void advance(Kind kind);
     void begin_window_order();
-    std::int64_t& counter(bool from_coupler) { return from_coupler ? from_coupler_ : to_coupler_; }
+    std::int64_t& counter(bool by_coupler) { return by_coupler ? from_coupler_ : to_coupler_; }
 
-    Role role_;
     std::string peer_;
     Order order_;
-    std::string scheme_;
+    Order window_order_;
     std::size_t at_ = 0;
     bool started_ = false;
     bool dismissed_ = false;

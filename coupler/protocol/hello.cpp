@@ -70,9 +70,9 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
     report.demand(hello.case_hash.empty() || hello.case_hash == expected.case_hash,
                   "hash of the resolved case", hello.case_hash,
                   expected.case_hash + " (was it started on another run folder?)");
-    const bool joint = expected.scheme == "joint";
-    report.demand(!joint || hello.capabilities.effective_inertia, "knowledge of scheme joint",
-                  "absent", "it for coupling.scheme: joint (or use split)");
+    report.demand(!expected.effective_inertia || hello.capabilities.effective_inertia,
+                  "knowledge of effective inertia", "absent",
+                  "it for coupling.scheme: " + expected.scheme + " (or use split)");
     for (const std::string& shape : expected.shapes)
         report.demand(contains(hello.capabilities.shapes, shape), "list of shapes",
                       joined(hello.capabilities.shapes), shape);

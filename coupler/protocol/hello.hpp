@@ -12,11 +12,11 @@ namespace turbidite {
 
 /// Major versions must be equal; of the minor ones the smaller rules, down to `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 3;
+inline constexpr std::int32_t protocol_minor = 4;
 
-/// The oldest minor version that is understood: since then a grain has a material and may keep its
-/// velocity.
-inline constexpr std::int32_t oldest_minor = 3;
+/// The oldest minor version that is understood: since then the coupler tells the order of a window,
+/// and `accept` ends it under every scheme with a fluid.
+inline constexpr std::int32_t oldest_minor = 4;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 
@@ -29,7 +29,7 @@ struct Capabilities {
     bool restores_within_window = false;  ///< can repeat a window (sub-iterated schemes)
     bool serialises_state = false;        ///< hands its state over as bytes
     bool native_substeps = false;         ///< moves grains by its own smaller steps
-    bool effective_inertia = false;       ///< knows the `joint` scheme
+    bool effective_inertia = false;       ///< gives or takes a FreeResponse
     std::vector<std::string> shapes;      ///< kinds of shapes/shape_list
     std::vector<std::string> contact_laws;
 };
@@ -58,7 +58,8 @@ struct Expectation {
     std::int32_t dimension = 2;
     std::int32_t ranks = 1;
     std::string case_hash;
-    std::string scheme;  ///< split, joint
+    std::string scheme;              ///< run.scheme, for sentences
+    bool effective_inertia = false;  ///< the scheme's order has a FreeResponse in it
     std::vector<std::string> shapes;
 };
 

@@ -12,6 +12,7 @@ constexpr std::int64_t magic = 0x7469646962727574;
 const std::vector<std::pair<Kind, const char*>> kinds = {
     {Kind::hello, "hello"},
     {Kind::settings, "settings"},
+    {Kind::order, "order"},
     {Kind::shapes, "shapes"},
     {Kind::population, "population"},
     {Kind::domain, "domain"},

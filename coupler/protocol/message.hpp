@@ -17,17 +17,18 @@ enum class Kind : std::int32_t {
     // start
     hello = 1,       // participant → coupler   Hello
     settings = 2,    // coupler → participant   Settings
+    order = 6,       // coupler → participant   Order: the messages of a window (call_order.hpp)
     shapes = 3,      // coupler → participant   ShapeTable
     population = 4,  // coupler → grains        Motion: this rank's share at t = 0
     domain = 5,      // fluid → coupler         Box of this rank
     // window
     window = 10,         // coupler → all       Window
-    bodies = 18,         // coupler → fluid     Motion at t^n, routed by place (joint)
-    response = 11,       // fluid → coupler     how grains respond to impulses (joint)
-    contact_input = 12,  // coupler → grains    the same, routed by id (joint)
+    bodies = 18,         // coupler → fluid     Motion at t^n, routed by place
+    response = 11,       // fluid → coupler     how grains respond to impulses
+    contact_input = 12,  // coupler → grains    the same, routed by id
     motion = 13,         // grains → coupler    Motion after step 4
     constraint = 14,     // coupler → fluid     the same, routed by place
-    accept = 19,         // coupler → fluid     the last constraint holds, no payload (joint)
+    accept = 19,         // coupler → fluid     the last constraint holds, no payload
     kicks = 15,          // fluid → coupler     Kicks after step 5
     kick = 16,           // coupler → grains    the same, routed by id
     state = 17,          // grains → coupler    Motion at t^{n+1} (and once at t = 0)
@@ -45,7 +46,7 @@ std::string kind_name(Kind kind);
 struct Envelope {
     Kind kind = Kind::hello;
     std::int64_t window = -1;    ///< -1 outside the window loop
-    std::int64_t iteration = 0;  ///< rounds begun in this window (joint); else 0
+    std::int64_t iteration = 0;  ///< rounds begun in this window
     std::int64_t sequence = 0;   ///< counts the messages of one sender to one receiver
 };
 

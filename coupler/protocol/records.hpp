@@ -160,8 +160,9 @@ struct Motion {
 /// How the fluid side fared.
 struct FluidReport {
     std::int64_t multiplier_iterations = 0;
-    double multiplier_residual = 0.0;  ///< rms slip at the points [m/s]
-    double divergence = 0.0;           ///< max |div phi| after step 1 [1/s]
+    double multiplier_residual = 0.0;   ///< rms slip at the points [m/s]
+    bool multipliers_converged = true;  ///< all solves of the window, within their iterations
+    double divergence = 0.0;            ///< max |div phi| after step 1 [1/s]
     double final_divergence =
         0.0;  ///< after step 5 (large by nature), in windows with output [1/s]
     /// |change of fluid momentum + dt sum(lambda) - boundary impulses| over the largest of them:

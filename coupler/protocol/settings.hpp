@@ -10,6 +10,8 @@
 //                                                             unit of forces in contact laws
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.size_x    run.size_y  run.size_z                    domain [m]
+//     run.scheme                              order of a window: coupling.scheme, or dry
+//     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
 //     run.wall_motions                      granular_adapter/grains/wall_motions
 //     run.materials                         names of materials 1, 2, ... with a space between, whose

@@ -117,7 +117,7 @@ constexpr auto visit_kick = [](auto& code, auto& k) {
 constexpr auto visit_kicks = [](auto& code, auto& kicks) {
     list(code, kicks.kicks, visit_kick);
     auto& r = kicks.report;
-    code(r.multiplier_iterations), code(r.multiplier_residual);
+    code(r.multiplier_iterations), code(r.multiplier_residual), code(r.multipliers_converged);
     code(r.divergence), code(r.final_divergence), code(r.momentum_defect);
     code(r.courant), code(r.wall_seconds);
 };

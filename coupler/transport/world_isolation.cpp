@@ -16,7 +16,7 @@ MPI_Comm isolated(MPI_Comm comm) {
 }
 
 // Preloaded into a stock program nobody calls isolate_world: the split is ours to make.
-void split_if_told() {
+void split_if_asked() {
     const char* role = std::getenv("TURBIDITE_ROLE");
     if (own_world == MPI_COMM_NULL && role != nullptr)
         PMPI_Comm_split(MPI_COMM_WORLD, 1000 + std::atoi(role), 0, &own_world);
@@ -36,13 +36,13 @@ extern "C" {
 
 int MPI_Init(int* argc, char*** argv) {
     const int status = PMPI_Init(argc, argv);
-    split_if_told();
+    split_if_asked();
     return status;
 }
 
 int MPI_Init_thread(int* argc, char*** argv, int required, int* provided) {
     const int status = PMPI_Init_thread(argc, argv, required, provided);
-    split_if_told();
+    split_if_asked();
     return status;
 }
 

@@ -5,7 +5,6 @@
 #include <sigFpe.H>
 
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 
 #include "coupler/protocol/freed_memory.hpp"
@@ -53,18 +52,6 @@ void check_finite(bool finite, const std::string& step, const Window& window) {
     if (!finite) refuse(step, window, "the fluid velocity is not finite; use a smaller time.step");
 }
 
-void check_finite(const std::vector<Kick>& kicks, const Window& window) {
-    for (const Kick& kick : kicks) {
-        const double sum = kick.velocity[0] + kick.velocity[1] + kick.angular_velocity[2] +
-                           kick.multiplier_impulse[0] + kick.multiplier_impulse[1] +
-                           kick.multiplier_angular_impulse[2];
-        if (!std::isfinite(sum))
-            refuse("step 5 (multipliers)", window,
-                   "the kick of grain " + std::to_string(kick.id) +
-                       " is not finite; use a smaller time.step");
-    }
-}
-
 }  // namespace
 
 struct FoamAdapter::State {
@@ -77,13 +64,14 @@ struct FoamAdapter::State {
     bool fields_follow = true;  // p and phi hold what the step knows
     MomentumLedger ledger;
     ImmersedStep step_five;
-    bool joint;
+    bool grains_taken = false;  // in this window
     FluidReport report;
     FluidTimings timings;
 
     void begin(const Window& window);
     void put_fields();
-    void take_grains(const Window& window, const std::vector<GrainState>& grains);
+    template <class Take>
+    void take_grains(const Window& window, Take take);
     void note(const Window& window, const MultiplierResult& result);
     Kicks finish(const Window& window);
 };
@@ -94,8 +82,7 @@ FoamAdapter::State::State(const std::filesystem::path& directory, const RankGrou
       field(fields, fluid_domain(settings)),
       step(make_fluid_step(settings, fields)),
       ledger(fields),
-      step_five(field, settings, table),
-      joint(settings.text("coupling.scheme") == "joint") {}
+      step_five(field, settings, table) {}
 
 /// For whoever reads fields: output, function objects, a saved state.
 void FoamAdapter::State::put_fields() {
@@ -108,6 +95,7 @@ void FoamAdapter::State::put_fields() {
 void FoamAdapter::State::begin(const Window& window) {
     timings = {};
     report = {};
+    grains_taken = false;
     if (!fields.time.functionObjects().empty()) put_fields();
     fields.time.setDeltaT(window.step);
     if (!fields.time.loop())
@@ -116,16 +104,24 @@ void FoamAdapter::State::begin(const Window& window) {
                                                         "the fluid case's system/controlDict");
 }
 
-void FoamAdapter::State::take_grains(const Window& window, const std::vector<GrainState>& grains) {
-    const Stopwatch watch(timings.points);
-    field.load();
-    step_five.take(grains, window.step);
+/// The grains of this window, and the multipliers that hold them.
+template <class Take>
+void FoamAdapter::State::take_grains(const Window& window, Take take) {
+    {
+        const Stopwatch watch(timings.points);
+        field.load();
+        take();
+    }
+    const Stopwatch watch(timings.multipliers);
+    note(window, step_five.solve());
+    grains_taken = true;
 }
 
 /// A window's solves together.
 void FoamAdapter::State::note(const Window& window, const MultiplierResult& result) {
     report.multiplier_iterations += result.iterations;
     report.multiplier_residual = result.residual;
+    report.multipliers_converged = report.multipliers_converged && result.converged;
     if (!result.converged)
         Foam::Info << "window " << window.index << ": multipliers not converged after "
                    << result.iterations << " iterations, rms slip " << result.residual
@@ -211,39 +207,33 @@ void FoamAdapter::advance(const Window& window) {
     check_finite(s.step->finite(), "steps 1-3 (projection, transport, viscosity)", window);
 }
 
-std::vector<FreeResponse> FoamAdapter::respond(const Window& window,
-                                               const std::vector<GrainState>& grains) {
+void FoamAdapter::let_fall(const Window& window, const std::vector<GrainState>& grains) {
     State& s = *state_;
-    return in_step("step 5 (free grains)", window, [&] {
-        s.take_grains(window, grains);
-        const Stopwatch watch(s.timings.multipliers);
-        s.note(window, s.step_five.solve());
-        return s.step_five.responses();
-    });
+    in_step("step 5 (free grains)", window,
+            [&] { s.take_grains(window, [&] { s.step_five.take_free(grains, window.step); }); });
 }
 
-std::vector<FreeResponse> FoamAdapter::correct(const Window& window,
-                                               const std::vector<GrainState>& grains) {
+void FoamAdapter::correct(const Window& window, const std::vector<GrainState>& grains) {
     State& s = *state_;
-    return in_step("step 5 (contact impulses)", window, [&] {
+    if (!s.grains_taken)
+        return in_step("step 5 (multipliers)", window, [&] {
+            s.take_grains(window, [&] { s.step_five.take_constrained(grains); });
+        });
+    in_step("step 5 (contact impulses)", window, [&] {
         const Stopwatch watch(s.timings.multipliers);
         s.note(window, s.step_five.push(grains));
-        return s.step_five.responses();
     });
 }
 
-Kicks FoamAdapter::impose(const Window& window, const std::vector<GrainState>& grains) {
+std::vector<FreeResponse> FoamAdapter::respond() {
+    const Stopwatch watch(state_->timings.multipliers);
+    return state_->step_five.responses();
+}
+
+Kicks FoamAdapter::impose(const Window& window) {
     State& s = *state_;
-    Kicks answer = in_step("step 5 (multipliers)", window, [&] {
-        if (!s.joint) {
-            s.take_grains(window, grains);
-            const Stopwatch watch(s.timings.multipliers);
-            s.note(window, s.step_five.solve());
-        }
-        return s.finish(window);
-    });
+    Kicks answer = in_step("step 5 (multipliers)", window, [&] { return s.finish(window); });
     check_finite(s.ledger.finite(), "step 5 (multipliers)", window);
-    check_finite(answer.kicks, window);
     if (window.write_output)
         with_foam_errors("writing fields", [&] {
             const Stopwatch watch(s.timings.output);

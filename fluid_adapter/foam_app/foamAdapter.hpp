@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The fluid participant on OpenFOAM: the five adapter functions over the steps of the scheme
+// The fluid participant on OpenFOAM: the adapter functions over the steps of a window
 // (Topin 2011, section 2.2). No OpenFOAM type appears here, so that tests can drive it.
 #pragma once
 
@@ -33,11 +33,10 @@ class FoamAdapter final : public FluidAdapter {
     Hello describe() const override;
     Box initialise(const Settings& settings, const ShapeTable& shapes) override;
     void advance(const Window& window) override;
-    std::vector<FreeResponse> respond(const Window& window,
-                                      const std::vector<GrainState>& grains) override;
-    std::vector<FreeResponse> correct(const Window& window,
-                                      const std::vector<GrainState>& grains) override;
-    Kicks impose(const Window& window, const std::vector<GrainState>& grains) override;
+    void let_fall(const Window& window, const std::vector<GrainState>& grains) override;
+    void correct(const Window& window, const std::vector<GrainState>& grains) override;
+    std::vector<FreeResponse> respond() override;
+    Kicks impose(const Window& window) override;
     SavedState save() const override;
     void restore(const SavedState& state) override;
 

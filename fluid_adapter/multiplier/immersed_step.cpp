@@ -6,14 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "coupler/shapes/immersed_body.hpp"
-
 namespace turbidite {
 namespace {
-
-/// Under `joint` slips are taken this much below what contacts and fluid may disagree by, so that
-/// the disagreement is that of the inertia and not of the solve.
-constexpr double slip_per_mismatch = 0.1;
 
 Planar planar(const Vec3& linear, const Vec3& angular) {
     return {linear[0], linear[1], angular[2]};
@@ -25,12 +19,9 @@ Eigen::Matrix3d rotation_of(const Quaternion& q) {
 
 MultiplierSettings multiplier_settings(const Settings& settings) {
     MultiplierSettings result;
-    result.tolerance = settings.real("fluid.multiplier_tolerance");
+    result.tolerance = settings.real("run.slip_tolerance");
     result.iterations = static_cast<int>(settings.integer("fluid.multiplier_iterations"));
     result.velocity_scale = settings.real("run.velocity_scale");
-    if (settings.text("coupling.scheme") == "joint")
-        result.tolerance =
-            std::min(result.tolerance, slip_per_mismatch * settings.real("coupling.tolerance"));
     return result;
 }
 
@@ -65,19 +56,17 @@ std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
 
 ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes)
     : field_(field),
-      fluid_density_(settings.real("run.fluid_density")),
+      bodies_(settings, shapes),
       hydrodynamic_radius_(settings.real("fluid.hydrodynamic_radius")),
       gravity_(settings.real("run.gravity")),
-      joint_(settings.text("coupling.scheme") == "joint"),
       settings_(multiplier_settings(settings)),
       placement_(point_rules(settings)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
 
-ImmersedGrain ImmersedStep::immersed(const GrainState& state, double step) const {
+ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     const Shape& shape = *shapes_.at(state.shape);
-    const ImmersedBody body =
-        immersed_body(shape, state.radius, state.density, fluid_density_, hydrodynamic_radius_);
+    const ImmersedBody body = bodies_(state);
     ImmersedGrain grain;
     grain.id = state.id;
     grain.shape = &shape;
@@ -87,23 +76,38 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state, double step) const
     grain.effective_mass = body.effective_mass;
     grain.effective_inertia = body.effective_inertia(2, 2);
     grain.contact_motion = planar(state.velocity, state.angular_velocity);
-    if (joint_)
-        grain.contact_motion.y() -= body.submerged_mass / body.effective_mass * gravity_ * step;
-    else
-        grain.announced_impulse = planar(state.announced_impulse, state.announced_angular_impulse);
     return grain;
 }
 
-void ImmersedStep::take(const std::vector<GrainState>& grains, double step) {
+void ImmersedStep::take(const std::vector<GrainState>& states) {
     grains_.clear();
     index_.clear();
-    for (const GrainState& state : grains) {
+    for (const GrainState& state : states) {
         index_.emplace(state.id, grains_.size());
-        grains_.push_back(immersed(state, step));
+        grains_.push_back(immersed(state));
     }
     contact_impulses_.assign(grains_.size(), Planar::Zero());
     mismatch_.assign(grains_.size(), 0.0);
     placement_.place(field_, grains_, points_);
+}
+
+void ImmersedStep::take_free(const std::vector<GrainState>& states, double step) {
+    take(states);
+    for (std::size_t g = 0; g < states.size(); ++g) {
+        const ImmersedBody body = bodies_(states[g]);
+        grains_[g].contact_motion.y() -=
+            body.submerged_mass / body.effective_mass * gravity_ * step;
+    }
+}
+
+void ImmersedStep::take_constrained(const std::vector<GrainState>& states) {
+    take(states);
+    for (std::size_t g = 0; g < states.size(); ++g) {
+        const GrainState& state = states[g];
+        contact_impulses_[g] = planar(state.contact_impulse, state.contact_angular_impulse);
+        grains_[g].announced_impulse =
+            planar(state.announced_impulse, state.announced_angular_impulse);
+    }
 }
 
 MultiplierResult ImmersedStep::solve() {
@@ -115,7 +119,7 @@ MultiplierResult ImmersedStep::solve() {
 
 MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {
     changes_.assign(grains_.size(), Planar::Zero());
-    told_.assign(grains_.size(), Planar::Zero());
+    solved_.assign(grains_.size(), Planar::Zero());
     for (const GrainState& state : with_contacts) {
         const auto at = index_.find(state.id);
         if (at == index_.end())
@@ -124,7 +128,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
-        told_[at->second] = planar(state.velocity, state.angular_velocity);
+        solved_[at->second] = planar(state.velocity, state.angular_velocity);
     }
     if (with_contacts.size() != grains_.size())
         throw std::runtime_error(
@@ -136,7 +140,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
     settings.reduction = 1.0;
     const MultiplierResult result = uzawa_cg(system_, settings, work_);
     for (std::size_t g = 0; g < grains_.size(); ++g) {
-        const Planar off = system_.motions()[g] - told_[g];
+        const Planar off = system_.motions()[g] - solved_[g];
         mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());
     }
     return result;

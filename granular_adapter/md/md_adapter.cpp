@@ -123,7 +123,7 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     host_.read(bodies_);
     check_inside(bodies_, borders_, in_window(window) + " before contacts");
     const nscd::Bodies before = bodies_;
-    nscd::Bodies told = at_protocol_positions();
+    nscd::Bodies sent = at_protocol_positions();
     std::vector<Load> loads;
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
     SubstepReport run = host_.run(substeps(window), loads);
@@ -132,16 +132,16 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     book_contacts(before, run, window.step);
     contacts_.reset();
     if (window.write_output) contacts_ = std::move(run.touching);
-    told.twist = bodies_.twist;
-    told.contact_impulse = bodies_.contact_impulse;
-    told.contact_angular_impulse = bodies_.contact_angular_impulse;
+    sent.twist = bodies_.twist;
+    sent.contact_impulse = bodies_.contact_impulse;
+    sent.contact_angular_impulse = bodies_.contact_angular_impulse;
     report_ = {};
     report_.contacts = run.contacts;
     report_.iterations = substep_count_;
     report_.max_penetration = run.max_penetration;
     report_.wall_seconds = seconds_since(start);
     advanced_ = true;
-    return motion(told);
+    return motion(sent);
 }
 
 /// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed it up.
@@ -218,9 +218,9 @@ void MdAdapter::remove_leavers() {
 }
 
 nscd::Bodies MdAdapter::at_protocol_positions() const {
-    nscd::Bodies told = bodies_;
-    nscd::move(told, told.twist, lead(), {});
-    return told;
+    nscd::Bodies sent = bodies_;
+    nscd::move(sent, sent.twist, lead(), {});
+    return sent;
 }
 
 Motion MdAdapter::motion(const nscd::Bodies& bodies) const {

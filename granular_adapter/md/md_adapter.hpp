@@ -51,7 +51,7 @@ class MdAdapter final : public GrainsAdapter {
 
     /// Once per window. Contact impulses are what the host summed up in windows with output, and
     /// follow from the change of momentum in the others. Throws std::runtime_error when responses
-    /// come, which belong to scheme `joint`.
+    /// of the fluid come.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
     /// One kick per grain, or none at all when the case has no fluid.

@@ -27,6 +27,10 @@ nscd::Twist in_plane(const FreeResponse& response) {
             {0.0, 0.0, response.angular_velocity[2]}};
 }
 
+std::string grain(const nscd::Bodies& bodies, std::size_t i) {
+    return "grain " + std::to_string(bodies.id[i]);
+}
+
 }  // namespace
 
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
@@ -34,18 +38,15 @@ FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeRespons
     FreeMotion result;
     const auto ordered = by_grain(bodies.id, responses, "response", when);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const std::string grain = "grain " + std::to_string(bodies.id[i]);
         if (bodies.fixed[i] || bodies.rotation_blocked[i])
-            throw std::runtime_error(grain + " is held by its host " + when +
-                                     ", but coupling.scheme joint moves every grain; use split");
+            throw std::runtime_error(grain(bodies, i) + " is held by its host " + when +
+                                     ", but the fluid moves every grain that it responds for; use "
+                                     "coupling.scheme: split");
         const nscd::Twist twist = in_plane(*ordered[i]);
         const auto mobility = nscd::inverse(in_plane(ordered[i]->inertia));
         if (!mobility)
-            throw PhysicsRefused("the effective inertia of " + grain +
+            throw PhysicsRefused("the effective inertia of " + grain(bodies, i) +
                                  " is not positive definite " + when);
-        if (!nscd::is_finite(twist.velocity) || !nscd::is_finite(twist.spin))
-            throw PhysicsRefused("the free velocity of " + grain + " is not a number " + when +
-                                 "; use a smaller time.step");
         result.velocities.push_back(twist);
         result.mobilities.push_back(*mobility);
     }

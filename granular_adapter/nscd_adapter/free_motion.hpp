@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the contact problem of scheme `joint` starts from: the fluid's answers for free grains, in
-// the plane and in the order of the bodies.
+// What a contact problem starts from that the fluid has responded to: its answers for free grains,
+// in the plane and in the order of the bodies.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct FreeMotion {
 
 /// `when` ends the sentence of an error ("in window 3"). Throws std::runtime_error naming a grain
 /// with no answer, or two, or one that the host holds fast; PhysicsRefused when an effective
-/// inertia is not positive definite or a velocity not a number.
+/// inertia is not positive definite.
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
                        const std::string& when);
 

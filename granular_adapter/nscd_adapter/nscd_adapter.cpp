@@ -66,7 +66,6 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     const StopWatch watch;
     dumps_ = ProblemDumps(settings, run_folder_);
     fluid_ = settings.flag("fluid.enabled");
-    joint_ = fluid_ && settings.text("coupling.scheme") == "joint";
     positions_ = parse_positions(settings.text("coupling.positions"));
     borders_ = lay_borders(settings);
     moved_walls_ = moved_walls(settings);
@@ -114,14 +113,10 @@ void NscdAdapter::begin_round() {
 
 nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                                              const std::vector<FreeResponse>& responses) {
-    if (joint_) {
-        FreeMotion free = free_motion(bodies(), responses, in_window(window));
-        return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
-    }
-    if (!responses.empty())
-        throw std::runtime_error("responses of the fluid came " + in_window(window) +
-                                 ", but coupling.scheme is not joint");
-    return engine().step(window.step);
+    answered_ = !responses.empty();
+    if (!answered_) return engine().step(window.step);
+    FreeMotion free = free_motion(bodies(), responses, in_window(window));
+    return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
 }
 
 Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
@@ -133,7 +128,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     check_inside(bodies(), borders_, in_window(window) + " after the kick");
     std::optional<std::vector<ContactRecord>> contacts;
     if (window.write_output) contacts = contact_records(engine());
-    const bool with_contact = joint_ || positions_ == Positions::contact;
+    const bool with_contact = answered_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
     contact_twists_.clear();

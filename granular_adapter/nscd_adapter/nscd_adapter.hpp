@@ -2,15 +2,15 @@
 //
 // The contact engine as a grains adapter: step 4 of the splitting (Topin 2011, Eqs. 16-19) with the
 // immersed inertia of shapes/immersed_body, then motion with the velocities that
-// `coupling.positions` asks for. Under `coupling.scheme: joint` free velocities and inertia are the
-// fluid's, advance may be repeated within a window, and grains move with the contact velocities.
-// Hosts such as YADE wrap it: they overwrite bodies() before a call and read them after.
+// `coupling.positions` asks for. Where the fluid has responded, free velocities and inertia are
+// its, advance may be repeated within a window, and grains move with the contact velocities. Hosts
+// such as YADE wrap it: they overwrite bodies() before a call and read them after.
 //
 // Walls inside the box (run.walls) are plates that hold grains on both sides. They and the sides of
 // the box rest or move as run.wall_motions says. Grains whose motion is prescribed keep their
 // velocity; the materials of grains and their pairs are in contact_settings.hpp.
 //
-// Reads: contact.*, coupling.scheme, coupling.positions, domain.{left,right,bottom,top},
+// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top},
 // fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
 #pragma once
 
@@ -40,8 +40,8 @@ class NscdAdapter final : public GrainsAdapter {
     Hello describe() const override;
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
-    /// Under `joint` one response per grain, otherwise none. Throws std::runtime_error naming a
-    /// grain that has none or two, PhysicsRefused when an effective inertia is not positive
+    /// One response per grain, or none at all. Throws std::runtime_error naming a grain that has
+    /// none while others do, or two, PhysicsRefused when an effective inertia is not positive
     /// definite. Repeated before the kick it starts from t^n again, with the impulses found.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
@@ -87,7 +87,7 @@ class NscdAdapter final : public GrainsAdapter {
     std::filesystem::path run_folder_ = ".";
     ProblemDumps dumps_;
     bool fluid_ = true;
-    bool joint_ = false;
+    bool answered_ = false;  ///< by the fluid, in this window
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;
     std::vector<MovedWall> moved_walls_;

@@ -8,6 +8,7 @@ import math
 import os
 import tempfile
 
+import users_script
 from yade import *
 from yade import utils
 
@@ -27,9 +28,11 @@ class Scene:
         self.body_of = {}   # grain id -> body id
         self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top
         self.largest = 0.0  # radius
+        self.script = users_script.NoScript()
 
     def create(self, settings, grains):
         """Adds walls and one disc per grain; returns the discs' body ids in the order of `grains`."""
+        self.settings = settings
         self.frequency = float(settings['run.md_frequency'])
         self.damping = float(settings['run.md_damping'])
         self.friction_angle = math.atan(float(settings['contact.friction']))
@@ -80,12 +83,24 @@ class Scene:
             NewtonIntegrator(gravity=(0, -gravity, 0), damping=0),
         ]
 
+    def complete(self):
+        """All is there: what the user adds to the scene."""
+        self.script = users_script.complete_scene(self.settings)
+
+    def begin_window(self):
+        self.script.check()
+
+    def play(self, participant):
+        while participant.step():
+            pass
+
     def states(self, bodies):
         return [O.bodies[body].state for body in bodies]
 
     def erase(self, bodies):
         gone = set(bodies)
         self.body_of = {grain: body for grain, body in self.body_of.items() if body not in gone}
+        self.script.expect_fewer(bodies)
         for body in bodies:
             O.bodies.erase(body)
 

@@ -74,38 +74,23 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
     const nscd::Bodies& bodies = std::as_const(engine_).bodies();
     const python::object made =
         scene_.attr("create")(settings_dict(settings), grain_list(bodies, shapes));
-    states_ = BodyStates(made[0]);
-    turns_ = turns_of(made[1]);
+    exchange_ = BodyExchange(made[0], turns_of(made[1]), bodies.size());
     sides_ = BodyStates(scene_.attr("side_states")());
     plates_ = BodyStates(scene_.attr("create_plates")(plate_list(engine_.engine().walls())));
-    if (states_.size() != bodies.size())
-        throw Failure(ExitCode::participant_failed,
-                      "YADE's scene has " + std::to_string(states_.size()) + " grains, the case " +
-                          std::to_string(bodies.size()));
     write_bodies();
+    scene_.attr("complete")();
     return motion;
 }
 
-void YadeAdapter::read_bodies() {
-    nscd::Bodies& bodies = engine_.bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const BodyMotion motion = states_.read(i);
-        // Turning to YADE's axes and back would round.
-        if (motion == written_[i]) continue;
-        bodies.position[i] = motion.position;
-        bodies.orientation[i] = outline_orientation(motion.orientation, turns_[i]);
-        bodies.twist[i] = {motion.velocity, motion.angular_velocity};
-    }
+void YadeAdapter::begin_window(const Window& window) {
+    const nscd::Bodies& bodies = std::as_const(engine_).bodies();
+    const auto moved = exchange_.moved();
+    const python::object grain = moved ? python::object(bodies.id[*moved]) : python::object();
+    scene_.attr("begin_window")(window.index, grain);
 }
 
 void YadeAdapter::write_bodies() {
-    const nscd::Bodies& bodies = std::as_const(engine_).bodies();
-    written_.clear();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        written_.push_back({bodies.position[i], yade_orientation(bodies.orientation[i], turns_[i]),
-                            bodies.twist[i].velocity, bodies.twist[i].spin});
-        states_.write(i, written_.back());
-    }
+    exchange_.write(std::as_const(engine_).bodies());
     std::size_t plate = 0, side = 0;
     for (const nscd::Wall& wall : std::as_const(engine_).engine().walls())
         if (is_plate(wall))
@@ -116,7 +101,8 @@ void YadeAdapter::write_bodies() {
 
 Motion YadeAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const auto start = Clock::now();
-    read_bodies();
+    begin_window(window);
+    exchange_.read(engine_.bodies());
     const double reading = seconds_since(start);
     Motion motion = engine_.advance(window, responses);
     motion.report.wall_seconds += reading;
@@ -139,11 +125,7 @@ void YadeAdapter::erase_leavers(const std::vector<GrainId>& before) {
     std::vector<std::uint8_t> mask;
     for (const GrainId id : before)
         mask.push_back(std::find(gone.begin(), gone.end(), id) == gone.end());
-    states_.keep(mask);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < turns_.size(); ++i)
-        if (mask[i]) turns_[kept++] = turns_[i];
-    turns_.resize(kept);
+    exchange_.keep(mask);
     python::list ids;
     for (const GrainId id : gone) ids.append(id);
     scene_.attr("erase")(ids);

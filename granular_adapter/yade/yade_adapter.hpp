@@ -10,8 +10,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
-#include "granular_adapter/yade/turn.hpp"
-#include "granular_adapter/yade/yade_bodies.hpp"
+#include "granular_adapter/yade/body_exchange.hpp"
 
 namespace turbidite::yade {
 
@@ -19,7 +18,10 @@ class YadeAdapter final : public GrainsAdapter {
  public:
     /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains)
     /// returns their states and their turns (turn.hpp; None for discs), erase(ids) removes bodies
-    /// by grain id, create_plates(half lengths) returns the states of walls inside the box.
+    /// by grain id, side_states() and create_plates(half lengths) return the states of walls of the
+    /// box and inside it. complete() is called when all stand where they belong,
+    /// begin_window(index, moved) before each contact solve with the id of a grain that somebody
+    /// else has moved, or None.
     YadeAdapter(boost::python::object scene, std::string yade_version);
 
     /// Where contact.dump_interval writes; before initialise().
@@ -37,17 +39,15 @@ class YadeAdapter final : public GrainsAdapter {
     std::vector<char> contacts();
 
  private:
-    void read_bodies();
+    void begin_window(const Window& window);
     void write_bodies();
     void erase_leavers(const std::vector<GrainId>& before);
 
     boost::python::object scene_;
     NscdAdapter engine_;
-    BodyStates states_;
-    std::vector<Turn> turns_;
-    BodyStates sides_;                 ///< walls of the box, for YADE's eyes
-    BodyStates plates_;                ///< walls inside it
-    std::vector<BodyMotion> written_;  ///< last, by body
+    BodyExchange exchange_;
+    BodyStates sides_;   ///< walls of the box, for YADE's eyes
+    BodyStates plates_;  ///< walls inside it
 };
 
 }  // namespace turbidite::yade

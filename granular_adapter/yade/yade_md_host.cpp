@@ -47,34 +47,24 @@ YadeMdHost::YadeMdHost(python::object scene, std::string yade_version)
 
 void YadeMdHost::create(const Settings& settings, const nscd::Bodies& bodies) {
     ids_ = ids_of(scene_.attr("create")(settings_dict(settings), grain_list(bodies)));
-    if (ids_.size() != bodies.size())
-        throw Failure(ExitCode::participant_failed,
-                      "YADE's scene has " + std::to_string(ids_.size()) + " grains, the case " +
-                          std::to_string(bodies.size()));
-    fetch_states();
+    fetch_bodies(bodies.size());
     radii_ = bodies.radius;
     borders_ = lay_borders(settings);
     stride_ = std::max<std::int64_t>(
         1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
+    scene_.attr("complete")();
 }
 
-void YadeMdHost::fetch_states() {
-    states_ = BodyStates(scene_.attr("states")(list_of(ids_)));
+void YadeMdHost::fetch_bodies(std::size_t grains) {
+    exchange_ = BodyExchange(scene_.attr("states")(list_of(ids_)), {}, grains);
 }
 
 void YadeMdHost::read(nscd::Bodies& bodies) const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const BodyMotion motion = states_.read(i);
-        bodies.position[i] = motion.position;
-        bodies.orientation[i] = motion.orientation;
-        bodies.twist[i] = {motion.velocity, motion.angular_velocity};
-    }
+    exchange_.read(bodies);
 }
 
 void YadeMdHost::write(const nscd::Bodies& bodies) {
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        states_.write(i, {bodies.position[i], bodies.orientation[i], bodies.twist[i].velocity,
-                          bodies.twist[i].spin});
+    exchange_.write(bodies);
 }
 
 /// YADE keeps loads until they are set again.
@@ -98,7 +88,7 @@ void YadeMdHost::add_forces(SubstepReport& report, double step) const {
 double YadeMdHost::deepest_overlap() const {
     double deepest = python::extract<double>(scene_.attr("deepest_overlap")());
     for (std::size_t i = 0; i < ids_.size(); ++i) {
-        const Vec3 place = states_.read(i).position;
+        const Vec3 place = exchange_.position(i);
         for (const Border& border : borders_)
             if (border.side == BorderKind::wall)
                 deepest = std::max(deepest, radii_[i] - signed_distance(border.plane, place));
@@ -112,6 +102,7 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
         report.impulses.assign(ids_.size(), Vec3{});
         report.angular_impulses.assign(ids_.size(), Vec3{});
     }
+    scene_.attr("begin_window")();
     set_loads(loads);
     const python::object step = scene_.attr("step");
     for (std::int64_t i = 1; i <= substeps.count; ++i) {
@@ -161,7 +152,7 @@ void YadeMdHost::keep(const std::vector<std::uint8_t>& mask) {
     scene_.attr("erase")(list_of(gone));
     ids_ = std::move(kept);
     radii_ = std::move(radii);
-    states_.keep(mask);
+    exchange_.keep(mask);
 }
 
 SavedState YadeMdHost::save() const {
@@ -186,7 +177,7 @@ void YadeMdHost::restore(const SavedState& state) {
     const python::object copy(
         python::handle<>(PyBytes_FromStringAndSize(bytes.data(), Py_ssize_t(bytes.size()))));
     scene_.attr("restore")(copy);
-    fetch_states();
+    fetch_bodies(ids_.size());
 }
 
 }  // namespace turbidite::yade

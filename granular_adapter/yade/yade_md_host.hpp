@@ -3,7 +3,7 @@
 // YADE's own engines as a host of molecular dynamics: spheres with the mass and inertia of discs,
 // held in the plane, ViscElMat contacts (linear spring and dashpot, no attraction, Coulomb),
 // NewtonIntegrator without numerical damping. The scene is the Python object that has them
-// (turbidite_yade_md.py); forces and motion are read here.
+// (md_scene.py); forces and motion are read here.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -12,14 +12,15 @@
 
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/md/md_host.hpp"
-#include "granular_adapter/yade/yade_bodies.hpp"
+#include "granular_adapter/yade/body_exchange.hpp"
 
 namespace turbidite::yade {
 
 class YadeMdHost final : public MdHost {
  public:
     /// `scene` has create(settings, grains), which returns body ids; states(bodies); erase(bodies);
-    /// step(), one sub-step; contacts(); touching(); deepest_overlap(); save() and restore(bytes).
+    /// complete(), called when all are there; begin_window(), before the sub-steps of each; step(),
+    /// one sub-step; contacts(); touching(); deepest_overlap(); save() and restore(bytes).
     YadeMdHost(boost::python::object scene, std::string yade_version);
 
     std::string code() const override { return "YADE " + version_; }
@@ -32,7 +33,7 @@ class YadeMdHost final : public MdHost {
     void restore(const SavedState& state) override;
 
  private:
-    void fetch_states();
+    void fetch_bodies(std::size_t grains);
     void set_loads(const std::vector<Load>& loads);
     std::vector<ContactRecord> touching(double window) const;
     double deepest_overlap() const;
@@ -41,7 +42,7 @@ class YadeMdHost final : public MdHost {
     boost::python::object scene_;
     std::string version_;
     std::vector<int> ids_;  ///< of YADE's bodies, in the order of the grains
-    BodyStates states_;
+    BodyExchange exchange_;
     std::vector<double> radii_;
     std::vector<Border> borders_;
     std::int64_t stride_ = 1;  ///< sub-steps from one look at overlaps to the next

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/protocol/case_hash.hpp"
 #include "launcher/case/case_entries.hpp"
 #include "launcher/case/case_rules.hpp"
@@ -30,6 +31,11 @@ namespace {
 // moved to another machine with its folder.
 constexpr auto copied_grains = "grains/initial.csv";
 constexpr auto copied_walls = "grains/walls.csv";
+
+std::string file_text(const std::filesystem::path& file) {
+    std::ifstream input(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(input), {}};
+}
 
 struct Population {
     Packing grains;
@@ -190,6 +196,19 @@ std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
     return std::move(read.walls);
 }
 
+/// The text of grains.script. The run folder holds a copy of it under its own name.
+std::string users_script(Settings& settings, const std::filesystem::path& folder,
+                         CaseEntries& entries) {
+    if (!settings.has("grains.script")) return {};
+    const auto file = folder / settings.text("grains.script");
+    if (!std::filesystem::is_regular_file(file)) {
+        entries.problems.push_back(missing_file(entries, "grains.script", file));
+        return {};
+    }
+    settings.set("grains.script", "grains/" + file.filename().string());
+    return file_text(file);
+}
+
 Quaternion turned(double angle) {
     if (angle == 0.0) return {1.0, 0.0, 0.0, 0.0};
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
@@ -217,6 +236,13 @@ double height_of(const Packing& grains) {
     return height;
 }
 
+/// The order of a window, decided here once for all programs.
+void set_scheme(Settings& settings) {
+    const SchemeEntry& scheme = find_scheme(scheme_name(settings));
+    settings.set("run.scheme", std::string(scheme.name));
+    settings.set("run.slip_tolerance", scheme.slip_tolerance(settings));
+}
+
 /// What molecular dynamics takes its contacts and sub-steps from.
 void set_soft_contact(Settings& settings, const Packing& grains) {
     if (settings.text("grains.adapter") != "yade-md") return;
@@ -227,19 +253,22 @@ void set_soft_contact(Settings& settings, const Packing& grains) {
 }
 
 ResolvedCase finish(Settings settings, Population population, std::vector<InnerWall> walls,
-                    const GrainForms& forms) {
+                    std::string script, const GrainForms& forms) {
     ResolvedCase result;
+    result.script = std::move(script);
     result.scales = make_scales(settings);
     result.grains_csv = population_csv(population.grains, forms);
     result.walls_csv = walls.empty() ? "" : walls_csv(walls);
     result.yaml =
-        resolved_text(settings, population.grains.size(), result.grains_csv, result.walls_csv);
+        resolved_text(settings, population.grains.size(), result.grains_csv, result.walls_csv,
+                      result.script);
     result.notes = std::move(population.notes);
     for (const std::string& note : forms.notes) result.notes.push_back(note);
     for (std::string& note : rule_notes(settings)) result.notes.push_back(std::move(note));
     result.shapes = used_shapes(population.grains, forms);
     result.population = grain_states(population.grains, settings, result.scales);
     set_run_values(settings, result.scales);
+    set_scheme(settings);
     settings.set("run.walls",
                  walls_setting(walls, result.scales, settings.real("contact.friction")));
     set_soft_contact(settings, population.grains);
@@ -247,11 +276,6 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
     settings.set("run.hash", case_hash(result.yaml));
     result.settings = std::move(settings);
     return result;
-}
-
-std::string file_text(const std::filesystem::path& file) {
-    std::ifstream input(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(input), {}};
 }
 
 ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
@@ -264,8 +288,10 @@ ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
     if (!forms) throw CaseRefused(std::move(entries.problems));
     Population population = make_population(settings, *forms, entries, folder, given_grains);
     std::vector<InnerWall> walls = make_walls(settings, population.grains, *forms, folder, entries);
+    std::string script = users_script(settings, folder, entries);
     if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
-    return finish(std::move(settings), std::move(population), std::move(walls), *forms);
+    return finish(std::move(settings), std::move(population), std::move(walls), std::move(script),
+                  *forms);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct ResolvedCase {
     Packing packing;                     ///< the same grains in D
     std::string grains_csv;              ///< the same grains as a grains file
     std::string walls_csv;               ///< walls inside the box; empty when there are none
+    std::string script;                  ///< text of grains.script; empty when there is none
     std::string yaml;                    ///< resolved case; loads to itself
     std::vector<std::string> notes;      ///< what the user should know, one sentence each
     Scales scales;

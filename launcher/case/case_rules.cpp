@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "launcher/case/case_rule.hpp"
@@ -200,6 +201,19 @@ Verdict limits_in_order(const Settings& s) {
                      "Enlarge it."};
 }
 
+Verdict script_has_a_yade(const Settings& s) {
+    const std::string& adapter = s.text("grains.adapter");
+    if (adapter.rfind("yade-", 0) == 0) return std::nullopt;
+    return Objection{
+        fmt::format("A script runs inside YADE, but grains.adapter = {} has none.", adapter),
+        "Use grains.adapter: yade-nscd or yade-md, or remove grains.script."};
+}
+
+Verdict script_is_python(const Settings& s) {
+    if (std::filesystem::path(s.text("grains.script")).extension() == ".py") return std::nullopt;
+    return Objection{"A Python file, whose name ends with .py.", "Rename it."};
+}
+
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> table = {
         {"domain.left", {"domain.right"}, left_right},
@@ -210,6 +224,8 @@ const std::vector<Rule>& rules() {
         {"grains.radius", {"grains.generator"}, lattice_has_radius},
         {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
         {"grains.region", {"domain.size"}, region_in_box},
+        {"grains.script", {"grains.adapter"}, script_has_a_yade},
+        {"grains.script", {}, script_is_python},
         {"time.end", {"time.step"}, at_least_one_window},
         {"time.step", {"time.end"}, countable_windows},
         {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_is_stable},

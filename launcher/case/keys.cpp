@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 #include "launcher/case/packing.hpp"
@@ -205,6 +206,11 @@ std::vector<KeySpec> grains_keys() {
          .help =
              "CSV file of the grains (header id,x,y[,z][,radius][,shape][,angle], lengths in D, "
              "angles in rad; path relative to the case file); overrides the generator"},
+        {.name = "grains.script",
+         .type = KeyType::text,
+         .need = Need::optional,
+         .help = "Python file that adds recorders, plots or engines to YADE's scene (yade-nscd, "
+                 "yade-md; path relative to the case file; docs/yade.md says what it may touch)"},
         {.name = "random.seed",
          .type = KeyType::integer,
          .fallback = "1",
@@ -504,14 +510,21 @@ std::vector<KeySpec> adhesion_keys() {
     };
 }
 
+/// Those of hub/schemes that couple, and the one to come.
+std::vector<Choice> scheme_choices() {
+    std::vector<Choice> choices;
+    for (const SchemeEntry& scheme : scheme_list())
+        if (!scheme.fluid.empty()) choices.push_back({scheme.name, scheme.help});
+    choices.push_back({"sub-iterated", "both repeated within a window", false});
+    return choices;
+}
+
 std::vector<KeySpec> scheme_keys() {
     return {
         {.name = "coupling.scheme",
          .type = KeyType::choice,
          .fallback = "split",
-         .choices = {{"split", "the paper's: contacts, then fluid"},
-                     {"joint", "contacts solved with the fluid's effective inertia"},
-                     {"sub-iterated", "both repeated within a window", false}},
+         .choices = scheme_choices(),
          .help = "order of the exchange"},
         {.name = "coupling.positions",
          .type = KeyType::choice,

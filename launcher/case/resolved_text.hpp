@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The resolved case as YAML: every key in the order of the table, with its unit, and a fingerprint
-// of the grains and of the walls inside the box. Equal cases give equal text; it loads to itself.
+// of the grains, of the walls inside the box and of grains.script. Equal cases give equal text; it loads to itself.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 
 namespace turbidite {
 
-/// `walls_csv` is empty when there are none.
+/// `walls_csv` and `script` (text of grains.script) are empty when there are none.
 std::string resolved_text(const Settings& settings, std::size_t grains,
-                          const std::string& grains_csv, const std::string& walls_csv);
+                          const std::string& grains_csv, const std::string& walls_csv,
+                          const std::string& script);
 
 }  // namespace turbidite

@@ -146,6 +146,8 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     write_text(folder.resolved_case(), resolved.yaml);
     write_text(folder.initial_grains(), resolved.grains_csv);
     if (!resolved.walls_csv.empty()) write_text(folder.walls(), resolved.walls_csv);
+    if (resolved.settings.has("grains.script"))
+        write_text(folder.root / resolved.settings.text("grains.script"), resolved.script);
     write_run_json(folder.record(), first_record(resolved, command));
     if (!resolved.settings.flag("fluid.enabled")) return;
     write_fluid_case(resolved.settings, folder.fluid());

@@ -131,6 +131,10 @@ def solvers(run):
     divergence = findings.largest(run, 'divergence', 'divergence')
     if divergence is not None and run.is_wet():
         text.append(f'Largest divergence after step 1: {divergence:.2g} u_c/D.')
+    maxima = run.record.get('maxima') or {}
+    if 'final_divergence' in maxima:
+        text.append(f'Largest divergence after step 5, in windows with output: {maxima["final_divergence"]:.2g} '
+                    f'u_c/D (large by nature). Largest Courant number: {maxima["courant"]:.2g}.')
     for name, column in (('contact sweeps', 'contact_iterations'),
                          ('multiplier iterations', 'multiplier_iterations'),
                          ('joint rounds', 'joint_rounds')):
@@ -138,13 +142,12 @@ def solvers(run):
         if len(count):
             text.append(f'{name.capitalize()}: {count.mean():.3g} on average, {count.max():.0f} at most '
                         'in the rows.')
-    unconverged = (run.record.get('maxima') or {}).get('unconverged_windows')
-    if unconverged is not None:
-        text.append(f'Windows in which the contact solver missed its tolerance: {unconverged}.')
-    apart = (run.record.get('maxima') or {}).get('unconverged_joint_windows')
-    if apart is not None:
-        text.append('Windows in which contacts and fluid did not agree to coupling.tolerance: '
-                    f'{apart}.')
+    for name, what in (
+            ('unconverged_windows', 'the contact solver missed its tolerance'),
+            ('unconverged_multiplier_windows', 'the multiplier problem stopped at its iteration limit'),
+            ('unconverged_joint_windows', 'contacts and fluid did not agree to coupling.tolerance')):
+        if name in maxima:
+            text.append(f'Windows in which {what}: {maxima[name]}.')
     return ' '.join(text)
 
 

@@ -18,6 +18,8 @@ PYTHON = r"^(Python\.h|pyconfig\.h|boost/python.*|pybind11/.*)$"
 YADE = r"^(yade/.*|core/.*|lib/.*|pkg/.*|granular_adapter/yade/.*)$"
 OPENFOAM = r"^([A-Za-z]*\.H|fluid_adapter/foam_.*)$"
 SICONOS = r"^(siconos/.*|FrictionContactProblem\.h|bench/siconos/siconos_problem\.hpp)$"
+HUB = r"^coupler/hub/.*$"
+LAUNCHER = r"^launcher/.*$"
 PROJECT = r"^(coupler|fluid_adapter|granular_adapter)/.*$"
 
 # (files, forbidden headers, why)
@@ -27,6 +29,9 @@ RULES = [
     ("coupler/participant/participant.hpp", [MPI, TRANSPORT, EIGEN], "any host code may include it"),
     ("coupler/participant/*.[hc]pp", [YAML, PYTHON, OPENFOAM], "the participant library knows no host"),
     ("coupler/participant/*.hpp", [MPI], "an MPI of the host's choice must not leak in"),
+    ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
+    ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "what is written knows nothing of who played it"),
+    ("coupler/hub/**/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM, LAUNCHER], "the hub sees channels, and no host"),
     ("coupler/shapes/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM], "shared by fluid and grains"),
     ("granular_adapter/nscd/**/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
     ("granular_adapter/*/*.[hc]pp", [SICONOS], "Siconos stays in tests and one contender"),

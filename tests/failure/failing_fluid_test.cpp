@@ -28,11 +28,23 @@ class FailingFluid : public FailingRun {
     }
 };
 
+TEST_F(FailingFluid, MultipliersThatStopAtTheirLimitThreeTimesRunning) {
+    const Answer answer = run_with("unsolved");
+    EXPECT_EQ(answer.code, 6);
+    EXPECT_SAYS(answer.err, "stops at its iteration limit in 3 windows running");
+    EXPECT_SAYS(answer.err, "fluid.multiplier_iterations = ");
+    EXPECT_SAYS(answer.err, "fluid.multiplier_tolerance = ");
+    expect_good_output_is_kept(ExitCode::physics_refused);
+    EXPECT_EQ(rows_of_history(), 8);  // t = 0 and windows 0 to 6
+    expect_nothing_left();
+}
+
 TEST_F(FailingFluid, NanInAKick) {
     const Answer answer = run_with("nan");
     EXPECT_EQ(answer.code, 6);
-    EXPECT_SAYS(answer.err, "not a number, in window 5 after the kick");
-    EXPECT_SAYS(answer.err, "use a smaller time.step");
+    EXPECT_SAYS(answer.err, "the fluid's kick for grain ");
+    EXPECT_SAYS(answer.err, "is not finite in window 5");
+    EXPECT_SAYS(answer.err, "Try a smaller time.step");
     expect_good_output_is_kept(ExitCode::physics_refused);
     EXPECT_EQ(rows_of_history(), 6);  // t = 0 and windows 0 to 4
     expect_nothing_left();

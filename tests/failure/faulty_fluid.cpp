@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // faulty_fluid -case RUN/fluid, in the place of turbidite-fluid: a scripted fluid that commits the
-// fault named by TURBIDITE_FAULT in window 5: nan, divergence, exit, throw.
+// fault named by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, exit, throw.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -24,11 +24,12 @@ class FaultyFluid final : public ScriptedFluid {
  public:
     explicit FaultyFluid(std::string fault) : ScriptedFluid(drag), fault_(std::move(fault)) {}
 
-    Kicks impose(const Window& window, const std::vector<GrainState>& grains) override {
-        Kicks kicks = ScriptedFluid::impose(window, grains);
+    Kicks impose(const Window& window) override {
+        Kicks kicks = ScriptedFluid::impose(window);
         if (window.index < faulty_window) return kicks;
         if (fault_ == "nan") kicks.kicks.at(0).velocity[0] = not_a_number;
         if (fault_ == "divergence") kicks.report.divergence = not_a_number;
+        if (fault_ == "unsolved") kicks.report.multipliers_converged = false;
         if (fault_ == "exit") _exit(0);
         if (fault_ == "throw") throw std::runtime_error("scripted trouble");
         return kicks;

@@ -63,7 +63,7 @@ void set_contact_values(Settings& settings) {
     settings.set("contact.recovery_fraction", 0.2);
     settings.set("contact.recovery_speed", 0.5);
     settings.set("contact.solver", std::string("nlgs"));
-    settings.set("coupling.scheme", std::string("split"));
+    settings.set("run.slip_tolerance", settings.real("fluid.multiplier_tolerance"));
     settings.set("coupling.positions", std::string("corrected"));
     settings.set("limits.penetration", 0.2);
 }
@@ -127,7 +127,8 @@ void CoupledRun::advance(bool write_output) {
     before_ = grains_;
     fluid_.advance(window);
     between_ = contact_.advance(window, {}).grains;
-    answer_ = fluid_.impose(window, between_);
+    fluid_.correct(window, between_);
+    answer_ = fluid_.impose(window);
     grains_ = contact_.apply_kick(window, answer_.kicks).grains;
     ++window_;
 }

@@ -74,7 +74,8 @@ TEST(SettlingDiscRefusal, NotANumberNamesStepAndWindow) {
     bad[0].velocity[0] = std::nan("");
     run.fluid().advance({1, setup.step, setup.step, false, false});
     try {
-        run.fluid().impose({1, setup.step, setup.step, false, false}, bad);
+        run.fluid().correct({1, setup.step, setup.step, false, false}, bad);
+        run.fluid().impose({1, setup.step, setup.step, false, false});
         FAIL() << "accepted a velocity that is not a number";
     } catch (const PhysicsRefused& refused) {
         EXPECT_NE(std::string(refused.what()).find("step 5"), std::string::npos) << refused.what();
@@ -95,7 +96,8 @@ TEST(SettlingDiscRefusal, AProjectionThatDoesNotConvergeNamesStepAndWindow) {
     FoamAdapter fluid(folder.path());
     fluid.initialise(settings_of(setup), {ShapeRecord{"disc", {}}});
     fluid.advance({0, 0.0, setup.step, false, false});  // still fluid: nothing to solve
-    fluid.impose({0, 0.0, setup.step, false, false}, {disc_at(setup, 2.0, 2.0, 0.0, -0.1)});
+    fluid.correct({0, 0.0, setup.step, false, false}, {disc_at(setup, 2.0, 2.0, 0.0, -0.1)});
+    fluid.impose({0, 0.0, setup.step, false, false});
     try {
         fluid.advance({1, setup.step, setup.step, false, false});
         FAIL() << "went on without a pressure";
@@ -115,10 +117,12 @@ TEST(SettlingDiscState, RestoredFluidGoesOnTheSame) {
     const Window next{5, 5 * setup.step, setup.step, false, false};
 
     run.fluid().advance(next);
-    const Kicks first = run.fluid().impose(next, grains);
+    run.fluid().correct(next, grains);
+    const Kicks first = run.fluid().impose(next);
     run.fluid().restore(saved);
     run.fluid().advance(next);
-    const Kicks second = run.fluid().impose(next, grains);
+    run.fluid().correct(next, grains);
+    const Kicks second = run.fluid().impose(next);
     EXPECT_EQ(first.kicks[0].velocity, second.kicks[0].velocity);
     EXPECT_EQ(first.kicks[0].multiplier_impulse, second.kicks[0].multiplier_impulse);
 }

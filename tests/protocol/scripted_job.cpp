@@ -6,8 +6,9 @@
 //     scripted_job fluid   FOLDER [FAULT]
 //     scripted_job grains  FOLDER [FAULT]
 //
-// FAULT happens in window 2: throw, exit, kill, silence. SCHEME is split unless said otherwise; under joint the
-// grains land on a floor and the fluid misjudges their inertia by 20 %, so that rounds are needed.
+// FAULT happens in window 2: throw, exit, kill, silence. SCHEME is split unless said otherwise;
+// under joint the grains land on a floor and the fluid misjudges their inertia by 20 %, so that
+// rounds are needed.
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -39,7 +40,8 @@ Fault in_window_two(const std::string& fault) {
     };
 }
 
-int couple(const std::string& folder, int fluid_ranks, int grains_ranks, const std::string& scheme) {
+int couple(const std::string& folder, int fluid_ranks, int grains_ranks,
+           const std::string& scheme) {
     Settings settings = test_settings(scheme);
     settings.set("fluid.ranks", std::int64_t{fluid_ranks});
     settings.set("grains.ranks", std::int64_t{grains_ranks});
@@ -57,7 +59,7 @@ int couple(const std::string& folder, int fluid_ranks, int grains_ranks, const s
     Hub hub({settings, {{"disc", {}}}, test_population()},
             {root / "history.csv", root / "grains", root / "logs/coupler.log", root / "run.json",
              root / "STOP"},
-            *grains, fluid.get());
+            *grains, fluid.get(), find_scheme(scheme));
     return static_cast<int>(hub.run().code);
 }
 
@@ -69,7 +71,8 @@ int main(int argc, char** argv) {
     if (role == "coupler") {
         MpiEnvironment mpi(&argc, &argv);
         try {
-            return couple(folder, std::atoi(argv[3]), std::atoi(argv[4]), argc > 5 ? argv[5] : "split");
+            return couple(folder, std::atoi(argv[3]), std::atoi(argv[4]),
+                          argc > 5 ? argv[5] : "split");
         } catch (const Failure& failure) {
             std::fprintf(stderr, "coupler: %s\n", failure.what());
             PMPI_Abort(MPI_COMM_WORLD, static_cast<int>(failure.code()));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/protocol/call_order.hpp"
 
 namespace turbidite {
 namespace {
-
-constexpr bool from_coupler = true;
 
 // Both ends of one conversation, driven along the table.
 struct Ends {
@@ -23,8 +22,9 @@ struct Ends {
     }
 
     void start(Role role, const std::string& scheme) {
-        coupler.set_scheme(scheme);
-        participant.set_scheme(scheme);
+        const Order order = find_scheme(scheme).order(role);
+        coupler.set_window_order(order);
+        participant.set_window_order(decode<Order>(encode(order)));  // as it travels
         for (const Step& step : start_order(role)) pass(step.kind);
     }
 };
@@ -49,7 +49,7 @@ TEST_P(EveryOrder, CountsWindowsOnBothSides) {
 INSTANTIATE_TEST_SUITE_P(
     Schemes, EveryOrder,
     testing::Values(
-        Table{Role::fluid, "split", {Kind::window, Kind::constraint, Kind::kicks}},
+        Table{Role::fluid, "split", {Kind::window, Kind::constraint, Kind::accept, Kind::kicks}},
         Table{Role::grains, "split", {Kind::window, Kind::motion, Kind::kick, Kind::state}},
         Table{Role::fluid, "joint",
               {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response, Kind::accept,
@@ -127,10 +127,11 @@ TEST(CallOrder, SplitHasNoRounds) {
     Ends ends(Role::fluid);
     ends.start(Role::fluid, "split");
     for (const Kind kind : {Kind::window, Kind::constraint}) EXPECT_EQ(ends.pass(kind).iteration, 0);
-    EXPECT_THROW(ends.coupler.next_sent(Kind::accept, from_coupler), OrderViolation);
-    Envelope envelope = ends.participant.next_sent(Kind::kicks, !from_coupler);
+    EXPECT_THROW(ends.coupler.next_sent(Kind::constraint, from_coupler), OrderViolation);
+    ends.pass(Kind::accept);
+    Envelope envelope = ends.participant.next_sent(Kind::kicks, to_coupler);
     envelope.iteration = 1;
-    EXPECT_THROW(ends.coupler.received(envelope, !from_coupler), OrderViolation);
+    EXPECT_THROW(ends.coupler.received(envelope, to_coupler), OrderViolation);
 }
 
 TEST(CallOrder, AMessageOutOfTurnIsAnErrorWithASentence) {
@@ -138,7 +139,7 @@ TEST(CallOrder, AMessageOutOfTurnIsAnErrorWithASentence) {
     ends.start(Role::grains, "split");
     ends.pass(Kind::window);
     try {
-        ends.participant.next_sent(Kind::state, !from_coupler);
+        ends.participant.next_sent(Kind::state, to_coupler);
         FAIL();
     } catch (const OrderViolation& error) {
         EXPECT_STREQ(error.what(),
@@ -151,9 +152,9 @@ TEST(CallOrder, ALostMessageIsNoticedByItsNumber) {
     Ends ends(Role::grains);
     ends.start(Role::grains, "split");
     ends.pass(Kind::window);
-    Envelope envelope = ends.participant.next_sent(Kind::motion, !from_coupler);
+    Envelope envelope = ends.participant.next_sent(Kind::motion, to_coupler);
     ++envelope.sequence;
-    EXPECT_THROW(ends.coupler.received(envelope, !from_coupler), OrderViolation);
+    EXPECT_THROW(ends.coupler.received(envelope, to_coupler), OrderViolation);
 }
 
 TEST(CallOrder, AMessageOfAnotherWindowIsRefused) {
@@ -168,17 +169,76 @@ TEST(CallOrder, BadNewsMayComeAtAnyTimeAndEndsTheTalk) {
     Ends ends(Role::grains);
     ends.start(Role::grains, "split");
     ends.pass(Kind::window);
-    ends.coupler.received(ends.participant.next_sent(Kind::failure, !from_coupler), !from_coupler);
+    ends.coupler.received(ends.participant.next_sent(Kind::failure, to_coupler), to_coupler);
     ends.participant.received(ends.coupler.next_sent(Kind::dismiss, from_coupler), from_coupler);
     EXPECT_EQ(ends.participant.due_text(), "\"farewell\"");
-    EXPECT_THROW(ends.participant.next_sent(Kind::motion, !from_coupler), OrderViolation);
-    ends.coupler.received(ends.participant.next_sent(Kind::farewell, !from_coupler), !from_coupler);
+    EXPECT_THROW(ends.participant.next_sent(Kind::motion, to_coupler), OrderViolation);
+    ends.coupler.received(ends.participant.next_sent(Kind::farewell, to_coupler), to_coupler);
     ends.participant.received(ends.coupler.next_sent(Kind::release, from_coupler), from_coupler);
 }
 
-TEST(CallOrder, UnknownSchemeIsNamed) {
-    EXPECT_THROW(window_order(Role::fluid, "dry"), std::invalid_argument);
-    EXPECT_THROW(window_order(Role::grains, "jiont"), std::invalid_argument);
+TEST(CallOrder, TheStartNeedsTheOrderOfAWindow) {
+    CallOrder order(Role::fluid, "coupler");
+    order.next_sent(Kind::hello, to_coupler);
+    std::int64_t sequence = 0;
+    for (const Kind kind : {Kind::settings, Kind::order, Kind::shapes})
+        order.received({kind, -1, 0, sequence++}, from_coupler);
+    EXPECT_THROW(order.next_sent(Kind::domain, to_coupler), OrderViolation);
+}
+
+// A participant that is told nonsense says so at the start, not somewhere in a window.
+TEST(CallOrder, AnOrderThatCannotBePlayedIsRefused) {
+    const auto why = [](const Order& order) -> std::string {
+        try {
+            CallOrder(Role::fluid, "coupler").set_window_order(order);
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const Step window{Kind::window, from_coupler}, kicks{Kind::kicks, to_coupler};
+    EXPECT_EQ(why({window, kicks}), "");
+    EXPECT_NE(why({}).find("does not begin with \"window\""), std::string::npos);
+    EXPECT_NE(why({kicks}).find("does not begin with \"window\""), std::string::npos);
+    EXPECT_NE(why({window, window, kicks}).find("\"window\" twice"), std::string::npos);
+    EXPECT_NE(why({window, {Kind::hello, to_coupler}}).find("\"hello\", which is no message of a window"),
+              std::string::npos);
+    EXPECT_NE(why({window, {static_cast<Kind>(77), to_coupler}}).find("kind 77"), std::string::npos);
+    EXPECT_NE(why({window, {Kind::response, to_coupler, Times::per_round}, kicks}).find("only the coupler decides"),
+              std::string::npos);
+    EXPECT_NE(why({window, {Kind::constraint, from_coupler, Times::per_round}, kicks}).find("\"kicks\""),
+              std::string::npos);
+    EXPECT_NE(why({window, {Kind::constraint, from_coupler, Times::per_round}}).find("ends with a round"),
+              std::string::npos);
+}
+
+TEST(Schemes, AnUnknownOneListsTheKnown) {
+    try {
+        find_scheme("jiont");
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(error.what(), "unknown scheme \"jiont\"; known: split, joint, dry");
+    }
+}
+
+TEST(Schemes, EveryOrderCanBePlayed) {
+    for (const SchemeEntry& scheme : scheme_list()) {
+        EXPECT_NO_THROW(check_window_order(scheme.grains)) << scheme.name;
+        if (!scheme.fluid.empty()) {
+            EXPECT_NO_THROW(check_window_order(scheme.fluid)) << scheme.name;
+        }
+    }
+}
+
+// Slips well below what contacts and fluid may differ by, where that is looked at.
+TEST(Schemes, TheSlipToleranceIsTheSmallerOfTwo) {
+    Settings settings;
+    settings.set("fluid.multiplier_tolerance", 1e-4);
+    settings.set("coupling.tolerance", 1e-5);
+    EXPECT_EQ(find_scheme("split").slip_tolerance(settings), 1e-4);
+    EXPECT_EQ(find_scheme("joint").slip_tolerance(settings), 0.1 * 1e-5);
+    settings.set("coupling.tolerance", 1.0);
+    EXPECT_EQ(find_scheme("joint").slip_tolerance(settings), 1e-4);
 }
 
 }  // namespace

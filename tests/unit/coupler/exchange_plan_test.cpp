@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/transport/exchange_plan.hpp"
+#include "coupler/hub/exchange_plan.hpp"
 
 namespace turbidite {
 namespace {

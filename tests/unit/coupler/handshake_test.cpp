@@ -43,9 +43,10 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
     hello.capabilities.shapes = {"sphere"};
     Expectation joint = expected();
     joint.scheme = "joint";
+    joint.effective_inertia = true;
     const auto sentences = mismatches(hello, joint);
     ASSERT_EQ(sentences.size(), 7u);
-    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.2, the case needs 1.x");
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.4, the case needs 1.x");
     EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
     EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
 }
@@ -53,24 +54,25 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
 TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
     Expectation joint = expected();
     joint.scheme = "joint";
+    joint.effective_inertia = true;
     const auto sentences = mismatches(fitting(), joint);
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: knowledge of scheme joint is absent, the case needs it for coupling.scheme: "
+              "grains rank 0: knowledge of effective inertia is absent, the case needs it for coupling.scheme: "
               "joint (or use split)");
     Hello knowing = fitting();
     knowing.capabilities.effective_inertia = true;
     EXPECT_TRUE(mismatches(knowing, joint).empty());
 }
 
-// A Motion of version 1.1 has no place for contacts: it would be refused as malformed, without a word why.
-TEST(Handshake, AVersionWithAnotherMotionIsRefused) {
+// A participant of version 1.3 waits for the shapes where the order of a window comes.
+TEST(Handshake, AVersionThatIsToldNoOrderIsRefused) {
     Hello old = fitting();
-    old.protocol_minor = 1;
+    old.protocol_minor = 3;
     const auto sentences = mismatches(old, expected());
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: protocol version is 1.1, the case needs 1.2 or later (rebuild the adapter)");
+              "grains rank 0: protocol version is 1.3, the case needs 1.4 or later (rebuild the adapter)");
 }
 
 TEST(Handshake, AnAdapterStartedByHandMayTakeAnyCase) {

@@ -44,8 +44,7 @@ TEST(History, MeansAreNumberMeans) {
     state.grains[0].velocity = {3, 4, 0};
     state.grains[1].velocity = {-3, 4, 0};
     state.grains[2].velocity = {0, 4, 0};
-    const KickRule rule(test_settings(), {{"disc", {}}});
-    const Averages mean = averages(state, rule);
+    const Averages mean = averages(state, ImmersedBodies(test_settings(), {{"disc", {}}}));
     EXPECT_NEAR(mean.velocity[0], 0.0, 1e-15);
     EXPECT_NEAR(mean.velocity[1], 4.0, 1e-15);
     EXPECT_NEAR(mean.speed, 14.0 / 3.0, 1e-14);
@@ -58,8 +57,7 @@ TEST(History, SpinCountsAsKineticEnergy) {
     Motion state;
     state.grains = {test_population()[0]};
     state.grains[0].angular_velocity = {0, 0, 2};
-    const KickRule rule(test_settings(), {{"disc", {}}});
-    const Averages mean = averages(state, rule);
+    const Averages mean = averages(state, ImmersedBodies(test_settings(), {{"disc", {}}}));
     EXPECT_NEAR(mean.kinetic_energy / mean.mass, 0.25, 1e-15);
 }
 
@@ -76,8 +74,7 @@ std::map<std::string, std::string> last_row(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> written(const Row& row, const Settings& settings) {
     const TestFolder folder("history-row");
-    const KickRule rule(settings, {{"disc", {}}});
-    History history(folder.path() / "history.csv", settings, rule);
+    History history(folder.path() / "history.csv", settings, {{"disc", {}}});
     history.append(row);
     return last_row(folder.path() / "history.csv");
 }
@@ -155,7 +152,7 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
 }
 
 TEST(History, AFullDiskIsAnError) {
-    EXPECT_THROW(History("/dev/full", test_settings(), KickRule(test_settings(), {{"disc", {}}})),
+    EXPECT_THROW(History("/dev/full", test_settings(), {{"disc", {}}}),
                  Failure);
 }
 

@@ -5,89 +5,12 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
-#include <thread>
 
-#include "coupler/participant/scripted.hpp"
-#include "coupler/participant/session.hpp"
-#include "coupler/transport/loopback_channel.hpp"
-#include "tests/unit/coupler/test_case.hpp"
+#include "tests/unit/coupler/loopback_job.hpp"
 
 namespace turbidite {
 namespace {
-
-constexpr double drag = 0.3;
-
-struct Job {
-    Settings settings = test_settings();
-    int grains_ranks = 1, fluid_ranks = 1;
-    Fault grains_fault, fluid_fault;
-    LoopbackChannel::Hook to_grains;
-    std::string adapter = "scripted";
-    std::string hash = "0123456789abcdef";
-    std::optional<double> floor;    // of the grains
-    double inertia_error = 0.0;     // of the fluid
-    LoopbackChannel::Hook to_fluid;
-
-    RunStatus status;
-    std::vector<Outcome> outcomes;
-
-    void run(const TestFolder& folder) {
-        const bool wet = settings.flag("fluid.enabled");
-        settings.set("grains.ranks", std::int64_t{grains_ranks});
-        settings.set("fluid.ranks", std::int64_t{fluid_ranks});
-        auto [grains, grains_ends] = LoopbackChannel::connect(grains_ranks);
-        auto [fluid, fluid_ends] = LoopbackChannel::connect(fluid_ranks);
-        grains->set_hook(to_grains);
-        fluid->set_hook(to_fluid);
-        outcomes.resize(grains_ranks + fluid_ranks);
-
-        std::vector<std::thread> threads;
-        for (int rank = 0; rank < grains_ranks; ++rank)
-            threads.emplace_back([&, rank, end = grains_ends[rank].get()] {
-                ScriptedGrains adapter_object(adapter, grains_fault);
-                if (floor) adapter_object.lay_floor(*floor);
-                outcomes[rank] = live(*make_session(adapter_object, *end, identity(rank, grains_ranks)));
-            });
-        for (int rank = 0; wet && rank < fluid_ranks; ++rank)
-            threads.emplace_back([&, rank, end = fluid_ends[rank].get()] {
-                ScriptedFluid adapter_object(drag, rank, fluid_ranks, fluid_fault);
-                adapter_object.misjudge_inertia(inertia_error);
-                outcomes[grains_ranks + rank] =
-                    live(*make_session(adapter_object, *end, identity(rank, fluid_ranks)));
-            });
-        {
-            Hub hub({settings, {{"disc", {}}}, test_population()}, folder.files(), *grains,
-                    wet ? fluid.get() : nullptr);
-            status = hub.run();
-        }
-        for (std::thread& thread : threads) thread.join();
-    }
-
-   private:
-    Identity identity(int rank, int ranks) const { return {rank, ranks, "a.log", hash}; }
-    static Outcome live(Session& session) {
-        for (bool going = session.start(); going; going = session.step()) {
-        }
-        return session.outcome();
-    }
-};
-
-std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& file) {
-    std::vector<std::vector<std::string>> rows;
-    std::ifstream in(file);
-    for (std::string line; std::getline(in, line);) {
-        rows.emplace_back();
-        std::stringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-    }
-    return rows;
-}
-
-std::size_t column(const std::vector<std::string>& header, const std::string& name) {
-    return std::find(header.begin(), header.end(), name) - header.begin();
-}
 
 // M_eff = M/3, M_sub = M/3: free fall at g = 1. b = 1/(1 + gamma dt/M_eff), M_eff = 0.5 pi R^2 = pi/8. After n
 // windows U = -(a dt)(b + b^2 + ... + b^n).
@@ -113,7 +36,7 @@ TEST_P(EveryLayout, PlaysTheRunToItsExactEnd) {
     job.fluid_ranks = GetParam().fluid_ranks;
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
-    EXPECT_EQ(job.status.windows_done, 6);
+    EXPECT_EQ(job.status.statistics.windows_done, 6);
     for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::done);
 
     const auto rows = read_csv(folder.path() / "history.csv");
@@ -121,7 +44,7 @@ TEST_P(EveryLayout, PlaysTheRunToItsExactEnd) {
     const std::size_t velocity = column(rows[0], "mean_velocity_y");
     EXPECT_NEAR(std::stod(rows[4][velocity]), expected_velocity(6), 1e-9);
     EXPECT_EQ(rows[4][column(rows[0], "grains")], "3");
-    EXPECT_LT(job.status.maxima.grain_balance, 1e-14);
+    EXPECT_LT(job.status.statistics.maxima.grain_balance, 1e-14);
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, EveryLayout,
@@ -149,7 +72,7 @@ TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnWords) {
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
     EXPECT_EQ(job.status.reason.find("fluid rank 0 (host "), 0u) << job.status.reason;
     EXPECT_NE(job.status.reason.find("the disc is on fire"), std::string::npos);
-    EXPECT_EQ(job.status.windows_done, 3);
+    EXPECT_EQ(job.status.statistics.windows_done, 3);
     for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::physics_refused);
     const auto record = nlohmann::json::parse(std::ifstream(folder.path() / "run.json"));
     EXPECT_EQ(record["exit_code"], 6);
@@ -200,6 +123,39 @@ TEST(Hub, NaNIsRefusedBeforeItTravels) {
         << job.status.reason;
 }
 
+// What a participant sends is looked at where it arrives.
+TEST(Hub, AMotionOrAKickThatIsNotFiniteNamesGrainAndWindow) {
+    const auto spoilt = [](Kind kind, const auto& spoil) -> LoopbackChannel::Hook {
+        return [kind, spoil](Bytes& bytes) {
+            Message message = unframe(bytes);
+            if (message.envelope.kind != kind || message.envelope.window != 2) return true;
+            bytes = frame({message.envelope, spoil(message.payload)});
+            return true;
+        };
+    };
+    const TestFolder folder("hub-nan-arrives");
+    Job grains;
+    grains.from_grains = spoilt(Kind::motion, [](const Bytes& payload) {
+        Motion motion = decode<Motion>(payload);
+        motion.grains[1].velocity[0] = NAN;
+        return encode(motion);
+    });
+    grains.run(folder);
+    EXPECT_EQ(grains.status.code, ExitCode::physics_refused);
+    EXPECT_NE(grains.status.reason.find("grain 101 is not finite after the contacts of window 2"), std::string::npos)
+        << grains.status.reason;
+    Job fluid;
+    fluid.from_fluid = spoilt(Kind::kicks, [](const Bytes& payload) {
+        Kicks kicks = decode<Kicks>(payload);
+        kicks.kicks[2].multiplier_impulse[1] = INFINITY;
+        return encode(kicks);
+    });
+    fluid.run(folder);
+    EXPECT_EQ(fluid.status.code, ExitCode::physics_refused);
+    EXPECT_NE(fluid.status.reason.find("kick for grain 102 is not finite in window 2"), std::string::npos)
+        << fluid.status.reason;
+}
+
 TEST(Hub, ALostMessageStallsWithAWaitForTable) {
     const TestFolder folder("hub-stall");
     Job job;
@@ -235,7 +191,7 @@ TEST(Hub, AStopRequestEndsAfterOneMoreWindowWhichIsWritten) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::terminated);
-    EXPECT_EQ(job.status.windows_done, 3);
+    EXPECT_EQ(job.status.statistics.windows_done, 3);
     EXPECT_NE(job.status.reason.find("stopped on request after window 3"), std::string::npos) << job.status.reason;
     const auto rows = read_csv(folder.files().history);
     EXPECT_EQ(rows.back().front(), "3");
@@ -251,7 +207,7 @@ TEST(Hub, AStopRequestInTheLastWindowIsARunThatIsDone) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::done);
-    EXPECT_EQ(job.status.windows_done, last + 1);
+    EXPECT_EQ(job.status.statistics.windows_done, last + 1);
 }
 
 // Discs whose lowest point is at 4.5 fall on a floor at 4.4995: two windows carry them 3e-4 (a little less with
@@ -263,13 +219,6 @@ Job landing(double inertia_error) {
     job.floor = 4.4995;
     job.inertia_error = inertia_error;
     return job;
-}
-
-using Rows = std::vector<std::vector<std::string>>;
-
-double cell(const Rows& rows, std::size_t row, const std::string& name) {
-    const std::string& text = rows.at(row).at(column(rows[0], name));
-    return text.empty() ? NAN : std::stod(text);
 }
 
 TEST(HubJoint, AnExactFluidNeedsOneRound) {
@@ -286,9 +235,9 @@ TEST(HubJoint, AnExactFluidNeedsOneRound) {
         EXPECT_LT(cell(rows, row, "joint_mismatch"), 1e-15);
     }
     EXPECT_NEAR(cell(rows, 7, "mean_velocity_y"), 0.0, 1e-15);
-    EXPECT_LT(job.status.maxima.penetration, 1e-15);
-    EXPECT_LT(job.status.maxima.grain_balance, 1e-13);
-    EXPECT_EQ(job.status.maxima.joint->unconverged_windows, 0);
+    EXPECT_LT(job.status.statistics.maxima.penetration, 1e-15);
+    EXPECT_LT(job.status.statistics.maxima.grain_balance, 1e-13);
+    EXPECT_EQ(job.status.statistics.maxima.joint->unconverged_windows, 0);
     EXPECT_EQ(rows[1][column(rows[0], "joint_rounds")], "") << "no window yet";
 }
 
@@ -314,9 +263,9 @@ TEST(HubJoint, AnApproximateFluidIsIteratedToTheSameAnswer) {
         EXPECT_GT(cell(rows, 7, "joint_rounds"), 3);
         EXPECT_EQ(cell(rows, 7, "contact_iterations"), cell(rows, 7, "joint_rounds")) << "summed";
         EXPECT_LE(cell(rows, 7, "joint_mismatch"), 1e-9);
-        EXPECT_EQ(job.status.maxima.joint->unconverged_windows, 0);
-        EXPECT_LT(job.status.maxima.grain_balance, 1e-13) << "the impulses are exact all the same";
-        EXPECT_LT(job.status.maxima.penetration, 1e-15) << "positions follow the contact velocity";
+        EXPECT_EQ(job.status.statistics.maxima.joint->unconverged_windows, 0);
+        EXPECT_LT(job.status.statistics.maxima.grain_balance, 1e-13) << "the impulses are exact all the same";
+        EXPECT_LT(job.status.statistics.maxima.penetration, 1e-15) << "positions follow the contact velocity";
     }
 }
 
@@ -332,11 +281,71 @@ TEST(HubJoint, AWindowThatNeedsMoreRoundsIsCounted) {
     EXPECT_LE(maxima["unconverged_joint_windows"], 4) << "windows without contact converge";
     EXPECT_EQ(maxima["joint_rounds"], 2);
     EXPECT_GT(maxima["joint_mismatch"], 1e-9);
-    EXPECT_LT(job.status.maxima.grain_balance, 1e-13) << "momentum balances all the same";
+    EXPECT_LT(job.status.statistics.maxima.grain_balance, 1e-13) << "momentum balances all the same";
     std::stringstream log;
     log << std::ifstream(folder.files().log).rdbuf();
     EXPECT_NE(log.str().find("NOT CONVERGED"), std::string::npos) << log.str();
     EXPECT_NE(log.str().find("of 6 windows contacts and fluid differ"), std::string::npos);
+}
+
+/// A fluid whose multiplier problem stops at its limit in these windows.
+LoopbackChannel::Hook unsolved_in(std::vector<std::int64_t> windows) {
+    return [windows](Bytes& bytes) {
+        Message message = unframe(bytes);
+        const auto here = std::find(windows.begin(), windows.end(), message.envelope.window);
+        if (message.envelope.kind != Kind::kicks || here == windows.end()) return true;
+        Kicks kicks = decode<Kicks>(message.payload);
+        kicks.report.multipliers_converged = false;
+        kicks.report.multiplier_residual = 2e-3;
+        bytes = frame({message.envelope, encode(kicks)});
+        return true;
+    };
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+TEST(HubMultipliers, WindowsThatStopAtTheLimitAreCountedAndTold) {
+    const TestFolder folder("hub-multipliers-counted");
+    Job job;
+    job.from_fluid = unsolved_in({1, 2, 5});
+    job.run(folder);
+    ASSERT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    const auto maxima = nlohmann::json::parse(std::ifstream(folder.path() / "run.json"))["maxima"];
+    EXPECT_EQ(maxima["unconverged_multiplier_windows"], 3);
+    EXPECT_TRUE(maxima.contains("courant") && maxima.contains("final_divergence")) << maxima;
+    const std::string log = text_of(folder.files().log);
+    EXPECT_NE(log.find("multipliers 0 its, 2e-03 NOT CONVERGED"), std::string::npos) << log;
+    EXPECT_NE(log.find("in 3 of 6 windows the multiplier problem used up its 200 iterations "
+                       "(fluid.multiplier_iterations); rms slip up to 2.0e-03 u_c, 1e-04 demanded"),
+              std::string::npos)
+        << log;
+}
+
+TEST(HubMultipliers, ThreeWindowsRunningEndTheRun) {
+    const TestFolder folder("hub-multipliers-refused");
+    Job job;
+    job.fluid_ranks = 2;
+    job.from_fluid = unsolved_in({2, 3, 4});
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::physics_refused);
+    for (const char* part : {"stops at its iteration limit in 3 windows running", "fluid.multiplier_iterations = 200",
+                             "fluid.multiplier_tolerance = 1e-04"})
+        EXPECT_NE(job.status.reason.find(part), std::string::npos) << job.status.reason;
+    EXPECT_EQ(job.status.statistics.windows_done, 4) << "window 4 was not good, 0 to 3 were";
+    for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::physics_refused);
+}
+
+TEST(HubMultipliers, ADryRunHasNone) {
+    const TestFolder folder("hub-multipliers-dry");
+    Job job;
+    job.settings = test_settings("split", false);
+    job.run(folder);
+    const auto maxima = nlohmann::json::parse(std::ifstream(folder.path() / "run.json"))["maxima"];
+    EXPECT_FALSE(maxima.contains("unconverged_multiplier_windows")) << maxima;
 }
 
 TEST(HubJoint, OtherSchemesLeaveItsColumnsEmpty) {
@@ -345,7 +354,7 @@ TEST(HubJoint, OtherSchemesLeaveItsColumnsEmpty) {
     job.run(folder);
     const Rows rows = read_csv(folder.path() / "history.csv");
     EXPECT_TRUE(std::isnan(cell(rows, 3, "joint_rounds")));
-    EXPECT_FALSE(job.status.maxima.joint);
+    EXPECT_FALSE(job.status.statistics.maxima.joint);
     EXPECT_FALSE(nlohmann::json::parse(std::ifstream(folder.path() / "run.json"))["maxima"].contains(
         "joint_rounds"));
 }
@@ -368,7 +377,7 @@ TEST(HubJoint, AnAcceptOutOfTurnIsRefused) {
                                      "from the coupler is due"),
               std::string::npos)
         << job.status.reason;
-    EXPECT_EQ(job.status.windows_done, 1);
+    EXPECT_EQ(job.status.statistics.windows_done, 1);
 }
 
 // A constraint that is lost in the second round stalls, and the table says where everybody stands.

@@ -21,6 +21,10 @@ inline Settings test_settings(const std::string& scheme = "split", bool fluid = 
     s.set("fluid.hydrodynamic_radius", 1.0);
     s.set("fluid.cells_per_diameter", 8.0);
     s.set("coupling.scheme", scheme);
+    s.set("run.scheme", fluid ? scheme : std::string("dry"));
+    s.set("run.slip_tolerance", 1e-4);
+    s.set("fluid.multiplier_tolerance", 1e-4);
+    s.set("fluid.multiplier_iterations", std::int64_t{200});
     s.set("coupling.tolerance", 1e-9);
     s.set("coupling.iterations", std::int64_t{10});
     s.set("limits.stall_soft", 5.0);

@@ -27,7 +27,6 @@ inline Settings box_settings() {
     Settings settings;
     for (const char* side : {"left", "right", "bottom", "top"})
         settings.set(std::string("domain.") + side, std::string("wall"));
-    settings.set("coupling.scheme", std::string("split"));
     settings.set("coupling.positions", std::string("corrected"));
     settings.set("fluid.enabled", true);
     settings.set("fluid.hydrodynamic_radius", 1.0);

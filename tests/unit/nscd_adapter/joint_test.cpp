@@ -76,7 +76,8 @@ Result settle(double inertia_error) {
     std::thread fluid_thread([&] { live(scripted, *fluid_ends[0]); });
     Result result;
     {
-        Hub hub({heap_settings(), {{"disc", {}}}, heap()}, folder.files(), *grains, fluid.get());
+        Hub hub({heap_settings(), {{"disc", {}}}, heap()}, folder.files(), *grains, fluid.get(),
+                find_scheme("joint"));
         result.status = hub.run();
     }
     grains_thread.join();
@@ -90,7 +91,7 @@ Result settle(double inertia_error) {
 // admissible velocities, so only the contact tolerance is left), momentum balances to round-off,
 // and every window agrees.
 TEST(JointHeap, AnExactFluidSettlesItInOneRoundPerWindow) {
-    const RunMaxima maxima = settle(0.0).status.maxima;
+    const RunMaxima maxima = settle(0.0).status.statistics.maxima;
     EXPECT_LT(maxima.penetration, 1e-9);
     EXPECT_LT(maxima.grain_balance, 1e-12);
     EXPECT_EQ(maxima.unconverged_windows, 0);
@@ -105,10 +106,10 @@ TEST(JointHeap, AnApproximateFluidGivesTheSameMotion) {
     const Result exact = settle(0.0);
     for (const double error : {0.1, -0.1}) {
         const Result rounds = settle(error);
-        EXPECT_LT(rounds.status.maxima.penetration, 1e-9);
-        EXPECT_LT(rounds.status.maxima.grain_balance, 1e-12);
-        EXPECT_GT(rounds.status.maxima.joint->rounds, 2);
-        EXPECT_EQ(rounds.status.maxima.joint->unconverged_windows, 0);
+        EXPECT_LT(rounds.status.statistics.maxima.penetration, 1e-9);
+        EXPECT_LT(rounds.status.statistics.maxima.grain_balance, 1e-12);
+        EXPECT_GT(rounds.status.statistics.maxima.joint->rounds, 2);
+        EXPECT_EQ(rounds.status.statistics.maxima.joint->unconverged_windows, 0);
         for (std::size_t i = 0; i < exact.positions.size(); ++i)
             for (int axis = 0; axis < 2; ++axis)
                 EXPECT_NEAR(rounds.positions[i][axis], exact.positions[i][axis], 1e-6);

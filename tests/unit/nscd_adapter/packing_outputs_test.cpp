@@ -62,7 +62,8 @@ RunStatus run(const TestFolder& folder, const Settings& settings) {
     });
     RunStatus status;
     {
-        Hub hub({settings, {{"disc", {}}}, lattice()}, folder.files(), *grains, nullptr);
+        Hub hub({settings, {{"disc", {}}}, lattice()}, folder.files(), *grains, nullptr,
+                find_scheme("dry"));
         status = hub.run();
     }
     thread.join();
@@ -157,7 +158,7 @@ TEST(PackingOutputs, UnconvergedWindowsAreNotHidden) {
     settings.set("contact.iterations", std::int64_t{1});
     settings.set("limits.penetration", 0.5);
     const RunStatus status = run(folder, settings);
-    EXPECT_EQ(status.maxima.unconverged_windows, 4);
+    EXPECT_EQ(status.statistics.maxima.unconverged_windows, 4);
     EXPECT_EQ(row(folder, 2)["unconverged"], "2");
     EXPECT_EQ(row(folder, 3)["unconverged"], "2");
     const auto record = nlohmann::json::parse(text_of(folder.files().record));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/hub/kick.hpp"
+#include "coupler/hub/kick_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,34 +44,18 @@ struct Balance {
 
 }  // namespace
 
-std::unordered_map<GrainId, const GrainState*> by_id(const Motion& motion) {
-    std::unordered_map<GrainId, const GrainState*> map;
-    map.reserve(motion.grains.size());
-    for (const GrainState& grain : motion.grains) map.emplace(grain.id, &grain);
-    return map;
-}
-
 KickRule::KickRule(const Settings& settings, const ShapeTable& shapes)
-    : fluid_density_(settings.flag("fluid.enabled") ? settings.real("run.fluid_density") : 0.0),
-      hydrodynamic_radius_(settings.real("fluid.hydrodynamic_radius")),
-      gravity_(settings.real("run.gravity")) {
-    for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
-}
+    : bodies_(settings, shapes), gravity_(settings.real("run.gravity")) {}
 
-ImmersedBody KickRule::body(const GrainState& grain) const {
-    return immersed_body(*shapes_.at(grain.shape), grain.radius, grain.density, fluid_density_,
-                         hydrodynamic_radius_);
-}
-
-void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) const {
-    const auto old = by_id(before);
+void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) {
+    before_.follow(before.grains);
     for (Kick& kick : kicks) {
-        const auto at = old.find(kick.id);
-        if (at == old.end())
+        const std::size_t at = before_.place(kick.id);
+        if (at == GrainIndex::nowhere)
             throw PhysicsRefused("the fluid answered for grain " + std::to_string(kick.id) +
                                  ", which nobody owns");
-        const GrainState& grain = *at->second;
-        const ImmersedBody immersed = body(grain);
+        const GrainState& grain = before.grains[at];
+        const ImmersedBody immersed = bodies_(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);
@@ -85,14 +69,14 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
 }
 
 double KickRule::defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
-                        double step) const {
-    const auto old = by_id(before);
-    const auto touched = by_id(contact);
+                        double step) {
+    before_.follow(before.grains);
+    contact_.follow(contact.grains);
     Balance linear, angular;
     for (const Kick& kick : kicks) {
-        const GrainState& grain = *old.at(kick.id);
-        const GrainState& with_contact = *touched.at(kick.id);
-        const ImmersedBody immersed = body(grain);
+        const GrainState& grain = before.grains.at(before_.place(kick.id));
+        const GrainState& with_contact = contact.grains.at(contact_.place(kick.id));
+        const ImmersedBody immersed = bodies_(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);

@@ -6,10 +6,9 @@
 // channels carry them.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
-#include "coupler/protocol/records.hpp"
+#include "coupler/protocol/grain_index.hpp"
 
 namespace turbidite {
 
@@ -34,10 +33,14 @@ class ExchangePlan {
     std::vector<std::vector<Record>> by_owner(const std::vector<Record>& records) const;
 
  private:
+    void demand_owned(const std::vector<ContactRecord>& contacts) const;
+    [[noreturn]] void refuse_missing(const std::vector<bool>& answered) const;
+
     std::vector<Box> boxes_;
     double margin_;
     Vec3 period_;
-    std::unordered_map<GrainId, int> owner_;
+    GrainIndex index_;        ///< of the last `gather`
+    std::vector<int> owner_;  ///< rank, by place in index_
     std::size_t owners_ = 0;
 };
 

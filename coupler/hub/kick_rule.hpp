@@ -11,11 +11,8 @@
 // to round-off, where F_c = J_c/Δt; `defect` measures it.
 #pragma once
 
-#include <unordered_map>
-
-#include "coupler/protocol/records.hpp"
-#include "coupler/protocol/settings.hpp"
-#include "coupler/shapes/immersed_body.hpp"
+#include "coupler/protocol/grain_index.hpp"
+#include "coupler/shapes/immersed_bodies.hpp"
 
 namespace turbidite {
 
@@ -23,25 +20,19 @@ class KickRule {
  public:
     KickRule(const Settings& settings, const ShapeTable& shapes);
 
-    /// Fills force and torque. `before` is the state at t^n.
-    void complete(std::vector<Kick>& kicks, const Motion& before, double step) const;
+    /// Fills force and torque. `before` is the state at t^n. Throws PhysicsRefused for a kick of a
+    /// grain that was not there.
+    void complete(std::vector<Kick>& kicks, const Motion& before, double step);
 
     /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and the angular twin over R) over all grains,
     /// relative to the largest term that occurs. Empty windows give zero.
     double defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
-                  double step) const;
-
-    /// M, I and their wet parts.
-    ImmersedBody body(const GrainState& grain) const;
+                  double step);
 
  private:
-    double fluid_density_;
-    double hydrodynamic_radius_;
+    ImmersedBodies bodies_;
     double gravity_;
-    std::vector<std::shared_ptr<const Shape>> shapes_;
+    GrainIndex before_, contact_;
 };
-
-/// States by id.
-std::unordered_map<GrainId, const GrainState*> by_id(const Motion& motion);
 
 }  // namespace turbidite

@@ -11,29 +11,16 @@
 // R |omega' - omega| decides: above coupling.tolerance the contacts are solved again from U^F = U'
 // - A^-1 J, a fixed-point iteration whose error shrinks by |1 - A_true^-1 A| per round. At the end
 // grains take the velocities U' and move with U, which no contact forbids.
-#include <cmath>
-
-#include "coupler/hub/step_five.hpp"
-#include "coupler/protocol/failure.hpp"
+//
+//     fluid    window → bodies → response { → constraint → response } → accept → kicks
+//     grains   window { → contact_input → motion } → kick → state
+#include "coupler/hub/schemes/exchanges.hpp"
 #include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
 namespace {
 
 using Responses = std::vector<FreeResponse>;
-
-void demand_finite(const Responses& responses, const Window& window) {
-    for (const FreeResponse& response : responses) {
-        double sum = response.mismatch;
-        for (const double x : response.velocity) sum += x;
-        for (const double x : response.angular_velocity) sum += x;
-        for (const double x : response.inertia) sum += x;
-        if (!std::isfinite(sum))
-            throw PhysicsRefused("the fluid's response for grain " + std::to_string(response.id) +
-                                 " is not finite in window " + std::to_string(window.index) +
-                                 ". Try a smaller time.step.");
-    }
-}
 
 double largest_mismatch(const Responses& responses) {
     double result = 0.0;
@@ -47,7 +34,7 @@ class Joint final : public Scheme {
         : tolerance_(settings.real("coupling.tolerance") * settings.real("run.velocity_scale")),
           most_rounds_(settings.integer("coupling.iterations")) {}
 
-    WindowResult play(const Window& window, const Motion& before, Cast& cast) override {
+    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
         cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
         cast.grains.send_all(Kind::window, window);
         cast.fluid->send_each(Kind::bodies, cast.plan.by_place(before));
@@ -56,28 +43,18 @@ class Joint final : public Scheme {
         Responses responses = receive_responses(window, cast);
         do responses = play_round(window, responses, cast, result);
         while (!result.joint->converged && result.joint->rounds < most_rounds_);
-        for (int rank = 0; rank < cast.fluid->ranks(); ++rank)
-            cast.fluid->send(rank, Kind::accept, {});
+        send_accept(cast);
         finish_window(window, before, cast, result);
         return result;
     }
 
  private:
-    static Responses receive_responses(const Window& window, Cast& cast) {
-        cast.watch.wait_for(*cast.fluid, Kind::response);
-        Responses responses;
-        for (const Responses& share : cast.fluid->take<Responses>(Kind::response))
-            responses.insert(responses.end(), share.begin(), share.end());
-        demand_finite(responses, window);
-        return responses;
-    }
-
     /// One contact solve and what the fluid says to it.
     Responses play_round(const Window& window, const Responses& responses, Cast& cast,
                          WindowResult& result) const {
         cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses));
         const ContactReport so_far = result.motion.report;
-        result.motion = receive_motion(cast);
+        result.motion = receive_motion(window, cast);
         result.motion.report.iterations += so_far.iterations;
         result.motion.report.wall_seconds += so_far.wall_seconds;
 
@@ -96,8 +73,25 @@ class Joint final : public Scheme {
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_joint(const Settings& settings) {
-    return std::make_unique<Joint>(settings);
+SchemeEntry joint_scheme() {
+    return {.name = "joint",
+            .help = "contacts solved with the fluid's effective inertia",
+            .fluid = {{Kind::window, from_coupler},
+                      {Kind::bodies, from_coupler},
+                      {Kind::response, to_coupler},
+                      {Kind::constraint, from_coupler, Times::per_round},
+                      {Kind::response, to_coupler, Times::per_round},
+                      {Kind::accept, from_coupler},
+                      {Kind::kicks, to_coupler}},
+            .grains = {{Kind::window, from_coupler},
+                       {Kind::contact_input, from_coupler, Times::per_round},
+                       {Kind::motion, to_coupler, Times::per_round},
+                       {Kind::kick, from_coupler},
+                       {Kind::state, to_coupler}},
+            .slip_per_mismatch = 0.1,
+            .make = [](const Settings& settings) -> std::unique_ptr<Scheme> {
+                return std::make_unique<Joint>(settings);
+            }};
 }
 
 }  // namespace turbidite

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
-#include "coupler/hub/kick.hpp"
+#include "coupler/hub/kick_rule.hpp"
 #include "tests/unit/coupler/test_case.hpp"
 
 namespace turbidite {
@@ -24,7 +24,7 @@ struct OneDisc {
     }
 };
 
-TEST(Kick, ForceIsMultipliersPlusDisplacedInertia) {
+TEST(KickRule, ForceIsMultipliersPlusDisplacedInertia) {
     OneDisc disc;
     disc.kicks[0].velocity = {0.5, -0.2, 0.0};
     disc.kicks[0].angular_velocity = {0.0, 0.0, 2.0};
@@ -36,7 +36,7 @@ TEST(Kick, ForceIsMultipliersPlusDisplacedInertia) {
 }
 
 // Step 4: M_eff (U4 - Un) = M_sub g dt + Jc; step 5: M_eff (U1 - U4) = J. The balance must close.
-TEST(Kick, BalanceClosesForAConsistentWindowAndOnlyThen) {
+TEST(KickRule, BalanceClosesForAConsistentWindowAndOnlyThen) {
     OneDisc disc;
     const double m_eff = pi / 8;
     disc.contact.grains[0].contact_impulse = {0.01, 0.02, 0.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/transport/exchange_plan.hpp"
+#include "coupler/hub/exchange_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>
     const auto tells = [](const Motion& share) { return share.contacts.has_value(); };
     if (std::none_of(shares.begin(), shares.end(), tells)) return std::nullopt;
     if (!std::all_of(shares.begin(), shares.end(), tells))
-        throw PhysicsRefused("only some grains ranks told their contacts");
+        throw PhysicsRefused("only some grains ranks sent their contacts");
     std::vector<ContactRecord> all;
     for (const Motion& share : shares)
         all.insert(all.end(), share.contacts->begin(), share.contacts->end());
@@ -79,18 +79,22 @@ Motion ExchangePlan::gather(const std::vector<Motion>& shares) {
     owner_.clear();
     owners_ = shares.size();
     for (std::size_t rank = 0; rank < shares.size(); ++rank) {
-        for (const GrainState& grain : shares[rank].grains)
-            if (!owner_.emplace(grain.id, static_cast<int>(rank)).second)
-                throw PhysicsRefused("grain " + std::to_string(grain.id) + " was sent twice");
         all.grains.insert(all.grains.end(), shares[rank].grains.begin(), shares[rank].grains.end());
+        owner_.resize(all.grains.size(), static_cast<int>(rank));
         add(all.report, shares[rank].report);
     }
+    if (const auto twice = index_.follow(all.grains))
+        throw PhysicsRefused("grain " + std::to_string(*twice) + " was sent twice");
     all.contacts = all_contacts(shares);
-    for (const ContactRecord& contact : all.contacts.value_or(std::vector<ContactRecord>{}))
-        for (const GrainId id : {contact.b, contact.wall < 0 ? contact.a : contact.b})
-            if (owner_.count(id) == 0)
-                throw PhysicsRefused(name_of(contact) + " names a grain that nobody sent");
+    if (all.contacts) demand_owned(*all.contacts);
     return all;
+}
+
+void ExchangePlan::demand_owned(const std::vector<ContactRecord>& contacts) const {
+    for (const ContactRecord& contact : contacts)
+        for (const GrainId id : {contact.b, contact.wall < 0 ? contact.a : contact.b})
+            if (index_.place(id) == GrainIndex::nowhere)
+                throw PhysicsRefused(name_of(contact) + " names a grain that nobody sent");
 }
 
 std::vector<Motion> ExchangePlan::by_place(const Motion& motion) const {
@@ -104,22 +108,28 @@ std::vector<Motion> ExchangePlan::by_place(const Motion& motion) const {
     return routed;
 }
 
+void ExchangePlan::refuse_missing(const std::vector<bool>& answered) const {
+    const auto first = std::find(answered.begin(), answered.end(), false);
+    throw PhysicsRefused("the fluid did not answer for " +
+                         std::to_string(std::count(answered.begin(), answered.end(), false)) +
+                         " grains, among them " +
+                         std::to_string(index_.id(first - answered.begin())) +
+                         ": is it outside the fluid's domain?");
+}
+
 template <class Record>
 std::vector<std::vector<Record>> ExchangePlan::by_owner(const std::vector<Record>& records) const {
     std::vector<std::vector<Record>> routed(owners_);
-    std::unordered_map<GrainId, int> missing = owner_;
+    std::vector<bool> answered(index_.size(), false);
     for (const Record& record : records) {
-        const auto at = missing.find(record.id);
-        if (at == missing.end())
+        const std::size_t at = index_.place(record.id);
+        if (at == GrainIndex::nowhere || answered[at])
             throw PhysicsRefused("the fluid answered for grain " + std::to_string(record.id) +
-                                 (owner_.count(record.id) ? " twice" : ", which nobody owns"));
-        routed[at->second].push_back(record);
-        missing.erase(at);
+                                 (at != GrainIndex::nowhere ? " twice" : ", which nobody owns"));
+        routed[owner_[at]].push_back(record);
+        answered[at] = true;
     }
-    if (!missing.empty())
-        throw PhysicsRefused("the fluid did not answer for " + std::to_string(missing.size()) +
-                             " grains, among them " + std::to_string(missing.begin()->first) +
-                             ": is it outside the fluid's domain?");
+    if (records.size() < index_.size()) refuse_missing(answered);
     return routed;
 }
 

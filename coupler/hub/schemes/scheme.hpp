@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A scheme is the order in which one window is played: the messages that each side sends and
+// receives, as data, and the coupler's part in them. It only moves messages; what the numbers mean
+// is the participants' business, who react to messages and know no scheme. A new scheme is one file
+// beside this one and one line in scheme_list.cpp.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/hub/exchange_plan.hpp"
+#include "coupler/hub/kick_rule.hpp"
+#include "coupler/hub/watch.hpp"
+#include "coupler/output/window_result.hpp"
+
+namespace turbidite {
+
+/// Everybody a scheme talks to.
+struct Cast {
+    ParticipantLink& grains;
+    ParticipantLink* fluid;  ///< null in dry runs
+    Watch& watch;
+    ExchangePlan& plan;
+    KickRule& kick_rule;
+};
+
+class Scheme {
+ public:
+    virtual ~Scheme() = default;
+    /// `before` is the state at t^n.
+    virtual WindowResult play(const Window& window, const Motion& before, Cast cast) = 0;
+};
+
+struct SchemeEntry {
+    const char* name;  ///< of coupling.scheme and run.scheme
+    const char* help;  ///< half a sentence, for the list of keys
+    Order fluid;       ///< empty when there is no fluid
+    Order grains;
+    /// Slips are solved this much below coupling.tolerance, so that what contacts and fluid
+    /// disagree by is that of the inertia and not of the solve; 0: coupling.tolerance is not used.
+    double slip_per_mismatch;
+    std::unique_ptr<Scheme> (*make)(const Settings&);
+
+    const Order& order(Role role) const { return role == Role::fluid ? fluid : grains; }
+
+    /// rms slip at which step 5 is solved [u_c]: run.slip_tolerance.
+    double slip_tolerance(const Settings& settings) const;
+};
+
+const std::vector<SchemeEntry>& scheme_list();
+
+/// "dry" when there is no fluid, otherwise coupling.scheme: run.scheme.
+std::string scheme_name(const Settings& settings);
+
+/// Throws std::invalid_argument, which names the known ones.
+const SchemeEntry& find_scheme(const std::string& name);
+
+SchemeEntry split_scheme();
+SchemeEntry joint_scheme();
+SchemeEntry dry_scheme();
+
+}  // namespace turbidite

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/run_output.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace turbidite {
+
+RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
+                     const Settings& settings, const ShapeTable& shapes)
+    : wet_(settings.flag("fluid.enabled")),
+      history_(history, settings, shapes),
+      grains_(series, shapes),
+      contacts_(series),
+      statistics_(settings) {}
+
+void RunOutput::begin(Motion state) {
+    last_.state = std::move(state);
+    history_.append(row());
+    grains_.write(0.0, 0, 1.0, last_.state, {});
+    lap();
+}
+
+/// Seconds since the last one: windows follow each other, so these add up to the run.
+double RunOutput::lap() {
+    const Clock::time_point before = std::exchange(lap_, Clock::now());
+    return std::chrono::duration<double>(lap_ - before).count();
+}
+
+void RunOutput::record(const Window& window, WindowResult result, double waited) {
+    window_ = window;
+    last_ = std::move(result);
+    statistics_.take_in(last_);
+    WallTimes spent;
+    spent.step = lap();
+    spent.fluid = last_.kicks.report.wall_seconds;
+    spent.grains = last_.motion.report.wall_seconds + last_.state.report.wall_seconds;
+    spent.coupling = std::max(0.0, spent.step - waited);
+    since_row_.take_in(spent, last_.motion.report.converged);
+}
+
+Row RunOutput::row() const {
+    Row row;
+    row.state = &last_.state;
+    row.step = statistics_.windows_done;
+    if (row.step == 0) return row;
+    row.time = static_cast<double>(row.step) * window_.step;
+    row.contact = &last_.motion.report;
+    row.fluid = wet_ ? &last_.kicks.report : nullptr;
+    row.joint = last_.joint ? &*last_.joint : nullptr;
+    row.grain_balance = last_.grain_balance;
+    row.since = since_row_;
+    return row;
+}
+
+void RunOutput::write() {
+    const Row now = row();
+    grains_.write(now.time, now.step, window_.step, last_.state, last_.kicks.kicks);
+    contacts_.write(now.time, now.step, window_.step, last_.state);
+    history_.append(now);
+    since_row_ = {};
+}
+
+}  // namespace turbidite

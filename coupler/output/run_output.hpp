@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// All that a run writes of its windows: one row of history.csv and one piece of each series per
+// output, and what the windows amount to.
+#pragma once
+
+#include <chrono>
+
+#include "coupler/output/contact_series.hpp"
+#include "coupler/output/grain_series.hpp"
+#include "coupler/output/history.hpp"
+
+namespace turbidite {
+
+class RunOutput {
+ public:
+    /// `history`: the file; `series`: the folder of grains.pvd.
+    RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
+              const Settings& settings, const ShapeTable& shapes);
+
+    /// Writes the state at t = 0.
+    void begin(Motion state);
+
+    /// Takes in a window that holds, `waited` [s] of whose time went into waiting for participants.
+    void record(const Window& window, WindowResult result, double waited);
+
+    /// Writes the last window: its row, grains and contacts.
+    void write();
+
+    /// The state where the last window ended.
+    const Motion& state() const { return last_.state; }
+
+    /// What the last window has to say of itself; before the first, of the start.
+    Row row() const;
+
+    const RunStatistics& statistics() const { return statistics_; }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    double lap();
+
+    bool wet_;
+    History history_;
+    GrainSeries grains_;
+    ContactSeries contacts_;
+    RunStatistics statistics_;
+    SinceRow since_row_;
+    Window window_;
+    WindowResult last_;
+    Clock::time_point lap_ = Clock::now();
+};
+
+}  // namespace turbidite

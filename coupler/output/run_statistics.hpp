@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the windows of a run amount to: largest values, windows whose solves did not converge, wall
+// times.
+#pragma once
+
+#include <vector>
+
+#include "coupler/output/window_result.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// Seconds of a window, or means per window.
+struct WallTimes {
+    double step = 0.0;      ///< the whole window
+    double fluid = 0.0;     ///< in the fluid adapter's own work
+    double grains = 0.0;    ///< in the grains adapter's own work
+    double coupling = 0.0;  ///< in the coupler: routing, checks, output
+};
+
+/// What is summed over the windows since the last row.
+struct SinceRow {
+    std::int64_t windows = 0;
+    std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance
+    WallTimes wall;
+
+    void take_in(const WallTimes& spent, bool converged);
+};
+
+/// Scaled natural map of every window's contact solve, of adapters that have one.
+class ContactResiduals {
+ public:
+    void take_in(const ContactReport& report);
+    bool empty() const { return values_.empty(); }
+    /// 0 without windows, infinite when one was not a number.
+    double largest() const;
+    /// The smallest value that `share` of the windows do not exceed, 0 < share <= 1.
+    double quantile(double share) const;
+
+ private:
+    std::vector<double> values_;
+};
+
+/// Over the windows of a run with a fluid.
+struct FluidMaxima {
+    double divergence = 0.0;        ///< after step 1 [u_c/D]
+    double final_divergence = 0.0;  ///< after step 5, of windows with output [u_c/D]
+    double courant = 0.0;
+    double balance = 0.0;                  ///< FluidReport::momentum_defect
+    double slip = 0.0;                     ///< rms at the points where a solve ended [u_c]
+    std::int64_t unconverged_windows = 0;  ///< ended by fluid.multiplier_iterations
+};
+
+/// Over the windows of a run whose scheme solves contacts in rounds.
+struct JointMaxima {
+    std::int64_t rounds = 0;
+    double mismatch = 0.0;                 ///< where a window ended [u_c]
+    std::int64_t unconverged_windows = 0;  ///< ended by coupling.iterations
+};
+
+struct RunMaxima {
+    double penetration = 0.0;              ///< [D]
+    double grain_balance = 0.0;            ///< KickRule::defect
+    std::int64_t unconverged_windows = 0;  ///< contact solves that did not reach their tolerance
+    std::optional<FluidMaxima> fluid;      ///< empty in dry runs
+    std::optional<JointMaxima> joint;      ///< empty under other schemes
+};
+
+class RunStatistics {
+ public:
+    RunStatistics() = default;
+
+    /// Reads run.diameter and run.velocity_scale.
+    explicit RunStatistics(const Settings& settings);
+
+    void take_in(const WindowResult& result);
+
+    std::int64_t windows_done = 0;
+    RunMaxima maxima;
+    ContactResiduals contact_residuals;
+
+ private:
+    void take_in(const FluidReport& report);
+    void take_in(const JointReport& report);
+
+    double diameter_ = 1.0, velocity_ = 1.0;  ///< D [m], u_c [m/s]
+};
+
+/// What a user must know of solves that ended by their limits, a sentence each with the keys to
+/// change; empty when all converged.
+std::vector<std::string> unconverged_sentences(const RunStatistics& statistics,
+                                               const Settings& settings);
+
+}  // namespace turbidite

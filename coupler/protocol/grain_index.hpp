@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Where a grain stands in a list of grains. Lists come every window and hardly ever change
+// their members, so an index is kept as long as it fits. Valid C++17.
+#pragma once
+
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+
+namespace turbidite {
+
+class GrainIndex {
+ public:
+    static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+
+    GrainIndex() = default;
+    explicit GrainIndex(const std::vector<GrainState>& grains) { follow(grains); }
+
+    /// Returns the first id that comes twice, if there is one; the index is of no use then.
+    std::optional<GrainId> follow(const std::vector<GrainState>& grains) {
+        if (fits(grains)) return std::nullopt;
+        ids_.clear();
+        places_.clear();
+        places_.reserve(grains.size());
+        for (const GrainState& grain : grains) {
+            if (!places_.emplace(grain.id, ids_.size()).second) return grain.id;
+            ids_.push_back(grain.id);
+        }
+        return std::nullopt;
+    }
+
+    std::size_t size() const { return ids_.size(); }
+    GrainId id(std::size_t place) const { return ids_[place]; }
+
+    /// `nowhere` for an id that is not in the list.
+    std::size_t place(GrainId id) const {
+        const auto at = places_.find(id);
+        return at == places_.end() ? nowhere : at->second;
+    }
+
+ private:
+    bool fits(const std::vector<GrainState>& grains) const {
+        return std::equal(ids_.begin(), ids_.end(), grains.begin(), grains.end(),
+                          [](GrainId id, const GrainState& grain) { return id == grain.id; });
+    }
+
+    std::vector<GrainId> ids_;
+    std::unordered_map<GrainId, std::size_t> places_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE's scene of a coupled run with the contact engine.
+
+Bodies, walls, materials and engines are YADE's own and open to recorders and plots; contacts and motion are
+the contact engine's, called once per window by a PyRunner.
+"""
+import math
+
+import turbidite_contact
+import users_script
+from yade import *
+from yade import utils
+from yade.minieigenHP import Vector3
+
+# One window of the coupled run, called by YADE's loop.
+WINDOW = 'import nscd_scene; nscd_scene.play_window()'
+_playing = None
+
+
+def play_window():
+    if _playing is None or _playing.participant is None:
+        raise RuntimeError('no coupled run goes on here: grains.script makes no steps, and a scene that was saved '
+                           'goes on without the fluid by turbidite_contact.attach()')
+    _playing.play_window()
+
+
+class Store:
+    """Settings and impulses of the contacts in YADE's scene, where turbidite_contact finds them."""
+
+    # Units of the keys of a case, by key of the group contact.
+    UNITS = {'recovery_speed': 'run.velocity_scale', 'restitution_speed': 'run.velocity_scale',
+             'adhesion_range': 'run.diameter', 'adhesion_length': 'run.diameter',
+             'adhesion_force': 'run.grain_weight'}
+
+    def __init__(self, case):
+        options = {key.removeprefix('contact.'): value for key, value in case.items()
+                   if key.startswith('contact.') and key.count('.') == 1 and key != 'contact.friction'}
+        for key, unit in self.UNITS.items():
+            if key in options:
+                options[key] = repr(float(options[key]) * float(case[unit]))
+        self.settings = {'gravity': [0.0, -float(case['run.gravity']), 0.0], 'show': 0, 'options': options}
+        self.engine = turbidite_contact.memory.holder(self.settings)
+
+    def keep(self, contacts):
+        turbidite_contact.memory.write(self.engine, self.settings, contacts)
+
+
+class Scene:
+    """Builds YADE's bodies for the grains of a case, takes away those that leave, and plays the windows."""
+
+    def __init__(self):
+        self.body_of = {}  # grain id -> body id
+        self.labels = []   # of YADE's materials, by the grains' index
+        self.case = {}
+        self.script = None       # users_script
+        self.participant = None  # turbidite_yade.Participant, when windows are played
+        self.engine_error = None
+
+    def create(self, settings, grains):
+        """Adds walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
+        self.case = settings
+        self._create_materials(settings, grains[0]['density'] if grains else 1.0)
+        self._create_walls(settings)
+        states, turns = [], []
+        for grain in grains:
+            body = self._create_polygon(grain) if grain['vertices'] else self._create_disc(grain)
+            turns.append(axes_of(body) if grain['vertices'] else None)
+            state = body.state
+            # Of a body per unit length, with the inertia that contacts see.
+            state.mass = grain['mass']
+            state.inertia = Vector3(0.5, 0.5, 1) * grain['inertia']
+            state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else 'zXY'
+            state.vel = grain['velocity']
+            state.angVel = grain['angular_velocity']
+            self.body_of[grain['id']] = O.bodies.append(body)
+            states.append(O.bodies[self.body_of[grain['id']]].state)
+        O.dt = float(settings['run.step'])
+        return states, turns
+
+    def _create_materials(self, settings, density):
+        """For the scene's own use; the contact engine has its own table of them."""
+        for name in ['grains'] + settings.get('run.materials', '').split():
+            friction = settings.get('contact.materials.%s.friction' % name, settings['contact.friction'])
+            O.materials.append(FrictMat(
+                density=density, frictionAngle=math.atan(float(friction)), label=name))
+            self.labels.append(name)
+
+    def _create_disc(self, grain):
+        return utils.sphere(grain['position'], grain['radius'], material=self.labels[grain['material']])
+
+    def _create_polygon(self, grain):
+        """YADE turns it to its principal axes; the participant writes the orientation with those."""
+        body = turbidite_contact.polygon(grain['vertices'], material=self.labels[grain['material']])
+        body.state.pos = grain['position']
+        return body
+
+    def _create_walls(self, settings):
+        sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
+                 'bottom': (1, 0.0, 1), 'top': (1, float(settings['run.size_y']), -1)}
+        self.sides = [O.bodies.append(utils.wall(position, axis, sense=sense, material='grains'))
+                      for side, (axis, position, sense) in sides.items() if settings['domain.' + side] == 'wall']
+
+    def side_states(self):
+        """Of the sides that are walls: left, right, bottom, top."""
+        return [O.bodies[i].state for i in self.sides]
+
+    def create_plates(self, half_lengths):
+        """Walls inside the box, along x around the origin; the participant puts and moves them.
+
+        A facet's position is the centre of its inscribed circle: of these triangles the middle of the line in
+        which they cross z = 0, from -h to h.
+        """
+        root = math.sqrt(3)
+        corners = [((-1.5 * h, 0, -0.5 * root * h), (1.5 * h, 0, -0.5 * root * h), (0, 0, root * h))
+                   for h in half_lengths]
+        ids = [O.bodies.append(utils.facet(triangle, material='grains')) for triangle in corners]
+        return [O.bodies[i].state for i in ids]
+
+    def complete(self):
+        """Bodies stand where they belong: the engines, and what the user adds to the scene."""
+        global _playing
+        _playing = self
+        self.store = Store(self.case)
+        O.engines = [PyRunner(command=WINDOW, iterPeriod=1, label='turbidite'), self.store.engine]
+        self.script = users_script.complete_scene(self.case)
+
+    def begin_window(self, index, moved):
+        if self.engine_error is not None:
+            raise self.engine_error
+        self.script.check(moved)
+
+    def play(self, participant):
+        """An engine that fails between two windows is reported in the next one, where the job hears of it."""
+        self.participant = participant
+        try:
+            O.run(wait=True)
+        except RuntimeError as error:
+            self.engine_error = error
+            participant.step()
+
+    def play_window(self):
+        """A scene saved after it keeps the contacts' impulses."""
+        if not self.participant.step():
+            O.pause()
+        self.store.keep(self.participant.contacts())
+
+    def erase(self, ids):
+        bodies = [self.body_of.pop(grain) for grain in ids]
+        self.script.expect_fewer(bodies)
+        for body in bodies:
+            O.bodies.erase(body)
+
+
+def axes_of(body):
+    """Orientation of a body as it was made, (w, x, y, z)."""
+    ori = body.state.ori
+    return ori[3], ori[0], ori[1], ori[2]

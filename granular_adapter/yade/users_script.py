@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""grains.script: a Python file of the user's that adds to the scene of a coupled run.
+
+It runs once, when bodies and engines are there and before the first window, among YADE's own names as any YADE
+script. What it may not touch is what the coupling stands on: O.dt, the engines that are there, and the bodies;
+all of it is looked at when the file is through and again before every window. Fault names the file.
+"""
+import os
+import sys
+
+import __main__
+from yade import *
+
+
+class Fault(Exception):
+    """The script has changed what belongs to the case."""
+
+
+def complete_scene(settings):
+    """Runs the script of the case, if there is one; returns what to check before every window."""
+    if not settings.get('grains.script'):
+        return NoScript()
+    return Script(os.path.join(sys.argv[1], settings['grains.script']))
+
+
+class NoScript:
+    def check(self, moved=None):
+        pass
+
+    def expect_fewer(self, bodies):
+        pass
+
+
+class Script:
+    def __init__(self, file):
+        self.file = file
+        self.step, self.engines = O.dt, list(O.engines)
+        self.bodies, self.count = {body.id: body for body in O.bodies}, len(O.bodies)
+        begin = (O.iter, self._motions())
+        self._run()
+        if O.iter != begin[0]:
+            self._refuse('made steps (O.run, O.step) or loaded a scene', 'the coupled run makes the steps')
+        self.check()
+        for body, motion in self._motions().items():
+            if motion != begin[1][body]:
+                self._refuse(f'moved body {body} or changed its mass, size or degrees of freedom',
+                             'grains begin as the case says: use grains.file')
+
+    def _run(self):
+        with open(self.file) as source:
+            code = compile(source.read(), self.file, 'exec')
+        exec(code, vars(__main__))
+
+    def _motions(self):
+        return {i: self._motion(O.bodies[i]) for i in self.bodies if O.bodies[i] is not None}
+
+    @staticmethod
+    def _motion(body):
+        state = body.state
+        return (tuple(state.pos), tuple(state.ori), tuple(state.vel), tuple(state.angVel), state.mass,
+                tuple(state.inertia), state.blockedDOFs, getattr(body.shape, 'radius', None))
+
+    def check(self, moved=None):
+        """Before every window; `moved` is the grain that somebody but the coupling has moved."""
+        if O.dt != self.step:
+            self._refuse(f'changed O.dt from {self.step} to {O.dt}', 'use time.step, or contact.md_substeps')
+        self._check_engines()
+        self._check_bodies()
+        if moved is not None:
+            self._refuse(f'moved grain {moved} or changed its velocity',
+                         'the fluid moves grains too and would not know of it')
+
+    def _check_engines(self):
+        present = list(O.engines)
+        places = [next((k for k, engine in enumerate(present) if engine is ours), None) for ours in self.engines]
+        for ours, place in zip(self.engines, places):
+            name = f'{type(ours).__name__} {ours.label}'.strip()
+            if place is None:
+                self._refuse(f'took away the engine {name}', 'O.engines = O.engines + [...] adds some')
+        if places != sorted(places):
+            self._refuse('put the engines of the case into another order', 'keep it and add others')
+
+    def _check_bodies(self):
+        if len(O.bodies) != self.count:
+            self._refuse(f'added {len(O.bodies) - self.count} bodies', 'bodies are those of the case: use grains.file')
+        for i in self.bodies:
+            if O.bodies[i] is None:
+                self._refuse(f'erased body {i}', 'bodies are those of the case')
+
+    def expect_fewer(self, bodies):
+        """The coupling itself erases these."""
+        for i in bodies:
+            del self.bodies[i]
+
+    def _refuse(self, deed, remedy):
+        raise Fault(f'grains.script: {self.file} {deed}, which belongs to the case; {remedy}')

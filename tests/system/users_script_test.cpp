@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// grains.script: what a user adds to YADE's scene of a coupled run, with both hosts, and what is refused.
+#include <sstream>
+
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+const std::string program = TURBIDITE_PROGRAM;
+
+constexpr auto wet_case = R"(
+domain: {size: [6, 6], left: wall, right: wall, bottom: wall, top: wall}
+grains: {adapter: yade-nscd, file: grains.csv, script: mine.py, density_ratio: 1.5}
+fluid: {reynolds: 36, cells_per_diameter: 8}
+coupling: {scheme: split}
+time: {step: 0.0125, end: 0.25}
+output: {interval: 0.125}
+)";
+
+/// Notes where grain 0 (the last body but one) is, five times, and saves the scene in window 15.
+constexpr auto recorder = R"(
+heights = []
+def note():
+    heights.append(O.bodies[len(O.bodies) - 2].state.pos[1])
+    with open('FOLDER/heights.txt', 'w') as out:
+        out.write('\n'.join('%.17g' % height for height in heights))
+def save():
+    O.save('FOLDER/saved.yade.gz')
+O.engines = O.engines + [PyRunner(command='note()', virtPeriod=0.05 * TIME), PyRunner(command='save()', virtPeriod=0.18 * TIME)]
+O.save('FOLDER/first.yade.gz')
+)";
+
+class UsersScript : public ShellTest {
+ protected:
+    void SetUp() override {
+        scratch.write("grains.csv", "id,x,y\n0,2,4\n1,4.5,0.52\n");
+        scratch.write("case.yaml", wet_case);
+    }
+
+    void script(std::string text) const {
+        for (const auto& [word, value] :
+             {std::pair<std::string, std::string>{"FOLDER", scratch.path().string()}, {"TIME", "1.0"}})
+            for (auto at = text.find(word); at != std::string::npos; at = text.find(word))
+                text.replace(at, word.size(), value);
+        scratch.write("mine.py", text);
+    }
+
+    Answer run(const std::string& options = "") const {
+        return shell(program + " run case.yaml" + into_run_folder() + options);
+    }
+
+    /// The script's doing ends the run with this code; the words name the file and the deed.
+    void expect_refused(const std::string& text, const std::string& deed, const std::string& options = "") const {
+        script(text);
+        const Answer answer = run(" --force" + options);
+        EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+        EXPECT_SAYS(answer.err, "grains/mine.py");
+        EXPECT_SAYS(answer.err, deed);
+        EXPECT_EQ(record().at("exit_code"), 4);
+    }
+
+    std::vector<double> heights() const {
+        std::istringstream lines(text(scratch.path() / "heights.txt"));
+        std::vector<double> values;
+        for (double value; lines >> value;) values.push_back(value);
+        return values;
+    }
+};
+
+const std::string md = " --set grains.adapter=yade-md";
+
+TEST_F(UsersScript, RecordsAndSavesBesideTheContactEngine) {
+    script(recorder);
+    const Answer answer = run();
+    ASSERT_EQ(answer.code, 0) << answer.out << answer.err;
+    const std::vector<double> seen = heights();
+    ASSERT_GE(seen.size(), 4u);
+    EXPECT_LT(seen.back(), seen.front()) << "the grain falls";
+    EXPECT_TRUE(std::filesystem::exists(run_folder() / "grains/mine.py")) << "the run folder holds a copy";
+
+    // Both scenes load in YADE; the one of the run goes on without the fluid.
+    scratch.write("load.py", R"(
+import turbidite_contact
+for name in ('first', 'saved'):
+    O.load(')" + scratch.path().string() + R"(/%s.yade.gz' % name)
+    O.engines = [engine for engine in O.engines if engine.label.startswith('turbidite')]
+    turbidite_contact.attach(gravity=(0, -1, 0))
+    before = O.bodies[len(O.bodies) - 2].state.pos[1]
+    O.run(20, True)
+    print(name, len(O.bodies), 'falls' if O.bodies[len(O.bodies) - 2].state.pos[1] < before else 'stands')
+)");
+    const Answer loaded = shell(program + " yade load.py");
+    EXPECT_EQ(loaded.code, 0) << loaded.out << loaded.err;
+    EXPECT_SAYS(loaded.out, "first 6 falls");
+    EXPECT_SAYS(loaded.out, "saved 6 falls");
+}
+
+TEST_F(UsersScript, RecordsAndSavesBesideMolecularDynamics) {
+    script(recorder);
+    const Answer answer = run(md);
+    ASSERT_EQ(answer.code, 0) << answer.out << answer.err;
+    const std::vector<double> seen = heights();
+    ASSERT_GE(seen.size(), 4u);
+    EXPECT_LT(seen.back(), seen.front());
+    scratch.write("load.py", "O.load('" + scratch.path().string() + R"(/saved.yade.gz')
+O.engines = [engine for engine in O.engines if type(engine).__name__ != 'PyRunner']
+before = O.bodies[len(O.bodies) - 2].state.pos[1]
+O.run(200, True)
+print(len(O.bodies), 'falls' if O.bodies[len(O.bodies) - 2].state.pos[1] < before else 'stands')
+)");
+    const Answer loaded = shell(program + " yade load.py");
+    EXPECT_EQ(loaded.code, 0) << loaded.out << loaded.err;
+    EXPECT_SAYS(loaded.out, "6 falls");
+}
+
+// What a recorder sees must not depend on its being there.
+TEST_F(UsersScript, ChangesNoDigitOfTheRun) {
+    script(recorder);
+    const auto physics = [&](const std::string& options) {
+        EXPECT_EQ(run(" --force" + options).code, 0);
+        std::istringstream history(text(run_folder() / "history.csv"));
+        std::string kept;
+        for (std::string row; std::getline(history, row);) {
+            std::size_t end = 0;
+            for (int column = 0; column < 19; ++column) end = row.find(',', end) + 1;
+            kept += row.substr(0, end) + "\n";
+        }
+        return kept;
+    };
+    const std::string with = physics("");
+    EXPECT_EQ(with, physics(" --set grains.script=~"));
+    EXPECT_EQ(std::count(with.begin(), with.end(), '\n'), 4);
+}
+
+TEST_F(UsersScript, WhatBelongsToTheCaseIsRefusedByName) {
+    expect_refused("O.dt = 0.5 * O.dt\n", "changed O.dt from 0.0125 to 0.00625");
+    expect_refused("O.engines = []\n", "took away the engine PyRunner turbidite");
+    expect_refused("O.bodies.erase(4)\n", "erased body 4");
+    expect_refused("from yade import utils\nO.bodies.append(utils.sphere((1, 1, 0), 0.1))\n", "added 1 bodies");
+    expect_refused("O.bodies[4].state.vel = (1, 0, 0)\n", "moved body 4");
+    expect_refused("1 / 0\n", "ZeroDivisionError");
+    expect_refused("O.engines = O.engines[:-1]\n", "took away the engine NewtonIntegrator", md);
+    expect_refused("O.engines = O.engines[::-1]\n", "put the engines of the case into another order", md);
+}
+
+// Later on as well, before the next window.
+TEST_F(UsersScript, WhatAnEngineOfTheScriptDoesIsLookedAtInEveryWindow) {
+    const std::string every = "O.engines = O.engines + [PyRunner(command='meddle()', iterPeriod=1)]\n";
+    expect_refused("def meddle():\n    if O.iter > 3: O.dt = 1.0\n" + every, "changed O.dt");
+    expect_refused("def meddle():\n    if O.iter > 3: O.bodies[4].state.pos = (3, 3, 0)\n" + every, "moved grain 0");
+    EXPECT_GE(record().at("windows_done"), 3);
+    expect_refused("def meddle():\n    if O.iter > 300: O.dt = 1.0\n" + every, "changed O.dt", md);
+}
+
+TEST_F(UsersScript, AnErrorInOneOfItsEnginesEndsTheRun) {
+    script("def fail():\n    if O.iter > 3: raise ValueError('no such column')\n"
+           "O.engines = O.engines + [PyRunner(command='fail()', iterPeriod=1)]\n");
+    for (const std::string& options : {std::string(), md}) {
+        const Answer answer = run(" --force" + options);
+        EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+        EXPECT_SAYS(answer.err, "grains rank 0 (host ");
+        EXPECT_SAYS(answer.err, "no such column");
+    }
+}
+
+TEST_F(UsersScript, IsCheckedBeforeAnythingStarts) {
+    const auto check = [&](const std::string& options) { return shell(program + " check case.yaml" + options); };
+    Answer answer = check("");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err, "grains.script");
+    EXPECT_SAYS(answer.err, "mine.py");
+    script("pass\n");
+    EXPECT_EQ(check("").code, 0);
+    answer = check(" --set grains.adapter=standalone-nscd");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err, "A script runs inside YADE");
+    scratch.write("mine.txt", "");
+    answer = check(" --set grains.script=mine.txt");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err, "ends with .py");
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A whole job without MPI: the hub, scripted participants in threads, loopback channels between. And what it wrote.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "coupler/participant/scripted.hpp"
+#include "coupler/participant/session.hpp"
+#include "coupler/transport/loopback_channel.hpp"
+#include "tests/unit/coupler/test_case.hpp"
+
+namespace turbidite {
+
+inline constexpr double drag = 0.3;
+
+struct Job {
+    Settings settings = test_settings();
+    int grains_ranks = 1, fluid_ranks = 1;
+    Fault grains_fault, fluid_fault;
+    LoopbackChannel::Hook to_grains;
+    std::string adapter = "scripted";
+    std::string hash = "0123456789abcdef";
+    std::optional<double> floor;  // of the grains
+    double inertia_error = 0.0;   // of the fluid
+    LoopbackChannel::Hook to_fluid;
+    LoopbackChannel::Hook from_fluid, from_grains;
+    std::optional<SchemeEntry> scheme;  // instead of run.scheme
+
+    RunStatus status;
+    std::vector<Outcome> outcomes;
+
+    void run(const TestFolder& folder) {
+        const bool wet = settings.flag("fluid.enabled");
+        settings.set("grains.ranks", std::int64_t{grains_ranks});
+        settings.set("fluid.ranks", std::int64_t{fluid_ranks});
+        auto [grains, grains_ends] = LoopbackChannel::connect(grains_ranks);
+        auto [fluid, fluid_ends] = LoopbackChannel::connect(fluid_ranks);
+        grains->set_hook(to_grains);
+        fluid->set_hook(to_fluid);
+        for (const auto& end : fluid_ends) end->set_hook(from_fluid);
+        for (const auto& end : grains_ends) end->set_hook(from_grains);
+        outcomes.resize(grains_ranks + fluid_ranks);
+
+        std::vector<std::thread> threads;
+        for (int rank = 0; rank < grains_ranks; ++rank)
+            threads.emplace_back([&, rank, end = grains_ends[rank].get()] {
+                ScriptedGrains adapter_object(adapter, grains_fault);
+                if (floor) adapter_object.lay_floor(*floor);
+                outcomes[rank] = live(*make_session(adapter_object, *end, identity(rank, grains_ranks)));
+            });
+        for (int rank = 0; wet && rank < fluid_ranks; ++rank)
+            threads.emplace_back([&, rank, end = fluid_ends[rank].get()] {
+                ScriptedFluid adapter_object(drag, rank, fluid_ranks, fluid_fault);
+                adapter_object.misjudge_inertia(inertia_error);
+                outcomes[grains_ranks + rank] =
+                    live(*make_session(adapter_object, *end, identity(rank, fluid_ranks)));
+            });
+        {
+            Hub hub({settings, {{"disc", {}}}, test_population()}, folder.files(), *grains,
+                    wet ? fluid.get() : nullptr, scheme ? *scheme : find_scheme(settings.text("run.scheme")));
+            status = hub.run();
+        }
+        for (std::thread& thread : threads) thread.join();
+    }
+
+   private:
+    Identity identity(int rank, int ranks) const { return {rank, ranks, "a.log", hash}; }
+    static Outcome live(Session& session) {
+        for (bool going = session.start(); going; going = session.step()) {
+        }
+        return session.outcome();
+    }
+};
+
+using Rows = std::vector<std::vector<std::string>>;
+
+inline Rows read_csv(const std::filesystem::path& file) {
+    Rows rows;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        rows.emplace_back();
+        std::stringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    }
+    return rows;
+}
+
+inline std::size_t column(const std::vector<std::string>& header, const std::string& name) {
+    return std::find(header.begin(), header.end(), name) - header.begin();
+}
+
+/// A row counts from the header.
+inline double cell(const Rows& rows, std::size_t row, const std::string& name) {
+    const std::string& text = rows.at(row).at(column(rows[0], name));
+    return text.empty() ? NAN : std::stod(text);
+}
+
+}  // namespace turbidite
