@@ -35,6 +35,20 @@ void subtract_product(Eigen::Matrix3d& c, const Eigen::Matrix3d& a, const Eigen:
     c.noalias() -= a.lazyProduct(b);
 }
 
+/// The four blocks of A D A^T that contact c adds, as take(index, row, column, block) with bodies
+/// as rows and columns; one block where nothing but b moves.
+template <class Take>
+void each_block(const ScaledContact& c, const Eigen::Matrix3d& d, const Take& take) {
+    using Block = Eigen::Matrix3d;
+    const Block by_b = d.lazyProduct(c.at_b);
+    take(0, c.b, c.b, Block(c.at_b.transpose().lazyProduct(by_b)));
+    if (c.a < 0) return;
+    const Block by_a = d.lazyProduct(c.at_a);
+    take(1, c.a, c.a, Block(c.at_a.transpose().lazyProduct(by_a)));
+    take(2, c.a, c.b, Block(-c.at_a.transpose().lazyProduct(by_b)));
+    take(3, c.b, c.a, Block(-c.at_b.transpose().lazyProduct(by_a)));
+}
+
 }  // namespace
 
 BodyFactors::BodyFactors(const ScaledContacts& contacts) : contacts_(contacts) {
@@ -100,17 +114,10 @@ void BodyFactors::assemble(const ContactBlocks& d) {
     const std::size_t n = contacts_.bodies();
     for (std::size_t i = 0; i < blocks_.size(); ++i)
         blocks_[i] = i < n ? Block(Block::Identity()) : Block(Block::Zero());
-    for (std::size_t k = 0; k < contacts_.size(); ++k) {
-        const ScaledContact& c = contacts_[k];
-        const std::int32_t* at = &of_contact_[4 * k];
-        const Block by_b = d[k].lazyProduct(c.at_b);
-        blocks_[at[0]] += c.at_b.transpose().lazyProduct(by_b);
-        if (c.a < 0) continue;
-        const Block by_a = d[k].lazyProduct(c.at_a);
-        blocks_[at[1]] += c.at_a.transpose().lazyProduct(by_a);
-        blocks_[at[2]] -= c.at_a.transpose().lazyProduct(by_b);
-        blocks_[at[3]] -= c.at_b.transpose().lazyProduct(by_a);
-    }
+    for (std::size_t k = 0; k < contacts_.size(); ++k)
+        each_block(contacts_[k], d[k], [&](int i, std::int32_t, std::int32_t, const Block& block) {
+            blocks_[of_contact_[4 * k + i]] += block;
+        });
 }
 
 bool BodyFactors::eliminate() {
@@ -176,21 +183,14 @@ bool BodyFactors::accurate(const ContactBlocks& d) const {
 
 bool BodyFactors::factorise_pivoting(const ContactBlocks& d) {
     std::vector<Eigen::Triplet<double>> entries;
-    const auto add = [&](std::int32_t row, std::int32_t column, const Block& block) {
+    const auto add = [&](int, std::int32_t row, std::int32_t column, const Block& block) {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 entries.emplace_back(3 * row + i, 3 * column + j, block(i, j));
     };
     const auto n = static_cast<std::int32_t>(contacts_.bodies());
-    for (std::int32_t i = 0; i < n; ++i) add(i, i, Block::Identity());
-    for (std::size_t k = 0; k < contacts_.size(); ++k) {
-        const ScaledContact& c = contacts_[k];
-        add(c.b, c.b, c.at_b.transpose() * d[k] * c.at_b);
-        if (c.a < 0) continue;
-        add(c.a, c.a, c.at_a.transpose() * d[k] * c.at_a);
-        add(c.a, c.b, -c.at_a.transpose() * d[k] * c.at_b);
-        add(c.b, c.a, -c.at_b.transpose() * d[k] * c.at_a);
-    }
+    for (std::int32_t i = 0; i < n; ++i) add(0, i, i, Block::Identity());
+    for (std::size_t k = 0; k < contacts_.size(); ++k) each_block(contacts_[k], d[k], add);
     Matrix j(3 * n, 3 * n);
     j.setFromTriplets(entries.begin(), entries.end());
     if (!analysed_) full_.analyzePattern(j), analysed_ = true;

@@ -14,6 +14,12 @@ constexpr double least_z = 1e-3;     ///< of z
 constexpr int most_corrections = 4;
 constexpr double stalling = 0.9;  ///< reduction of the deviation that is none
 constexpr int shortenings = 40, trials = 14;
+// Where the convex stage ends. Later, what s has to change is no longer smooth, and curves in s
+// turn; earlier, more of the way is left to the last stage (docs/decisions.md).
+constexpr double convex_z = 1e-2;
+// |s| that one correction takes to zero.
+constexpr double nearly_coulomb = 0.02;
+constexpr double first_length = 0.1;
 // Below this, products in units of the problem, velocities are rounding.
 constexpr double least_product = 5e-15;
 
@@ -21,13 +27,13 @@ constexpr double least_product = 5e-15;
 
 /// Around the base, lengths in relative changes.
 struct CentralPath::Prediction {
-    PathChange tangent;     ///< per ln z
+    PathChange tangent;     ///< per ln z or s
     PathChange correction;  ///< onto the curve, across the tangent
     PathChange first, second;
 };
 
 CentralPath::CentralPath(const ScaledContacts& contacts, double size)
-    : system_(contacts, size), point_(system_.start()) {}
+    : system_(contacts, size), point_(system_.start()), length_(first_length) {}
 
 bool CentralPath::linearise() {
     ++factorisations_;
@@ -56,6 +62,7 @@ bool CentralPath::predict(const PathPoint& base, const Prediction& p) {
         add(change, length_, p.first);
         add(change, 0.5 * length_ * length_, p.second);
         if (!(base.z + change.z > least_z * base.z) ||
+            base.association + change.association < -nearly_coulomb ||
             !(system_.decrease(base, change) < 1.0 - least_left))
             continue;
         point_ = base;
@@ -83,6 +90,33 @@ bool CentralPath::correct(const PathPoint& base, const PathChange& tangent, std:
     }
 }
 
+void CentralPath::enter_next_stage(std::int64_t budget) {
+    if (associated_ && point_.z <= convex_z) {
+        associated_ = false;
+        system_.follow(PathParameter::association);
+        length_ = first_length;
+    } else if (system_.parameter() == PathParameter::association &&
+               point_.association <= nearly_coulomb && reach_coulomb(budget)) {
+        length_ = first_length;
+    }
+}
+
+/// Corrects onto the curve with s = 0 and goes on in z. False when that does not converge: nothing
+/// has changed then.
+bool CentralPath::reach_coulomb(std::int64_t budget) {
+    const PathPoint base = point_;
+    point_.association = 0.0;
+    system_.follow(PathParameter::products);
+    if (linearise()) {
+        const PathChange change = system_.correction(), tangent = system_.tangent();
+        add(point_, std::min(1.0, 0.9 / system_.decrease(point_, change)), change);
+        if (correct(base, tangent, budget)) return true;
+    }
+    system_.follow(PathParameter::association);
+    point_ = base;
+    return false;
+}
+
 bool CentralPath::advance(std::int64_t budget) {
     if (factorisations_ >= budget || system_.product(point_) < least_product || !linearise())
         return false;
@@ -93,6 +127,7 @@ bool CentralPath::advance(std::int64_t budget) {
         const bool ready = predict(base, p);
         if (ready && correct(base, p.tangent, budget)) {
             length_ *= corrections_ < 2 ? 2.5 : corrections_ == 2 ? 1.3 : 0.7;
+            enter_next_stage(budget);
             return true;
         }
         if (!ready && trial > 0) break;

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Follows the curve of a PathSystem from z = 1 to z -> 0. Where friction makes the problem
-// non-monotone the curve turns back in z and later forward again, so its length is the parameter,
-// not z: relative changes of all factors count. Which way is on says the sign of the determinant of
-// the linear equations, which changes at every turn. A step is
+// Follows the curves of a PathSystem to a solution, in three stages:
+//
+//     z: 1 -> 1e-2    associated, hence convex: a central path without turns
+//     s: 1 -> 0       to Coulomb's law, still smooth enough that turns are rare
+//     z: 1e-2 -> 0    to the exact law
+//
+// Where friction makes the problem non-monotone a curve turns back in its parameter and later
+// forward again, so its length is the parameter: relative changes of all factors count. The sign of
+// the determinant of the linear equations, which changes at every turn, says which direction leads
+// on. A step is
 //
 //     second-order prediction, as long as products stay positive and near tau z;
 //     Newton corrections across the curve until they are
@@ -36,11 +42,14 @@ class CentralPath {
     Prediction prediction();
     bool predict(const PathPoint& base, const Prediction& prediction);
     bool correct(const PathPoint& base, const PathChange& tangent, std::int64_t budget);
+    void enter_next_stage(std::int64_t budget);
+    bool reach_coulomb(std::int64_t budget);
 
     PathSystem system_;
     PathPoint point_;
-    double length_ = 0.1;  ///< of the next step, in relative changes
-    int corrections_ = 0;  ///< of the last step
+    bool associated_ = true;  ///< first stage
+    double length_;           ///< of the next step, in relative changes
+    int corrections_ = 0;     ///< of the last step
     std::int64_t factorisations_ = 0;
 };
 

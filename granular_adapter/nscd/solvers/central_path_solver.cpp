@@ -15,9 +15,10 @@ namespace {
 
 // As long as a path of fifty factorisations, in large packings.
 constexpr std::int64_t sweeps_per_turn = 8000;
-// Sizes that paths start from (path_system.hpp), in turn, and how long the first may be.
-constexpr std::array<double, 6> sizes = {10.0, 1.0, 100.0, 3.0, 30.0, 300.0};
-constexpr std::int64_t first_budget = 300, paths_per_budget = 3, most_doublings = 5;
+// Sizes that paths start from (path_system.hpp), in turn, and how many factorisations the first may
+// take; each time all sizes have been tried, twice as many.
+constexpr std::array<double, 4> sizes = {30.0, 10.0, 100.0, 300.0};
+constexpr std::int64_t first_budget = 1500, most_doublings = 5;
 // Sweeps finish what is below `finishing`, or are tried again at less than `retry` of it.
 constexpr double finishing = 1e-5, retry = 0.3;
 constexpr std::int64_t finishing_sweeps = 200;
@@ -57,8 +58,8 @@ class Search {
 
     SolverResult result() {
         best_.iterations = used_;
-        best_.velocities = body_velocities(problem_, best_.impulses);
-        best_.change = measures(problem_, w_, best_.velocities, best_.impulses, floor_).change;
+        if (on_path_)
+            best_.change = measures(problem_, w_, best_.velocities, best_.impulses, floor_).change;
         return std::move(best_);
     }
 
@@ -77,16 +78,18 @@ class Search {
         if (looked_ && !(result.residual < best_.residual)) return;
         best_ = std::move(result);
         looked_ = true;
+        on_path_ = false;
     }
 
     double look(const ScaledContacts& contacts, const PathPoint& point) {
         latest_.impulses.resize(contacts.size());
         for (std::size_t k = 0; k < contacts.size(); ++k)
             latest_.impulses[k] = contacts.physical(k, point.r[k]);
-        latest_.residual = natural_map_residual(
-            problem_, w_, body_velocities(problem_, latest_.impulses), latest_.impulses, floor_);
+        latest_.velocities = body_velocities(problem_, latest_.impulses);
+        latest_.residual =
+            natural_map_residual(problem_, w_, latest_.velocities, latest_.impulses, floor_);
         latest_.converged = latest_.residual <= settings_.tolerance;
-        take_if_better(latest_);
+        if (latest_.residual < best_.residual) best_ = latest_, on_path_ = true;
         return latest_.residual;
     }
 
@@ -96,6 +99,7 @@ class Search {
     double floor_;
     SolverResult best_, latest_;
     bool looked_ = false;
+    bool on_path_ = false;  ///< `best_` is a point of a path: quad and max are not measured yet
     std::int64_t used_ = 0;
 };
 
@@ -111,7 +115,7 @@ SolverResult CentralPathSolver::solve(const ContactProblem& problem, const Impul
         const ScaledContacts contacts(problem, search.delassus());
         for (std::size_t turn = 0; !search.over(); ++turn) {
             const std::int64_t doublings =
-                std::min<std::int64_t>(most_doublings, turn / paths_per_budget);
+                std::min<std::int64_t>(most_doublings, turn / sizes.size());
             search.follow(contacts, sizes[turn % sizes.size()], first_budget << doublings);
             if (!search.over()) search.sweep();
         }

@@ -11,19 +11,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector = Eigen::VectorXd;
 
-// Added to Theta: a proximal term. Persistent contacts have Theta -> 0, and beyond 1/firmness the
-// motions that are free would drown in the rounding of those that are not. Costs nothing at the
-// solution, where impulses do not change any more. Relative to W_nn.
+// A proximal term: Theta + firmness 1 instead of Theta. Contacts that neither open nor slide have
+// Theta -> 0, and where 1/Theta is above 1/firmness, the motions that are free would be lost in the
+// rounding of those that are not. The term vanishes at the solution, where impulses do not change
+// any more. In units of W_nn.
 constexpr double firmness = 1e-7;
 
 constexpr int most_refinements = 10;
 constexpr double refined = 1e-11;  ///< relative change that is small enough
 constexpr double halting = 0.9;    ///< reduction per refinement that is not worth another
-
-/// E b.
-Vector3d velocity_of(const Pairs& b) {
-    return {b[0], b[1] - b[2], b[3] - b[4]};
-}
 
 /// A r.
 Vector bodies_of(const ScaledContacts& contacts, const std::vector<Vector3d>& r) {
@@ -49,6 +45,7 @@ void add(PathPoint& to, double factor, const PathChange& change) {
         }
     }
     to.z += factor * change.z;
+    to.association += factor * change.association;
 }
 
 PathSystem::PathSystem(const ScaledContacts& contacts, double size)
@@ -69,12 +66,12 @@ PathSystem::PathSystem(const ScaledContacts& contacts, double size)
         for (int i = 0; i < 5; ++i)
             if (has(k, i)) start_.b[k][i] = tau_ / start_.a[k][i];
         const Vector3 u = contacts.velocity(k, y) + contacts[k].free;
-        Vector3 e = velocity_of(start_.b[k]) - u;
+        Vector3 e = velocity_of(k, start_.b[k], start_.association) - u;
         if (!has(k, 1)) e[1] = 0.0;
         if (!has(k, 3)) e[2] = 0.0;
         offset_.push_back(e);
     }
-    theta_.resize(n), inverse_.resize(n);
+    stiffness_.resize(n), inverse_.resize(n);
 }
 
 double PathSystem::limit(std::size_t k, int pair) const {
@@ -90,34 +87,60 @@ Pairs PathSystem::impulse_sides(std::size_t k, const Vector3& r) const {
     return a;
 }
 
+/// How fast the contact would open at s = 1: mu (p + m), and the same for rolling.
+double PathSystem::dilation(std::size_t k, const Pairs& b) const {
+    return limit(k, 1) * (b[1] + b[2]) + limit(k, 3) * (b[3] + b[4]);
+}
+
+/// E b.
+PathSystem::Vector3 PathSystem::velocity_of(std::size_t k, const Pairs& b,
+                                            double association) const {
+    return {b[0] + association * dilation(k, b), b[1] - b[2], b[3] - b[4]};
+}
+
 /// u + z e - E b, zero in directions that nothing resists.
 PathSystem::Vector3 PathSystem::defect(std::size_t k) const {
-    Vector3 d =
-        contacts_.velocity(k, y_) + contacts_[k].free + at_.z * offset_[k] - velocity_of(at_.b[k]);
+    Vector3 d = contacts_.velocity(k, y_) + contacts_[k].free + at_.z * offset_[k] -
+                velocity_of(k, at_.b[k], at_.association);
     if (!has(k, 1)) d[1] = 0.0;
     if (!has(k, 3)) d[2] = 0.0;
     return d;
 }
 
-/// Theta; rows of directions that nothing resists are zero.
-Matrix3d PathSystem::stiffness(std::size_t k) const {
+/// Theta + firmness, with l = mu or the rolling limit, p = b/a of a pair's first and m of its
+/// second side:
+///
+///     Theta_nn = b_n/a_n + sum s l^2 (p + m)      Theta_nd = s l (p - m)
+///     Theta_dn = l (p - m)                        Theta_dd = p + m
+///
+/// Rows of directions that nothing resists are zero. The pivot is written without the difference
+/// (p + m) - (p - m)^2 / (p + m), which would cancel where a contact slides.
+PathSystem::Stiffness PathSystem::stiffness(std::size_t k) const {
     const Pairs &a = at_.a[k], &b = at_.b[k];
-    Matrix3d theta = Matrix3d::Zero();
-    theta(0, 0) = b[0] / a[0] + firmness;
+    Stiffness result;
+    Matrix3d& theta = result.theta;
+    theta(0, 0) = result.normal = b[0] / a[0] + firmness;
     for (int d = 1; d < 3; ++d) {
         const int up = 2 * d - 1, down = 2 * d;
         if (!has(k, up)) continue;
-        const double p = b[up] / a[up], m = b[down] / a[down];
-        theta(d, 0) = limit(k, up) * (p - m);
+        const double l = limit(k, up), p = b[up] / a[up], m = b[down] / a[down];
+        const double dilating = at_.association * l * l;
+        theta(d, 0) = l * (p - m);
+        theta(0, d) = at_.association * theta(d, 0);
         theta(d, d) = p + m + firmness;
+        theta(0, 0) += dilating * (p + m);
+        result.normal += dilating * (4.0 * p * m + firmness * (p + m)) / theta(d, d);
     }
-    return theta;
+    return result;
 }
 
 /// Theta^-1 right, zero in directions that nothing resists.
 PathSystem::Vector3 PathSystem::flexible(std::size_t k, const Vector3& right) const {
-    const Matrix3d& theta = theta_[k];
-    Vector3 x(right[0] / theta(0, 0), 0.0, 0.0);
+    const Matrix3d& theta = stiffness_[k].theta;
+    Vector3 x(right[0], 0.0, 0.0);
+    for (int d = 1; d < 3; ++d)
+        if (theta(d, d) > 0.0) x[0] -= theta(0, d) / theta(d, d) * right[d];
+    x[0] /= stiffness_[k].normal;
     for (int d = 1; d < 3; ++d)
         if (theta(d, d) > 0.0) x[d] = (right[d] - theta(d, 0) * x[0]) / theta(d, d);
     return x;
@@ -127,7 +150,7 @@ bool PathSystem::linearise(const PathPoint& at) {
     at_ = at;
     y_ = bodies_of(contacts_, at.r);
     for (std::size_t k = 0; k < at.r.size(); ++k) {
-        theta_[k] = stiffness(k);
+        stiffness_[k] = stiffness(k);
         for (int d = 0; d < 3; ++d) inverse_[k].col(d) = flexible(k, Vector3::Unit(d));
     }
     return factors_.factorise(inverse_);
@@ -155,9 +178,9 @@ std::vector<Vector3d> PathSystem::solve(const std::vector<Vector3>& right) const
         if (i > 0 && last < refined) break;
         unbalanced = bodies_of(contacts_, r) - y;
         for (std::size_t k = 0; k < n; ++k) {
-            rest[k] = right[k] - theta_[k] * r[k] - contacts_.velocity(k, y);
+            rest[k] = right[k] - stiffness_[k].theta * r[k] - contacts_.velocity(k, y);
             for (int d = 1; d < 3; ++d)
-                if (!(theta_[k](d, d) > 0.0)) rest[k][d] = 0.0;
+                if (!(stiffness_[k].theta(d, d) > 0.0)) rest[k][d] = 0.0;
         }
     }
     return r;
@@ -172,7 +195,7 @@ PathChange PathSystem::change(const Target& target, const Row& row) const {
         Pairs b{};
         for (int i = 0; i < 5; ++i)
             if (has(k, i)) b[i] = target(k, i) / at_.a[k][i];
-        right[k] = velocity_of(b) - row(k);
+        right[k] = velocity_of(k, b, at_.association) - row(k);
     }
     PathChange result;
     result.r = solve(right);
@@ -183,14 +206,21 @@ PathChange PathSystem::change(const Target& target, const Row& row) const {
             if (has(k, i))
                 result.b[k][i] = (target(k, i) - at_.b[k][i] * result.a[k][i]) / at_.a[k][i];
     }
-    result.z = 0.0;
+    result.z = result.association = 0.0;
     return result;
 }
 
+/// d(a b) = tau dz,   E db = A^T A dr + dz e - ds (dilation, 0, 0).
 PathChange PathSystem::tangent() const {
-    PathChange result = change([this](std::size_t, int) { return tau_ * at_.z; },
-                               [this](std::size_t k) { return Vector3(at_.z * offset_[k]); });
-    result.z = at_.z;
+    const bool products = parameter_ == PathParameter::products;
+    const double dz = products ? at_.z : 0.0, ds = products ? 0.0 : 1.0;
+    PathChange result =
+        change([&](std::size_t, int) { return tau_ * dz; },
+               [&](std::size_t k) {
+                   return Vector3(dz * offset_[k] - ds * dilation(k, at_.b[k]) * Vector3::UnitX());
+               });
+    result.z = dz;
+    result.association = ds;
     return result;
 }
 
@@ -199,9 +229,13 @@ PathChange PathSystem::correction() const {
                   [this](std::size_t k) { return defect(k); });
 }
 
+/// d2(a b) = 2 da db + a d2b + b d2a = 0,   E d2b = A^T A d2r - 2 ds (dilation of db, 0, 0).
 PathChange PathSystem::curvature(const PathChange& velocity) const {
     return change([&](std::size_t k, int i) { return -2.0 * velocity.a[k][i] * velocity.b[k][i]; },
-                  [](std::size_t) { return Vector3(Vector3::Zero()); });
+                  [&](std::size_t k) {
+                      const double dilating = velocity.association * dilation(k, velocity.b[k]);
+                      return Vector3(-2.0 * dilating * Vector3::UnitX());
+                  });
 }
 
 double PathSystem::deviation(const PathPoint& at) const {
@@ -217,7 +251,8 @@ double PathSystem::deviation(const PathPoint& at) const {
 }
 
 double PathSystem::dot(const PathPoint& at, const PathChange& x, const PathChange& y) const {
-    double sum = static_cast<double>(at.r.size()) * (x.z / at.z) * (y.z / at.z);
+    const double parameters = (x.z / at.z) * (y.z / at.z) + x.association * y.association;
+    double sum = static_cast<double>(at.r.size()) * parameters;
     for (std::size_t k = 0; k < at.r.size(); ++k)
         for (int i = 0; i < 5; ++i)
             if (has(k, i))
