@@ -110,7 +110,8 @@ void add_law_notes(const Settings& s, std::vector<std::string>& notes) {
     if (constexpr std::int64_t enough = 20000;
         s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
         notes.push_back(fmt::format(
-            "contact.iterations = {} leaves contact.solver: central-path with its first sweeps; "
+            "contact.iterations = {} leaves contact.solver: central-path, an interior-point method, "
+            "with its first sweeps; "
             "{} is the least that is of use, 1000000 solves hard packings",
             s.integer("contact.iterations"), enough));
 }

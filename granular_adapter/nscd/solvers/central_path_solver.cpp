@@ -16,9 +16,9 @@ namespace {
 // As long as a path of fifty factorisations, in large packings.
 constexpr std::int64_t sweeps_per_turn = 8000;
 // Sizes that paths start from (path_system.hpp), in turn, and how many factorisations the first may
-// take; each time all sizes have been tried, twice as many.
+// take; each time all sizes have been tried, four times as many.
 constexpr std::array<double, 4> sizes = {30.0, 10.0, 100.0, 300.0};
-constexpr std::int64_t first_budget = 1500, most_doublings = 5;
+constexpr std::int64_t first_budget = 400, growth = 4, most_growths = 4;
 // Sweeps finish what is below `finishing`, or are tried again at less than `retry` of it.
 constexpr double finishing = 1e-5, retry = 0.3;
 constexpr std::int64_t finishing_sweeps = 200;
@@ -36,6 +36,14 @@ class Search {
     bool over() const { return best_.converged || left() <= 0; }
 
     void sweep() { take_if_better(sweeps_from(best_.impulses, sweeps_per_turn)); }
+
+    void try_all_sizes(const ScaledContacts& contacts, std::int64_t budget) {
+        for (const double size : sizes) {
+            follow(contacts, size, budget);
+            if (over()) return;
+            sweep();
+        }
+    }
 
     void follow(const ScaledContacts& contacts, double size, std::int64_t budget) {
         CentralPath path(contacts, size);
@@ -113,11 +121,10 @@ SolverResult CentralPathSolver::solve(const ContactProblem& problem, const Impul
     search.sweep();
     if (!search.over()) {
         const ScaledContacts contacts(problem, search.delassus());
-        for (std::size_t turn = 0; !search.over(); ++turn) {
-            const std::int64_t doublings =
-                std::min<std::int64_t>(most_doublings, turn / sizes.size());
-            search.follow(contacts, sizes[turn % sizes.size()], first_budget << doublings);
-            if (!search.over()) search.sweep();
+        std::int64_t budget = first_budget;
+        for (int growths = 0; !search.over(); ++growths) {
+            search.try_all_sizes(contacts, budget);
+            if (growths < most_growths) budget *= growth;
         }
     }
     return search.result();

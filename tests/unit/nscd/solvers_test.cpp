@@ -230,6 +230,21 @@ TEST(CentralPath, SolvesPerfectLatticesThatHaveHardlyMoved) {
     }
 }
 
+// The paper's column at 14 x 28 D after 0.1 t_c. A path that starts under Coulomb's law turns back
+// about a hundred times here and is not through after 10,000 iterations, nor after 30,000 on the
+// column of bench/tight_column.cpp.
+TEST(CentralPath, TakesFewIterationsOnALargerYoungLattice) {
+    const ContactProblem problem = young_lattice(14, 32, 11);
+    ASSERT_GT(problem.contacts.size(), 1200u);
+    SolverSettings settings = tight(1e-8);
+    settings.max_iterations = 10000;
+    EXPECT_GT(solve("nlgs", problem, settings).residual, 1e-5);
+    const SolverResult result = solve("central-path", problem, settings);
+    EXPECT_TRUE(result.converged) << result.residual;
+    EXPECT_GT(result.iterations, 8000);
+    EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
+}
+
 TEST(CentralPath, GivesTheSameBitsTwiceAfterALongPath) {
     const ContactProblem problem = young_lattice(8, 17, 40);
     SolverSettings settings = tight(1e-8);
