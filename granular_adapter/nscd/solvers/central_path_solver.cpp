@@ -16,9 +16,9 @@ namespace {
 // As long as a path of fifty factorisations, in large packings.
 constexpr std::int64_t sweeps_per_turn = 8000;
 // Sizes that paths start from (path_system.hpp), in turn, and how many factorisations the first may
-// take; each time all sizes have been tried, four times as many.
+// take; each time all sizes have been tried, twice as many.
 constexpr std::array<double, 4> sizes = {30.0, 10.0, 100.0, 300.0};
-constexpr std::int64_t first_budget = 400, growth = 4, most_growths = 4;
+constexpr std::int64_t first_budget = 1000, growth = 2, most_growths = 6;
 // Sweeps finish what is below `finishing`, or are tried again at less than `retry` of it.
 constexpr double finishing = 1e-5, retry = 0.3;
 constexpr std::int64_t finishing_sweeps = 200;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// For tight tolerances. Sweeps of `nlgs` come first, since they solve what is easy fastest. Then
-// the central path (path_system.hpp, central_path.hpp), which leads to a solution from far away and
-// through what makes sweeps and Newton methods cycle. Its last digits are sweeps again: from near
-// the middle of the solutions a few dozen are enough.
+// An interior-point method for tight tolerances. Sweeps of `nlgs` come first, since they solve what
+// is easy fastest. Then the central path (path_system.hpp, central_path.hpp), which leads to a
+// solution from far away, where sweeps and Newton methods cycle. Its last digits are sweeps again:
+// from near the middle of the solutions a few dozen are enough.
 //
-// A path may turn very often or end in rounding. Then the next one starts elsewhere, and every
-// third time they may be twice as long.
+// A path may turn very often or end in rounding. Then the next one starts elsewhere, and when all
+// starts have been tried, paths may be longer.
 #pragma once
 
 #include "granular_adapter/nscd/solvers/solver.hpp"
