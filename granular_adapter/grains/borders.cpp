@@ -25,6 +25,16 @@ std::string place(const Vec3& x) {
     return text;
 }
 
+std::string named(const nscd::Bodies& bodies, std::size_t i) {
+    return "grain " + std::to_string(bodies.id[i]) + " at " + place(bodies.position[i]);
+}
+
+[[noreturn]] void refuse_not_a_number(const nscd::Bodies& bodies, std::size_t i,
+                                      const std::string& when) {
+    throw PhysicsRefused(named(bodies, i) + " has a position or velocity that is not a number, " +
+                         when + "; use a smaller time.step");
+}
+
 void check_pairs(const std::vector<Border>& borders) {
     for (std::size_t low = 0; low < borders.size(); low += 2)
         if ((borders[low].side == BorderKind::cyclic) !=
@@ -62,21 +72,29 @@ std::vector<nscd::Wall> walls_of(const std::vector<Border>& borders) {
     return walls;
 }
 
+void check_velocities(const nscd::Bodies& bodies, const std::string& when) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (!is_finite(bodies.twist[i].velocity) || !is_finite(bodies.twist[i].spin))
+            refuse_not_a_number(bodies, i, when);
+}
+
+void check_places(const nscd::Bodies& bodies, const std::vector<Border>& borders,
+                  const std::string& when) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (!is_finite(bodies.position[i])) refuse_not_a_number(bodies, i, when);
+    for (const Border& border : borders) {
+        if (border.side != BorderKind::wall) continue;
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            if (signed_distance(border.plane, bodies.position[i]) < 0.0)
+                throw PhysicsRefused(named(bodies, i) + " has its centre beyond the " +
+                                     border.name + " wall, " + when + "; use a smaller time.step");
+    }
+}
+
 void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders,
                   const std::string& when) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const std::string who =
-            "grain " + std::to_string(bodies.id[i]) + " at " + place(bodies.position[i]);
-        if (!is_finite(bodies.position[i]) || !is_finite(bodies.twist[i].velocity) ||
-            !is_finite(bodies.twist[i].spin))
-            throw PhysicsRefused(who + " has a position or velocity that is not a number, " + when +
-                                 "; use a smaller time.step");
-        for (const Border& border : borders)
-            if (border.side == BorderKind::wall &&
-                signed_distance(border.plane, bodies.position[i]) < 0.0)
-                throw PhysicsRefused(who + " has its centre beyond the " + border.name + " wall, " +
-                                     when + "; use a smaller time.step");
-    }
+    check_velocities(bodies, when);
+    check_places(bodies, borders, when);
 }
 
 std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,

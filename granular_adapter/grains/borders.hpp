@@ -35,8 +35,15 @@ std::vector<Border> lay_borders(const Settings& settings);
 /// The walls among them.
 std::vector<nscd::Wall> walls_of(const std::vector<Border>& borders);
 
-/// Throws PhysicsRefused naming a grain whose place or velocity is not a number or whose centre is
-/// beyond a wall; `when` ends the sentence ("in window 3").
+/// Throws PhysicsRefused naming a grain whose velocity is not a number; `when` ends the sentence
+/// ("in window 3").
+void check_velocities(const nscd::Bodies& bodies, const std::string& when);
+
+/// The same for a place that is not a number or a centre beyond a wall.
+void check_places(const nscd::Bodies& bodies, const std::vector<Border>& borders,
+                  const std::string& when);
+
+/// Both.
 void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders,
                   const std::string& when);
 

@@ -31,6 +31,18 @@ std::string in_window(const Window& window) {
     return "in window " + std::to_string(window.index);
 }
 
+ContactReport report_of(const nscd::StepReport& step) {
+    ContactReport report;
+    report.contacts = step.contacts;
+    report.iterations = step.iterations;
+    report.residual = step.residual;
+    report.quad = step.change.quad;
+    report.max = step.change.max;
+    report.converged = step.converged;
+    report.max_penetration = step.max_penetration;
+    return report;
+}
+
 nscd::Engine& initialised(const std::unique_ptr<nscd::Engine>& engine) {
     if (!engine) throw std::logic_error("the contact engine is asked before initialise()");
     return *engine;
@@ -87,17 +99,10 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     begin_round();
     check_inside(bodies(), borders_, in_window(window) + " before contacts");
     set_velocities(engine().walls(), moved_walls_, window.time, window.step);
-    report_ = {};
-    report_.max_penetration = engine().max_penetration();
     const nscd::StepReport step = solve_contacts(window, responses);
-    check_inside(bodies(), borders_, in_window(window) + " after contacts");
+    check_velocities(bodies(), in_window(window) + " after contacts");
     contact_twists_ = bodies().twist;
-    report_.contacts = step.contacts;
-    report_.iterations = step.iterations;
-    report_.residual = step.residual;
-    report_.quad = step.change.quad;
-    report_.max = step.change.max;
-    report_.converged = step.converged;
+    report_ = report_of(step);
     report_.wall_seconds = watch.seconds();
     return motion();
 }
@@ -125,7 +130,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
         throw std::logic_error("apply_kick needs an advance of the same window before it");
     dumps_.after(window, engine().problem());
     if (fluid_ || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
-    check_inside(bodies(), borders_, in_window(window) + " after the kick");
+    check_velocities(bodies(), in_window(window) + " after the kick");
     std::optional<std::vector<ContactRecord>> contacts;
     if (window.write_output) contacts = contact_records(engine());
     const bool with_contact = answered_ || positions_ == Positions::contact;
@@ -133,9 +138,9 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
     contact_twists_.clear();
     remove_leavers();
-    check_inside(bodies(), borders_, in_window(window) + " after motion");
+    check_places(bodies(), borders_, in_window(window) + " after motion");
     report_.removed = static_cast<std::int64_t>(removed_.size());
-    report_.max_penetration = engine().max_penetration();
+    report_.max_penetration = engine().max_penetration_after_move();
     Motion result = motion();
     if (contacts) drop_contacts_of(removed_, *contacts);
     result.contacts = std::move(contacts);

@@ -2,11 +2,11 @@
 #include "granular_adapter/nscd/engine/engine.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
-#include "granular_adapter/nscd/detection/broad_phase.hpp"
-#include "granular_adapter/nscd/detection/contact_order.hpp"
 #include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
+#include "granular_adapter/nscd/detection/reach.hpp"
 #include "granular_adapter/nscd/engine/engine_state.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
@@ -19,46 +19,9 @@ namespace {
 // by rounding does not flicker. Larger only costs time.
 constexpr double alert_share = 0.02;
 
-// Contacts whose heights differ by less than this share of the smallest radius count as side by
-// side. Larger ones mix rows, which costs sweeps.
-constexpr double one_height = 0.01;
-
 // A step is solved again while turning polygons would overlap by more than this share of a radius.
 constexpr double turn_share = 1e-5;
 constexpr int turn_rounds = 2;
-
-/// Upper bound of |u_rel| between any two bodies or a body and a wall: the diagonal of the box that
-/// holds all velocities and zero.
-double speed_range(const std::vector<Twist>& twists) {
-    Vec3 low{}, high{};
-    for (const Twist& twist : twists)
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], twist.velocity[axis]);
-            high[axis] = std::max(high[axis], twist.velocity[axis]);
-        }
-    return norm(high - low);
-}
-
-/// Fastest that a corner moves about its own centre.
-double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
-    double fastest = 0.0;
-    for (std::size_t i = 0; i < twists.size(); ++i)
-        fastest = std::max(fastest, bodies.radius[i] * std::abs(twists[i].spin[2]));
-    return fastest;
-}
-
-/// Fastest that a wall moves where a body is.
-double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
-    double fastest = 0.0;
-    for (const Wall& wall : walls) {
-        fastest = std::max(fastest, norm(wall.velocity));
-        if (wall.spin == 0.0) continue;
-        for (std::size_t i = 0; i < bodies.size(); ++i)
-            fastest = std::max(fastest, norm(velocity_at(wall, bodies.position[i])) +
-                                            std::abs(wall.spin) * bodies.radius[i]);
-    }
-    return fastest;
-}
 
 std::vector<BodyMobility> mobilities(const Bodies& bodies) {
     std::vector<BodyMobility> result;
@@ -83,7 +46,7 @@ void check_step(double dt) {
 
 Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls)
     : settings_(settings),
-      narrow_phase_(shapes),
+      detection_(shapes, settings.box),
       walls_(std::move(walls)),
       laws_(settings.law, settings.law_settings, surface_table(settings), shapes, settings.laws),
       solver_(make_solver(settings.solver, settings.solvers)) {
@@ -114,32 +77,36 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
             "a contact step needs one free velocity and one mobility per "
             "body");
     check_periods(bodies_.radius, settings_.box);
-    points_ = detect(std::max(reach(free, dt), laws_.law().range()), alert_share);
-    const std::vector<ContactKey> names = keys();
-    const DetectedContacts contacts{points_, names, bodies_, walls_};
-    problem_ = laws_.pose(contacts, free, std::move(mobilities), dt);
-    guess_.clear();
-    for (const ContactKey& name : names) guess_.push_back(memory_.guess(name, dt));
+    detect(free, dt);
+    pose(free, std::move(mobilities), dt);
     SolverResult result = solve(dt);
-    memory_.remember(names, result.impulses, dt);
-    laws_.find_states(contacts, result.impulses);
-    impulses_ = laws_.felt(result.impulses);
-    solution_ = std::move(result.impulses);
-    hand_out(result.velocities);
-    StepReport report{static_cast<std::int64_t>(points_.size()),
-                      static_cast<std::int64_t>(memory_.contacts().size()),
-                      result.iterations,
-                      result.residual,
-                      result.change,
-                      result.converged};
-    return report;
+    return hand_out(std::move(result), dt);
+}
+
+/// Every point that may close within the step.
+void Engine::detect(const std::vector<Twist>& free, double dt) {
+    const bool corners = detection_.has_corners();
+    reach_ = std::max({approach_bound(bodies_, walls_, free, corners, dt),
+                       approach_bound(bodies_, walls_, bodies_.twist, corners, dt),
+                       laws_.law().range()});
+    check_periods(bodies_.radius, settings_.box);
+    points_ = detection_.points(bodies_, walls_, settings_.gravity, reach_, alert_share);
+    keys_.clear();
+    for (const ContactPoint& point : points_) keys_.push_back(key(point));
+}
+
+/// The problem of these points under the laws, and what the last step's impulses say about it.
+void Engine::pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt) {
+    problem_ = laws_.pose({points_, keys_, bodies_, walls_}, free, std::move(mobilities), dt);
+    guess_.clear();
+    for (const ContactKey& key : keys_) guess_.push_back(memory_.guess(key, dt));
 }
 
 /// Where polygons turn fast, again with the gaps that the turn leaves (corner_turn.hpp); sweeps are
 /// those of all solves.
 SolverResult Engine::solve(double dt) {
     SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
-    if (!narrow_phase_.has_corners()) return result;
+    if (!detection_.has_corners()) return result;
     std::vector<double> shortfalls(points_.size(), 0.0);
     for (int round = 0; round < turn_rounds; ++round) {
         if (!(take_turns(result.velocities, shortfalls, dt) > turn_share)) break;
@@ -155,7 +122,7 @@ SolverResult Engine::solve(double dt) {
 double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                           double dt) {
     const std::vector<double> found = gap_shortfalls(
-        {points_, problem_.contacts, bodies_, walls_, velocities, dt}, narrow_phase_.polygons());
+        {points_, problem_.contacts, bodies_, walls_, velocities, dt}, detection_.polygons());
     double largest = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         Contact& contact = problem_.contacts[k];
@@ -176,15 +143,20 @@ void Engine::move(double dt) {
 
 void Engine::move(double dt, const std::vector<Twist>& velocities) {
     check_step(dt);
+    moved_ = approach_bound(bodies_, walls_, velocities, detection_.has_corners(), dt);
     nscd::move(bodies_, velocities, dt, settings_.box);
     for (Wall& wall : walls_) nscd::move(wall, dt);
     laws_.states().accept();
 }
 
 double Engine::max_penetration() const {
-    double deepest = 0.0;
-    for (const ContactPoint& point : detect(0.0, 0.0)) deepest = std::max(deepest, -point.gap);
-    return deepest;
+    return detection_.deepest_overlap(bodies_, walls_);
+}
+
+double Engine::max_penetration_after_move() const {
+    // Farther than the last step looked, or bodies are gone: anybody may have met anybody.
+    if (!(moved_ <= reach_)) return max_penetration();
+    return detection_.deepest_overlap(bodies_, walls_, points_);
 }
 
 void Engine::keep(const std::vector<std::uint8_t>& mask) {
@@ -194,6 +166,7 @@ void Engine::keep(const std::vector<std::uint8_t>& mask) {
 
 void Engine::forget_step() {
     points_.clear();
+    moved_ = std::numeric_limits<double>::infinity();
     problem_ = {};
     solution_.clear();
     impulses_.clear();
@@ -235,39 +208,6 @@ void Engine::take_memory(SavedMemory memory) {
     walls_ = std::move(memory.walls);
 }
 
-/// How far surfaces may approach each other in a step.
-double Engine::reach(const std::vector<Twist>& free, double dt) const {
-    double speed = std::max(speed_range(free), speed_range(bodies_.twist));
-    if (narrow_phase_.has_corners())
-        speed += 2.0 * std::max(rim_speed(bodies_, free), rim_speed(bodies_, bodies_.twist));
-    return dt * (speed + wall_speed(walls_, bodies_));
-}
-
-/// Points whose gap is below `reach` and `share` of the radii.
-std::vector<ContactPoint> Engine::detect(double reach, double share) const {
-    const PeriodicBox& box = settings_.box;
-    const PlacedPolygons polygons = narrow_phase_.place(bodies_);
-    std::vector<double> wide = bodies_.radius;
-    for (double& radius : wide) radius *= 1.0 + share;
-    std::vector<ContactPoint> points;
-    for (Pair pair : candidate_pairs(bodies_.position, wide, reach, box)) {
-        if (bodies_.fixed[pair.a] && bodies_.fixed[pair.b]) continue;
-        if (bodies_.id[pair.a] > bodies_.id[pair.b]) std::swap(pair.a, pair.b);
-        const Vec3 offset = box.minimum_image(bodies_.position[pair.b] - bodies_.position[pair.a]);
-        const double alert = reach + share * (bodies_.radius[pair.a] + bodies_.radius[pair.b]);
-        narrow_phase_.pair({bodies_, pair.a, pair.b, offset, alert, &polygons}, points);
-    }
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(bodies_.size()); ++i)
-        for (std::int32_t w = 0; w < static_cast<std::int32_t>(walls_.size()); ++w)
-            if (!bodies_.fixed[i])
-                narrow_phase_.wall({bodies_, i, walls_[static_cast<std::size_t>(w)], w,
-                                    reach + share * 2.0 * bodies_.radius[i], &polygons},
-                                   points);
-    const auto smallest = std::min_element(bodies_.radius.begin(), bodies_.radius.end());
-    if (!points.empty()) order_top_down(points, bodies_, settings_.gravity, one_height * *smallest);
-    return points;
-}
-
 ContactKey Engine::key(const ContactPoint& point) const {
     if (point.wall >= 0)
         return {walls_[static_cast<std::size_t>(point.wall)].key, bodies_.id[point.b], 1,
@@ -275,16 +215,27 @@ ContactKey Engine::key(const ContactPoint& point) const {
     return {bodies_.id[point.a], bodies_.id[point.b], 0, point.feature};
 }
 
-std::vector<ContactKey> Engine::keys() const {
-    std::vector<ContactKey> result;
-    result.reserve(points_.size());
-    for (const ContactPoint& point : points_) result.push_back(key(point));
-    return result;
+/// To the bodies their velocities and impulses, to memory and laws what the next step starts from.
+StepReport Engine::hand_out(SolverResult result, double dt) {
+    memory_.remember(keys_, result.impulses, dt);
+    laws_.find_states({points_, keys_, bodies_, walls_}, result.impulses);
+    impulses_ = laws_.felt(result.impulses);
+    solution_ = std::move(result.impulses);
+    bodies_.twist = std::move(result.velocities);
+    sum_impulses();
+    double deepest = 0.0;
+    for (const ContactPoint& point : points_) deepest = std::max(deepest, -point.gap);
+    return {static_cast<std::int64_t>(points_.size()),
+            static_cast<std::int64_t>(memory_.contacts().size()),
+            result.iterations,
+            result.residual,
+            result.change,
+            result.converged,
+            deepest};
 }
 
-/// Velocities and, per body, the sums of contact impulses and of their moments.
-void Engine::hand_out(const std::vector<Twist>& velocities) {
-    bodies_.twist = velocities;
+/// Per body, of contact impulses and of their moments.
+void Engine::sum_impulses() {
     std::fill(bodies_.contact_impulse.begin(), bodies_.contact_impulse.end(), Vec3{});
     std::fill(bodies_.contact_angular_impulse.begin(), bodies_.contact_angular_impulse.end(),
               Vec3{});

@@ -2,7 +2,11 @@
 //
 // One step of non-smooth contact dynamics (Topin 2011, Eqs. 16-19):
 //
-//     free velocity -> detection at q -> contact problem -> solver -> velocities
+//     detect     contact points at q that may close within the step
+//     pose       the contact problem: free velocities, gaps, laws
+//     solve      impulses and velocities that satisfy it
+//     hand out   to the bodies, and to what the next step starts from
+//     move       q <- q + dt U
 //
 // Moving is a call of its own: in a coupled run the fluid corrects the velocities first, and the
 // case says which velocities the positions follow.
@@ -20,7 +24,7 @@
 #include <string>
 #include <vector>
 
-#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/detection/detection.hpp"
 #include "granular_adapter/nscd/engine/engine_state.hpp"
 #include "granular_adapter/nscd/laws/contact_laws.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
@@ -54,6 +58,7 @@ struct StepReport {
     double residual = 0.0;        ///< scaled natural map
     ChangeMeasures change;        ///< quad and max
     bool converged = true;
+    double max_penetration = 0.0;  ///< deepest overlap that the step began with, >= 0 [m]
 };
 
 class Engine {
@@ -96,6 +101,10 @@ class Engine {
     /// Deepest overlap at the present configuration, >= 0 [m].
     double max_penetration() const;
 
+    /// The same right after move(), from the pairs that the last step looked at where that is
+    /// enough. Bodies and walls must be where move() and keep() left them.
+    double max_penetration_after_move() const;
+
     /// Contact points of the last step and the impulses that bodies felt there. With a law that
     /// pulls, a normal impulse may be negative.
     const std::vector<ContactPoint>& points() const { return points_; }
@@ -123,25 +132,28 @@ class Engine {
     void restore_memory(const std::vector<char>& state);
 
  private:
+    void detect(const std::vector<Twist>& free, double dt);
+    void pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt);
     SolverResult solve(double dt);
+    StepReport hand_out(SolverResult result, double dt);
+    void sum_impulses();
     double take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                       double dt);
-    double reach(const std::vector<Twist>& free, double dt) const;
-    std::vector<ContactPoint> detect(double reach, double share) const;
     ContactKey key(const ContactPoint& point) const;
-    std::vector<ContactKey> keys() const;
-    void hand_out(const std::vector<Twist>& velocities);
     void forget_step();
     void take_memory(SavedMemory memory);
 
     EngineSettings settings_;
-    NarrowPhase narrow_phase_;
+    Detection detection_;
     std::vector<Wall> walls_;
     ContactLaws laws_;
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;
     ContactMemory memory_;
+    double reach_ = 0.0;  ///< gaps up to which the last step looked [m]
+    double moved_ = 0.0;  ///< upper bound of what gaps lost since [m]
     std::vector<ContactPoint> points_;
+    std::vector<ContactKey> keys_;  ///< of the points
     ContactProblem problem_;
     Impulses guess_;
     Impulses solution_;

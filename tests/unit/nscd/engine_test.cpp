@@ -236,5 +236,37 @@ TEST(Engine, RefusesBadSettings) {
     EXPECT_THROW(engine.step(0.0), std::invalid_argument);
 }
 
+// Pairs that the step looked at are enough for the overlap after it, unless somebody moves farther
+// than it looked: here a grain with a speed that no body had, through a neighbour that was far
+// away.
+TEST(Engine, KnowsTheOverlapAfterTheMoveWithoutLookingAgain) {
+    Engine engine = scenes::settling_pack(6, 8, scenes::exact(0.3, 1e-3));
+    double deepest = 0.0;
+    for (int n = 0; n < 300; ++n) {
+        engine.step(0.01);
+        engine.move(0.01);
+        EXPECT_EQ(engine.max_penetration_after_move(), engine.max_penetration());
+        deepest = std::max(deepest, engine.max_penetration());
+    }
+    EXPECT_GT(deepest, 0.0) << "nothing overlapped: this compared zeros";
+    engine.step(0.01);
+    std::vector<Twist> thrown = engine.bodies().twist;
+    thrown[0].velocity = {200.0, 0.0, 0.0};
+    engine.move(0.01, thrown);
+    EXPECT_GT(engine.max_penetration(), 0.1);
+    EXPECT_EQ(engine.max_penetration_after_move(), engine.max_penetration());
+    engine.keep(std::vector<std::uint8_t>(engine.bodies().size(), 1));
+    EXPECT_EQ(engine.max_penetration_after_move(), engine.max_penetration());
+}
+
+TEST(Engine, ReportsTheOverlapThatTheStepBeganWith) {
+    Engine engine(scenes::exact(0.3), scenes::discs, {scenes::floor(0.3)});
+    engine.bodies().add(scenes::disc(1, 0.0, 0.49));
+    engine.bodies().add(scenes::disc(2, 0.0, 1.47));
+    const double before = engine.max_penetration();
+    EXPECT_NEAR(before, 0.02, 1e-15);
+    EXPECT_EQ(engine.step(0.01).max_penetration, before);
+}
+
 }  // namespace
 }  // namespace turbidite::nscd

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Contact points of a configuration: pairs that are near by cells (broad_phase.hpp), then gaps and
+// normals by shape (narrow_phase.hpp), in the order in which solvers visit them
+// (contact_order.hpp).
+#pragma once
+
+#include <vector>
+
+#include "granular_adapter/nscd/detection/broad_phase.hpp"
+#include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
+
+namespace turbidite::nscd {
+
+class Detection {
+ public:
+    /// Throws std::invalid_argument naming shapes without contacts.
+    Detection(const ShapeTable& shapes, const PeriodicBox& box) : narrow_(shapes), box_(box) {}
+
+    bool has_corners() const { return narrow_.has_corners(); }
+    const PolygonShapes& polygons() const { return narrow_.polygons(); }
+
+    /// Points whose gap is below `reach` plus `share` of both radii (of the diameter at a wall),
+    /// without those between fixed bodies. Ordered along gravity.
+    std::vector<ContactPoint> points(const Bodies& bodies, const std::vector<Wall>& walls,
+                                     const Vec3& gravity, double reach, double share) const;
+
+    /// Deepest overlap of any pair, >= 0 [m].
+    double deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const;
+
+    /// The same of the pairs that these points belong to, wherever the bodies are by now.
+    double deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls,
+                           const std::vector<ContactPoint>& of) const;
+
+ private:
+    void add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedPolygons& polygons,
+                  std::vector<ContactPoint>& points) const;
+    std::vector<ContactPoint> unordered(const Bodies& bodies, const std::vector<Wall>& walls,
+                                        double reach, double share) const;
+
+    NarrowPhase narrow_;
+    PeriodicBox box_;
+};
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/detection/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+/// Upper bound of |u_rel| between any two bodies or a body and a wall: the diagonal of the box that
+/// holds all velocities and zero.
+double speed_range(const std::vector<Twist>& twists) {
+    Vec3 low{}, high{};
+    for (const Twist& twist : twists)
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], twist.velocity[axis]);
+            high[axis] = std::max(high[axis], twist.velocity[axis]);
+        }
+    return norm(high - low);
+}
+
+/// Fastest that a corner moves about its own centre.
+double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < twists.size(); ++i)
+        fastest = std::max(fastest, bodies.radius[i] * std::abs(twists[i].spin[2]));
+    return fastest;
+}
+
+/// Fastest that a wall moves where a body is.
+double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
+    double fastest = 0.0;
+    for (const Wall& wall : walls) {
+        fastest = std::max(fastest, norm(wall.velocity));
+        if (wall.spin == 0.0) continue;
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            fastest = std::max(fastest, norm(velocity_at(wall, bodies.position[i])) +
+                                            std::abs(wall.spin) * bodies.radius[i]);
+    }
+    return fastest;
+}
+
+}  // namespace
+
+double approach_bound(const Bodies& bodies, const std::vector<Wall>& walls,
+                      const std::vector<Twist>& twists, bool corners, double step) {
+    double speed = speed_range(twists);
+    if (corners) speed += 2.0 * rim_speed(bodies, twists);
+    return step * (speed + wall_speed(walls, bodies));
+}
+
+}  // namespace turbidite::nscd
