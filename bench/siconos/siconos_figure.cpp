@@ -39,17 +39,31 @@ std::vector<double> ratios(const nlohmann::json& problem) {
     return result;
 }
 
+double milliseconds(const nlohmann::json& problem, const char* who) {
+    return 1e3 * median(problem.at(who).at("seconds").get<std::vector<double>>());
+}
+
+double iterations(const nlohmann::json& problem, const char* who) {
+    return problem.at(who).at("iterations").get<double>();
+}
+
+/// The ratio is that of the times per iteration times that of their numbers.
 std::string note(const nlohmann::json& problem) {
     const auto part = [&](const char* who) {
         const nlohmann::json& c = problem.at(who);
-        return fmt::format("{} {:.4g} ms, {} iterations, error {:.2g}{}", who,
-                           1e3 * median(c.at("seconds").get<std::vector<double>>()),
-                           c.at("iterations").get<std::int64_t>(), c.at("error").get<double>(),
+        return fmt::format("{} {:.4g} ms, {} iterations of {:.3g} ms, error {:.2g}{}", who,
+                           milliseconds(problem, who), iterations(problem, who),
+                           milliseconds(problem, who) / iterations(problem, who),
+                           c.at("error").get<double>(),
                            c.at("converged").get<bool>() ? "" : " (not converged)");
     };
-    return fmt::format("t = {:g} t_c, {} contacts: {}; {}; ratio {:.3g}",
-                       problem.at("time").get<double>(), problem.at("contacts").get<std::int64_t>(),
-                       part(theirs), part(ours), median(ratios(problem)));
+    const double ratio = median(ratios(problem));
+    const double numbers = iterations(problem, theirs) / iterations(problem, ours);
+    return fmt::format(
+        "t = {:g} t_c, {} contacts: {}; {}; ratio {:.3g}: iterations {:.3g}, time per iteration "
+        "{:.3g}",
+        problem.at("time").get<double>(), problem.at("contacts").get<std::int64_t>(), part(theirs),
+        part(ours), ratio, numbers, ratio / numbers);
 }
 
 }  // namespace
