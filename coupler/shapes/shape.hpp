@@ -37,6 +37,9 @@ class Shape {
 
     virtual bool contains(const Eigen::Vector3d& point, double radius) const = 0;
 
+    /// What is nearer to the centre than this is inside; zero says nothing.
+    virtual double core_radius(double) const { return 0.0; }
+
     /// Points spaced as evenly as the shape allows, never closer than `spacing` [m].
     virtual std::vector<SurfacePoint> surface_points(double radius, double spacing) const = 0;
 

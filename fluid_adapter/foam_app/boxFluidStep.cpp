@@ -4,10 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/ranks/rank_rows.hpp"
 
 namespace turbidite {
 namespace {
+
+/// With the spacing that the mesh has, in metres.
+PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size) {
+    plane.x.spacing = box_size.x() / plane.x.cells;
+    plane.y.spacing = box_size.y() / plane.y.cells;
+    return plane;
+}
+
+BoxFluid box_fluid(FluidFields& fields, double limiter, const BoxCells& box) {
+    const Foam::vector size = fields.mesh.bounds().span();
+    return {in_metres(homogeneous_laplacian(fields.U, box).plane, size),
+            in_metres(homogeneous_laplacian(fields.p, box).plane, size), fields.nu, limiter};
+}
 
 std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& plane,
                                   const CellRows& cells) {
@@ -15,22 +29,20 @@ std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& p
     try {
         return std::make_unique<RankRows>(ranks, plane, cells);
     } catch (const std::invalid_argument& why) {
-        throw NotSeparable(why.what());
+        throw DoesNotFit(why.what());
     }
 }
 
 }  // namespace
 
-BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter)
-    : BoxFluidStep(fields, limiter, uniform_box(fields.mesh)) {}
+BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter, const BoxCells& box)
+    : BoxFluidStep(fields, box_fluid(fields, limiter, box), box) {}
 
-BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter, const UniformBox& box)
+BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box)
     : fields_(fields),
-      rows_(cell_rows(fields.ranks, box)),
-      step_({plane_operator(fields.U, box), plane_operator(fields.p, box), fields.nu, limiter},
-            box_rows(fields.ranks, plane_operator(fields.p, box), rows_)),
-      floating_(plane_operator(fields.p, box).x.has_zero_mode() &&
-                plane_operator(fields.p, box).y.has_zero_mode()) {}
+      rows_(fields.ranks, box.cells[0], box.cells[1], box.place),
+      step_(fluid, box_rows(fields.ranks, fluid.pressure, rows_)),
+      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {}
 
 void BoxFluidStep::load() {
     const Foam::vectorField& U = fields_.U.primitiveField();

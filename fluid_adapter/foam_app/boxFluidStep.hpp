@@ -6,14 +6,15 @@
 #pragma once
 
 #include "fluid_adapter/foam_app/fluidStep.hpp"
-#include "fluid_adapter/foam_app/uniformBox.hpp"
+#include "fluid_adapter/foam_solver/boxCells.hpp"
+#include "fluid_adapter/ranks/cell_rows.hpp"
 
 namespace turbidite {
 
 class BoxFluidStep final : public FluidStep {
  public:
-    /// limiter: k of limitedLinearV. Throws NotSeparable.
-    BoxFluidStep(FluidFields& fields, double limiter);
+    /// limiter: k of limitedLinearV. Throws DoesNotFit.
+    BoxFluidStep(FluidFields& fields, double limiter, const BoxCells& box);
 
     FluxReport project(MomentumLedger& ledger) override;
     void transport(MomentumLedger& ledger, int parts) override;
@@ -25,7 +26,7 @@ class BoxFluidStep final : public FluidStep {
     void set_memory(const std::vector<double>& values) override;
 
  private:
-    BoxFluidStep(FluidFields& fields, double limiter, const UniformBox& box);
+    BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box);
 
     void load();
     void store();

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "coupler/protocol/failure.hpp"
 #include "fluid_adapter/foam_app/boxFluidStep.hpp"
+#include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/operatorStep.hpp"
-#include "fluid_adapter/foam_app/solverList.hpp"
 
 namespace turbidite {
 namespace {
@@ -25,28 +26,46 @@ std::optional<double> limiter_of(const FluidFields& fields) {
     return std::max(k, Foam::SMALL);
 }
 
-std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& fields) {
+/// The case's fvSolution names our solver for the field.
+template <class Field>
+bool solved_by_fft(const Field& field) {
+    return field.mesh().solverDict(field.name()).template get<Foam::word>("solver") == "FFT";
+}
+
+/// Says at the start what the solver itself would say in the first window.
+template <class Field>
+void check_solver(Field& field, const BoxCells& box, const char* key, const char* others) {
+    if (!solved_by_fft(field)) return;
+    try {
+        laplacian_operator(field, box);
+    } catch (const DoesNotFit& why) {
+        throw Failure(ExitCode::bad_input, std::string(key) + " = FFT does not fit this fluid " +
+                                               "case: " + why.what() + "; use " + others);
+    }
+}
+
+std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& fields,
+                                         const BoxCells& box) {
+    check_solver(fields.p, box, "fluid.pressure_solver", "GAMG, PCG");
+    check_solver(fields.U, box, "fluid.viscous_solver", "PCG");
     const double goal =
         divergence_goal * settings.real("run.velocity_scale") / settings.real("run.diameter");
-    return std::make_unique<OperatorStep>(
-        fields,
-        StokesProjection(fields, goal,
-                         make_pressure_solver(settings.text("fluid.pressure_solver"), fields)),
-        make_viscous_solver(settings.text("fluid.viscous_solver"), fields));
+    return std::make_unique<OperatorStep>(fields, goal);
 }
 
 }  // namespace
 
-std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields) {
-    const bool direct = settings.text("fluid.pressure_solver") == "FFT" &&
-                        settings.text("fluid.viscous_solver") == "FFT";
+std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
+                                           const CellGrid& grid, const std::vector<int>& cells) {
+    const BoxCells box =
+        box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
     const std::optional<double> limiter = limiter_of(fields);
-    if (!direct || !limiter) return operator_step(settings, fields);
+    if (!limiter || !solved_by_fft(fields.p) || !solved_by_fft(fields.U))
+        return operator_step(settings, fields, box);
     try {
-        return std::make_unique<BoxFluidStep>(fields, *limiter);
-    } catch (const NotSeparable&) {
-        return operator_step(settings,
-                             fields);  // which does without whole rows, or says what does not fit
+        return std::make_unique<BoxFluidStep>(fields, *limiter, box);
+    } catch (const DoesNotFit&) {
+        return operator_step(settings, fields, box);  // does with less, or says what does not fit
     }
 }
 

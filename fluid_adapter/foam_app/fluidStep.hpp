@@ -2,9 +2,10 @@
 //
 // Steps 1 to 3 of a window behind one door. Two kinds do the same to rounding:
 //
-//     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; with both direct solvers
-//                    and the default transport scheme
-//     OperatorStep   OpenFOAM's operators and tables, for everything else
+//     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; where fvSolution names
+//                    FFT for p and U, with the default transport scheme
+//     OperatorStep   OpenFOAM's operators and tables, for everything else, with the solvers that
+//                    fvSolution names
 //
 // U holds the velocity before `project` and after `diffuse`, and nothing in between.
 #pragma once
@@ -17,6 +18,7 @@
 #include "fluid_adapter/box_step/box_step.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
+#include "fluid_adapter/multiplier/cell_grid.hpp"
 
 namespace turbidite {
 
@@ -44,7 +46,10 @@ class FluidStep {
     virtual void set_memory(const std::vector<double>& values) = 0;
 };
 
-/// The kind that fits the settings and the mesh. Throws Failure as solverList.hpp does.
-std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields);
+/// The kind that fits the case. `cells`: the number i + nx j in the grid of each of this rank's
+/// cells. Throws Failure (bad_input), naming the key, where FFT does not fit the mesh or a boundary
+/// condition.
+std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
+                                           const CellGrid& grid, const std::vector<int>& cells);
 
 }  // namespace turbidite

@@ -80,7 +80,7 @@ FoamAdapter::State::State(const std::filesystem::path& directory, const RankGrou
                           const Settings& settings, const ShapeTable& table)
     : fields(directory, ranks),
       field(fields, fluid_domain(settings)),
-      step(make_fluid_step(settings, fields)),
+      step(make_fluid_step(settings, fields, field.grid(), field.cell_numbers())),
       ledger(fields),
       step_five(field, settings, table) {}
 

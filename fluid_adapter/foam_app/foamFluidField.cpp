@@ -41,6 +41,8 @@ FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
         halo_ = std::make_unique<HaloExchange>(fields.ranks, grid_.counts[0] * grid_.counts[1],
                                                cell_numbers(), block_.halo());
         block_.number_halo(halo_->halo());
+        in_a_halo_.assign(owned_, 0);
+        for (const int cell : halo_->shared()) in_a_halo_[cell] = 1;
         shared_ = std::make_unique<SharedGrains>(fields.ranks);
     }
     const std::size_t local = owned_ + block_.halo().size();
@@ -49,7 +51,6 @@ FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
     cell_mass_ = fields.rho * grid_.spacing[0] * grid_.spacing[1];
 }
 
-/// i + nx j of each cell of this rank.
 std::vector<int> FoamFluidField::cell_numbers() const {
     std::vector<int> numbers;
     bool uniform = true;
@@ -84,8 +85,10 @@ void FoamFluidField::import_halo(double* x, double* y) const {
     if (halo_) halo_->import({x, y});
 }
 
-void FoamFluidField::export_halo(double* x, double* y) const {
-    if (halo_) halo_->export_sums({x, y});
+void FoamFluidField::share_sums(double* x, double* y) const {
+    if (!halo_) return;
+    halo_->export_sums({x, y});
+    halo_->import({x, y});
 }
 
 void FoamFluidField::sum_over_ranks(double* values, int count) const {
@@ -110,8 +113,8 @@ void FoamFluidField::load() {
 void FoamFluidField::store(const CollocationPoints& points, bool force_density) {
     if (force_density) fields_.lambda.primitiveFieldRef() = Foam::Zero;
     for (const InteriorCell& point : points.interior) store(point.cell, force_density);
-    for (const int cell : points.stencilled)
-        if (owns(cell)) store(cell, force_density);
+    for (const StencilCell& at : points.stencilled)
+        if (owns(at.cell)) store(at.cell, force_density);
     fields_.U.correctBoundaryConditions();
 }
 

@@ -26,13 +26,17 @@ class FoamFluidField final : public FluidField {
     int cell(int i, int j, int k) const override;
     int local_cells() const override { return static_cast<int>(x_.size()); }
     bool owns(int cell) const override { return cell < owned_; }
-    double cell_mass() const override { return cell_mass_; }
+    double reference_mass() const override { return cell_mass_; }
+    bool shares(int cell) const override { return halo_ && (!owns(cell) || in_a_halo_[cell]); }
     double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
     void import_halo(double* x, double* y) const override;
-    void export_halo(double* x, double* y) const override;
+    void share_sums(double* x, double* y) const override;
     void sum_over_ranks(double* values, int count) const override;
     void hold_grains(const GrainId* ids, int count) const override;
     void sum_over_holders(double* rows, int per_grain) const override;
+
+    /// i + nx j of each cell of this rank. Throws Failure as the constructor does.
+    std::vector<int> cell_numbers() const;
 
     void load();  ///< from U
 
@@ -40,7 +44,6 @@ class FoamFluidField final : public FluidField {
     void store(const CollocationPoints& points, bool force_density);
 
  private:
-    std::vector<int> cell_numbers() const;
     void store(int cell, bool force_density);
 
     FluidFields& fields_;
@@ -48,6 +51,7 @@ class FoamFluidField final : public FluidField {
     LocalBlock block_;
     std::unique_ptr<HaloExchange> halo_;    // on several ranks
     std::unique_ptr<SharedGrains> shared_;  // on several ranks
+    std::vector<char> in_a_halo_;           // own cells: another rank's
     std::vector<double> x_, y_;
     int owned_ = 0;
     double cell_mass_ = 0.0;

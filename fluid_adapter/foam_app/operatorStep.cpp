@@ -7,10 +7,6 @@
 
 namespace turbidite {
 
-OperatorStep::OperatorStep(FluidFields& fields, StokesProjection projection,
-                           std::unique_ptr<ViscousSolver> viscosity)
-    : fields_(fields), projection_(std::move(projection)), viscosity_(std::move(viscosity)) {}
-
 FluxReport OperatorStep::project(MomentumLedger& ledger) {
     fields_.interpolate_flux();
     const Foam::scalar divergence = projection_.project();
@@ -26,7 +22,7 @@ void OperatorStep::transport(MomentumLedger& ledger, int parts) {
 }
 
 void OperatorStep::diffuse(MomentumLedger& ledger) {
-    viscosity_->solve(fields_.time.deltaTValue());
+    viscosity_.solve(fields_.time.deltaTValue());
     ledger.add_viscosity();
 }
 

@@ -11,8 +11,9 @@ namespace turbidite {
 
 class OperatorStep final : public FluidStep {
  public:
-    OperatorStep(FluidFields& fields, StokesProjection projection,
-                 std::unique_ptr<ViscousSolver> viscosity);
+    /// `divergence_goal`: of the projection [1/s].
+    OperatorStep(FluidFields& fields, double divergence_goal)
+        : fields_(fields), projection_(fields, divergence_goal), viscosity_(fields) {}
 
     FluxReport project(MomentumLedger& ledger) override;
     void transport(MomentumLedger& ledger, int parts) override;
@@ -25,7 +26,7 @@ class OperatorStep final : public FluidStep {
  private:
     FluidFields& fields_;
     StokesProjection projection_;
-    std::unique_ptr<ViscousSolver> viscosity_;
+    ViscousDiffusion viscosity_;
 };
 
 }  // namespace turbidite

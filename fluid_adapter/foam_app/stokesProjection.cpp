@@ -3,9 +3,12 @@
 
 #include <fvcFlux.H>
 #include <fvcGrad.H>
+#include <fvmLaplacian.H>
 
 #include <algorithm>
-#include <utility>
+#include <string>
+
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
@@ -23,9 +26,29 @@ Foam::scalar tightening(Foam::scalar goal, Foam::scalar divergence) {
 
 }  // namespace
 
-StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal,
-                                   std::unique_ptr<PressureSolver> solver)
-    : fields_(fields), goal_(goal), solver_(std::move(solver)), given_("givenPhi", fields.phi) {}
+StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal)
+    : fields_(fields),
+      goal_(goal),
+      matrix_(Foam::fvm::laplacian(fields.p)),
+      controls_(fields.mesh.solverDict(fields.p.name())),
+      given_("givenPhi", fields.phi) {
+    fields.mesh.setFluxRequired(fields.p.name());
+    // Where no side fixes p: in one cell of all ranks'.
+    matrix_.setReference(Foam::Pstream::master() ? 0 : -1, 0.0);
+    solver_ = matrix_.solver(controls_);
+}
+
+/// `tighter`, at most one, multiplies the solver's tolerance.
+void StokesProjection::solve_pressure(Foam::scalar tighter) {
+    matrix_.source() = rate_;
+    Foam::dictionary controls(controls_);
+    controls.set("tolerance", tighter * controls_.get<Foam::scalar>("tolerance"));
+    const Foam::solverPerformance result = solver_->solve(controls);
+    if (!result.converged())
+        throw PhysicsRefused("the pressure solver " + result.solverName() + " stopped after " +
+                             std::to_string(result.nIterations()) + " iterations at residual " +
+                             std::to_string(result.finalResidual()));
+}
 
 Foam::scalar StokesProjection::project() {
     fields_.phi += kept_share() * fields_.excess;
@@ -41,8 +64,8 @@ Foam::scalar StokesProjection::project() {
     rate_ *= fields_.mesh.V().field() / dt.value();
     Foam::scalar tighter = 1.0;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-        solver_->solve(rate_, tighter);
-        fields_.phi = given_ - dt * solver_->gradient_flux();
+        solve_pressure(tighter);
+        fields_.phi = given_ - dt * matrix_.flux();
         divergence = fields_.largest_divergence();
         if (divergence <= goal_) break;
         tighter *= tightening(goal_, divergence);

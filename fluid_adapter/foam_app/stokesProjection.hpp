@@ -14,33 +14,37 @@
 // after 20, at any dt). A window therefore starts from S.u + k e with k = 1/(1 + 4 nu dt/h2), the
 // share that viscosity leaves of a difference between neighbours: OpenFOAM's own solvers do the
 // same (Rhie and Chow; `ddtCorr`).
+//
+// p: laplacian(p) = (div phi)/dt with OpenFOAM's matrix and the solver that fvSolution names.
 #pragma once
 
-#include <memory>
+#include <fvMatrices.H>
 
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_app/pressureSolver.hpp"
 
 namespace turbidite {
 
 class StokesProjection {
  public:
     /// `goal`: the largest |div phi| asked for [1/s].
-    StokesProjection(FluidFields& fields, Foam::scalar goal,
-                     std::unique_ptr<PressureSolver> solver);
+    StokesProjection(FluidFields& fields, Foam::scalar goal);
 
-    /// From phi = interpolated U to the projected phi, U and p. Returns max |div phi| [1/s].
+    /// From phi = interpolated U to the projected phi, U and p. Returns max |div phi| [1/s]. Throws
+    /// PhysicsRefused when the pressure solver does not converge.
     Foam::scalar project();
 
  private:
-    FluidFields& fields_;
-    Foam::scalar goal_;
-    std::unique_ptr<PressureSolver> solver_;
+    void solve_pressure(Foam::scalar tighter);
     Foam::scalar kept_share() const;  // k
     void remember();                  // e
 
+    FluidFields& fields_;
+    Foam::scalar goal_;
+    Foam::fvScalarMatrix matrix_;  // never changes, so it and the solver's levels are built once
+    Foam::dictionary controls_;
+    Foam::autoPtr<Foam::fvScalarMatrix::fvSolver> solver_;
     Foam::surfaceScalarField given_;  // flux before the projection
-    Foam::scalarField rate_;          // its divergence [1/s], then the right-hand side f
+    Foam::scalarField rate_;  // its divergence [1/s], then integrals of (div phi)/dt [m3/s2]
 };
 
 }  // namespace turbidite

@@ -8,18 +8,18 @@
 
 namespace turbidite {
 
-void MatrixViscousSolver::assemble(Foam::scalar dt) {
+void ViscousDiffusion::assemble(Foam::scalar dt) {
     const Foam::dimensionedScalar rate("rate", Foam::dimless / Foam::dimTime, 1.0 / dt);
-    const Foam::dimensionedScalar nu("nu", Foam::dimViscosity, nu_);
-    matrix_ = std::make_unique<Foam::fvVectorMatrix>(Foam::fvm::Sp(rate, U_) -
-                                                     Foam::fvm::laplacian(nu, U_));
+    const Foam::dimensionedScalar nu("nu", Foam::dimViscosity, fields_.nu);
+    matrix_ = std::make_unique<Foam::fvVectorMatrix>(Foam::fvm::Sp(rate, fields_.U) -
+                                                     Foam::fvm::laplacian(nu, fields_.U));
     assembled_for_ = dt;
 }
 
-void MatrixViscousSolver::solve(Foam::scalar dt) {
+void ViscousDiffusion::solve(Foam::scalar dt) {
     if (assembled_for_ != dt) assemble(dt);
-    matrix_->source() = U_.mesh().V().field() / dt * U_.primitiveField();
-    const Foam::dictionary& controls = U_.mesh().solverDict(U_.name());
+    matrix_->source() = fields_.mesh.V().field() / dt * fields_.U.primitiveField();
+    const Foam::dictionary& controls = fields_.mesh.solverDict(fields_.U.name());
     const auto result = matrix_->solve(controls);
     // A vector's convergence flag is never set in this version: the cap on iterations tells.
     const Foam::label most = controls.getOrDefault<Foam::label>("maxIter", 1000);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3). The problem stands behind one door,
-// so that a direct solver can stand in for OpenFOAM's iterative ones.
+// Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3), with OpenFOAM's matrix, assembled
+// when dt changes, and the solver that fvSolution names.
 #pragma once
 
 #include <fvMatrices.H>
@@ -12,26 +12,17 @@
 
 namespace turbidite {
 
-class ViscousSolver {
+class ViscousDiffusion {
  public:
-    virtual ~ViscousSolver() = default;
+    explicit ViscousDiffusion(FluidFields& fields) : fields_(fields) {}
 
-    /// From u2 to u3, in the U the solver was made with.
-    virtual void solve(Foam::scalar dt) = 0;
-};
-
-/// With OpenFOAM's matrix, assembled when dt changes, and the solver that fvSolution names.
-class MatrixViscousSolver final : public ViscousSolver {
- public:
-    MatrixViscousSolver(Foam::volVectorField& U, Foam::scalar nu) : U_(U), nu_(nu) {}
-
-    void solve(Foam::scalar dt) override;
+    /// From u2 to u3. Throws PhysicsRefused when the solver does not converge.
+    void solve(Foam::scalar dt);
 
  private:
     void assemble(Foam::scalar dt);
 
-    Foam::volVectorField& U_;
-    Foam::scalar nu_;
+    FluidFields& fields_;
     Foam::scalar assembled_for_ = 0.0;
     std::unique_ptr<Foam::fvVectorMatrix> matrix_;
 };

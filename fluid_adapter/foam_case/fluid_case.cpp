@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <initializer_list>
 
 #include "coupler/protocol/failure.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
@@ -63,27 +64,46 @@ std::string schemes(const Settings& settings) {
         settings.text("fluid.transport_scheme"));
 }
 
-/// The entry that OpenFOAM reads. FFT is ours and needs none; OpenFOAM's programs that solve for p
-/// on this case find multigrid.
-std::string pressure_solver(const std::string& name) {
-    if (name == "FFT" || name == "GAMG")
-        return "solver GAMG; smoother GaussSeidel; nPreSweeps 1; nPostSweeps 2; "
-               "nCellsInCoarsestLevel 20;";
-    if (name == "PCG") return "solver PCG; preconditioner DIC;";
-    throw Failure(ExitCode::bad_input,
-                  "fluid.pressure_solver = \"" + name + "\"; allowed are FFT, GAMG, PCG");
-}
+/// One value of fluid.pressure_solver or fluid.viscous_solver, and its entry without a tolerance.
+struct SolverEntry {
+    const char* name;
+    const char* entry;
+};
+
+/// Direct: one solve leaves rounding, whatever the first guess was worth.
+constexpr SolverEntry fft = {"FFT", "solver FFT; minIter 1;"};
+constexpr SolverEntry pcg = {"PCG", "solver PCG; preconditioner DIC;"};
+constexpr SolverEntry gamg = {"GAMG",
+                              "solver GAMG; smoother GaussSeidel; nPreSweeps 1; nPostSweeps 2; "
+                              "nCellsInCoarsestLevel 20;"};
+
+/// The tolerance of FFT is what rounding stays below; those of the case are for iterative solvers.
+constexpr double direct_tolerance = 1e-9;
 
 /// Tolerances are OpenFOAM's normalised residuals, thus relative to the problem's own size; a
 /// relTol would be relative to the quality of the first guess instead.
+std::string solver(const Settings& settings, const std::string& problem,
+                   std::initializer_list<SolverEntry> list, int most_iterations) {
+    const std::string key = "fluid." + problem + "_solver", name = settings.text(key);
+    std::string names;
+    for (const SolverEntry& entry : list) {
+        if (entry.name == name)
+            return fmt::format("{} tolerance {:.17g}; relTol 0; maxIter {};", entry.entry,
+                               name == fft.name ? direct_tolerance
+                                                : settings.real("fluid." + problem + "_tolerance"),
+                               most_iterations);
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} = \"{}\"; allowed are {}", key, name, names));
+}
+
+/// FFT is in turbidite-fluid; OpenFOAM's own programs find it with `libs ("libturbiditeFFT.so");`
+/// in controlDict.
 std::string solution(const Settings& settings) {
-    return fmt::format(
-        "solvers\n{{\n"
-        "    p {{ {} tolerance {:.17g}; relTol 0; maxIter 2000; }}\n"
-        "    U {{ solver PCG; preconditioner DIC; tolerance {:.17g}; relTol 0; maxIter 1000; }}\n"
-        "}}\n",
-        pressure_solver(settings.text("fluid.pressure_solver")),
-        settings.real("fluid.pressure_tolerance"), settings.real("fluid.viscous_tolerance"));
+    return fmt::format("solvers\n{{\n    p {{ {} }}\n    U {{ {} }}\n}}\n",
+                       solver(settings, "pressure", {fft, gamg, pcg}, 2000),
+                       solver(settings, "viscous", {fft, pcg}, 1000));
 }
 
 std::string patch(const FluidDomain& domain, int side) {

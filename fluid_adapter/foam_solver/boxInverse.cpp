@@ -20,24 +20,35 @@ bool same(const Helmholtz& a, const Helmholtz& b) {
 
 void BoxInverse::set(const BoxOperator& to) {
     const bool new_plane = !solve_ || !same(operator_.plane, to.plane);
-    if (new_plane) solve_ = std::make_unique<SeparableSolve>(to.plane);
+    if (new_plane) solve_ = std::make_unique<SeparableSolve>(to.plane, rows_.pencils());
     if (new_plane || !same(operator_.problem, to.problem)) solve_->factorise(to.problem);
     operator_ = to;
 }
 
-void BoxInverse::apply(const BoxNumbering& box, const Foam::solveScalarField& r,
-                       Foam::solveScalarField& x) {
+/// Of the reference, on the rank whose rows have it; null on the others.
+double* BoxInverse::reference_value() const {
+    const Span& rows = rows_.rows_of_rank()[box_.ranks.rank()];
+    const int place = operator_.reference - rows.first * box_.cells[0];
+    return place >= 0 && place < rows.count * box_.cells[0] ? solve_->values() + place : nullptr;
+}
+
+void BoxInverse::apply(const Foam::solveScalarField& r, Foam::solveScalarField& x) {
     double* values = solve_->values();
-    double sum = 0.0;
-    forAll(r, c) {
-        values[box.place[c]] = operator_.sign * r[c];
-        sum += operator_.sign * r[c];
+    rows_.gather([&](int c) { return operator_.sign * r[c]; }, values);
+    double level = 0.0;
+    if (operator_.reference < 0) {
+        solve_->solve();
+    } else {
+        double sum = 0.0;
+        for (const double value : r) sum += operator_.sign * value;
+        box_.ranks.sum(&sum, 1);
+        double* at_reference = reference_value();
+        if (at_reference) *at_reference -= sum;
+        solve_->solve();
+        level = at_reference ? sum / operator_.stiffening - *at_reference : 0.0;
+        box_.ranks.sum(&level, 1);
     }
-    const bool held = operator_.reference >= 0;
-    if (held) values[operator_.reference] -= sum;
-    solve_->solve();
-    const double level = held ? sum / operator_.stiffening - values[operator_.reference] : 0.0;
-    forAll(x, c) x[c] = values[box.place[c]] + level;
+    rows_.scatter(values, [&](int c, double value) { x[c] = value + level; });
 }
 
 }  // namespace turbidite

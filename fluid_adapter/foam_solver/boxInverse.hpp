@@ -13,18 +13,26 @@
 #include <memory>
 
 #include "fluid_adapter/foam_solver/boxOperator.hpp"
+#include "fluid_adapter/ranks/cell_rows.hpp"
 
 namespace turbidite {
 
 class BoxInverse {
  public:
-    /// Makes anew what differs from the operator before.
+    /// Both are kept by reference.
+    BoxInverse(const BoxCells& box, CellRows& rows) : box_(box), rows_(rows) {}
+
+    /// Makes anew what differs from the operator before. Called by all ranks, like `apply`.
     void set(const BoxOperator& to);
 
     /// r and x in the mesh's order of cells; they may be the same field.
-    void apply(const BoxNumbering& box, const Foam::solveScalarField& r, Foam::solveScalarField& x);
+    void apply(const Foam::solveScalarField& r, Foam::solveScalarField& x);
 
  private:
+    double* reference_value() const;
+
+    const BoxCells& box_;
+    CellRows& rows_;
     BoxOperator operator_;
     std::unique_ptr<SeparableSolve> solve_;
 };

@@ -2,6 +2,8 @@
 #include "fluid_adapter/foam_solver/boxNumbering.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <string>
 
 namespace turbidite {
 namespace {
@@ -13,13 +15,11 @@ std::string cell_name(int cell) {
     return "cell " + std::to_string(cell);
 }
 
-Neighbours neighbours_of(const Foam::lduAddressing& addressing) {
-    Neighbours of(addressing.size());
-    const Foam::labelUList& lower = addressing.lowerAddr();
-    const Foam::labelUList& upper = addressing.upperAddr();
-    forAll(lower, face) {
-        of[lower[face]].push_back(upper[face]);
-        of[upper[face]].push_back(lower[face]);
+Neighbours neighbours_of(const CellFaces& faces) {
+    Neighbours of(faces.count);
+    for (std::size_t f = 0; f < faces.low.size(); ++f) {
+        of[faces.low[f]].push_back(faces.high[f]);
+        of[faces.high[f]].push_back(faces.low[f]);
     }
     for (std::size_t c = 0; c < of.size(); ++c) {
         if (of[c].size() < 2 || of[c].size() > 4)
@@ -62,25 +62,22 @@ std::vector<int> row_across(const std::vector<int>& row, const Neighbours& of,
                      std::to_string(row.size()) + ": the mesh has a step or a hole there");
 }
 
-void find_axes(const Foam::lduAddressing& addressing, BoxNumbering& box) {
-    const Foam::labelUList& lower = addressing.lowerAddr();
-    const Foam::labelUList& upper = addressing.upperAddr();
-    box.axis.resize(lower.size());
-    forAll(lower, face) {
-        const int a = lower[face], b = upper[face];
+void check_neighbours(const CellFaces& faces, const BoxNumbering& box) {
+    for (std::size_t f = 0; f < faces.low.size(); ++f) {
+        const int a = faces.low[f], b = faces.high[f];
         const int columns = std::abs(box.column(a) - box.column(b));
         const int rows = std::abs(box.row(a) - box.row(b));
         if (columns + rows != 1)
             throw DoesNotFit(cell_name(a) + " and " + cell_name(b) +
                              " share a face and do not lie side by side in a box");
-        box.axis[face] = rows;
     }
 }
 
-void check_complete(const Foam::lduAddressing& addressing, const BoxNumbering& box) {
+void check_complete(const CellFaces& faces, const BoxNumbering& box) {
     const int nx = box.cells[0], ny = box.cells[1];
-    if (nx * ny != addressing.size() || addressing.lowerAddr().size() != 2 * nx * ny - nx - ny)
-        throw DoesNotFit("its " + std::to_string(addressing.size()) +
+    const int between = static_cast<int>(faces.low.size());
+    if (nx * ny != faces.count || between != 2 * nx * ny - nx - ny)
+        throw DoesNotFit("its " + std::to_string(faces.count) +
                          " cells are not one box of rows and columns");
     if (nx < 3 || ny < 3)
         throw DoesNotFit("it has " + std::to_string(nx) + " x " + std::to_string(ny) +
@@ -89,17 +86,17 @@ void check_complete(const Foam::lduAddressing& addressing, const BoxNumbering& b
 
 }  // namespace
 
-BoxNumbering number_box(const Foam::lduAddressing& addressing) {
-    const Neighbours of = neighbours_of(addressing);
+BoxNumbering number_box(const CellFaces& faces) {
+    const Neighbours of = neighbours_of(faces);
     BoxNumbering box;
     box.place.assign(of.size(), -1);
     int next_place = 0;
     for (std::vector<int> row = first_row(of); !row.empty(); row = row_across(row, of, box.place)) {
-        if (box.cells[1]++ == 0) box.cells[0] = row.size();
+        if (box.cells[1]++ == 0) box.cells[0] = static_cast<int>(row.size());
         for (int cell : row) box.place[cell] = next_place++;
     }
-    check_complete(addressing, box);
-    find_axes(addressing, box);
+    check_complete(faces, box);
+    check_neighbours(faces, box);
     return box;
 }
 

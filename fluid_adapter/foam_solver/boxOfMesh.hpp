@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is kept with a mesh between solves: the numbering of its cells and, for each field that is
-// solved for, the inverse of the operator it met last. OpenFOAM deletes it when the mesh changes
+// What is kept with a mesh between solves: where its cells lie in the box and, for each field that
+// is solved for, the inverse of the operator it met last. OpenFOAM deletes it when the mesh changes
 // its topology.
 #pragma once
 
 #include <MeshObject.H>
-#include <lduMesh.H>
+#include <lduMatrix.H>
 
 #include <map>
 #include <string>
@@ -24,14 +24,15 @@ class BoxOfMesh final
     /// Throws DoesNotFit.
     explicit BoxOfMesh(const Foam::lduMesh& mesh);
 
-    /// That of the matrix's mesh, made at the first call. Throws DoesNotFit.
+    /// That of the matrix's mesh, made at the first call, which all ranks make. Throws DoesNotFit.
     static const BoxOfMesh& of(const Foam::lduMatrix& matrix);
 
-    const BoxNumbering& numbering() const { return numbering_; }
-    BoxInverse& inverse(const std::string& field) const { return inverses_[field]; }
+    const BoxCells& cells() const { return cells_; }
+    BoxInverse& inverse(const std::string& field) const;
 
  private:
-    BoxNumbering numbering_;
+    BoxCells cells_;
+    mutable CellRows rows_;
     mutable std::map<std::string, BoxInverse> inverses_;
 };
 

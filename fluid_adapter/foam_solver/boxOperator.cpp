@@ -3,6 +3,7 @@
 
 #include <cyclicLduInterface.H>
 #include <cyclicLduInterfaceField.H>
+#include <processorLduInterface.H>
 
 #include <algorithm>
 #include <cmath>
@@ -21,16 +22,13 @@ struct Reading {
     double sign = 1.0;
     std::array<double, 2> mean{};  // c of each axis
     std::array<bool, 2> cyclic{};  // axis closed
-    std::vector<double> excess;    // of the diagonal, by place
+    std::vector<double> excess;    // of the diagonal, by cell of this rank
     double noise = 0.0;            // of the excess
     int reference = -1;            // place
     double stiffening = 0.0;
-
-    double total() const {
-        double sum = 0.0;
-        for (double value : excess) sum += value;
-        return sum;
-    }
+    double inside = 0.0;              // mean excess of the cells at no side
+    std::array<double, 4> at_side{};  // and of those at left, right, bottom, top, without corners
+    double everywhere = 0.0;          // and of all
 };
 
 std::string number(double value) {
@@ -40,171 +38,220 @@ std::string number(double value) {
     return text.str();
 }
 
-std::string cell_name(const BoxNumbering& box, int place) {
-    const auto cell = std::find(box.place.begin(), box.place.end(), place) - box.place.begin();
-    return "cell " + std::to_string(cell) + " (column " + std::to_string(place % box.cells[0]) +
-           ", row " + std::to_string(place / box.cells[0]) + ")";
+std::string cell_name(const BoxCells& box, int cell) {
+    const int place = box.place[cell];
+    return "cell " + std::to_string(cell) +
+           (box.ranks.parallel() ? " of processor" + std::to_string(box.ranks.rank()) : "") +
+           " (column " + std::to_string(box.column(place)) + ", row " +
+           std::to_string(box.row(place)) + ")";
 }
 
-/// The axis whose two ends the cells are.
-int closed_axis(const BoxNumbering& box, int a, int b) {
-    const int columns = std::abs(box.column(a) - box.column(b));
-    const int rows = std::abs(box.row(a) - box.row(b));
-    if (rows == 0 && columns == box.cells[0] - 1) return 0;
-    if (columns == 0 && rows == box.cells[1] - 1) return 1;
-    throw DoesNotFit("a cyclic patch joins cells " + std::to_string(a) + " and " +
-                     std::to_string(b) + ", which are not opposite each other");
-}
+/// A coefficient of a patch that couples cells: of the row of a cell of this rank.
+struct PatchCoefficient {
+    int cell;
+    int beyond;  // place of the other cell
+    double value;
+    int axis;
+    bool closes;  // the other cell is at the other end of the box, not the next one
+};
 
-const Foam::cyclicLduInterface& checked_cyclic(const Foam::lduInterfaceField& field) {
-    const auto* interface = dynamic_cast<const Foam::cyclicLduInterface*>(&field.interface());
-    if (!interface) throw DoesNotFit("a patch field of type " + field.type() + " couples cells");
+/// What keeps the patch's coefficients from being read; empty if nothing does.
+std::string fault_of(const Foam::lduInterfaceField& field) {
+    if (!Foam::isA<Foam::cyclicLduInterface>(field.interface()) &&
+        !Foam::isA<Foam::processorLduInterface>(field.interface()))
+        return "a patch field of type " + field.type() + " couples cells";
     const auto* turning = dynamic_cast<const Foam::cyclicLduInterfaceField*>(&field);
     if (turning && turning->doTransform() && turning->rank() > 0)
-        throw DoesNotFit("a cyclic patch turns vectors");
-    return *interface;
+        return "a cyclic patch turns vectors";
+    return {};
 }
 
-/// Calls visit(axis, a, A_ab) for each coefficient of a row a that belongs to a cyclic patch;
-/// returns how many there are across each axis.
-template <class Visit>
-std::array<int, 2> for_each_cyclic(const SolverMatrix& system, const BoxNumbering& box,
-                                   Visit visit) {
-    std::array<int, 2> count{};
+/// False where the two cells are neither neighbours nor opposite each other.
+bool find_axis(const BoxCells& box, PatchCoefficient& found) {
+    const int place = box.place[found.cell];
+    const int columns = std::abs(box.column(place) - box.column(found.beyond));
+    const int rows = std::abs(box.row(place) - box.row(found.beyond));
+    found.axis = rows == 0 ? 0 : 1;
+    const int apart = columns + rows;
+    found.closes = apart == box.cells[found.axis] - 1;
+    return (columns == 0 || rows == 0) && (apart == 1 || found.closes);
+}
+
+std::vector<PatchCoefficient> patch_coefficients(const SolverMatrix& system, const BoxCells& box) {
+    std::vector<PatchCoefficient> all;
+    std::string fault;
     forAll(system.interfaces, patch) {
         if (!system.interfaces.set(patch)) continue;
-        const Foam::lduInterfaceField& field = system.interfaces[patch];
-        const Foam::label across = checked_cyclic(field).neighbPatchID();
+        fault = fault.empty() ? fault_of(system.interfaces[patch]) : fault;
+        if (!fault.empty()) break;
         const Foam::labelUList& cells = system.matrix.lduAddr().patchAddr(patch);
-        const Foam::labelUList& others = system.matrix.lduAddr().patchAddr(across);
         forAll(cells, face) {
-            const int axis = closed_axis(box, cells[face], others[face]);
-            ++count[axis];
-            visit(axis, cells[face], -system.boundary[patch][face]);
+            PatchCoefficient found{cells[face], box.beyond[patch][face],
+                                   -system.boundary[patch][face], 0, false};
+            if (!find_axis(box, found))
+                fault = "a cyclic patch joins " + cell_name(box, found.cell) +
+                        " and a cell that is not opposite it";
+            all.push_back(found);
         }
     }
-    return count;
+    demand(box.ranks, fault);
+    return all;
 }
 
 /// Calls visit(axis, a, b, A_ab) for each coefficient above the diagonal.
 template <class Visit>
-void for_each_inner(const SolverMatrix& system, const BoxNumbering& box, Visit visit) {
+void for_each_inner(const SolverMatrix& system, const BoxCells& box, Visit visit) {
     const Foam::scalarField& upper = system.matrix.upper();
     const Foam::labelUList& low = system.matrix.lduAddr().lowerAddr();
     const Foam::labelUList& high = system.matrix.lduAddr().upperAddr();
     forAll(upper, face) visit(box.axis[face], low[face], high[face], upper[face]);
 }
 
-void read_means(const SolverMatrix& system, const BoxNumbering& box, Reading& reading) {
-    std::array<double, 2> sum{};
-    std::array<int, 2> faces{};
+/// Of an axis, over all ranks.
+struct AxisSum {
+    double inner = 0.0, inner_faces = 0.0, closing_faces = 0.0;
+};
+
+/// A face between two ranks is half of each.
+std::array<AxisSum, 2> sum_axes(const SolverMatrix& system, const BoxCells& box,
+                                const std::vector<PatchCoefficient>& patches) {
+    std::array<AxisSum, 2> sums{};
     for_each_inner(system, box, [&](int axis, int, int, double value) {
-        sum[axis] -= value;
-        ++faces[axis];
+        sums[axis].inner -= value;
+        ++sums[axis].inner_faces;
     });
-    const auto closed = for_each_cyclic(system, box, [](int, int, double) {});
+    for (const PatchCoefficient& of : patches) {
+        AxisSum& sum = sums[of.axis];
+        if (of.closes) ++sum.closing_faces;
+        if (!of.closes) sum.inner -= 0.5 * of.value;
+        if (!of.closes) sum.inner_faces += 0.5;
+    }
+    static_assert(sizeof sums == 6 * sizeof(double));
+    box.ranks.sum(&sums[0].inner, 6);
+    return sums;
+}
+
+void read_means(const SolverMatrix& system, const BoxCells& box,
+                const std::vector<PatchCoefficient>& patches, Reading& reading) {
+    const std::array<AxisSum, 2> sums = sum_axes(system, box, patches);
     for (int axis = 0; axis < 2; ++axis) {
-        if (closed[axis] != 0 && closed[axis] != 2 * box.cells[1 - axis])
+        const double closing = sums[axis].closing_faces;
+        if (closing != 0.0 && closing != 2 * box.cells[1 - axis])
             throw DoesNotFit(std::string("cyclic patches cover a part of the sides across ") +
                              axis_names[axis]);
-        reading.cyclic[axis] = closed[axis] != 0;
-        reading.mean[axis] = sum[axis] / faces[axis];
+        reading.cyclic[axis] = closing != 0.0;
+        reading.mean[axis] = sums[axis].inner / sums[axis].inner_faces;
     }
-    if (!(reading.mean[0] * reading.mean[1] > 0.0) || !std::isfinite(sum[0] + sum[1]))
+    if (!(reading.mean[0] * reading.mean[1] > 0.0) || !std::isfinite(sums[0].inner + sums[1].inner))
         throw DoesNotFit("its coefficients are " + number(reading.mean[0]) + " along x and " +
                          number(reading.mean[1]) + " along y in the mean, not of one sign");
     reading.sign = reading.mean[0] > 0.0 ? 1.0 : -1.0;
     for (double& mean : reading.mean) mean *= reading.sign;
 }
 
-void read_excess(const SolverMatrix& system, const BoxNumbering& box, Reading& reading) {
+void read_excess(const SolverMatrix& system, const BoxCells& box,
+                 const std::vector<PatchCoefficient>& patches, Reading& reading) {
     const double s = reading.sign;
     std::vector<double>& excess = reading.excess;
     excess.resize(box.place.size());
     double largest = 0.0;
-    for (std::size_t c = 0; c < box.place.size(); ++c) {
-        excess[box.place[c]] = s * system.matrix.diag()[c];
-        largest = std::max(largest, std::abs(excess[box.place[c]]));
+    for (std::size_t c = 0; c < excess.size(); ++c) {
+        excess[c] = s * system.matrix.diag()[c];
+        largest = std::max(largest, std::abs(excess[c]));
     }
     for_each_inner(system, box, [&](int, int low, int high, double value) {
-        excess[box.place[low]] += s * value;
-        excess[box.place[high]] += s * value;
+        excess[low] += s * value;
+        excess[high] += s * value;
     });
-    for_each_cyclic(system, box,
-                    [&](int, int cell, double value) { excess[box.place[cell]] += s * value; });
+    for (const PatchCoefficient& of : patches) excess[of.cell] += s * of.value;
+    box.ranks.max(&largest, 1);
     reading.noise = rounding * largest;
 }
 
 /// The one cell with an excess, where all others have none.
-void take_reference(Reading& reading) {
-    const auto more = [&](double value) { return value > reading.noise; };
-    const auto first = std::find_if(reading.excess.begin(), reading.excess.end(), more);
-    if (first == reading.excess.end()) return;
-    if (std::find_if(first + 1, reading.excess.end(), more) != reading.excess.end()) return;
-    reading.reference = first - reading.excess.begin();
-    reading.stiffening = *first;
-    *first = 0.0;
+void take_reference(const BoxCells& box, Reading& reading) {
+    double with_excess = 0.0, last[] = {-1.0, 0.0};  // place and excess
+    std::size_t cell = 0;
+    for (std::size_t c = 0; c < reading.excess.size(); ++c) {
+        if (!(reading.excess[c] > reading.noise)) continue;
+        ++with_excess;
+        cell = c;
+        last[0] = box.place[c];
+        last[1] = reading.excess[c];
+    }
+    const bool here = with_excess == 1.0;
+    box.ranks.sum(&with_excess, 1);
+    if (with_excess != 1.0) return;
+    box.ranks.max(last, 2);
+    reading.reference = static_cast<int>(last[0]);
+    reading.stiffening = last[1];
+    if (here) reading.excess[cell] = 0.0;
 }
 
-Reading read(const SolverMatrix& system, const BoxNumbering& box) {
+/// Corners belong to two sides and count for none.
+void read_sides(const BoxCells& box, Reading& reading) {
+    const int nx = box.cells[0], ny = box.cells[1];
+    double sums[6] = {};  // four sides, inside, all
+    for (std::size_t c = 0; c < reading.excess.size(); ++c) {
+        const int i = box.column(box.place[c]), j = box.row(box.place[c]);
+        const bool end_x = i == 0 || i == nx - 1, end_y = j == 0 || j == ny - 1;
+        sums[5] += reading.excess[c];
+        if (end_x && !end_y) sums[i == 0 ? 0 : 1] += reading.excess[c];
+        if (end_y && !end_x) sums[j == 0 ? 2 : 3] += reading.excess[c];
+        if (!end_x && !end_y) sums[4] += reading.excess[c];
+    }
+    box.ranks.sum(sums, 6);
+    for (int side = 0; side < 4; ++side)
+        reading.at_side[side] = sums[side] / ((side < 2 ? ny : nx) - 2);
+    reading.inside = sums[4] / (static_cast<double>(nx - 2) * (ny - 2));
+    reading.everywhere = sums[5] / (static_cast<double>(nx) * ny);
+}
+
+Reading read(const SolverMatrix& system, const BoxCells& box) {
     Reading reading;
-    read_means(system, box, reading);
-    read_excess(system, box, reading);
-    take_reference(reading);
+    const std::vector<PatchCoefficient> patches = patch_coefficients(system, box);
+    read_means(system, box, patches, reading);
+    read_excess(system, box, patches, reading);
+    take_reference(box, reading);
+    read_sides(box, reading);
     return reading;
 }
 
-/// Mean of the excess over places [i0, i1) x [j0, j1).
-double mean_excess(const Reading& reading, const BoxNumbering& box, int i0, int i1, int j0,
-                   int j1) {
-    double sum = 0.0;
-    for (int j = j0; j < j1; ++j)
-        for (int i = i0; i < i1; ++i) sum += reading.excess[i + j * box.cells[0]];
-    return sum / ((i1 - i0) * (j1 - j0));
-}
-
-/// Without the corners, which belong to two sides.
-double mean_of_side(const Reading& reading, const BoxNumbering& box, int axis, bool high) {
-    const int nx = box.cells[0], ny = box.cells[1];
-    const int at = high ? box.cells[axis] - 1 : 0;
-    return axis == 0 ? mean_excess(reading, box, at, at + 1, 1, ny - 1)
-                     : mean_excess(reading, box, 1, nx - 1, at, at + 1);
-}
-
-End end_of(const Reading& reading, const BoxNumbering& box, double alpha, int axis, bool high) {
+End end_of(const Reading& reading, double alpha, int axis, bool high) {
     if (reading.cyclic[axis]) return End::periodic;
-    const double share = mean_of_side(reading, box, axis, high) - alpha;
+    const double share = reading.at_side[2 * axis + high] - alpha;
     return share > reading.mean[axis] ? End::dirichlet : End::neumann;
 }
 
-BoxOperator operator_of(const Reading& reading, const BoxNumbering& box) {
-    const int nx = box.cells[0], ny = box.cells[1];
-    double alpha = mean_excess(reading, box, 1, nx - 1, 1, ny - 1);
-    if (std::abs(alpha) <= reading.noise) alpha = 0.0;
-    const auto end = [&](int axis, bool high) { return end_of(reading, box, alpha, axis, high); };
+BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
+    const double alpha = std::abs(reading.inside) <= reading.noise ? 0.0 : reading.inside;
+    const auto end = [&](int axis, bool high) { return end_of(reading, alpha, axis, high); };
     BoxOperator found;
     found.sign = reading.sign;
-    found.plane.x = {nx, 1.0, end(0, false), end(0, true)};
-    found.plane.y = {ny, std::sqrt(reading.mean[0] / reading.mean[1]), end(1, false), end(1, true)};
+    found.plane.x = {box.cells[0], 1.0, end(0, false), end(0, true)};
+    found.plane.y = {box.cells[1], std::sqrt(reading.mean[0] / reading.mean[1]), end(1, false),
+                     end(1, true)};
     found.problem = {alpha, reading.mean[0]};
     found.reference = reading.reference;
     found.stiffening = reading.stiffening;
     return found;
 }
 
-void check_coefficients(const SolverMatrix& system, const BoxNumbering& box,
-                        const Reading& reading) {
+void check_coefficients(const SolverMatrix& system, const BoxCells& box, const Reading& reading) {
+    std::string fault;
     const auto check_one = [&](int axis, int cell, double value) {
         const double expected = -reading.sign * reading.mean[axis];
         if (std::abs(value - expected) <= coefficient_tolerance * reading.mean[axis]) return;
-        throw DoesNotFit(std::string("the coefficients along ") + axis_names[axis] +
-                         " are not all equal: " + number(value) + " at " +
-                         cell_name(box, box.place[cell]) + ", " + number(expected) +
-                         " in the mean");
+        if (!fault.empty()) return;
+        fault = std::string("the coefficients along ") + axis_names[axis] +
+                " are not all equal: " + number(value) + " at " + cell_name(box, cell) + ", " +
+                number(expected) + " in the mean";
     };
     for_each_inner(system, box,
                    [&](int axis, int low, int, double value) { check_one(axis, low, value); });
-    for_each_cyclic(system, box, check_one);
+    for (const PatchCoefficient& of : patch_coefficients(system, box))
+        check_one(of.axis, of.cell, of.value);
+    demand(box.ranks, fault);
 }
 
 /// alpha + 2 c for each side at this place that holds a value.
@@ -219,29 +266,34 @@ double expected_excess(const BoxOperator& found, const Reading& reading, int i, 
            2.0 * reading.mean[1] * holds(y, j);
 }
 
-void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxNumbering& box) {
+std::string misfit(const BoxOperator& found, const Reading& reading, const BoxCells& box, int cell,
+                   double expected) {
+    return "the diagonal at " + cell_name(box, cell) + " exceeds its neighbours by " +
+           number(reading.excess[cell]) + " where " + number(expected) +
+           " would fit a side of one condition (" + number(found.problem.alpha) + " inside, plus " +
+           number(2.0 * reading.mean[0]) + " or " + number(2.0 * reading.mean[1]) +
+           " for a value held at a side)";
+}
+
+void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxCells& box) {
     if (found.problem.alpha < 0.0)
         throw DoesNotFit(
             "its diagonal is smaller than the sum of its neighbours' coefficients, by " +
             number(-found.problem.alpha));
-    const int count = box.cells[0] * box.cells[1];
-    for (int place = 0; place < count; ++place) {
+    std::string fault;
+    for (std::size_t c = 0; c < reading.excess.size() && fault.empty(); ++c) {
         const double expected =
-            expected_excess(found, reading, place % box.cells[0], place / box.cells[0]);
-        const double off = reading.excess[place] - expected;
-        if (std::abs(off) <= coefficient_tolerance * expected + reading.noise) continue;
-        throw DoesNotFit("the diagonal at " + cell_name(box, place) +
-                         " exceeds its neighbours by " + number(reading.excess[place]) + " where " +
-                         number(expected) + " would fit a side of one condition (" +
-                         number(found.problem.alpha) + " inside, plus " +
-                         number(2.0 * reading.mean[0]) + " or " + number(2.0 * reading.mean[1]) +
-                         " for a value held at a side)");
+            expected_excess(found, reading, box.column(box.place[c]), box.row(box.place[c]));
+        const double off = std::abs(reading.excess[c] - expected);
+        if (off > coefficient_tolerance * expected + reading.noise)
+            fault = misfit(found, reading, box, static_cast<int>(c), expected);
     }
+    demand(box.ranks, fault);
 }
 
 }  // namespace
 
-BoxOperator exact_operator(const SolverMatrix& system, const BoxNumbering& box) {
+BoxOperator exact_operator(const SolverMatrix& system, const BoxCells& box) {
     const Reading reading = read(system, box);
     check_coefficients(system, box, reading);
     const BoxOperator found = operator_of(reading, box);
@@ -249,15 +301,14 @@ BoxOperator exact_operator(const SolverMatrix& system, const BoxNumbering& box) 
     return found;
 }
 
-BoxOperator nearest_operator(const SolverMatrix& system, const BoxNumbering& box) {
+BoxOperator nearest_operator(const SolverMatrix& system, const BoxCells& box) {
     const Reading reading = read(system, box);
     BoxOperator found = operator_of(reading, box);
     found.problem.alpha = std::max(found.problem.alpha, 0.0);
     // A few faces may hold a value where their side as a whole does not. Then constants are not
     // free in A and must not be here: 1.A1 is kept instead.
-    const double per_cell = reading.total() / reading.excess.size();
-    if (found.floating() && found.reference < 0 && per_cell > reading.noise)
-        found.problem.alpha = per_cell;
+    if (found.floating() && found.reference < 0 && reading.everywhere > reading.noise)
+        found.problem.alpha = reading.everywhere;
     return found;
 }
 

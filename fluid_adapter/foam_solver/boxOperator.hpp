@@ -10,12 +10,12 @@
 //
 // tells the rest: alpha of a time derivative or a sink, which sides hold a value, and the cell that
 // fvMatrix::setReference made regular. Separable means that c is one number per axis and that the
-// right-hand side is all there is.
+// right-hand side is all there is. Both functions are called by all ranks and give all the same.
 #pragma once
 
 #include <lduMatrix.H>
 
-#include "fluid_adapter/foam_solver/boxNumbering.hpp"
+#include "fluid_adapter/foam_solver/boxCells.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {
@@ -45,11 +45,11 @@ struct BoxOperator {
 constexpr double coefficient_tolerance = 1e-5;
 
 /// Throws DoesNotFit, with the coefficient and the cell, unless the matrix is separable.
-BoxOperator exact_operator(const SolverMatrix& system, const BoxNumbering& box);
+BoxOperator exact_operator(const SolverMatrix& system, const BoxCells& box);
 
 /// The separable operator with the matrix's mean coefficients. Positive definite where s A is.
 /// Throws DoesNotFit where cyclic patches do not close the box, and where the coefficients have no
 /// common sign.
-BoxOperator nearest_operator(const SolverMatrix& system, const BoxNumbering& box);
+BoxOperator nearest_operator(const SolverMatrix& system, const BoxCells& box);
 
 }  // namespace turbidite

@@ -16,8 +16,7 @@ const BoxOfMesh& box_for(const Foam::lduMatrix::solver& solver) {
         const BoxOfMesh& box = BoxOfMesh::of(solver.matrix());
         box.inverse(solver.fieldName())
             .set(nearest_operator(
-                {solver.matrix(), solver.interfaceBouCoeffs(), solver.interfaces()},
-                box.numbering()));
+                {solver.matrix(), solver.interfaceBouCoeffs(), solver.interfaces()}, box.cells()));
         return box;
     } catch (const DoesNotFit& why) {
         FatalErrorInFunction << "preconditioner FFT does not fit the matrix of "
@@ -37,7 +36,7 @@ FftPreconditioner::FftPreconditioner(const Foam::lduMatrix::solver& solver, cons
 void FftPreconditioner::precondition(Foam::solveScalarField& preconditioned,
                                      const Foam::solveScalarField& residual,
                                      const Foam::direction) const {
-    inverse_.apply(box_.numbering(), residual, preconditioned);
+    inverse_.apply(residual, preconditioned);
 }
 
 }  // namespace turbidite

@@ -23,7 +23,7 @@ const BoxOfMesh& FftSolver::checked_box() const {
     try {
         const BoxOfMesh& box = BoxOfMesh::of(matrix_);
         box.inverse(fieldName_)
-            .set(exact_operator({matrix_, interfaceBouCoeffs_, interfaces_}, box.numbering()));
+            .set(exact_operator({matrix_, interfaceBouCoeffs_, interfaces_}, box.cells()));
         return box;
     } catch (const DoesNotFit& why) {
         FatalIOErrorInFunction(controlDict_)
@@ -62,7 +62,7 @@ Foam::solverPerformance FftSolver::scalarSolve(Foam::solveScalarField& psi,
     while (performance.nIterations() < minIter_ ||
            (halved && performance.nIterations() < maxIter_ &&
             !performance.checkConvergence(tolerance_, relTol_))) {
-        inverse.apply(box.numbering(), residual, correction);
+        inverse.apply(residual, correction);
         psi += correction;
         const Foam::scalar before = performance.finalResidual();
         performance.finalResidual() = residual_sum(residual, psi, source, component) / norm;

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/boundary_blocks.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 namespace turbidite {
-namespace {
-
-/// A stencil's cells lie at most two cells from its point, so two points share one below a distance
-/// of four; one more for cells that are not square and for rounded places [cells].
-constexpr double stencil_reach = 5.0;
-
-}  // namespace
 
 void BoundaryBlocks::factorise(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                                const CollocationPoints& points) {
@@ -20,12 +13,12 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     factors_.clear();
     tied_.clear();
     images_.resize(points.boundary_points());
-    on_cells_.resize(field.local_cells(), 0.0);
-    const double reach = stencil_reach * field.grid().largest_spacing();
+    on_slots_.assign(points.slots(), 0.0);
+    const double per_mass = 1.0 / field.reference_mass();
     for (int g = 0; g < points.grains(); ++g) {
         factors_.begin_matrix();
         order_points(g);
-        assemble(reach, 1.0 / field.cell_mass());
+        for (int i = 0; i < static_cast<int>(order_.size()); ++i) add_row(i, per_mass);
         if (!factors_.factorise())
             throw std::runtime_error("the boundary points of grain " +
                                      std::to_string(grains[g].id) +
@@ -45,29 +38,26 @@ void BoundaryBlocks::order_points(int g) {
     if (low == high) order_.push_back(low);
 }
 
-void BoundaryBlocks::assemble(double reach, double per_mass) {
-    for (int i = 0; i < static_cast<int>(order_.size()); ++i) add_row(i, reach, per_mass);
-}
-
-void BoundaryBlocks::add_row(int i, double reach, double per_mass) {
+/// G_pq = sum over shared cells of w_p w_q / m_c.
+void BoundaryBlocks::add_row(int i, double per_mass) {
     const CollocationPoints& points = *points_;
     const int p = order_[i];
-    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s)
-        on_cells_[points.cell[s]] = points.weight[s];
+    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) {
+        const int slot = points.slot[s];
+        on_slots_[slot] = points.weight[s] / points.stencilled[slot].volume;
+    }
     row_.assign(i + 1, 0.0);
     int first = i;
     for (int j = i; j >= 0; --j) {
         const int q = order_[j];
-        if (std::abs(points.arm_x[p] - points.arm_x[q]) > reach ||
-            std::abs(points.arm_y[p] - points.arm_y[q]) > reach)
-            continue;
+        if (!points.box[p].meets(points.box[q])) continue;
         double sum = 0.0;
         for (int s = points.stencil[q]; s < points.stencil[q + 1]; ++s)
-            sum += points.weight[s] * on_cells_[points.cell[s]];
+            sum += points.weight[s] * on_slots_[points.slot[s]];
         row_[j] = per_mass * sum;
         if (sum != 0.0) first = j;
     }
-    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) on_cells_[points.cell[s]] = 0.0;
+    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) on_slots_[points.slot[s]] = 0.0;
     std::copy(row_.begin() + first, row_.end(), factors_.add_row(first));
 }
 

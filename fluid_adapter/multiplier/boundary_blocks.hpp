@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The boundary points of one grain by themselves: with G = B B^T / m over a grain's points on this
+// The boundary points of one grain by themselves: with G = B m^-1 B^T over a grain's points on this
 // rank (the same for x and y), factorised exactly,
 //
 //     tied inertia        T^T G^-1 T       the fluid that the points drag along with the grain
@@ -36,14 +36,13 @@ class BoundaryBlocks {
 
  private:
     void order_points(int g);
-    void assemble(double reach, double per_mass);
-    void add_row(int i, double reach, double per_mass);
+    void add_row(int i, double per_mass);
     Eigen::Matrix3d tie(int g);
 
     const CollocationPoints* points_ = nullptr;
     ProfileCholesky factors_;
     std::vector<int> order_;               // rows of the present grain's matrix -> points
-    std::vector<double> on_cells_;         // weights of one point by cell; zero between uses
+    std::vector<double> on_slots_;         // weights of one point by slot; zero between uses
     std::vector<double> row_;              // of the matrix that is being assembled
     std::vector<double> columns_;          // right-hand sides of one grain
     std::vector<Eigen::Vector3d> images_;  // G^-1 of (1, r_x, r_y), by point

@@ -3,15 +3,15 @@
 
 namespace turbidite {
 
-void BoundaryOperator::apply(const double* ux, const double* uy, const Planar* motions,
-                             double* out) const {
+void BoundaryOperator::apply(const PlaneVector* u, const Planar* motions, double* out) const {
     double* out_x = out;
     double* out_y = out + points_.boundary_points();
     for (int p = 0; p < points_.boundary_points(); ++p) {
         double x = 0.0, y = 0.0;
         for (int s = points_.stencil[p]; s < points_.stencil[p + 1]; ++s) {
-            x += points_.weight[s] * ux[points_.cell[s]];
-            y += points_.weight[s] * uy[points_.cell[s]];
+            const PlaneVector& at = u[points_.slot[s]];
+            x += points_.weight[s] * at.x;
+            y += points_.weight[s] * at.y;
         }
         out_x[p] = x;
         out_y[p] = y;
@@ -31,13 +31,14 @@ void BoundaryOperator::subtract_motion(const Planar* motions, double* out) const
     }
 }
 
-void BoundaryOperator::spread(const double* values, double* fx, double* fy) const {
+void BoundaryOperator::spread(const double* values, PlaneVector* f) const {
     const double* values_x = values;
     const double* values_y = values + points_.boundary_points();
     for (int p = 0; p < points_.boundary_points(); ++p)
         for (int s = points_.stencil[p]; s < points_.stencil[p + 1]; ++s) {
-            fx[points_.cell[s]] += points_.weight[s] * values_x[p];
-            fy[points_.cell[s]] += points_.weight[s] * values_y[p];
+            PlaneVector& at = f[points_.slot[s]];
+            at.x += points_.weight[s] * values_x[p];
+            at.y += points_.weight[s] * values_y[p];
         }
 }
 

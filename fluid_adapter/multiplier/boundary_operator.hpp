@@ -5,7 +5,8 @@
 //     slip = B u - T U        (u - U - omega x r, point by point) [m/s]
 //
 // and its transpose. Point vectors hold all x components, then all y components. Velocities of
-// grains are rows (x, y, spin). Valid C++17.
+// grains are (x, y, spin); those of cells are (x, y), by slot (collocation_points.hpp). Valid
+// C++17.
 #pragma once
 
 #include <vector>
@@ -14,6 +15,11 @@
 
 namespace turbidite {
 
+/// Both components of something in a cell.
+struct PlaneVector {
+    double x = 0.0, y = 0.0;
+};
+
 class BoundaryOperator {
  public:
     explicit BoundaryOperator(const CollocationPoints& points) : points_(points) {}
@@ -21,13 +27,13 @@ class BoundaryOperator {
     int rows() const { return 2 * points_.boundary_points(); }
 
     /// out = B u - T U.
-    void apply(const double* ux, const double* uy, const Planar* motions, double* out) const;
+    void apply(const PlaneVector* u, const Planar* motions, double* out) const;
 
     /// out -= T U.
     void subtract_motion(const Planar* motions, double* out) const;
 
-    /// fx, fy += B^T values, on cells; halo cells too.
-    void spread(const double* values, double* fx, double* fy) const;
+    /// f += B^T values; on halo cells too.
+    void spread(const double* values, PlaneVector* f) const;
 
     /// out = T^T values: force and moment of every grain, from this rank's points.
     void sum_by_grain(const double* values, Planar* out) const;

@@ -17,74 +17,142 @@ struct AxisStencil {
     int nodes = 0;
 };
 
-/// Quadratic through the last centre at or behind the point and the two ahead of it, seen along the
-/// outward direction: the point always lies between the first two nodes, so nothing is
-/// extrapolated. A normal without component along the axis counts as positive, whatever its
-/// rounding.
-AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate, double normal) {
-    const int out = normal < -1e-9 ? -1 : 1;
+/// The node at which a coordinate is seen along `out`: the last centre at or behind it.
+int node_behind(const CellGrid& grid, int axis, double coordinate, int out) {
+    if (grid.stretched(axis)) {
+        const int below = grid.layer_below(axis, coordinate);
+        return out > 0 || grid.centre(axis, below) == coordinate ? below : below + 1;
+    }
     const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
-    const int inner = static_cast<int>(out > 0 ? std::floor(place) : std::ceil(place));
-    const double t = (place - inner) * out;
-    return {{inner, inner + out, inner + 2 * out},
-            {0.5 * (1.0 - t) * (2.0 - t), t * (2.0 - t), -0.5 * t * (1.0 - t)},
-            3};
+    return static_cast<int>(out > 0 ? std::floor(place) : std::ceil(place));
 }
 
-AxisStencil linear(const CellGrid& grid, int axis, double coordinate) {
-    const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
-    const int lower = static_cast<int>(std::floor(place));
-    const double t = place - lower;
-    return {{lower, lower + 1, 0}, {1.0 - t, t, 0.0}, 2};
+/// Lagrange's weights of three centres: w_n = prod_{m != n} (x - x_m)/(x_n - x_m).
+std::array<double, 3> lagrange(const CellGrid& grid, int axis, double x,
+                               const std::array<int, 3>& layer) {
+    std::array<double, 3> node{}, weight{1.0, 1.0, 1.0};
+    for (int n = 0; n < 3; ++n) node[n] = grid.centre(axis, layer[n]);
+    for (int n = 0; n < 3; ++n)
+        for (int m = 0; m < 3; ++m)
+            if (m != n) weight[n] *= (x - node[m]) / (node[n] - node[m]);
+    return weight;
 }
 
+/// All layers of a stencil lie in the grid.
 bool fits(const CellGrid& grid, int axis, const AxisStencil& stencil) {
     for (int n = 0; n < stencil.nodes; ++n)
         if (grid.wrapped(axis, stencil.layer[n]) < 0) return false;
     return true;
 }
 
+/// Quadratic through the last centre at or behind the point and the two ahead of it, seen along the
+/// outward direction: the point always lies between the first two nodes, so nothing is
+/// extrapolated. A normal without component along the axis counts as positive, whatever its
+/// rounding. Without nodes where they leave the grid.
+AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate, double normal) {
+    const int out = normal < -1e-9 ? -1 : 1;
+    const int inner = node_behind(grid, axis, coordinate, out);
+    AxisStencil stencil{{inner, inner + out, inner + 2 * out}, {}, 3};
+    if (!fits(grid, axis, stencil)) return {};
+    if (grid.stretched(axis)) {
+        stencil.weight = lagrange(grid, axis, coordinate, stencil.layer);
+        return stencil;
+    }
+    const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
+    const double t = (place - inner) * out;
+    stencil.weight = {0.5 * (1.0 - t) * (2.0 - t), t * (2.0 - t), -0.5 * t * (1.0 - t)};
+    return stencil;
+}
+
+/// Between the two centres around the point. Without nodes where they leave the grid.
+AxisStencil linear(const CellGrid& grid, int axis, double coordinate) {
+    const int lower = grid.layer_below(axis, coordinate);
+    AxisStencil stencil{{lower, lower + 1, 0}, {}, 2};
+    if (!fits(grid, axis, stencil)) return {};
+    double t = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5 - lower;
+    if (grid.stretched(axis)) {
+        const double below = grid.centre(axis, lower), above = grid.centre(axis, lower + 1);
+        t = (coordinate - below) / (above - below);
+    }
+    stencil.weight = {1.0 - t, t, 0.0};
+    return stencil;
+}
+
 using PlaneStencil = std::array<AxisStencil, 2>;
 
-/// Quadratic where it fits, else linear, else without nodes.
+/// Quadratic along both axes where that fits, else linear, else without nodes.
 PlaneStencil plane_stencil(const CellGrid& grid, const Eigen::Vector3d& x,
                            const Eigen::Vector3d& normal) {
     PlaneStencil along;
     for (int axis = 0; axis < 2; ++axis)
         along[axis] = quadratic_outward(grid, axis, x[axis], normal[axis]);
-    if (fits(grid, 0, along[0]) && fits(grid, 1, along[1])) return along;
+    if (along[0].nodes > 0 && along[1].nodes > 0) return along;
     for (int axis = 0; axis < 2; ++axis) along[axis] = linear(grid, axis, x[axis]);
-    if (fits(grid, 0, along[0]) && fits(grid, 1, along[1])) return along;
+    if (along[0].nodes > 0 && along[1].nodes > 0) return along;
     return {};
 }
 
-/// Calls visit(cell, arm) for the known cells whose centre the grain contains.
+/// Edge of the cell at a place, beyond the grid of the nearest one.
+double size_at(const CellGrid& grid, int axis, double x) {
+    if (!grid.stretched(axis)) return grid.spacing[axis];
+    const int layer = grid.layer(axis, x);
+    return grid.size(axis, grid.cyclic(axis) ? layer : std::clamp(layer, 0, grid.counts[axis] - 1));
+}
+
+/// The layers of an axis that a grain reaches.
+struct Layers {
+    int low, high;
+};
+
+Layers layers_of(const CellGrid& grid, int axis, const ImmersedGrain& grain) {
+    return {grid.layer(axis, grain.position[axis] - grain.radius),
+            grid.layer(axis, grain.position[axis] + grain.radius)};
+}
+
+/// Does the grain contain a place? Its core needs no question.
+class Inside {
+ public:
+    explicit Inside(const ImmersedGrain& grain)
+        : grain_(grain), to_body_(grain.orientation.transpose()) {
+        constexpr double surely = 1.0 - 1e-9;
+        const double core = surely * grain.shape->core_radius(grain.radius);
+        core_squared_ = core * core;
+    }
+    bool operator()(double arm_x, double arm_y) const {
+        if (arm_x * arm_x + arm_y * arm_y < core_squared_) return true;
+        return grain_.shape->contains(to_body_ * Eigen::Vector3d(arm_x, arm_y, 0.0), grain_.radius);
+    }
+
+ private:
+    const ImmersedGrain& grain_;
+    Eigen::Matrix3d to_body_;
+    double core_squared_;
+};
+
+/// Calls visit(point) for the known cells whose centre the grain contains.
 template <class Visit>
 void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit visit) {
     const CellGrid& grid = field.grid();
-    std::array<int, 2> low{}, high{};
-    for (int axis = 0; axis < 2; ++axis) {
-        low[axis] = grid.layer(axis, grain.position[axis] - grain.radius);
-        high[axis] = grid.layer(axis, grain.position[axis] + grain.radius);
-    }
-    const Eigen::Matrix3d to_body = grain.orientation.transpose();
-    for (int j = low[1]; j <= high[1]; ++j) {
+    const Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
+    const Inside inside(grain);
+    for (int j = up.low; j <= up.high; ++j) {
         const int row = grid.wrapped(1, j);
         if (row < 0) continue;
-        for (int i = low[0]; i <= high[0]; ++i) {
+        const double arm_y = grid.centre(1, j) - grain.position.y();
+        for (int i = across.low; i <= across.high; ++i) {
             const int column = grid.wrapped(0, i);
             if (column < 0) continue;
-            const Eigen::Vector3d arm(grid.centre(0, i) - grain.position.x(),
-                                      grid.centre(1, j) - grain.position.y(), 0.0);
-            if (!grain.shape->contains(to_body * arm, grain.radius)) continue;
+            const double arm_x = grid.centre(0, i) - grain.position.x();
+            if (!inside(arm_x, arm_y)) continue;
             const int cell = field.cell(column, row, 0);
-            if (cell >= 0) visit(cell, arm);
+            if (cell >= 0)
+                visit(InteriorCell{cell, arm_x, arm_y, grid.relative_volume(column, row)});
         }
     }
 }
 
-double relative_depth(const ImmersedGrain& grain, const Eigen::Vector3d& arm) {
-    return arm.squaredNorm() / (grain.radius * grain.radius);
+double relative_depth(const ImmersedGrain& grain, const InteriorCell& point) {
+    return (point.arm_x * point.arm_x + point.arm_y * point.arm_y) / (grain.radius * grain.radius);
 }
 
 }  // namespace
@@ -95,7 +163,7 @@ void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGr
         throw std::invalid_argument("multiplier points exist in two dimensions only so far");
     owner_.resize(field.local_cells(), -1);
     depth_.resize(field.local_cells());
-    stencilled_.resize(field.local_cells(), 0);
+    slot_.resize(field.local_cells(), -1);
 
     find_candidates(field, grains);
     apply_wall_rule(field.grid(), grains);
@@ -112,10 +180,12 @@ void PointPlacement::find_candidates(const FluidField& field,
                                      const std::vector<ImmersedGrain>& grains) {
     candidates_.clear();
     first_.assign(1, 0);
-    const double h = field.grid().largest_spacing();
+    local_size_.clear();
     for (const ImmersedGrain& grain : grains) {
+        local_size_.push_back(field.grid().largest_size(grain.position, grain.radius));
         if (rules_.boundary)
-            for (const SurfacePoint& point : surface_points(grain, rules_.spacing * h)) {
+            for (const SurfacePoint& point :
+                 surface_points(grain, rules_.spacing * local_size_.back())) {
                 Candidate candidate;
                 candidate.arm = grain.orientation * point.position;
                 candidate.normal = grain.orientation * point.normal;
@@ -127,7 +197,7 @@ void PointPlacement::find_candidates(const FluidField& field,
 
 const std::vector<SurfacePoint>& PointPlacement::surface_points(const ImmersedGrain& grain,
                                                                 double spacing) {
-    std::vector<SurfacePoint>& ring = rings_[{grain.shape, grain.radius}];
+    std::vector<SurfacePoint>& ring = rings_[{grain.shape, grain.radius, spacing}];
     if (ring.empty()) ring = grain.shape->surface_points(grain.radius, spacing);
     return ring;
 }
@@ -140,7 +210,7 @@ void PointPlacement::apply_wall_rule(const CellGrid& grid,
                 const double x = grains[g].position[axis] + candidates_[c].arm[axis];
                 const double from_lower = x - grid.origin[axis];
                 const double from_upper = grid.length(axis) - from_lower;
-                const double least = rules_.wall_distance * grid.spacing[axis];
+                const double least = rules_.wall_distance * size_at(grid, axis, x);
                 if ((grid.sides[axis][0] == Side::wall && from_lower < least) ||
                     (grid.sides[axis][1] == Side::wall && from_upper < least))
                     candidates_[c].fate = Fate::near_wall;
@@ -150,8 +220,9 @@ void PointPlacement::apply_wall_rule(const CellGrid& grid,
 void PointPlacement::apply_grain_rules(const CellGrid& grid,
                                        const std::vector<ImmersedGrain>& grains) {
     if (!rules_.boundary) return;
-    const double reach = rules_.spacing * grid.largest_spacing();
-    for (const auto& [a, b] : near_pairs(grid, grains, reach)) {
+    const double largest =
+        local_size_.empty() ? 0.0 : *std::max_element(local_size_.begin(), local_size_.end());
+    for (const auto& [a, b] : near_pairs(grid, grains, rules_.spacing * largest)) {
         compare(grid, grains, a, b);
         compare(grid, grains, b, a);
     }
@@ -159,7 +230,7 @@ void PointPlacement::apply_grain_rules(const CellGrid& grid,
 
 void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a,
                              int b) {
-    const double reach = rules_.spacing * grid.largest_spacing();
+    const double reach = rules_.spacing * std::max(local_size_[a], local_size_[b]);
     const double outer = grains[b].radius + reach;
     const Eigen::Vector3d apart = grid.nearest_image(grains[a].position - grains[b].position);
     const Eigen::Matrix3d to_body = grains[b].orientation.transpose();
@@ -186,12 +257,22 @@ void fill_stencil(const FluidField& field, const AxisStencil& along_x, const Axi
         for (int m = 0; m < along_x.nodes; ++m) {
             const double weight = along_x.weight[m] * along_y.weight[n];
             if (weight == 0.0) continue;
-            const int cell =
-                field.cell(grid.wrapped(0, along_x.layer[m]), grid.wrapped(1, along_y.layer[n]), 0);
+            const int column = grid.wrapped(0, along_x.layer[m]);
+            const int row = grid.wrapped(1, along_y.layer[n]);
+            const int cell = field.cell(column, row, 0);
             if (cell < 0) continue;  // beyond the halo: another rank's point
             point.cell[point.cells] = cell;
+            point.volume[point.cells] = grid.relative_volume(column, row);
             point.weight[point.cells++] = weight;
         }
+}
+
+StencilBox box_of(const AxisStencil& along_x, const AxisStencil& along_y) {
+    const auto ends = [](const AxisStencil& along) {
+        return std::minmax_element(along.layer.begin(), along.layer.begin() + along.nodes);
+    };
+    const auto x = ends(along_x), y = ends(along_y);
+    return {*x.first, *x.second, *y.first, *y.second};
 }
 
 void PointPlacement::build_stencils(const FluidField& field,
@@ -210,6 +291,7 @@ void PointPlacement::build_stencils(const FluidField& field,
             const int home = field.cell(grid.wrapped(0, grid.layer(0, x[0])),
                                         grid.wrapped(1, grid.layer(1, x[1])), 0);
             point.owned = home >= 0 && field.owns(home);
+            point.box = box_of(along[0], along[1]);
             fill_stencil(field, along[0], along[1], point);
         }
 }
@@ -218,9 +300,11 @@ void PointPlacement::mark_stencils(CollocationPoints& points) {
     points.stencilled.clear();
     for (const Candidate& point : candidates_) {
         if (point.fate != Fate::kept) continue;
-        for (int n = 0; n < point.cells; ++n)
-            if (!std::exchange(stencilled_[point.cell[n]], 1))
-                points.stencilled.push_back(point.cell[n]);
+        for (int n = 0; n < point.cells; ++n) {
+            if (slot_[point.cell[n]] >= 0) continue;
+            slot_[point.cell[n]] = points.slots();
+            points.stencilled.push_back({point.cell[n], point.volume[n]});
+        }
     }
 }
 
@@ -229,15 +313,15 @@ void PointPlacement::claim_cells(const FluidField& field,
     inside_.clear();
     inside_begin_.assign(1, 0);
     for (std::size_t g = 0; g < grains.size(); ++g) {
-        for_cells_inside(field, grains[g], [&](int cell, const Eigen::Vector3d& arm) {
-            const double depth = relative_depth(grains[g], arm);
-            const int rival = owner_[cell];
-            if (rival >= 0 && (depth > depth_[cell] ||
-                               (depth == depth_[cell] && grains[g].id > grains[rival].id)))
+        for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
+            const double depth = relative_depth(grains[g], point);
+            const int rival = owner_[point.cell];
+            if (rival >= 0 && (depth > depth_[point.cell] ||
+                               (depth == depth_[point.cell] && grains[g].id > grains[rival].id)))
                 return;
-            owner_[cell] = static_cast<int>(g);
-            depth_[cell] = depth;
-            inside_.push_back({cell, arm.x(), arm.y()});
+            owner_[point.cell] = static_cast<int>(g);
+            depth_[point.cell] = depth;
+            inside_.push_back(point);
         });
         inside_begin_.push_back(static_cast<int>(inside_.size()));
     }
@@ -249,13 +333,14 @@ void PointPlacement::collect(const FluidField& field, CollocationPoints& points)
     points.boundary_begin.assign(1, 0);
     points.arm_x.clear();
     points.arm_y.clear();
+    points.box.clear();
     points.stencil.assign(1, 0);
-    points.cell.clear();
+    points.slot.clear();
     points.weight.clear();
     for (int g = 0; g + 1 < static_cast<int>(first_.size()); ++g) {
         for (int i = inside_begin_[g]; i < inside_begin_[g + 1]; ++i) {
             const int cell = inside_[i].cell;
-            if (owner_[cell] == g && !stencilled_[cell] && field.owns(cell))
+            if (owner_[cell] == g && slot_[cell] < 0 && field.owns(cell))
                 points.interior.push_back(inside_[i]);
         }
         points.interior_begin.push_back(static_cast<int>(points.interior.size()));
@@ -270,10 +355,12 @@ void PointPlacement::collect_boundary(int g, CollocationPoints& points) const {
         if (point.fate != Fate::kept || !point.owned) continue;
         points.arm_x.push_back(point.arm.x());
         points.arm_y.push_back(point.arm.y());
-        points.cell.insert(points.cell.end(), point.cell.begin(), point.cell.begin() + point.cells);
-        points.weight.insert(points.weight.end(), point.weight.begin(),
-                             point.weight.begin() + point.cells);
-        points.stencil.push_back(static_cast<int>(points.cell.size()));
+        points.box.push_back(point.box);
+        for (int n = 0; n < point.cells; ++n) {
+            points.slot.push_back(slot_[point.cell[n]]);
+            points.weight.push_back(point.weight[n]);
+        }
+        points.stencil.push_back(static_cast<int>(points.slot.size()));
     }
 }
 
@@ -288,7 +375,7 @@ void PointPlacement::count_dropped(CollocationPoints& points) const {
 }
 
 void PointPlacement::forget(const CollocationPoints& points) {
-    for (const int cell : points.stencilled) stencilled_[cell] = 0;
+    for (const StencilCell& at : points.stencilled) slot_[at.cell] = -1;
     for (const InteriorCell& point : inside_) owner_[point.cell] = -1;
 }
 

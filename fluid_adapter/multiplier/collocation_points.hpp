@@ -16,6 +16,9 @@
 // Rules, in this order. Rules 1-3 look at all candidates and not at survivors, so that the outcome
 // does not depend on how the grains are numbered.
 //
+// Lengths counted in cells are those of the longest edges of the cells around a grain; rule 1
+// counts the cells at the point itself.
+//
 //   1. A boundary point nearer than 2 cells to a wall is dropped.
 //   2. A boundary point inside another grain is dropped.
 //   3. Two boundary points of different grains nearer than the point spacing are both dropped.
@@ -30,7 +33,7 @@
 
 #include <array>
 #include <map>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "fluid_adapter/multiplier/fluid_field.hpp"
@@ -56,26 +59,49 @@ struct DroppedPoints {
 struct InteriorCell {
     int cell;             ///< local index
     double arm_x, arm_y;  ///< r = x - X [m]
+    double volume;        ///< V_c over the grid's reference cell
+};
+
+/// A cell that boundary points interpolate from.
+struct StencilCell {
+    int cell;       ///< local index
+    double volume;  ///< V_c over the grid's reference cell
+};
+
+/// The layers of a grid that a stencil covers, not wrapped.
+struct StencilBox {
+    int low_x, high_x, low_y, high_y;
+
+    bool meets(const StencilBox& other) const {
+        return low_x <= other.high_x && other.low_x <= high_x && low_y <= other.high_y &&
+               other.low_y <= high_y;
+    }
 };
 
 /// Interior points of grain g are interior_begin[g] .. interior_begin[g+1]-1 of `interior`,
 /// boundary points boundary_begin[g] .. boundary_begin[g+1]-1 of `arm`. The cells of boundary point
-/// p are stencil[p] .. stencil[p+1]-1 of `cell` and `weight`. In-place: a window reuses the last
-/// one's memory.
+/// p are stencil[p] .. stencil[p+1]-1 of `slot` and `weight`; slots number the cells that points
+/// interpolate from, so that what belongs to these cells lies close together. In-place: a window
+/// reuses the last one's memory.
 struct CollocationPoints {
     std::vector<int> interior_begin;
     std::vector<InteriorCell> interior;
     std::vector<int> boundary_begin;
     std::vector<double> arm_x, arm_y;  ///< r = x - X [m]
+    std::vector<StencilBox> box;
     std::vector<int> stencil;
-    std::vector<int> cell;
+    std::vector<int> slot;
     std::vector<double> weight;
-    std::vector<int> stencilled;  ///< cells of boundary points, of other ranks' points too, once
+    std::vector<StencilCell> stencilled;  ///< by slot; of other ranks' points too
     DroppedPoints dropped;
 
     int grains() const { return static_cast<int>(boundary_begin.size()) - 1; }
     int boundary_points() const { return static_cast<int>(arm_x.size()); }
     int size() const { return static_cast<int>(interior.size()) + boundary_points(); }
+    int slots() const { return static_cast<int>(stencilled.size()); }
+
+    /// Local index of the cell of the s-th weight.
+    int cell(int s) const { return stencilled[slot[s]].cell; }
 };
 
 /// Places the points of all grains.
@@ -94,7 +120,8 @@ class PointPlacement {
         Eigen::Vector3d normal;  // outward
         Fate fate = Fate::kept;
         std::array<int, 9> cell{};
-        std::array<double, 9> weight{};
+        std::array<double, 9> weight{}, volume{};
+        StencilBox box{};
         int cells = 0;
         bool owned = false;
     };
@@ -114,16 +141,17 @@ class PointPlacement {
     const std::vector<SurfacePoint>& surface_points(const ImmersedGrain& grain, double spacing);
 
     PointRules rules_;
-    std::vector<int> first_;  // first candidate of each grain
+    std::vector<int> first_;          // first candidate of each grain
+    std::vector<double> local_size_;  // longest cell edge around each grain [m]
     std::vector<Candidate> candidates_;
     std::vector<InteriorCell> inside_;  // cells inside a grain, of all grains
     std::vector<int> inside_begin_;
     // By cell, as between two calls: nothing claimed.
     std::vector<int> owner_;     // grain that claims it, -1 none
     std::vector<double> depth_;  // its squared relative distance
-    std::vector<char> stencilled_;
-    // Of shapes and radii met so far.
-    std::map<std::pair<const Shape*, double>, std::vector<SurfacePoint>> rings_;
+    std::vector<int> slot_;      // in which points interpolate from it, -1 none
+    // Of shapes, radii and spacings met so far.
+    std::map<std::tuple<const Shape*, double, double>, std::vector<SurfacePoint>> rings_;
 };
 
 }  // namespace turbidite

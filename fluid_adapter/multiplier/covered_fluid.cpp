@@ -6,18 +6,19 @@ namespace turbidite {
 CellSums sum_cells(const CollocationPoints& points, FluidField& field, int g) {
     const double* ux = field.velocity(0);
     const double* uy = field.velocity(1);
-    double rx = 0.0, ry = 0.0, rr = 0.0, x = 0.0, y = 0.0, moment = 0.0;
+    double volume = 0.0, rx = 0.0, ry = 0.0, rr = 0.0, x = 0.0, y = 0.0, moment = 0.0;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
-        const InteriorCell& point = points.interior[i];
-        rx += point.arm_x;
-        ry += point.arm_y;
-        rr += point.arm_x * point.arm_x + point.arm_y * point.arm_y;
-        x += ux[point.cell];
-        y += uy[point.cell];
-        moment += point.arm_x * uy[point.cell] - point.arm_y * ux[point.cell];
+        const InteriorCell& at = points.interior[i];
+        volume += at.volume;
+        rx += at.volume * at.arm_x;
+        ry += at.volume * at.arm_y;
+        rr += at.volume * (at.arm_x * at.arm_x + at.arm_y * at.arm_y);
+        x += at.volume * ux[at.cell];
+        y += at.volume * uy[at.cell];
+        moment += at.volume * (at.arm_x * uy[at.cell] - at.arm_y * ux[at.cell]);
     }
     CellSums sums;
-    sums << points.interior_begin[g + 1] - points.interior_begin[g], rx, ry, rr, x, y, moment;
+    sums << volume, rx, ry, rr, x, y, moment;
     return sums;
 }
 
@@ -48,13 +49,13 @@ Planar carry_cells(const CollocationPoints& points, FluidField& field, int g,
         const double x = motion.x() - motion.z() * point.arm_y;
         const double y = motion.y() + motion.z() * point.arm_x;
         const double dx = ux[point.cell] - x, dy = uy[point.cell] - y;
-        lost_x += dx;
-        lost_y += dy;
-        moment += point.arm_x * dy - point.arm_y * dx;
+        lost_x += point.volume * dx;
+        lost_y += point.volume * dy;
+        moment += point.volume * (point.arm_x * dy - point.arm_y * dx);
         ux[point.cell] = x;
         uy[point.cell] = y;
     }
-    return field.cell_mass() * Planar(lost_x, lost_y, moment);
+    return field.reference_mass() * Planar(lost_x, lost_y, moment);
 }
 
 }  // namespace turbidite

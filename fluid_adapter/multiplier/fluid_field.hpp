@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the multiplier method asks of a fluid: velocities in the cells of a uniform grid, the mass
-// that answers for them, and sums over the ranks that share the grid. A rank sees its own cells and
-// a halo of at least two layers; both have local indices. Valid C++17.
+// What the multiplier method asks of a fluid: velocities in the cells of a rectilinear grid, the
+// mass that answers for them, and sums over the ranks that share the grid. A rank sees its own
+// cells and a halo of at least two layers; both have local indices. Valid C++17.
 #pragma once
 
 #include "coupler/protocol/records.hpp"
@@ -23,17 +23,24 @@ class FluidField {
     virtual int local_cells() const = 0;  ///< owned and halo cells
     virtual bool owns(int cell) const = 0;
 
-    /// rho_f V_c [kg]; per unit length in two dimensions.
-    virtual double cell_mass() const = 0;
+    /// rho_f V of a cell with the edges grid().spacing [kg]; per unit length in two dimensions.
+    virtual double reference_mass() const = 0;
+
+    /// rho_f V_c [kg], the same.
+    double cell_mass(int i, int j) const { return reference_mass() * grid().relative_volume(i, j); }
 
     /// One component of velocity, contiguous over local cells [m/s].
     virtual double* velocity(int axis) = 0;
 
+    /// Other ranks know the cell too: it is in this one's halo or in another's.
+    virtual bool shares(int) const { return false; }
+
     /// Owners' values of both components to the halos of the others.
     virtual void import_halo(double*, double*) const {}
 
-    /// Adds what was written into halos to the owners' values.
-    virtual void export_halo(double*, double*) const {}
+    /// Adds up what ranks have in cells that several know, and gives the sum to all of them. Both
+    /// components are by local cell, and zero where the rank has nothing to say.
+    virtual void share_sums(double*, double*) const {}
 
     /// Sums over the ranks of the fluid, in place.
     virtual void sum_over_ranks(double*, int) const {}

@@ -2,6 +2,7 @@
 #include "fluid_adapter/multiplier/saddle_point.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -32,16 +33,39 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
     ids_.clear();
     for (const ImmersedGrain& grain : grains) ids_.push_back(grain.id);
     field.hold_grains(ids_.data(), static_cast<int>(ids_.size()));
-    cells_x_.resize(field.local_cells(), 0.0);
-    cells_y_.resize(field.local_cells(), 0.0);
+    number_cells();
     multipliers_.assign(rows(), 0.0);
     slip_.resize(rows());
     sum_interiors();
     factorise();
     move_grains();
-    field.import_halo(field.velocity(0), field.velocity(1));
-    BoundaryOperator(points).apply(field.velocity(0), field.velocity(1), motions_.data(),
-                                   slip_.data());
+    import_velocity();
+    BoundaryOperator(points).apply(cells_.data(), motions_.data(), slip_.data());
+}
+
+/// Masses of the cells that points interpolate from, and which of them other ranks know too.
+void SaddlePoint::number_cells() {
+    cells_.resize(points_->slots());
+    per_mass_.clear();
+    border_.clear();
+    const double per_mass = 1.0 / field_->reference_mass();
+    for (const StencilCell& at : points_->stencilled) {
+        if (field_->shares(at.cell)) border_.push_back(static_cast<int>(per_mass_.size()));
+        per_mass_.push_back(per_mass / at.volume);
+    }
+    share_x_.resize(field_->local_cells(), 0.0);
+    share_y_.resize(field_->local_cells(), 0.0);
+}
+
+/// cells = u.
+void SaddlePoint::import_velocity() {
+    const double* ux = field_->velocity(0);
+    const double* uy = field_->velocity(1);
+    field_->import_halo(field_->velocity(0), field_->velocity(1));
+    for (int slot = 0; slot < points_->slots(); ++slot) {
+        const int cell = points_->stencilled[slot].cell;
+        cells_[slot] = {ux[cell], uy[cell]};
+    }
 }
 
 void SaddlePoint::sum_interiors() {
@@ -59,12 +83,13 @@ void SaddlePoint::factorise() {
     inverse_effective_.resize(grains_->size());
     momentum_.resize(grains_->size());
     for (std::size_t g = 0; g < grains_->size(); ++g) {
-        const Eigen::Matrix3d body = body_inertia((*grains_)[g], sums_[g], field_->cell_mass());
+        const Eigen::Matrix3d body =
+            body_inertia((*grains_)[g], sums_[g], field_->reference_mass());
         demand_positive(body, ids_[g]);
         inverse_[g] = body.inverse();
         effective_[g] += body;
         inverse_effective_[g] = effective_[g].inverse();
-        momentum_[g] = body_momentum((*grains_)[g], sums_[g], field_->cell_mass());
+        momentum_[g] = body_momentum((*grains_)[g], sums_[g], field_->reference_mass());
     }
 }
 
@@ -78,35 +103,35 @@ void SaddlePoint::move_grains() {
 }
 
 void SaddlePoint::push(const std::vector<Planar>& impulses) {
-    rows_.resize(grains_->size());
-    for (std::size_t g = 0; g < rows_.size(); ++g) {
+    by_grain_.resize(grains_->size());
+    for (std::size_t g = 0; g < by_grain_.size(); ++g) {
         momentum_[g] += impulses[g];
-        rows_[g] = inverse_[g] * impulses[g];
-        motions_[g] += rows_[g];
+        by_grain_[g] = inverse_[g] * impulses[g];
+        motions_[g] += by_grain_[g];
     }
-    BoundaryOperator(*points_).subtract_motion(rows_.data(), slip_.data());
+    BoundaryOperator(*points_).subtract_motion(by_grain_.data(), slip_.data());
 }
 
 void SaddlePoint::apply(const double* w, double* y) {
     const BoundaryOperator boundary(*points_);
     spread(w);
-    field_->import_halo(cells_x_.data(), cells_y_.data());
-    rows_.resize(grains_->size());
-    boundary.sum_by_grain(w, rows_.data());
-    sum_over_holders(rows_);
-    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g] = -(inverse_[g] * rows_[g]);
-    boundary.apply(cells_x_.data(), cells_y_.data(), rows_.data(), y);
+    by_grain_.resize(grains_->size());
+    boundary.sum_by_grain(w, by_grain_.data());
+    sum_over_holders(by_grain_);
+    for (std::size_t g = 0; g < by_grain_.size(); ++g) by_grain_[g] = -(inverse_[g] * by_grain_[g]);
+    boundary.apply(cells_.data(), by_grain_.data(), y);
 }
 
 /// (B B^T/m)^-1 by blocks, with T A^-1 T^T added by the formula of Woodbury.
 void SaddlePoint::precondition(const double* r, double* z) {
     const BoundaryOperator boundary(*points_);
     blocks_.solve(r, z);
-    rows_.resize(grains_->size());
-    boundary.sum_by_grain(z, rows_.data());
-    sum_over_holders(rows_);
-    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g] = inverse_effective_[g] * rows_[g];
-    blocks_.subtract_images(rows_.data(), z);
+    by_grain_.resize(grains_->size());
+    boundary.sum_by_grain(z, by_grain_.data());
+    sum_over_holders(by_grain_);
+    for (std::size_t g = 0; g < by_grain_.size(); ++g)
+        by_grain_[g] = inverse_effective_[g] * by_grain_[g];
+    blocks_.subtract_images(by_grain_.data(), z);
 }
 
 void SaddlePoint::add(const std::vector<double>& w) {
@@ -121,24 +146,40 @@ void SaddlePoint::impose() {
     for (std::size_t g = 0; g < grains_->size(); ++g)
         impulses_[g] += carry_cells(*points_, *field_, static_cast<int>(g), motions_[g]);
     sum_over_holders(impulses_);
-    for (const int cell : points_->stencilled) {
-        if (field_->owns(cell)) {
-            field_->velocity(0)[cell] -= cells_x_[cell];
-            field_->velocity(1)[cell] -= cells_y_[cell];
-        }
-        cells_x_[cell] = cells_y_[cell] = 0.0;  // halos export all they have, next window too
+    double* ux = field_->velocity(0);
+    double* uy = field_->velocity(1);
+    for (int slot = 0; slot < points_->slots(); ++slot) {
+        const int cell = points_->stencilled[slot].cell;
+        if (!field_->owns(cell)) continue;
+        ux[cell] -= cells_[slot].x;
+        uy[cell] -= cells_[slot].y;
     }
 }
 
-/// cells = B^T values / m on owned cells, halos summed into them.
+/// cells = m^-1 B^T values, of the points of all ranks.
 void SaddlePoint::spread(const double* values) {
-    for (const int cell : points_->stencilled) cells_x_[cell] = cells_y_[cell] = 0.0;
-    BoundaryOperator(*points_).spread(values, cells_x_.data(), cells_y_.data());
-    field_->export_halo(cells_x_.data(), cells_y_.data());
-    const double per_mass = 1.0 / field_->cell_mass();
-    for (const int cell : points_->stencilled) {
-        cells_x_[cell] *= per_mass;
-        cells_y_[cell] *= per_mass;
+    std::fill(cells_.begin(), cells_.end(), PlaneVector{});
+    BoundaryOperator(*points_).spread(values, cells_.data());
+    share_sums();
+    for (int slot = 0; slot < points_->slots(); ++slot) {
+        cells_[slot].x *= per_mass_[slot];
+        cells_[slot].y *= per_mass_[slot];
+    }
+}
+
+/// What ranks have written into cells that others know as well is added up at the owners', and
+/// their sums come back.
+void SaddlePoint::share_sums() {
+    for (const int slot : border_) {
+        const int cell = points_->stencilled[slot].cell;
+        share_x_[cell] = cells_[slot].x;
+        share_y_[cell] = cells_[slot].y;
+    }
+    field_->share_sums(share_x_.data(), share_y_.data());
+    for (const int slot : border_) {
+        const int cell = points_->stencilled[slot].cell;
+        cells_[slot] = {share_x_[cell], share_y_[cell]};
+        share_x_[cell] = share_y_[cell] = 0.0;  // for the next time
     }
 }
 

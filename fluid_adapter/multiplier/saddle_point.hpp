@@ -10,7 +10,7 @@
 // Interior points are eliminated (covered_fluid.hpp), so A and P hold the covered fluid. J are
 // impulses that come in addition: under `joint` those of the contacts. Velocities eliminated,
 //
-//     S L = s,    S = B B^T / m_c + T A^-1 T^T,   s the slip that L = 0 leaves
+//     S L = s,    S = B m^-1 B^T + T A^-1 T^T,   s the slip that L = 0 leaves
 //
 // symmetric and positive whenever every A is, also for grains as light as the fluid. Preconditioned
 // by its blocks of one grain (boundary_blocks.hpp), exact unless grains or ranks share cells.
@@ -71,10 +71,13 @@ class SaddlePoint {
     double points_everywhere() const;
 
  private:
+    void number_cells();
     void sum_interiors();
     void factorise();
     void move_grains();
     void spread(const double* values);
+    void share_sums();
+    void import_velocity();
 
     /// Adds up rows of grains held by several ranks, one row (a fixed-size vector) per grain.
     /// Called by every rank, also by one that holds no grain.
@@ -96,9 +99,11 @@ class SaddlePoint {
     std::vector<Planar> motions_, impulses_;
     BoundaryBlocks blocks_;
     std::vector<double> multipliers_, slip_;
-    std::vector<double> cells_x_,
-        cells_y_;               // B^T of something, by local cell; zero between windows
-    std::vector<Planar> rows_;  // of grains, for sums
+    std::vector<PlaneVector> cells_;         // m^-1 B^T of something, by slot
+    std::vector<double> per_mass_;           // 1/m_c, by slot
+    std::vector<int> border_;                // slots of cells that other ranks know too
+    std::vector<double> share_x_, share_y_;  // by local cell, for these; zero between windows
+    std::vector<Planar> by_grain_;
 };
 
 }  // namespace turbidite

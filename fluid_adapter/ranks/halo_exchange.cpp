@@ -69,6 +69,13 @@ void HaloExchange::find_neighbours(const std::vector<int>& own, const std::vecto
     }
 }
 
+std::vector<int> HaloExchange::shared() const {
+    std::vector<int> cells;
+    for (const Neighbour& neighbour : neighbours_)
+        cells.insert(cells.end(), neighbour.shared.begin(), neighbour.shared.end());
+    return cells;
+}
+
 void HaloExchange::import(std::initializer_list<double*> fields) {
     for (Neighbour& neighbour : neighbours_) {
         neighbour.owned_values.clear();

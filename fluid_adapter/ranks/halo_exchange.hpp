@@ -24,6 +24,9 @@ class HaloExchange {
     /// The halo in the order of its local indices, which follow the own cells'.
     const std::vector<int>& halo() const { return halo_; }
 
+    /// Own cells that are in another rank's halo, some twice.
+    std::vector<int> shared() const;
+
     /// Owners' values into the halos. Every field has one value per local cell.
     void import(std::initializer_list<double*> fields);
 

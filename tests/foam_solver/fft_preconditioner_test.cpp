@@ -31,7 +31,7 @@ class LidDrivenCavity : public StockApplication {
         int iterations;
     };
 
-    Outcome flow(const std::string& entries) const {
+    Outcome flow(const std::string& entries, int ranks = 1) const {
         const std::string flat = "type zeroGradient;", wall = "type noSlip;";
         FoamBox box;
         box.cells = {16, 8};  // 48 x 24 squares of 1/32
@@ -42,7 +42,7 @@ class LidDrivenCavity : public StockApplication {
         write_vector_field(scratch, box, "U",
                            {wall, wall, wall, "type fixedValue; value uniform (1 0 0);"});
         make_mesh();
-        const Answer answer = run("icoFoam");
+        const Answer answer = run(ranks, "icoFoam");
         return {field("0.2/U"), field("0.2/p"), most_iterations(answer.out, "p")};
     }
 };
@@ -60,6 +60,15 @@ TEST_F(LidDrivenCavity, TakesTheIterationsThatTheWallRowsCostAndNoMore) {
     // 1e-10 of the norm, below 10, times the inverse of the smallest eigenvalue over dt, 40 steps.
     EXPECT_LT(largest_difference(direct.U, reference.U), 1e-6);
     EXPECT_LT(largest_difference(direct.p, reference.p), 1e-6);
+}
+
+TEST_F(LidDrivenCavity, TakesAsManyIterationsOnSeveralRanks) {
+    const std::string entries = "solver PCG; preconditioner FFT;";
+    const Outcome one = flow(entries);
+    write_decomposition(scratch, {2, 1});
+    const Outcome two = flow(entries, 2);
+    EXPECT_LE(two.iterations, one.iterations + 1);
+    EXPECT_LT(largest_difference(one.U, two.U), 1e-8);
 }
 
 class PreconditionedDiffusion : public StockApplication {

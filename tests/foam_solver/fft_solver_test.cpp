@@ -64,13 +64,14 @@ class FftSolver : public StockApplication, public testing::WithParamInterface<Co
     };
 
     /// Three steps of laplacianFoam.
-    Outcome diffused(FoamBox box, const Sides& sides, const std::string& solver) const {
+    Outcome diffused(FoamBox box, const Sides& sides, const std::string& solver,
+                     int ranks = 1) const {
         box.control = libs;
         box.solution = solver_of("T", solver);
         write_box(scratch, box, 0.01, 0.03);
         write_field(scratch, box, "T", "[0 0 0 1 0 0 0]", sides, some_values(box.cell_count()));
         make_mesh();
-        const Answer answer = run("laplacianFoam");
+        const Answer answer = run(ranks, "laplacianFoam");
         return {field("0.03/T"), answer.out};
     }
 };
@@ -94,13 +95,27 @@ TEST_P(FftSolver, EqualsPcgAtRest) {
     EXPECT_EQ(iterations(direct.log, "T"), (std::vector<int>{1, 0, 0}));
 }
 
+/// Ranks that have whole rows, that have none, and that have neither; blockMesh's numbers go block
+/// by block, so that no rank's cells are in the order of the box.
+TEST_P(FftSolver, EqualsPcgOnSeveralRanks) {
+    FoamBox box = box_with(GetParam());
+    const std::vector<double> reference = diffused(box, GetParam().sides, pcg).T;
+    for (const std::array<int, 2>& ranks : {std::array<int, 2>{1, 2}, {2, 1}, {2, 2}}) {
+        write_decomposition(scratch, ranks);
+        const Outcome direct = diffused(box, GetParam().sides, fft, ranks[0] * ranks[1]);
+        EXPECT_EQ(iterations(direct.log, "T"), std::vector<int>(3, 1));
+        EXPECT_LT(worst_residual(direct.log, "T"), 1e-13);
+        EXPECT_LT(largest_difference(direct.T, reference), agreement);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Conditions, FftSolver, testing::ValuesIn(all_conditions),
                          [](const auto& info) { return std::string(info.param.name); });
 
 /// Flow through a box: the potential is free but for its reference.
 class Reference : public StockApplication {
  protected:
-    std::vector<double> potential(const std::string& solver) const {
+    std::vector<double> potential(const std::string& solver, int ranks = 1) const {
         FoamBox box;
         box.control = libs;
         box.solution =
@@ -111,7 +126,8 @@ class Reference : public StockApplication {
             scratch, box, "U",
             {held("(1 0 0)"), held("(1 0 0)"), held("(0 0.5 0)"), held("(0 0.5 0)")});
         make_mesh();
-        run("potentialFoam -writePhi -initialiseUBCs");
+        std::filesystem::remove(scratch.path() / "0/Phi");
+        run(ranks, "potentialFoam -writePhi -initialiseUBCs");
         return field("0/Phi");
     }
 };
@@ -122,6 +138,18 @@ TEST_F(Reference, TheAnswerHasItsValueAtTheReference) {
     EXPECT_LT(largest_difference(direct, reference), 1e-8);  // the smallest eigenvalue is delta/N
     const auto [least, most] = std::minmax_element(direct.begin(), direct.end());
     EXPECT_GT(*most - *least, 0.5);
+}
+
+/// OpenFOAM takes the reference for one of rank 0's cells, so it is another cell there.
+TEST_F(Reference, TheAnswerIsTheSameUpToItsLevelOnSeveralRanks) {
+    const std::vector<double> one = potential(fft);
+    for (const std::array<int, 2>& ranks : {std::array<int, 2>{2, 1}, {2, 2}}) {
+        write_decomposition(scratch, ranks);
+        std::vector<double> several = potential(fft, ranks[0] * ranks[1]);
+        const double level = several[0] - one[0];
+        for (double& value : several) value -= level;
+        EXPECT_LT(largest_difference(one, several), 1e-9);
+    }
 }
 
 TEST_F(FftSolver, CoefficientsThatDifferByTheMeshsDigitsAreCorrected) {
@@ -191,14 +219,22 @@ TEST_F(Refusal, SeveralLayersOfCellsAreRefusedByBoth) {
         EXPECT_SAYS(said(box, sides, solver), "one layer of cells");
 }
 
-TEST_F(Refusal, SeveralRanksAreRefusedByName) {
-    const std::string ranks =
-        "mpirun --allow-run-as-root --oversubscribe -n 2 laplacianFoam -parallel";
-    scratch.write("system/decomposeParDict",
-                  "FoamFile { version 2.0; format ascii; class dictionary; object "
-                  "decomposeParDict; }\nnumberOfSubdomains 2; method simple;\n"
-                  "simpleCoeffs { n (2 1 1); delta 0.001; }\n");
-    EXPECT_SAYS(said(FoamBox(), sides, fft, "decomposePar", ranks), "several ranks");
+/// The verdict and its text are the same on all ranks, so that none waits for another.
+TEST_F(Refusal, AGradedMeshIsRefusedBySeveralRanksTogether) {
+    write_decomposition(scratch, {2, 1});
+    FoamBox box;
+    box.x = {0.0, 0.4, 0.8, 1.5};
+    const std::string text = said(box, sides, fft, "decomposePar", on_ranks(2, "laplacianFoam"));
+    for (const char* part : {"not all equal", "cell ", "of processor", "preconditioner FFT"})
+        EXPECT_SAYS(text, part);
+}
+
+TEST_F(Refusal, AMeshWithAHoleIsRefusedBySeveralRanksTogether) {
+    write_decomposition(scratch, {2, 2});
+    FoamBox box;
+    box.hole = true;
+    EXPECT_SAYS(said(box, sides, preconditioned, "decomposePar", on_ranks(4, "laplacianFoam")),
+                "hole");
 }
 
 }  // namespace

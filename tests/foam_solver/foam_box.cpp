@@ -134,6 +134,14 @@ void write_vector_field(const ScratchFolder& folder, const FoamBox& box, const s
                                   boundary_of(box, conditions));
 }
 
+void write_decomposition(const ScratchFolder& folder, const std::array<int, 2>& ranks) {
+    const std::string n = std::to_string(ranks[0]) + " " + std::to_string(ranks[1]) + " 1";
+    folder.write("system/decomposeParDict",
+                 header("dictionary", "decomposeParDict") + "numberOfSubdomains " +
+                     std::to_string(ranks[0] * ranks[1]) + ";\nmethod simple;\n" +
+                     "simpleCoeffs { n (" + n + "); delta 0.000001; }\n");
+}
+
 std::vector<double> read_field(const std::filesystem::path& file) {
     std::ifstream input(file);
     std::string text{std::istreambuf_iterator<char>(input), {}};

@@ -39,6 +39,9 @@ void write_field(const ScratchFolder& folder, const FoamBox& box, const std::str
 void write_vector_field(const ScratchFolder& folder, const FoamBox& box, const std::string& name,
                         const Sides& conditions);
 
+/// So many ranks along x and along y.
+void write_decomposition(const ScratchFolder& folder, const std::array<int, 2>& ranks);
+
 /// All numbers of the internal field of a file, vectors one after the other.
 std::vector<double> read_field(const std::filesystem::path& file);
 

@@ -30,6 +30,20 @@ class StockApplication : public ShellTest {
         return answer;
     }
 
+    static std::string on_ranks(int ranks, const std::string& application) {
+        return "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " +
+               application + " -parallel";
+    }
+
+    /// On several ranks what they write is put together again.
+    Answer run(int ranks, const std::string& application) const {
+        if (ranks == 1) return run(application);
+        run("decomposePar -force");
+        const Answer answer = run(on_ranks(ranks, application));
+        run("reconstructPar");
+        return answer;
+    }
+
     std::vector<double> field(const std::string& name) const {
         return read_field(scratch.path() / name);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Step 5 solved another way, for comparison: no multiplier is eliminated, all points of all grains
-// are rows of one dense matrix S = B B^T/m + T C^-1 T^T, C = diag(cM, cM, cI), solved by LU.
+// are rows of one dense matrix S = B m^-1 B^T + T C^-1 T^T, C = diag(cM, cM, cI), solved by LU.
 #pragma once
 
 #include <Eigen/LU>
@@ -15,20 +15,27 @@ class DenseReference {
  public:
     DenseReference(FluidField& field, const std::vector<ImmersedGrain>& grains,
                    const CollocationPoints& points)
-        : field_(field), grains_(grains), B_(points.size(), field.local_cells()) {
+        : field_(field),
+          grains_(grains),
+          B_(points.size(), field.local_cells()),
+          per_mass_(field.local_cells()) {
         B_.setZero();
+        per_mass_.setOnes();
         for (int g = 0; g < points.grains(); ++g) {
             for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
                 const InteriorCell& point = points.interior[i];
                 B_(rows_.size(), point.cell) = 1.0;
+                per_mass_[point.cell] = 1.0 / point.volume;
                 rows_.push_back({g, point.arm_x, point.arm_y});
             }
             for (int p = points.boundary_begin[g]; p < points.boundary_begin[g + 1]; ++p) {
                 for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s)
-                    B_(rows_.size(), points.cell[s]) = points.weight[s];
+                    B_(rows_.size(), points.cell(s)) = points.weight[s];
                 rows_.push_back({g, points.arm_x[p], points.arm_y[p]});
             }
         }
+        for (const StencilCell& at : points.stencilled) per_mass_[at.cell] = 1.0 / at.volume;
+        per_mass_ /= field.reference_mass();
     }
 
     /// Motions of all grains; `pushes`: impulses that come in addition.
@@ -48,7 +55,7 @@ class DenseReference {
             free.segment<3>(3 * g) =
                 grains_[g].free_motion() + inverse.segment<3>(3 * g).cwiseProduct(pushes[g]);
         }
-        const Eigen::MatrixXd gram = B_ * B_.transpose() / field_.cell_mass();
+        const Eigen::MatrixXd gram = B_ * per_mass_.asDiagonal() * B_.transpose();
         Eigen::MatrixXd S = T * inverse.asDiagonal() * T.transpose();
         S.topLeftCorner(n, n) += gram;
         S.bottomRightCorner(n, n) += gram;
@@ -73,6 +80,7 @@ class DenseReference {
     FluidField& field_;
     const std::vector<ImmersedGrain>& grains_;
     Eigen::MatrixXd B_;
+    Eigen::VectorXd per_mass_;  // 1/m_c
     std::vector<Row> rows_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "coupler/shapes/disc.hpp"
 #include "coupler/shapes/immersed_body.hpp"
+#include "fluid_adapter/multiplier/boundary_operator.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 
@@ -25,6 +26,14 @@ class MemoryField final : public FluidField {
         y_.resize(n * m);
     }
 
+    /// Cells between the given edges.
+    MemoryField(const std::vector<double>& x_edges, const std::vector<double>& y_edges, Side side)
+        : MemoryField(static_cast<int>(x_edges.size()) - 1, static_cast<int>(y_edges.size()) - 1,
+                      side) {
+        grid_.stretch(0, x_edges);
+        grid_.stretch(1, y_edges);
+    }
+
     const CellGrid& grid() const override { return grid_; }
     int cell(int i, int j, int k) const override {
         const bool inside =
@@ -33,7 +42,7 @@ class MemoryField final : public FluidField {
     }
     int local_cells() const override { return static_cast<int>(x_.size()); }
     bool owns(int) const override { return true; }
-    double cell_mass() const override { return grid_.spacing[0] * grid_.spacing[1]; }
+    double reference_mass() const override { return grid_.spacing[0] * grid_.spacing[1]; }
     double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
 
     void fill(const std::function<Planar(double, double)>& velocity_at) {
@@ -54,8 +63,11 @@ class MemoryField final : public FluidField {
 
     Planar momentum() const {
         Planar sum = Planar::Zero();
-        for (double u : x_) sum.x() += cell_mass() * u;
-        for (double u : y_) sum.y() += cell_mass() * u;
+        for (int j = 0; j < grid_.counts[1]; ++j)
+            for (int i = 0; i < grid_.counts[0]; ++i) {
+                const int c = cell(i, j, 0);
+                sum += cell_mass(i, j) * Planar(x_[c], y_[c], 0.0);
+            }
         return sum;
     }
 
@@ -63,6 +75,14 @@ class MemoryField final : public FluidField {
     CellGrid grid_;
     std::vector<double> x_, y_;
 };
+
+/// u of the cells that boundary points interpolate from, by slot.
+inline std::vector<PlaneVector> at_slots(MemoryField& field, const CollocationPoints& points) {
+    std::vector<PlaneVector> u;
+    for (const StencilCell& at : points.stencilled)
+        u.push_back({field.velocity(0)[at.cell], field.velocity(1)[at.cell]});
+    return u;
+}
 
 /// A disc of diameter 1 with the given motion after the contact step.
 inline ImmersedGrain disc(GrainId id, double x, double y, const Planar& motion = Planar::Zero(),

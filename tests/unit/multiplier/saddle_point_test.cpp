@@ -97,19 +97,18 @@ TEST(BoundaryOperator, TransposeIdentity) {
     const std::vector<Planar> motions = {{0.3, -0.2, 1.0}, {0.5, 0.1, -2.0}, {-0.7, 0.4, 0.3}};
 
     std::vector<double> slip(boundary.rows());
-    boundary.apply(problem.field.velocity(0), problem.field.velocity(1), motions.data(),
-                   slip.data());
+    const std::vector<PlaneVector> u = at_slots(problem.field, problem.points);
+    boundary.apply(u.data(), motions.data(), slip.data());
     double left = 0.0;
     for (int i = 0; i < boundary.rows(); ++i) left += L[i] * slip[i];
 
-    const int cells = problem.field.local_cells();
-    std::vector<double> fx(cells), fy(cells);
+    std::vector<PlaneVector> f(problem.points.slots());
     std::vector<Planar> sums(3);
-    boundary.spread(L.data(), fx.data(), fy.data());
+    boundary.spread(L.data(), f.data());
     boundary.sum_by_grain(L.data(), sums.data());
     double right = 0.0;
-    for (int c = 0; c < cells; ++c)
-        right += fx[c] * problem.field.velocity(0)[c] + fy[c] * problem.field.velocity(1)[c];
+    for (std::size_t slot = 0; slot < f.size(); ++slot)
+        right += f[slot].x * u[slot].x + f[slot].y * u[slot].y;
     for (int g = 0; g < 3; ++g) right -= sums[g].dot(motions[g]);
     EXPECT_NEAR(left, right, 1e-11);
 }
@@ -236,8 +235,7 @@ TEST_P(Against, TheConstraintItself) {
         }
     const BoundaryOperator boundary(points);
     std::vector<double> slip(boundary.rows());
-    boundary.apply(problem.field.velocity(0), problem.field.velocity(1), motions.data(),
-                   slip.data());
+    boundary.apply(at_slots(problem.field, points).data(), motions.data(), slip.data());
     for (const double value : slip) EXPECT_NEAR(value, 0.0, 1e-8);
 }
 

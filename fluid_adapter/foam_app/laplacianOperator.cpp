@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/laplacianOperator.hpp"
+
+#include <fvmLaplacian.H>
+
+#include <algorithm>
+
+namespace turbidite {
+namespace {
+
+/// Conditions that hold a value or a gradient for good, or that couple cells.
+constexpr const char* lasting_conditions[] = {"zeroGradient",    "fixedGradient", "fixedValue",
+                                              "noSlip",          "cyclic",        "processor",
+                                              "processorCyclic", "empty"};
+
+template <class Type>
+using VolField = Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>;
+
+template <class Type>
+std::string switching_condition(const VolField<Type>& field) {
+    for (const auto& condition : field.boundaryField()) {
+        const auto is_same = [&](const char* name) { return condition.type() == name; };
+        if (!std::any_of(std::begin(lasting_conditions), std::end(lasting_conditions), is_same))
+            return "condition " + condition.type() + " on patch " + condition.patch().name();
+    }
+    return {};
+}
+
+/// What a patch gives to the right-hand side is zero where what it holds is.
+template <class Type>
+std::string inhomogeneous_condition(const Foam::fvMatrix<Type>& matrix) {
+    forAll(matrix.psi().boundaryField(), patch) {
+        const auto& condition = matrix.psi().boundaryField()[patch];
+        if (condition.coupled() || condition.size() == 0) continue;
+        if (Foam::max(Foam::mag(matrix.boundaryCoeffs()[patch])) > 0.0)
+            return "the value or gradient fixed on patch " + condition.patch().name() +
+                   " is not zero";
+    }
+    return {};
+}
+
+Foam::fvScalarMatrix laplacian(Foam::volScalarField& p) {
+    return Foam::fvScalarMatrix(Foam::fvm::laplacian(p));
+}
+
+/// The same for all components: none of the lasting conditions tells them apart.
+Foam::fvVectorMatrix laplacian(Foam::volVectorField& U) {
+    return Foam::fvVectorMatrix(
+        Foam::fvm::laplacian(Foam::dimensionedScalar("nu", Foam::dimViscosity, 1.0), U));
+}
+
+/// The boundary's share of the diagonal goes where a solver would see it.
+template <class Type>
+BoxOperator read(const Foam::fvMatrix<Type>& matrix, const BoxCells& box) {
+    Foam::lduMatrix whole(matrix);
+    Foam::scalarField& diagonal = whole.diag();
+    forAll(matrix.internalCoeffs(), patch) {
+        const Foam::labelUList& cells = whole.lduAddr().patchAddr(patch);
+        const Foam::scalarField share(matrix.internalCoeffs()[patch].component(0));
+        forAll(cells, face) diagonal[cells[face]] += share[face];
+    }
+    const Foam::FieldField<Foam::Field, Foam::scalar> beyond(matrix.boundaryCoeffs().component(0));
+    return exact_operator({whole, beyond, matrix.psi().boundaryField().scalarInterfaces()}, box);
+}
+
+template <class Type>
+BoxOperator lasting_operator(VolField<Type>& field, const BoxCells& box, bool homogeneous) {
+    demand(box.ranks, switching_condition(field));
+    const auto matrix = laplacian(field);
+    if (homogeneous) demand(box.ranks, inhomogeneous_condition(matrix));
+    return read(matrix, box);
+}
+
+}  // namespace
+
+BoxOperator laplacian_operator(Foam::volScalarField& p, const BoxCells& box) {
+    return lasting_operator(p, box, false);
+}
+
+BoxOperator laplacian_operator(Foam::volVectorField& U, const BoxCells& box) {
+    return lasting_operator(U, box, false);
+}
+
+BoxOperator homogeneous_laplacian(Foam::volScalarField& p, const BoxCells& box) {
+    return lasting_operator(p, box, true);
+}
+
+BoxOperator homogeneous_laplacian(Foam::volVectorField& U, const BoxCells& box) {
+    return lasting_operator(U, box, true);
+}
+
+}  // namespace turbidite
