@@ -16,8 +16,9 @@ void carry(int count, double two_by_k, const double* __restrict flux, const doub
     for (int i = 0; i < count; ++i) {
         const bool up = flux[i] > 0.0;
         const double du = u2[i] - u1[i], dv = v2[i] - v1[i];
-        const double eu = up ? u1[i] - u0[i] : u3[i] - u2[i];
-        const double ev = up ? v1[i] - v0[i] : v3[i] - v2[i];
+        const double u_behind = u1[i] - u0[i], u_ahead = u3[i] - u2[i];
+        const double v_behind = v1[i] - v0[i], v_ahead = v3[i] - v2[i];
+        const double eu = up ? u_behind : u_ahead, ev = up ? v_behind : v_ahead;
         const double r = (du * eu + dv * ev) / (du * du + dv * dv + tiny);
         double l = two_by_k * r;
         l = l < 1.0 ? l : 1.0;

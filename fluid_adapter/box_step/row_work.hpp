@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // The inner loops of box_step.cpp: one row each, no sides, no branches, so that the compiler can
-// use the vector unit. Compiled for AVX2 as well; the machine chooses when the program starts. Face
-// i of a row lies between cells i - 1 and i. Valid C++17.
+// use the vector unit. Compiled for AVX2 as well; the machine chooses when the program starts, by
+// what it can do: a name of a processor would be compared as a name, and all others would get the
+// plain code. Without fused operations both give the same bits. Face i of a row lies between cells
+// i - 1 and i. Valid C++17.
 #pragma once
 
 namespace turbidite {
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define TURBIDITE_ROW_WORK __attribute__((target_clones("arch=haswell", "default")))
+#define TURBIDITE_ROW_WORK __attribute__((target_clones("avx2", "default")))
 #else
 #define TURBIDITE_ROW_WORK
 #endif
