@@ -49,6 +49,41 @@ RunFolder prepared_run(const Site& site, const Box2d& box, int ranks) {
     return folder;
 }
 
+RunFolder prepared_mid_fall(const Site& site, int ranks) {
+    const RunFolder folder{site.folder() / fmt::format("mid-fall-on-{}", ranks)};
+    if (fs::exists(folder.root)) return folder;
+    say("preparing the mid-fall");
+    const ResolvedCase resolved = load_case(
+        site.source("../configs/sedimentation-discs.yaml"),
+        {"grains.adapter=standalone-nscd",
+         "grains.file=" + fs::canonical(site.source("mid_fall.csv")).string(),
+         fmt::format("fluid.ranks={}", ranks),
+         fmt::format("fluid.cells_per_diameter={}", site.quick() ? 4 : Box2d::cells_per_diameter)});
+    prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});
+    return folder;
+}
+
+/// Windows of our fluid on a prepared folder, in processes of their own.
+Sample played(const Site& site, const RunFolder& folder, const std::string& name,
+              const Effort& effort, int ranks, bool discs) {
+    const fs::path result = site.folder() / "ours.json";
+    std::vector<std::string> line;
+    if (ranks > 1) {
+        line = mpirun_options(this_site());
+        line.insert(line.end(), {"-n", std::to_string(ranks)});
+    }
+    line.insert(line.end(), {(site.programs().folder / "turbidite-bench-fluid").string(),
+                             folder.root.string(), "--warm-up", std::to_string(effort.warm_up),
+                             "--steps", std::to_string(effort.steps), "--result", result.string()});
+    if (discs) line.push_back("--discs");
+    if (ranks > 1) line.push_back("--parallel");
+    site.run(line, "ours.log");
+    const Sample sample = read_sample(result);
+    say(fmt::format("our window, {} on {}: {:.4g} s, wall {:.4g} s", name, ranks, sample.processor,
+                    sample.wall));
+    return sample;
+}
+
 fs::path prepared_icofoam(const Site& site, const Box2d& box, const Effort& effort) {
     const fs::path folder = site.folder() / ("icofoam-" + box.name());
     if (fs::exists(folder)) return folder;
@@ -88,22 +123,11 @@ std::string Box2d::name() const {
 
 Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks) {
     const RunFolder folder = prepared_run(site, box, ranks);
-    const fs::path result = site.folder() / "ours.json";
-    std::vector<std::string> line;
-    if (ranks > 1) {
-        line = mpirun_options(this_site());
-        line.insert(line.end(), {"-n", std::to_string(ranks)});
-    }
-    line.insert(line.end(), {(site.programs().folder / "turbidite-bench-fluid").string(),
-                             folder.root.string(), "--warm-up", std::to_string(effort.warm_up),
-                             "--steps", std::to_string(effort.steps), "--result", result.string()});
-    if (box.discs > 0) line.push_back("--discs");
-    if (ranks > 1) line.push_back("--parallel");
-    site.run(line, "ours.log");
-    const Sample sample = read_sample(result);
-    say(fmt::format("our window, {} on {}: {:.4g} s, wall {:.4g} s", box.name(), ranks,
-                    sample.processor, sample.wall));
-    return sample;
+    return played(site, folder, box.name(), effort, ranks, box.discs > 0);
+}
+
+Sample mid_fall_window(Site& site, const Effort& effort, int ranks) {
+    return played(site, prepared_mid_fall(site, ranks), "mid-fall", effort, ranks, true);
 }
 
 Sample array_code_step(Site& site, const Box2d& box, const Effort& effort) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The contenders of the fluid benchmark: our window, the array code, icoFoam. All work on the case
-// bench/fluid.yaml, in boxes given in D.
+// The contenders of the fluid benchmark: our window, the array code, icoFoam on the case
+// bench/fluid.yaml, in boxes given in D; and our window in the shipped sedimentation.
 #pragma once
 
 #include "bench/site.hpp"
@@ -25,6 +25,11 @@ struct Effort {
 /// Prepares the run folder at the first call. Grains start at rest and fall. Several ranks run
 /// under mpirun, and need discs to move the fluid.
 Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks = 1);
+
+/// The shipped sedimentation, configs/sedimentation-discs.yaml, in mid-fall: from rest where its
+/// discs are after 12 t_c (bench/mid_fall.csv), so that a warm-up of 100 windows lets them fall on
+/// among contacts.
+Sample mid_fall_window(Site& site, const Effort& effort, int ranks = 1);
 
 Sample array_code_step(Site& site, const Box2d& box, const Effort& effort);
 

@@ -100,6 +100,41 @@ Measured speedup_2_ranks(Site& site) {
     return measured;
 }
 
+/// Mid-fall needs a flow: one t_c of it before the clock starts.
+Effort mid_fall(const Site& site) {
+    return site.quick() ? Effort{2, 3} : Effort{100, 30};
+}
+
+std::string work_done(const std::vector<Sample>& samples) {
+    const auto median_count = [&](const char* name) {
+        return median_of(samples, [&](const Sample& s) { return s.counts.at(name); });
+    };
+    return fmt::format("{} iterations of the multipliers per window, {} contacts",
+                       median_count("multiplier iterations"), median_count("contacts"));
+}
+
+Measured joint_window_d16(Site& site) {
+    const Box2d box = tall_box(site, false);
+    const Duel duel = alternate(
+        site.quick() ? 1 : 3, [&] { return mid_fall_window(site, mid_fall(site)); },
+        [&] { return our_window(site, box, windows(site)); });
+    Measured measured = ratio(duel, processor);
+    measured.notes = {milliseconds("mid-fall", duel.first), profile(duel.first),
+                      work_done(duel.first), milliseconds("without grains", duel.second),
+                      profile(duel.second)};
+    return measured;
+}
+
+Measured joint_speedup_2_ranks(Site& site) {
+    const Duel duel = alternate(
+        site.quick() ? 1 : 3, [&] { return mid_fall_window(site, mid_fall(site), 1); },
+        [&] { return mid_fall_window(site, mid_fall(site), 2); });
+    Measured measured = ratio(duel, wall);
+    measured.notes = {"on one rank: " + profile(duel.first),
+                      "on the first of two: " + profile(duel.second)};
+    return measured;
+}
+
 Measured bytes_per_cell(Site& site) {
     const Box2d large = site.quick() ? Box2d{15.0, 15.0} : Box2d{40.0, 120.0};
     const Box2d small = site.quick() ? Box2d{5.0, 5.0} : Box2d{20.0, 60.0};
@@ -150,6 +185,17 @@ std::vector<Figure> fluid_figures() {
          "ratio",
          {Kind::at_least, 1.6},
          speedup_2_ranks},
+        {"joint_window_d16",
+         "fluid side of a window of the shipped sedimentation (joint, mid-fall, contacts) over our "
+         "window without grains, 320 x 960",
+         "ratio",
+         {Kind::at_most, 1.8},
+         joint_window_d16},
+        {"joint_speedup_2_ranks",
+         "wall time of the fluid side in that window, 1 rank over 2",
+         "ratio",
+         {Kind::at_least, 1.6},
+         joint_speedup_2_ranks},
         {"bytes_per_cell",
          "growth of the fluid program's resident memory",
          "bytes",

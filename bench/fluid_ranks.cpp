@@ -6,13 +6,26 @@
 namespace turbidite::bench {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<Kick>, "kicks travel as bytes");
-
 /// Where each rank's bytes begin in the list of all.
 std::vector<int> starts_of(const std::vector<int>& counts) {
     std::vector<int> starts(counts.size(), 0);
     for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
     return starts;
+}
+
+template <class Record>
+std::vector<Record> of_all_ranks(const std::vector<Record>& records) {
+    static_assert(std::is_trivially_copyable_v<Record>, "records travel as bytes");
+    int ranks = 0;
+    ::MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    const int mine = static_cast<int>(records.size() * sizeof(Record));
+    std::vector<int> counts(ranks);
+    ::MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    const std::vector<int> starts = starts_of(counts);
+    std::vector<Record> result((starts.back() + counts.back()) / sizeof(Record));
+    ::MPI_Allgatherv(records.data(), mine, MPI_BYTE, result.data(), counts.data(), starts.data(),
+                     MPI_BYTE, MPI_COMM_WORLD);
+    return result;
 }
 
 /// How far beyond its surface a grain matters to a rank. More than any stencil or rule of points
@@ -45,17 +58,11 @@ std::vector<GrainState> FluidRanks::here(const std::vector<GrainState>& grains) 
 }
 
 std::vector<Kick> FluidRanks::all(const std::vector<Kick>& kicks) const {
-    if (!mpi_) return kicks;
-    int ranks = 0;
-    ::MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    const int mine = static_cast<int>(kicks.size() * sizeof(Kick));
-    std::vector<int> counts(ranks);
-    ::MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
-    const std::vector<int> starts = starts_of(counts);
-    std::vector<Kick> result((starts.back() + counts.back()) / sizeof(Kick));
-    ::MPI_Allgatherv(kicks.data(), mine, MPI_BYTE, result.data(), counts.data(), starts.data(),
-                     MPI_BYTE, MPI_COMM_WORLD);
-    return result;
+    return mpi_ ? of_all_ranks(kicks) : kicks;
+}
+
+std::vector<FreeResponse> FluidRanks::all(const std::vector<FreeResponse>& responses) const {
+    return mpi_ ? of_all_ranks(responses) : responses;
 }
 
 void FluidRanks::meet() const {

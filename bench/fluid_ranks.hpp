@@ -27,8 +27,9 @@ class FluidRanks {
     /// The grains that this rank's fluid needs.
     std::vector<GrainState> here(const std::vector<GrainState>& grains) const;
 
-    /// The kicks of all ranks, on all ranks.
+    /// What each rank says of its grains, on all ranks.
     std::vector<Kick> all(const std::vector<Kick>& kicks) const;
+    std::vector<FreeResponse> all(const std::vector<FreeResponse>& responses) const;
 
     /// Waits until every rank is here.
     void meet() const;

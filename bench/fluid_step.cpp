@@ -2,8 +2,9 @@
 //
 // turbidite-bench-fluid RUN: times windows of our fluid on a prepared run folder, with --parallel
 // under mpirun. With --discs the grains of the folder move as the contact engine and the fluid make
-// them (scheme `split`), and only the fluid's work is timed.
+// them, under the case's scheme (`split` or `joint`), and only the fluid's work is timed.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -27,24 +28,108 @@ struct Options {
     bool discs = false, parallel = false;
 };
 
-/// The grains between two windows of the fluid; none at all without --discs.
+/// The contact engine beside the fluid; without --discs there are no grains at all.
 class MovingGrains {
  public:
     MovingGrains(const ResolvedCase& resolved, bool discs) {
         if (!discs) return;
         contact_ = std::make_unique<NscdAdapter>();
-        contact_->initialise(resolved.settings, resolved.shapes, resolved.population);
+        grains_ =
+            contact_->initialise(resolved.settings, resolved.shapes, resolved.population).grains;
     }
-    std::vector<GrainState> advance(const Window& window) {
+    /// As the window began.
+    const std::vector<GrainState>& now() const { return grains_; }
+    /// After contact.
+    std::vector<GrainState> advance(const Window& window,
+                                    const std::vector<FreeResponse>& responses) {
         if (!contact_) return {};
-        return contact_->advance(window, {}).grains;
+        const Motion motion = contact_->advance(window, responses);
+        contacts_ = motion.report.contacts;
+        return motion.grains;
     }
     void move(const Window& window, const std::vector<Kick>& kicks) {
-        if (contact_) contact_->apply_kick(window, kicks);
+        if (contact_) grains_ = contact_->apply_kick(window, kicks).grains;
     }
+    std::int64_t contacts() const { return contacts_; }
 
  private:
     std::unique_ptr<NscdAdapter> contact_;
+    std::vector<GrainState> grains_;
+    std::int64_t contacts_ = 0;
+};
+
+/// Plays windows as the coupler does; only the fluid is on the clock.
+class Player {
+ public:
+    Player(const Options& options, const ResolvedCase& resolved, FoamAdapter& fluid,
+           FluidRanks& ranks)
+        : fluid_(fluid),
+          ranks_(ranks),
+          grains_(resolved, options.discs),
+          joint_(options.discs && resolved.settings.text("run.scheme") == "joint"),
+          tolerance_(resolved.settings.real("coupling.tolerance") *
+                     resolved.settings.real("run.velocity_scale")),
+          most_rounds_(resolved.settings.integer("coupling.iterations")) {}
+
+    FluidReport play(const Window& window, StepClock& clock) {
+        clock.start();
+        clock.pause();
+        const Kicks answer = joint_ ? play_joint(window, clock) : play_split(window, clock);
+        clock.stop();
+        grains_.move(window, ranks_.all(answer.kicks));
+        return answer.report;
+    }
+
+    std::int64_t contacts() const { return grains_.contacts(); }
+
+ private:
+    template <class Work>
+    auto on_clock(StepClock& clock, Work work) {
+        ranks_.meet();
+        clock.resume();
+        auto result = work();
+        ranks_.meet();
+        clock.pause();
+        return result;
+    }
+
+    Kicks play_split(const Window& window, StepClock& clock) {
+        const std::vector<GrainState> moving = ranks_.here(grains_.advance(window, {}));
+        return on_clock(clock, [&] {
+            fluid_.advance(window);
+            fluid_.correct(window, moving);
+            return fluid_.impose(window);
+        });
+    }
+
+    Kicks play_joint(const Window& window, StepClock& clock) {
+        const std::vector<GrainState> before = ranks_.here(grains_.now());
+        std::vector<FreeResponse> responses = ranks_.all(on_clock(clock, [&] {
+            fluid_.advance(window);
+            fluid_.let_fall(window, before);
+            return fluid_.respond();
+        }));
+        double mismatch = 0.0;
+        std::int64_t rounds = 0;
+        do {
+            const std::vector<GrainState> pushed = ranks_.here(grains_.advance(window, responses));
+            responses = ranks_.all(on_clock(clock, [&] {
+                fluid_.correct(window, pushed);
+                return fluid_.respond();
+            }));
+            mismatch = 0.0;
+            for (const FreeResponse& response : responses)
+                mismatch = std::max(mismatch, response.mismatch);
+        } while (mismatch > tolerance_ && ++rounds < most_rounds_);
+        return on_clock(clock, [&] { return fluid_.impose(window); });
+    }
+
+    FoamAdapter& fluid_;
+    FluidRanks& ranks_;
+    MovingGrains grains_;
+    bool joint_;
+    double tolerance_;  // [m/s]
+    std::int64_t most_rounds_;
 };
 
 /// Seconds of every part of every timed window.
@@ -71,26 +156,22 @@ Sample run(const Options& options, FluidRanks& ranks) {
     const ResolvedCase resolved = load_run_folder(options.run);
     FoamAdapter fluid(RunFolder{options.run}.fluid());
     ranks.initialise(fluid, resolved.settings, resolved.shapes);
-    MovingGrains grains(resolved, options.discs);
+    Player player(options, resolved, fluid, ranks);
     const double dt = resolved.settings.real("run.step");
-    StepClock clock;
+    StepClock warm_up, clock;
     Profile profile;
+    std::vector<double> iterations;
     for (int n = 0; n < options.warm_up + options.steps; ++n) {
         const Window window{n, n * dt, dt, false, false};
-        const std::vector<GrainState> moving = ranks.here(grains.advance(window));
-        ranks.meet();
-        clock.start();
-        fluid.advance(window);
-        fluid.correct(window, moving);
-        const Kicks answer = fluid.impose(window);
-        ranks.meet();
-        if (n >= options.warm_up) {
-            clock.stop();
-            profile.add(fluid.timings());
-        }
-        grains.move(window, ranks.all(answer.kicks));
+        const bool timed = n >= options.warm_up;
+        const FluidReport report = player.play(window, timed ? clock : warm_up);
+        if (!timed) continue;
+        profile.add(fluid.timings());
+        iterations.push_back(static_cast<double>(report.multiplier_iterations));
     }
     Sample sample;
+    sample.counts = {{"multiplier iterations", median(iterations)},
+                     {"contacts", static_cast<double>(player.contacts())}};
     sample.processor = clock.processor();
     sample.wall = clock.wall();
     sample.resident = resident_bytes();

@@ -39,13 +39,26 @@ double resident_bytes() {
 }
 
 void StepClock::start() {
+    processor_so_far_ = wall_so_far_ = 0.0;
+    resume();
+}
+
+void StepClock::resume() {
+    runs_ = true;
     wall_start_ = wall_seconds();
     processor_start_ = processor_seconds();
 }
 
+void StepClock::pause() {
+    processor_so_far_ += processor_seconds() - processor_start_;
+    wall_so_far_ += wall_seconds() - wall_start_;
+    runs_ = false;
+}
+
 void StepClock::stop() {
-    processor_.push_back(processor_seconds() - processor_start_);
-    wall_.push_back(wall_seconds() - wall_start_);
+    if (runs_) pause();
+    processor_.push_back(processor_so_far_);
+    wall_.push_back(wall_so_far_);
 }
 
 double StepClock::processor_sum() const {

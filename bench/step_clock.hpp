@@ -28,6 +28,11 @@ class StepClock {
  public:
     void start();
     void stop();  ///< ends a step
+
+    // What lies between these two does not count.
+    void pause();
+    void resume();
+
     double processor() const { return median(processor_); }
     double wall() const { return median(wall_); }
     double processor_sum() const;
@@ -35,6 +40,8 @@ class StepClock {
 
  private:
     double processor_start_ = 0.0, wall_start_ = 0.0;
+    double processor_so_far_ = 0.0, wall_so_far_ = 0.0;  // of a step that was paused
+    bool runs_ = false;
     std::vector<double> processor_, wall_;
 };
 
