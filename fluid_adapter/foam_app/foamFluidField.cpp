@@ -45,6 +45,7 @@ FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
         for (const int cell : halo_->shared()) in_a_halo_[cell] = 1;
         shared_ = std::make_unique<SharedGrains>(fields.ranks);
     }
+    cells_ = block_.table();
     const std::size_t local = owned_ + block_.halo().size();
     x_.resize(local);
     y_.resize(local);
@@ -74,11 +75,6 @@ std::vector<int> FoamFluidField::cell_numbers() const {
                           " cells that the case asks for: run blockMesh (and decomposePar, on "
                           "several ranks) on the fluid case again");
     return numbers;
-}
-
-int FoamFluidField::cell(int i, int j, int k) const {
-    if (i < 0 || j < 0 || k != 0 || i >= grid_.counts[0] || j >= grid_.counts[1]) return -1;
-    return block_.at(i, j);
 }
 
 void FoamFluidField::import_halo(double* x, double* y) const {

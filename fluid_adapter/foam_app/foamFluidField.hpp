@@ -23,7 +23,7 @@ class FoamFluidField final : public FluidField {
     FoamFluidField(FluidFields& fields, const FluidDomain& domain);
 
     const CellGrid& grid() const override { return grid_; }
-    int cell(int i, int j, int k) const override;
+    const CellTable& cells() const override { return cells_; }
     int local_cells() const override { return static_cast<int>(x_.size()); }
     bool owns(int cell) const override { return cell < owned_; }
     double reference_mass() const override { return cell_mass_; }
@@ -49,6 +49,7 @@ class FoamFluidField final : public FluidField {
     FluidFields& fields_;
     CellGrid grid_;
     LocalBlock block_;
+    CellTable cells_;                       // of the block
     std::unique_ptr<HaloExchange> halo_;    // on several ranks
     std::unique_ptr<SharedGrains> shared_;  // on several ranks
     std::vector<char> in_a_halo_;           // own cells: another rank's

@@ -15,10 +15,11 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     images_.resize(points.boundary_points());
     on_slots_.assign(points.slots(), 0.0);
     const double per_mass = 1.0 / field.reference_mass();
+    order_points();
     for (int g = 0; g < points.grains(); ++g) {
         factors_.begin_matrix();
-        order_points(g);
-        for (int i = 0; i < static_cast<int>(order_.size()); ++i) add_row(i, per_mass);
+        const int rows = points.boundary_begin[g + 1] - points.boundary_begin[g];
+        for (int i = 0; i < rows; ++i) add_row(order_of(g), i, per_mass);
         if (!factors_.factorise())
             throw std::runtime_error("the boundary points of grain " +
                                      std::to_string(grains[g].id) +
@@ -27,21 +28,23 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     }
 }
 
-/// 0, n-1, 1, n-2, ...: the ring folded flat.
-void BoundaryBlocks::order_points(int g) {
+/// 0, n-1, 1, n-2, ...: every grain's ring folded flat.
+void BoundaryBlocks::order_points() {
     order_.clear();
-    int low = points_->boundary_begin[g], high = points_->boundary_begin[g + 1] - 1;
-    while (low < high) {
-        order_.push_back(low++);
-        order_.push_back(high--);
+    for (int g = 0; g < points_->grains(); ++g) {
+        int low = points_->boundary_begin[g], high = points_->boundary_begin[g + 1] - 1;
+        while (low < high) {
+            order_.push_back(low++);
+            order_.push_back(high--);
+        }
+        if (low == high) order_.push_back(low);
     }
-    if (low == high) order_.push_back(low);
 }
 
 /// G_pq = sum over shared cells of w_p w_q / m_c.
-void BoundaryBlocks::add_row(int i, double per_mass) {
+void BoundaryBlocks::add_row(const int* order, int i, double per_mass) {
     const CollocationPoints& points = *points_;
-    const int p = order_[i];
+    const int p = order[i];
     for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) {
         const int slot = points.slot[s];
         on_slots_[slot] = points.weight[s] / points.stencilled[slot].volume;
@@ -49,7 +52,7 @@ void BoundaryBlocks::add_row(int i, double per_mass) {
     row_.assign(i + 1, 0.0);
     int first = i;
     for (int j = i; j >= 0; --j) {
-        const int q = order_[j];
+        const int q = order[j];
         if (!points.box[p].meets(points.box[q])) continue;
         double sum = 0.0;
         for (int s = points.stencil[q]; s < points.stencil[q + 1]; ++s)
@@ -64,13 +67,15 @@ void BoundaryBlocks::add_row(int i, double per_mass) {
 /// T = [1 0 -r_y; 0 1 r_x]: with G^-1 of the columns (1, r_x, r_y) all entries are at hand.
 Eigen::Matrix3d BoundaryBlocks::tie(int g) {
     const CollocationPoints& points = *points_;
+    const int* order = order_of(g);
+    const int rows = factors_.size(g);
     columns_.clear();
-    for (const int p : order_)
-        columns_.insert(columns_.end(), {1.0, points.arm_x[p], points.arm_y[p]});
-    factors_.solve(g, columns_.data(), 3);
+    for (int i = 0; i < rows; ++i)
+        columns_.insert(columns_.end(), {1.0, points.arm_x[order[i]], points.arm_y[order[i]]});
+    factors_.solve<3>(g, columns_.data());
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // of (1, r_x, r_y) and their images
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        const int p = order_[i];
+    for (int i = 0; i < rows; ++i) {
+        const int p = order[i];
         images_[p] = Eigen::Map<const Eigen::Vector3d>(&columns_[3 * i]);
         products += Eigen::Vector3d(1.0, points.arm_x[p], points.arm_y[p]) * images_[p].transpose();
     }
@@ -84,14 +89,18 @@ Eigen::Matrix3d BoundaryBlocks::tie(int g) {
 
 void BoundaryBlocks::solve(const double* r, double* z) {
     const int n = points_->boundary_points();
+    columns_.resize(2 * n);
     for (int g = 0; g < points_->grains(); ++g) {
-        order_points(g);
-        columns_.clear();
-        for (const int p : order_) columns_.insert(columns_.end(), {r[p], r[n + p]});
-        factors_.solve(g, columns_.data(), 2);
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            z[order_[i]] = columns_[2 * i];
-            z[n + order_[i]] = columns_[2 * i + 1];
+        const int* order = order_of(g);
+        const int rows = factors_.size(g);
+        for (int i = 0; i < rows; ++i) {
+            columns_[2 * i] = r[order[i]];
+            columns_[2 * i + 1] = r[n + order[i]];
+        }
+        factors_.solve<2>(g, columns_.data());
+        for (int i = 0; i < rows; ++i) {
+            z[order[i]] = columns_[2 * i];
+            z[n + order[i]] = columns_[2 * i + 1];
         }
     }
 }

@@ -35,13 +35,14 @@ class BoundaryBlocks {
     const std::vector<Eigen::Matrix3d>& tied_inertia() const { return tied_; }
 
  private:
-    void order_points(int g);
-    void add_row(int i, double per_mass);
+    void order_points();
+    const int* order_of(int g) const { return order_.data() + points_->boundary_begin[g]; }
+    void add_row(const int* order, int i, double per_mass);
     Eigen::Matrix3d tie(int g);
 
     const CollocationPoints* points_ = nullptr;
     ProfileCholesky factors_;
-    std::vector<int> order_;               // rows of the present grain's matrix -> points
+    std::vector<int> order_;               // rows of the grains' matrices -> points
     std::vector<double> on_slots_;         // weights of one point by slot; zero between uses
     std::vector<double> row_;              // of the matrix that is being assembled
     std::vector<double> columns_;          // right-hand sides of one grain

@@ -133,6 +133,7 @@ class Inside {
 template <class Visit>
 void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit visit) {
     const CellGrid& grid = field.grid();
+    const CellTable& cells = field.cells();
     const Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
     const Inside inside(grain);
     for (int j = up.low; j <= up.high; ++j) {
@@ -144,7 +145,7 @@ void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit
             if (column < 0) continue;
             const double arm_x = grid.centre(0, i) - grain.position.x();
             if (!inside(arm_x, arm_y)) continue;
-            const int cell = field.cell(column, row, 0);
+            const int cell = cells.at(column, row);
             if (cell >= 0)
                 visit(InteriorCell{cell, arm_x, arm_y, grid.relative_volume(column, row)});
         }
@@ -167,11 +168,14 @@ void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGr
 
     find_candidates(field, grains);
     apply_wall_rule(field.grid(), grains);
-    apply_grain_rules(field.grid(), grains);
-    build_stencils(field, grains);
-    mark_stencils(points);
+    find_pairs(field.grid(), grains);
+    for (const auto& [a, b] : pairs_) {
+        compare(field.grid(), grains, a, b);
+        compare(field.grid(), grains, b, a);
+    }
+    collect_boundary(field, grains, points);
     claim_cells(field, grains);
-    collect(field, points);
+    collect_interior(field, grains, points);
     count_dropped(points);
     forget(points);
 }
@@ -217,14 +221,15 @@ void PointPlacement::apply_wall_rule(const CellGrid& grid,
             }
 }
 
-void PointPlacement::apply_grain_rules(const CellGrid& grid,
-                                       const std::vector<ImmersedGrain>& grains) {
-    if (!rules_.boundary) return;
+void PointPlacement::find_pairs(const CellGrid& grid, const std::vector<ImmersedGrain>& grains) {
     const double largest =
         local_size_.empty() ? 0.0 : *std::max_element(local_size_.begin(), local_size_.end());
-    for (const auto& [a, b] : near_pairs(grid, grains, rules_.spacing * largest)) {
-        compare(grid, grains, a, b);
-        compare(grid, grains, b, a);
+    pairs_ = near_pairs(grid, grains, rules_.boundary ? rules_.spacing * largest : 0.0);
+    overlapped_.assign(grains.size(), 0);
+    for (const auto& [a, b] : pairs_) {
+        const double apart = grid.nearest_image(grains[a].position - grains[b].position).norm();
+        const double touching = (1.0 + 1e-9) * (grains[a].radius + grains[b].radius);
+        if (apart < touching) overlapped_[a] = overlapped_[b] = 1;
     }
 }
 
@@ -247,26 +252,6 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
     }
 }
 
-/// Tensor product of two axes as cells and weights.
-template <class Candidate>
-void fill_stencil(const FluidField& field, const AxisStencil& along_x, const AxisStencil& along_y,
-                  Candidate& point) {
-    const CellGrid& grid = field.grid();
-    point.cells = 0;
-    for (int n = 0; n < along_y.nodes; ++n)
-        for (int m = 0; m < along_x.nodes; ++m) {
-            const double weight = along_x.weight[m] * along_y.weight[n];
-            if (weight == 0.0) continue;
-            const int column = grid.wrapped(0, along_x.layer[m]);
-            const int row = grid.wrapped(1, along_y.layer[n]);
-            const int cell = field.cell(column, row, 0);
-            if (cell < 0) continue;  // beyond the halo: another rank's point
-            point.cell[point.cells] = cell;
-            point.volume[point.cells] = grid.relative_volume(column, row);
-            point.weight[point.cells++] = weight;
-        }
-}
-
 StencilBox box_of(const AxisStencil& along_x, const AxisStencil& along_y) {
     const auto ends = [](const AxisStencil& along) {
         return std::minmax_element(along.layer.begin(), along.layer.begin() + along.nodes);
@@ -275,44 +260,73 @@ StencilBox box_of(const AxisStencil& along_x, const AxisStencil& along_y) {
     return {*x.first, *x.second, *y.first, *y.second};
 }
 
-void PointPlacement::build_stencils(const FluidField& field,
-                                    const std::vector<ImmersedGrain>& grains) {
-    const CellGrid& grid = field.grid();
-    for (std::size_t g = 0; g < grains.size(); ++g)
-        for (int c = first_[g]; c < first_[g + 1]; ++c) {
-            Candidate& point = candidates_[c];
-            if (point.fate != Fate::kept) continue;
-            const Eigen::Vector3d x = grains[g].position + point.arm;
-            const PlaneStencil along = plane_stencil(grid, x, point.normal);
-            if (along[0].nodes == 0) {
-                point.fate = Fate::off_grid;
-                continue;
-            }
-            const int home = field.cell(grid.wrapped(0, grid.layer(0, x[0])),
-                                        grid.wrapped(1, grid.layer(1, x[1])), 0);
-            point.owned = home >= 0 && field.owns(home);
-            point.box = box_of(along[0], along[1]);
-            fill_stencil(field, along[0], along[1], point);
-        }
-}
-
-void PointPlacement::mark_stencils(CollocationPoints& points) {
+void PointPlacement::collect_boundary(const FluidField& field,
+                                      const std::vector<ImmersedGrain>& grains,
+                                      CollocationPoints& points) {
+    points.boundary_begin.assign(1, 0);
+    points.arm_x.clear();
+    points.arm_y.clear();
+    points.box.clear();
+    points.stencil.assign(1, 0);
+    points.slot.clear();
+    points.weight.clear();
     points.stencilled.clear();
-    for (const Candidate& point : candidates_) {
-        if (point.fate != Fate::kept) continue;
-        for (int n = 0; n < point.cells; ++n) {
-            if (slot_[point.cell[n]] >= 0) continue;
-            slot_[point.cell[n]] = points.slots();
-            points.stencilled.push_back({point.cell[n], point.volume[n]});
-        }
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+        for (int c = first_[g]; c < first_[g + 1]; ++c)
+            if (candidates_[c].fate == Fate::kept)
+                collect(field, grains[g], candidates_[c], points);
+        points.boundary_begin.push_back(points.boundary_points());
     }
 }
 
+/// The tensor product of the stencils of both axes. Another rank's point gets slots alone.
+void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain,
+                             Candidate& candidate, CollocationPoints& points) {
+    const CellGrid& grid = field.grid();
+    const Eigen::Vector3d x = grain.position + candidate.arm;
+    const PlaneStencil along = plane_stencil(grid, x, candidate.normal);
+    if (along[0].nodes == 0) {
+        candidate.fate = Fate::off_grid;
+        return;
+    }
+    const int home =
+        field.cell(grid.wrapped(0, grid.layer(0, x[0])), grid.wrapped(1, grid.layer(1, x[1])), 0);
+    const bool owned = home >= 0 && field.owns(home);
+    for (int n = 0; n < along[1].nodes; ++n)
+        for (int m = 0; m < along[0].nodes; ++m) {
+            const double weight = along[0].weight[m] * along[1].weight[n];
+            if (weight == 0.0) continue;
+            const int slot = slot_of(field, grid.wrapped(0, along[0].layer[m]),
+                                     grid.wrapped(1, along[1].layer[n]), points);
+            if (slot < 0 || !owned) continue;
+            points.slot.push_back(slot);
+            points.weight.push_back(weight);
+        }
+    if (!owned) return;
+    points.arm_x.push_back(candidate.arm.x());
+    points.arm_y.push_back(candidate.arm.y());
+    points.box.push_back(box_of(along[0], along[1]));
+    points.stencil.push_back(static_cast<int>(points.slot.size()));
+}
+
+/// Of a cell, a new one if need be; -1 beyond the halo, for another rank's point.
+int PointPlacement::slot_of(const FluidField& field, int column, int row,
+                            CollocationPoints& points) {
+    const int cell = field.cells().at(column, row);
+    if (cell < 0) return -1;
+    if (slot_[cell] < 0) {
+        slot_[cell] = points.slots();
+        points.stencilled.push_back({cell, field.grid().relative_volume(column, row)});
+    }
+    return slot_[cell];
+}
+
+/// Rule 5, for the grains that it may concern.
 void PointPlacement::claim_cells(const FluidField& field,
                                  const std::vector<ImmersedGrain>& grains) {
-    inside_.clear();
-    inside_begin_.assign(1, 0);
+    claimed_.clear();
     for (std::size_t g = 0; g < grains.size(); ++g) {
+        if (!overlapped_[g]) continue;
         for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
             const double depth = relative_depth(grains[g], point);
             const int rival = owner_[point.cell];
@@ -321,46 +335,23 @@ void PointPlacement::claim_cells(const FluidField& field,
                 return;
             owner_[point.cell] = static_cast<int>(g);
             depth_[point.cell] = depth;
-            inside_.push_back(point);
+            claimed_.push_back(point.cell);
         });
-        inside_begin_.push_back(static_cast<int>(inside_.size()));
     }
 }
 
-void PointPlacement::collect(const FluidField& field, CollocationPoints& points) const {
+void PointPlacement::collect_interior(const FluidField& field,
+                                      const std::vector<ImmersedGrain>& grains,
+                                      CollocationPoints& points) const {
     points.interior_begin.assign(1, 0);
     points.interior.clear();
-    points.boundary_begin.assign(1, 0);
-    points.arm_x.clear();
-    points.arm_y.clear();
-    points.box.clear();
-    points.stencil.assign(1, 0);
-    points.slot.clear();
-    points.weight.clear();
-    for (int g = 0; g + 1 < static_cast<int>(first_.size()); ++g) {
-        for (int i = inside_begin_[g]; i < inside_begin_[g + 1]; ++i) {
-            const int cell = inside_[i].cell;
-            if (owner_[cell] == g && slot_[cell] < 0 && field.owns(cell))
-                points.interior.push_back(inside_[i]);
-        }
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+        for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
+            const bool mine = !overlapped_[g] || owner_[point.cell] == static_cast<int>(g);
+            if (mine && slot_[point.cell] < 0 && field.owns(point.cell))
+                points.interior.push_back(point);
+        });
         points.interior_begin.push_back(static_cast<int>(points.interior.size()));
-        collect_boundary(g, points);
-        points.boundary_begin.push_back(points.boundary_points());
-    }
-}
-
-void PointPlacement::collect_boundary(int g, CollocationPoints& points) const {
-    for (int c = first_[g]; c < first_[g + 1]; ++c) {
-        const Candidate& point = candidates_[c];
-        if (point.fate != Fate::kept || !point.owned) continue;
-        points.arm_x.push_back(point.arm.x());
-        points.arm_y.push_back(point.arm.y());
-        points.box.push_back(point.box);
-        for (int n = 0; n < point.cells; ++n) {
-            points.slot.push_back(slot_[point.cell[n]]);
-            points.weight.push_back(point.weight[n]);
-        }
-        points.stencil.push_back(static_cast<int>(points.slot.size()));
     }
 }
 
@@ -376,7 +367,7 @@ void PointPlacement::count_dropped(CollocationPoints& points) const {
 
 void PointPlacement::forget(const CollocationPoints& points) {
     for (const StencilCell& at : points.stencilled) slot_[at.cell] = -1;
-    for (const InteriorCell& point : inside_) owner_[point.cell] = -1;
+    for (const int cell : claimed_) owner_[cell] = -1;
 }
 
 }  // namespace turbidite

@@ -34,6 +34,7 @@
 #include <array>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "fluid_adapter/multiplier/fluid_field.hpp"
@@ -119,22 +120,20 @@ class PointPlacement {
         Eigen::Vector3d arm;     // from the grain's centre
         Eigen::Vector3d normal;  // outward
         Fate fate = Fate::kept;
-        std::array<int, 9> cell{};
-        std::array<double, 9> weight{}, volume{};
-        StencilBox box{};
-        int cells = 0;
-        bool owned = false;
     };
 
     void find_candidates(const FluidField& field, const std::vector<ImmersedGrain>& grains);
+    void find_pairs(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void apply_wall_rule(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
-    void apply_grain_rules(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b);
-    void build_stencils(const FluidField& field, const std::vector<ImmersedGrain>& grains);
-    void mark_stencils(CollocationPoints& points);
+    void collect_boundary(const FluidField& field, const std::vector<ImmersedGrain>& grains,
+                          CollocationPoints& points);
+    void collect(const FluidField& field, const ImmersedGrain& grain, Candidate& candidate,
+                 CollocationPoints& points);
+    int slot_of(const FluidField& field, int column, int row, CollocationPoints& points);
     void claim_cells(const FluidField& field, const std::vector<ImmersedGrain>& grains);
-    void collect(const FluidField& field, CollocationPoints& points) const;
-    void collect_boundary(int g, CollocationPoints& points) const;
+    void collect_interior(const FluidField& field, const std::vector<ImmersedGrain>& grains,
+                          CollocationPoints& points) const;
     void count_dropped(CollocationPoints& points) const;
     void forget(const CollocationPoints& points);
 
@@ -144,8 +143,9 @@ class PointPlacement {
     std::vector<int> first_;          // first candidate of each grain
     std::vector<double> local_size_;  // longest cell edge around each grain [m]
     std::vector<Candidate> candidates_;
-    std::vector<InteriorCell> inside_;  // cells inside a grain, of all grains
-    std::vector<int> inside_begin_;
+    std::vector<std::pair<int, int>> pairs_;  // of grains whose points may be too close
+    std::vector<char> overlapped_;            // by grain: another may contain the same cells
+    std::vector<int> claimed_;                // cells inside such grains
     // By cell, as between two calls: nothing claimed.
     std::vector<int> owner_;     // grain that claims it, -1 none
     std::vector<double> depth_;  // its squared relative distance

@@ -7,6 +7,7 @@
 
 #include "coupler/protocol/records.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
+#include "fluid_adapter/multiplier/cell_table.hpp"
 
 namespace turbidite {
 
@@ -18,7 +19,14 @@ class FluidField {
     virtual const CellGrid& grid() const = 0;
 
     /// Local index of a cell, halo included; -1 where this rank knows nothing of it.
-    virtual int cell(int i, int j, int k) const = 0;
+    int cell(int i, int j, int k) const {
+        const std::array<int, 3>& counts = grid().counts;
+        const bool inside = i >= 0 && j >= 0 && k == 0 && i < counts[0] && j < counts[1];
+        return inside ? cells().at(i, j) : -1;
+    }
+
+    /// The same for cells of the grid, unchecked and fast.
+    virtual const CellTable& cells() const = 0;
 
     virtual int local_cells() const = 0;  ///< owned and halo cells
     virtual bool owns(int cell) const = 0;

@@ -54,23 +54,28 @@ bool ProfileCholesky::factorise() {
     return true;
 }
 
-void ProfileCholesky::solve(int matrix, double* x, int columns) const {
+template <int columns>
+void ProfileCholesky::solve(int matrix, double* x) const {
     const int begin = begin_[matrix], rows = size(matrix);
-    for (int i = 0; i < rows; ++i) {
+    for (int i = 0; i < rows; ++i) {  // L y = x
         const double* row = values_.data() + place_[begin + i];
-        for (int c = 0; c < columns; ++c) {
-            double sum = x[i * columns + c];
-            for (int k = first_[begin + i]; k < i; ++k) sum -= row[k] * x[k * columns + c];
-            x[i * columns + c] = sum * inverse_[begin + i];
-        }
+        double at[columns];
+        for (int c = 0; c < columns; ++c) at[c] = x[i * columns + c];
+        for (int k = first_[begin + i]; k < i; ++k)
+            for (int c = 0; c < columns; ++c) at[c] -= row[k] * x[k * columns + c];
+        for (int c = 0; c < columns; ++c) x[i * columns + c] = at[c] * inverse_[begin + i];
     }
-    for (int i = rows - 1; i >= 0; --i) {
+    for (int i = rows - 1; i >= 0; --i) {  // L^T x = y
         const double* row = values_.data() + place_[begin + i];
-        for (int c = 0; c < columns; ++c) {
-            const double value = x[i * columns + c] *= inverse_[begin + i];
-            for (int k = first_[begin + i]; k < i; ++k) x[k * columns + c] -= row[k] * value;
-        }
+        double at[columns];
+        for (int c = 0; c < columns; ++c) at[c] = x[i * columns + c] *= inverse_[begin + i];
+        for (int k = first_[begin + i]; k < i; ++k)
+            for (int c = 0; c < columns; ++c) x[k * columns + c] -= row[k] * at[c];
     }
 }
+
+template void ProfileCholesky::solve<1>(int, double*) const;
+template void ProfileCholesky::solve<2>(int, double*) const;
+template void ProfileCholesky::solve<3>(int, double*) const;
 
 }  // namespace turbidite

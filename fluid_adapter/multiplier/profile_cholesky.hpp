@@ -25,8 +25,9 @@ class ProfileCholesky {
     /// Factorises the matrix begun last; false when it is not positive definite to rounding.
     bool factorise();
 
-    /// x <- (L L^T)^-1 x for `columns` right-hand sides, values of one row side by side.
-    void solve(int matrix, double* x, int columns) const;
+    /// x <- (L L^T)^-1 x for 1, 2 or 3 right-hand sides, values of one row side by side.
+    template <int columns>
+    void solve(int matrix, double* x) const;
 
     int size(int matrix) const { return begin_[matrix + 1] - begin_[matrix]; }
 

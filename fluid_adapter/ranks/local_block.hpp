@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fluid_adapter/multiplier/cell_grid.hpp"
+#include "fluid_adapter/multiplier/cell_table.hpp"
 
 namespace turbidite {
 
@@ -25,21 +26,15 @@ class LocalBlock {
     void number_halo(const std::vector<int>& order);
 
     /// Local index of a cell of the grid, -1 where this rank knows nothing of it.
-    int at(int i, int j) const {
-        const int x = along(0, i), y = along(1, j);
-        return x < 0 || y < 0 ? -1 : index_[x + static_cast<std::size_t>(width_[0]) * y];
-    }
+    int at(int i, int j) const { return table().at(i, j); }
+
+    /// Valid as long as the block stays where it is.
+    CellTable table() const { return {index_.data(), first_, width_, turn_}; }
 
  private:
-    /// Place in the block, -1 outside.
-    int along(int axis, int i) const {
-        int place = i - first_[axis];
-        if (place < 0) place += turn_[axis];
-        return place >= 0 && place < width_[axis] ? place : -1;
-    }
-
     int& slot(int i, int j) {
-        return index_[along(0, i) + static_cast<std::size_t>(width_[0]) * along(1, j)];
+        const CellTable cells = table();
+        return index_[cells.along(0, i) + static_cast<std::size_t>(width_[0]) * cells.along(1, j)];
     }
 
     void enclose(const std::vector<int>& own, int layers);

@@ -166,7 +166,7 @@ TEST(CollocationPoints, RefusesThreeDimensions) {
      public:
         Deep() { grid_.dimension = 3; }
         const CellGrid& grid() const override { return grid_; }
-        int cell(int, int, int) const override { return -1; }
+        const CellTable& cells() const override { return none_; }
         int local_cells() const override { return 0; }
         bool owns(int) const override { return false; }
         double reference_mass() const override { return 1.0; }
@@ -174,6 +174,7 @@ TEST(CollocationPoints, RefusesThreeDimensions) {
 
      private:
         CellGrid grid_;
+        CellTable none_;
     } field;
     CollocationPoints points;
     EXPECT_THROW(PointPlacement(PointRules{}).place(field, {}, points), std::invalid_argument);

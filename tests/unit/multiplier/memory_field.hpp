@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -24,6 +25,9 @@ class MemoryField final : public FluidField {
         grid_.sides[0] = grid_.sides[1] = {side, side};
         x_.resize(n * m);
         y_.resize(n * m);
+        index_.resize(n * m);
+        std::iota(index_.begin(), index_.end(), 0);
+        cells_ = {index_.data(), {0, 0}, {n, m}, {0, 0}};
     }
 
     /// Cells between the given edges.
@@ -34,12 +38,10 @@ class MemoryField final : public FluidField {
         grid_.stretch(1, y_edges);
     }
 
+    MemoryField(const MemoryField&) = delete;
+
     const CellGrid& grid() const override { return grid_; }
-    int cell(int i, int j, int k) const override {
-        const bool inside =
-            i >= 0 && j >= 0 && k == 0 && i < grid_.counts[0] && j < grid_.counts[1];
-        return inside ? i + grid_.counts[0] * j : -1;
-    }
+    const CellTable& cells() const override { return cells_; }
     int local_cells() const override { return static_cast<int>(x_.size()); }
     bool owns(int) const override { return true; }
     double reference_mass() const override { return grid_.spacing[0] * grid_.spacing[1]; }
@@ -74,6 +76,8 @@ class MemoryField final : public FluidField {
  private:
     CellGrid grid_;
     std::vector<double> x_, y_;
+    std::vector<int> index_;
+    CellTable cells_;
 };
 
 /// u of the cells that boundary points interpolate from, by slot.

@@ -43,7 +43,7 @@ TEST(ProfileCholesky, SolvesEachOfManyMatrices) {
         using Rows = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
         const Rows wanted = Rows::Random(matrices[m].rows(), 2);
         Rows x = matrices[m] * wanted;
-        factors.solve(m, x.data(), 2);
+        factors.solve<2>(m, x.data());
         EXPECT_LT((x - wanted).norm(), 1e-13) << "matrix " << m;
         EXPECT_EQ(factors.size(m), matrices[m].rows());
     }
@@ -57,7 +57,7 @@ TEST(ProfileCholesky, IsReusedAfterClear) {
     const Eigen::MatrixXd matrix = random_matrix(first, 2);
     add(factors, matrix, first);
     Eigen::Vector2d x = matrix * Eigen::Vector2d(0.3, -0.7);
-    factors.solve(0, x.data(), 1);
+    factors.solve<1>(0, x.data());
     EXPECT_LT((x - Eigen::Vector2d(0.3, -0.7)).norm(), 1e-14);
 }
 
