@@ -62,28 +62,29 @@ BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
     return force;
 }
 
-FluxReport BoxFluidStep::project(MomentumLedger& ledger) {
+Projection BoxFluidStep::project() {
     load();
-    FluxReport report = step_.project(fields_.time.deltaTValue());
+    const FluxReport report = step_.project(fields_.time.deltaTValue());
     double largest[] = {report.divergence, report.courant};
     fields_.ranks.max(largest, 2);
-    ledger.add(on_all_ranks(step_.pressure_force()));
-    return {largest[0], largest[1]};
+    return {{largest[0], largest[1]}, on_all_ranks(step_.pressure_force())};
 }
 
-void BoxFluidStep::transport(MomentumLedger& ledger, int parts) {
+std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
+    std::vector<BoundaryForce> forces;
     if (parts > 1) step_.hold_flux();
     for (int part = 0; part < parts; ++part) {
-        ledger.add(on_all_ranks(step_.convective_force()), 1.0 / parts);
+        forces.push_back(on_all_ranks(step_.convective_force()));
         step_.transport(fields_.time.deltaTValue() / parts);
     }
     step_.release_flux();
+    return forces;
 }
 
-void BoxFluidStep::diffuse(MomentumLedger& ledger) {
+BoundaryForce BoxFluidStep::diffuse() {
     step_.diffuse(fields_.time.deltaTValue(), [](int) {});
     store();
-    ledger.add(on_all_ranks(step_.viscous_force()));
+    return on_all_ranks(step_.viscous_force());
 }
 
 /// A direct solve spreads one bad value over all rows of all ranks.

@@ -16,9 +16,9 @@ class BoxFluidStep final : public FluidStep {
     /// limiter: k of limitedLinearV. Throws DoesNotFit.
     BoxFluidStep(FluidFields& fields, double limiter, const BoxCells& box);
 
-    FluxReport project(MomentumLedger& ledger) override;
-    void transport(MomentumLedger& ledger, int parts) override;
-    void diffuse(MomentumLedger& ledger) override;
+    Projection project() override;
+    std::vector<BoundaryForce> transport(int parts) override;
+    BoundaryForce diffuse() override;
     bool finite() const override;
     void put_fields() override;
     std::int64_t kind() const override { return 2; }

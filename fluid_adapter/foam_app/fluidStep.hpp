@@ -17,21 +17,30 @@
 #include "coupler/protocol/settings.hpp"
 #include "fluid_adapter/box_step/box_step.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_app/momentumLedger.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 
 namespace turbidite {
+
+/// What crosses the boundaries: the rate at which the fluid's momentum over rho_f changes, per unit
+/// length out of the plane [m3/s2].
+using BoundaryForce = BoxStep::Force;
+
+struct Projection {
+    FluxReport flux;
+    BoundaryForce force;
+};
 
 class FluidStep {
  public:
     virtual ~FluidStep() = default;
 
-    // Each adds to the ledger what crosses the boundaries.
-    virtual FluxReport project(MomentumLedger& ledger) = 0;
+    // Each tells what crossed the boundaries.
 
-    /// In `parts` equal steps with the same flux.
-    virtual void transport(MomentumLedger& ledger, int parts) = 0;
-    virtual void diffuse(MomentumLedger& ledger) = 0;
+    virtual Projection project() = 0;  ///< step 1
+
+    /// Step 2, in `parts` equal steps with the same flux: one force each.
+    virtual std::vector<BoundaryForce> transport(int parts) = 0;
+    virtual BoundaryForce diffuse() = 0;  ///< step 3
 
     /// After `diffuse`: no velocity is infinite or no number.
     virtual bool finite() const = 0;

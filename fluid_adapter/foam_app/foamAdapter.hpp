@@ -17,7 +17,13 @@ namespace turbidite {
 struct FluidTimings {
     double projection = 0.0, transport = 0.0, viscosity = 0.0, points = 0.0, multipliers = 0.0,
            output = 0.0;
+
+    double together() const {
+        return projection + transport + viscosity + points + multipliers + output;
+    }
 };
+
+class FluidWindow;
 
 class FoamAdapter final : public FluidAdapter {
  public:
@@ -54,10 +60,9 @@ class FoamAdapter final : public FluidAdapter {
     double pressure(int i, int j) const;
 
  private:
-    struct State;
     std::filesystem::path directory_;
     RankGroup ranks_;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<FluidWindow> window_;
 };
 
 }  // namespace turbidite

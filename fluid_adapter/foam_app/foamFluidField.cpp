@@ -42,7 +42,8 @@ FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
                                                cell_numbers(), block_.halo());
         block_.number_halo(halo_->halo());
         in_a_halo_.assign(owned_, 0);
-        for (const int cell : halo_->shared()) in_a_halo_[cell] = 1;
+        shared_cells_ = halo_->shared();
+        for (const int cell : shared_cells_) in_a_halo_[cell] = 1;
         shared_ = std::make_unique<SharedGrains>(fields.ranks);
     }
     cells_ = block_.table();
@@ -99,11 +100,16 @@ void FoamFluidField::sum_over_holders(double* rows, int per_grain) const {
     if (shared_) shared_->sum(rows, per_grain);
 }
 
-void FoamFluidField::load() {
-    forAll(fields_.U, c) {
-        x_[c] = fields_.U[c].x();
-        y_[c] = fields_.U[c].y();
-    }
+void FoamFluidField::load(const CollocationPoints& points) {
+    for (const InteriorCell& point : points.interior) load(point.cell);
+    for (const StencilCell& at : points.stencilled)
+        if (owns(at.cell)) load(at.cell);
+    for (const int cell : shared_cells_) load(cell);
+}
+
+void FoamFluidField::load(int cell) {
+    x_[cell] = fields_.U[cell].x();
+    y_[cell] = fields_.U[cell].y();
 }
 
 void FoamFluidField::store(const CollocationPoints& points, bool force_density) {

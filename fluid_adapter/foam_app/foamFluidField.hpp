@@ -38,12 +38,14 @@ class FoamFluidField final : public FluidField {
     /// i + nx j of each cell of this rank. Throws Failure as the constructor does.
     std::vector<int> cell_numbers() const;
 
-    void load();  ///< from U
+    /// From U, cells of these points and those that other ranks know; no other is read.
+    void load(const CollocationPoints& points);
 
     /// To U, cells of these points only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
     void store(const CollocationPoints& points, bool force_density);
 
  private:
+    void load(int cell);
     void store(int cell, bool force_density);
 
     FluidFields& fields_;
@@ -52,7 +54,8 @@ class FoamFluidField final : public FluidField {
     CellTable cells_;                       // of the block
     std::unique_ptr<HaloExchange> halo_;    // on several ranks
     std::unique_ptr<SharedGrains> shared_;  // on several ranks
-    std::vector<char> in_a_halo_;           // own cells: another rank's
+    std::vector<int> shared_cells_;         // own cells in another rank's halo
+    std::vector<char> in_a_halo_;           // the same, by cell
     std::vector<double> x_, y_;
     int owned_ = 0;
     double cell_mass_ = 0.0;

@@ -13,49 +13,15 @@ void MomentumLedger::open() {
     largest_ = 0.0;
 }
 
-/// Sums `per_face(patch)`, a tmp<vectorField> of impulse over rho_f, over the true boundary: faces
-/// shared by ranks or joined by a cyclic side have two sides that cancel.
-template <class PerFace>
-void MomentumLedger::add_faces(PerFace per_face, double share) {
-    Foam::vector sum = Foam::Zero;
-    forAll(fields_.mesh.boundary(), patch) {
-        const Foam::fvPatch& side = fields_.mesh.boundary()[patch];
-        if (!side.coupled() && side.size() > 0) sum += Foam::sum(per_face(patch)());
-    }
-    fields_.ranks.sum(sum.v_, Foam::vector::nComponents);
-    sum *= share * fields_.rho * fields_.time.deltaTValue() / fields_.thickness;
-    add_impulse(sum);
-}
-
-void MomentumLedger::add(const std::array<double, 2>& force, double share) {
+void MomentumLedger::add(const BoundaryForce& force, double share) {
     const Foam::scalar density_and_time = share * fields_.rho * fields_.time.deltaTValue();
-    add_impulse(density_and_time * Foam::vector(force[0], force[1], 0.0));
-}
-
-void MomentumLedger::add_impulse(const Foam::vector& impulse) {
+    const Foam::vector impulse = density_and_time * Foam::vector(force[0], force[1], 0.0);
     impulses_ += impulse;
     largest_ = std::max(largest_, Foam::mag(impulse));
 }
 
-void MomentumLedger::add_pressure() {
-    add_faces([this](Foam::label patch) {
-        return -fields_.p.boundaryField()[patch] * fields_.mesh.Sf().boundaryField()[patch];
-    });
-}
-
-void MomentumLedger::add_convection(double share) {
-    add_faces(
-        [this](Foam::label patch) {
-            return -fields_.phi.boundaryField()[patch] * fields_.U.boundaryField()[patch];
-        },
-        share);
-}
-
-void MomentumLedger::add_viscosity() {
-    add_faces([this](Foam::label patch) {
-        return fields_.nu * fields_.mesh.magSf().boundaryField()[patch] *
-               fields_.U.boundaryField()[patch].snGrad();
-    });
+void MomentumLedger::add(const std::vector<BoundaryForce>& forces) {
+    for (const BoundaryForce& force : forces) add(force, 1.0 / static_cast<double>(forces.size()));
 }
 
 bool MomentumLedger::finite() const {

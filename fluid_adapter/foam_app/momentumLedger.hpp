@@ -9,10 +9,11 @@
 // boundary values alone, so that the sum over cells is checked and not repeated. [N s/m]
 #pragma once
 
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "fluid_adapter/foam_app/createFields.hpp"
+#include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
 
@@ -20,14 +21,13 @@ class MomentumLedger {
  public:
     explicit MomentumLedger(const FluidFields& fields) : fields_(fields) {}
 
-    void open();          ///< before step 1: takes P^n
-    void add_pressure();  ///< after step 1, with p
-    /// Before step 2 changes U, with phi, over `share` of dt.
-    void add_convection(double share);
-    void add_viscosity();  ///< after step 3, with U
+    void open();  ///< before step 1: takes P^n
 
-    /// The same for boundary forces over rho_f, per unit length [m3/s2], over `share` of dt.
-    void add(const std::array<double, 2>& force, double share = 1.0);
+    /// What crossed the boundaries, over `share` of dt.
+    void add(const BoundaryForce& force, double share = 1.0);
+
+    /// In equal parts of dt.
+    void add(const std::vector<BoundaryForce>& forces);
 
     /// U was changed from outside between windows.
     void forget() { current_.reset(); }
@@ -40,10 +40,6 @@ class MomentumLedger {
     double close(const Foam::vector& to_grains);
 
  private:
-    template <class PerFace>
-    void add_faces(PerFace per_face, double share = 1.0);
-    void add_impulse(const Foam::vector& impulse);
-
     const FluidFields& fields_;
     std::optional<Foam::vector> current_;  // P of U as it is
     Foam::vector before_{Foam::Zero};

@@ -4,26 +4,28 @@
 #include <cmath>
 
 #include "fluid_adapter/foam_app/advection.hpp"
+#include "fluid_adapter/foam_app/boundaryForce.hpp"
 
 namespace turbidite {
 
-FluxReport OperatorStep::project(MomentumLedger& ledger) {
+Projection OperatorStep::project() {
     fields_.interpolate_flux();
     const Foam::scalar divergence = projection_.project();
-    ledger.add_pressure();
-    return {divergence, fields_.courant()};
+    return {{divergence, fields_.courant()}, pressure_force(fields_)};
 }
 
-void OperatorStep::transport(MomentumLedger& ledger, int parts) {
+std::vector<BoundaryForce> OperatorStep::transport(int parts) {
+    std::vector<BoundaryForce> forces;
     for (int part = 0; part < parts; ++part) {
-        ledger.add_convection(1.0 / parts);
+        forces.push_back(convective_force(fields_));
         advect(fields_, fields_.time.deltaTValue() / parts);
     }
+    return forces;
 }
 
-void OperatorStep::diffuse(MomentumLedger& ledger) {
+BoundaryForce OperatorStep::diffuse() {
     viscosity_.solve(fields_.time.deltaTValue());
-    ledger.add_viscosity();
+    return viscous_force(fields_);
 }
 
 bool OperatorStep::finite() const {

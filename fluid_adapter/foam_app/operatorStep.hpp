@@ -15,9 +15,9 @@ class OperatorStep final : public FluidStep {
     OperatorStep(FluidFields& fields, double divergence_goal)
         : fields_(fields), projection_(fields, divergence_goal), viscosity_(fields) {}
 
-    FluxReport project(MomentumLedger& ledger) override;
-    void transport(MomentumLedger& ledger, int parts) override;
-    void diffuse(MomentumLedger& ledger) override;
+    Projection project() override;
+    std::vector<BoundaryForce> transport(int parts) override;
+    BoundaryForce diffuse() override;
     bool finite() const override;
     std::int64_t kind() const override { return 1; }
     std::vector<double> memory() override;

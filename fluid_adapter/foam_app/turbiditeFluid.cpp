@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// turbidite-fluid -case RUN/fluid [-parallel]: OpenFOAM as the fluid participant. The steps of a
-// window are in foamAdapter.cpp. `-parallel` is OpenFOAM's word for several ranks; how many there
-// are is known without it.
+// turbidite-fluid -case RUN/fluid [-parallel]: OpenFOAM as the fluid participant. The coupler's
+// messages become calls of FoamAdapter (coupler/participant), and these the steps of a window,
+// which stand in order in fluidWindow.cpp. `-parallel` is OpenFOAM's word for several ranks; how
+// many there are is known without it.
 #include <cstdio>
 #include <filesystem>
 #include <string>

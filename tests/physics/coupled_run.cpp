@@ -47,7 +47,7 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.point_spacing", 1.5);
     settings.set("fluid.hydrodynamic_radius", setup.hydrodynamic_radius);
     settings.set("fluid.multiplier_tolerance", setup.tolerance);
-    settings.set("fluid.multiplier_iterations", std::int64_t{200});
+    settings.set("fluid.multiplier_iterations", setup.multiplier_iterations);
     settings.set("fluid.transport_scheme", setup.transport_scheme);
     settings.set("fluid.pressure_solver", setup.pressure_solver);
     settings.set("fluid.pressure_tolerance", setup.pressure_tolerance);

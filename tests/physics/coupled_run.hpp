@@ -26,6 +26,7 @@ struct CoupledSetup {
     double gravity = 0.0;
     std::string points = "interior+boundary";
     double tolerance = 1e-4;
+    std::int64_t multiplier_iterations = 200;
     double hydrodynamic_radius = 1.0;
     std::string transport_scheme = "Gauss limitedLinearV 1";
     std::string pressure_solver = "FFT", viscous_solver = "FFT";

@@ -108,6 +108,20 @@ TEST(SettlingDiscRefusal, AProjectionThatDoesNotConvergeNamesStepAndWindow) {
     }
 }
 
+/// Two discs whose points share cells: one iteration is not enough for them, two hundred are.
+TEST(SettlingDiscs, MultipliersThatStopAtTheirLimitAreReported) {
+    CoupledSetup setup = settling("interior+boundary");
+    for (const std::int64_t limit : {1, 200}) {
+        setup.multiplier_iterations = limit;
+        setup.tolerance = 1e-8;
+        CoupledRun run(setup, {disc_at(setup, 1.4, 2.5), disc_at(setup, 2.52, 2.55)});
+        for (int n = 0; n < 3; ++n) run.advance();
+        EXPECT_EQ(run.answer().report.multipliers_converged, limit == 200);
+        EXPECT_GE(run.answer().report.multiplier_iterations, limit == 200 ? 2 : 1);
+        EXPECT_LE(run.answer().report.multiplier_iterations, limit);
+    }
+}
+
 TEST(SettlingDiscState, RestoredFluidGoesOnTheSame) {
     const CoupledSetup setup = settling("interior+boundary");
     CoupledRun run(setup, {disc_at(setup, 2.03, 3.0)});

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/fluidWindow.hpp"
+
+#include "fluid_adapter/box_step/transport_parts.hpp"
+#include "fluid_adapter/foam_app/fluidStep.hpp"
+
+namespace turbidite {
+
+FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
+                         const Settings& settings, const ShapeTable& shapes)
+    : fields_(directory, ranks),
+      field_(fields_, fluid_domain(settings)),
+      step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
+      ledger_(fields_),
+      multipliers_(field_, settings, shapes) {}
+
+void FluidWindow::advance(const Window& window) {
+    begin(window);
+    ledger_.open();
+    watch_.play("step 1 (projection)", timings_.projection, [&] { project(); });
+    watch_.play("step 2 (transport)", timings_.transport, [&] { transport(); });
+    watch_.play("step 3 (viscosity)", timings_.viscosity, [&] { diffuse(); });
+    check_finite(step_->finite(), "steps 1-3 (projection, transport, viscosity)");
+}
+
+void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
+    answer("step 5 (free grains)", [&] { multipliers_.take_free(grains, window_.step); });
+}
+
+void FluidWindow::correct(const std::vector<GrainState>& grains) {
+    if (!grains_taken_)
+        return answer("step 5 (multipliers)", [&] { multipliers_.take_constrained(grains); });
+    watch_.play("step 5 (contact impulses)", timings_.multipliers,
+                [&] { note(multipliers_.push(grains)); });
+}
+
+std::vector<FreeResponse> FluidWindow::responses() {
+    return watch_.play("step 5 (responses)", timings_.multipliers,
+                       [&] { return multipliers_.responses(); });
+}
+
+Kicks FluidWindow::impose() {
+    watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
+        multipliers_.impose();
+        field_.store(multipliers_.points(), window_.write_output);
+        close_ledger();
+    });
+    check_finite(ledger_.finite(), "step 5 (multipliers)");
+    if (window_.write_output) watch_.play("output", timings_.output, [&] { write_fields(); });
+    // The last window: lets function objects finish, as OpenFOAM's own loops do.
+    if (fields_.finished())
+        with_foam_errors("ending function objects", [&] { fields_.time.run(); });
+    report_.wall_seconds = timings_.together();
+    return {multipliers_.kicks(), report_};
+}
+
+void FluidWindow::begin(const Window& window) {
+    window_ = window;
+    watch_.begin(window);
+    timings_ = {};
+    report_ = {};
+    grains_taken_ = false;
+    if (!fields_.time.functionObjects().empty()) put_fields();
+    fields_.time.setDeltaT(window.step);
+    if (!fields_.time.loop())
+        throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
+                                                        " begins at or after endTime of " +
+                                                        "the fluid case's system/controlDict");
+    fields_follow_ = false;
+}
+
+void FluidWindow::project() {
+    const Projection projection = step_->project();
+    ledger_.add(projection.force);
+    report_.divergence = projection.flux.divergence;
+    report_.courant = projection.flux.courant;
+}
+
+void FluidWindow::transport() {
+    ledger_.add(step_->transport(transport_parts(report_.courant)));
+}
+
+void FluidWindow::diffuse() {
+    ledger_.add(step_->diffuse());
+}
+
+/// Takes the grains of this window and solves for the multipliers that hold them.
+template <class Take>
+void FluidWindow::answer(const char* name, Take take) {
+    watch_.play(name, timings_.points, take);
+    watch_.play(name, timings_.multipliers, [&] {
+        field_.load(multipliers_.points());
+        note(multipliers_.solve());
+    });
+    grains_taken_ = true;
+}
+
+/// A window's solves together.
+void FluidWindow::note(const MultiplierResult& result) {
+    report_.multiplier_iterations += result.iterations;
+    report_.multiplier_residual = result.residual;
+    report_.multipliers_converged = report_.multipliers_converged && result.converged;
+    if (!result.converged)
+        Foam::Info << "window " << window_.index << ": multipliers not converged after "
+                   << result.iterations << " iterations, rms slip " << result.residual
+                   << Foam::endl;
+}
+
+void FluidWindow::close_ledger() {
+    Planar to_grains = multipliers_.impulse_to_grains();
+    field_.sum_over_ranks(to_grains.data(), 2);
+    report_.momentum_defect = ledger_.close({to_grains.x(), to_grains.y(), 0.0});
+}
+
+void FluidWindow::check_finite(bool finite, const char* steps) const {
+    if (!finite) watch_.refuse(steps, "the fluid velocity is not finite; use a smaller time.step");
+}
+
+void FluidWindow::write_fields() {
+    put_fields();
+    report_.final_divergence = fields_.largest_divergence();
+    Foam::Info << "window " << window_.index << ": Courant number " << report_.courant
+               << ", transport in " << transport_parts(report_.courant)
+               << " parts; largest divergence " << report_.divergence << " 1/s after step 1, "
+               << report_.final_divergence << " 1/s after step 5; multipliers "
+               << report_.multiplier_iterations << " iterations, rms slip "
+               << report_.multiplier_residual << " m/s" << Foam::endl;
+    fields_.time.writeNow();
+}
+
+void FluidWindow::put_fields() {
+    if (fields_follow_) return;
+    step_->put_fields();
+    fields_.interpolate_flux();
+    fields_follow_ = true;
+}
+
+void FluidWindow::fields_replaced() {
+    ledger_.forget();
+    fields_follow_ = true;
+}
+
+}  // namespace turbidite

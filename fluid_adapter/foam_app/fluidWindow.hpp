@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One window of the fluid, as the list of the paper (Topin 2011, section 2.2):
+//
+//     project     1  u is made free of divergence, p                  }
+//     transport   2  u is carried by itself                           }  advance
+//     diffuse     3  viscosity                                        }
+//     answer      5  the multipliers of the grains, Eqs. 9-10            as often as grains come
+//     impose         u is what the multipliers make of it, and kicks     ends the window
+//
+// Each step is played by a StepWatch (stepWatch.hpp), which knows clocks and names; what crosses
+// the boundaries goes to the ledger (momentumLedger.hpp).
+#pragma once
+
+#include <memory>
+
+#include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/foam_app/foamAdapter.hpp"
+#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/momentumLedger.hpp"
+#include "fluid_adapter/foam_app/stepWatch.hpp"
+#include "fluid_adapter/multiplier/immersed_step.hpp"
+
+namespace turbidite {
+
+class FluidWindow {
+ public:
+    /// Opens the OpenFOAM case; throws Failure (bad_input) naming the key that does not fit.
+    FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
+                const Settings& settings, const ShapeTable& shapes);
+
+    /// Steps 1 to 3.
+    void advance(const Window& window);
+
+    /// Step 5 for grains that feel no contacts: they fall from U^n together with the fluid.
+    void let_fall(const std::vector<GrainState>& grains);
+
+    /// Step 5 for grains after a contact solve: the first ones of a window come with their
+    /// velocities, later ones with contact impulses that act on fluid and grains together.
+    void correct(const std::vector<GrainState>& grains);
+
+    std::vector<FreeResponse> responses();
+
+    /// Writes u back; yields the kicks and the window's report.
+    Kicks impose();
+
+    /// Puts what the steps keep for themselves into the fields: for output, function objects, a
+    /// saved state.
+    void put_fields();
+
+    // Changes from outside, between windows:
+
+    void velocity_changed() { ledger_.forget(); }  ///< of U
+    void fields_replaced();                        ///< of all that a saved state holds
+
+    FluidFields& fields() { return fields_; }
+    FluidStep& step() { return *step_; }
+    const FoamFluidField& field() const { return field_; }
+    const CollocationPoints& points() const { return multipliers_.points(); }
+    const FluidTimings& timings() const { return timings_; }
+
+ private:
+    void begin(const Window& window);
+    void project();
+    void transport();
+    void diffuse();
+    void check_finite(bool finite, const char* steps) const;
+    template <class Take>
+    void answer(const char* name, Take take);
+    void note(const MultiplierResult& result);
+    void close_ledger();
+    void write_fields();
+
+    FluidFields fields_;
+    FoamFluidField field_;
+    std::unique_ptr<FluidStep> step_;
+    MomentumLedger ledger_;
+    ImmersedStep multipliers_;
+
+    Window window_;  ///< the present one
+    bool grains_taken_ = false;
+    bool fields_follow_ = true;  ///< p and phi hold what the steps know
+    StepWatch watch_;
+    FluidTimings timings_;
+    FluidReport report_;
+};
+
+}  // namespace turbidite
