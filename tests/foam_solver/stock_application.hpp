@@ -40,7 +40,7 @@ class StockApplication : public ShellTest {
         if (ranks == 1) return run(application);
         run("decomposePar -force");
         const Answer answer = run(on_ranks(ranks, application));
-        run("reconstructPar");
+        run("reconstructPar -withZero");
         return answer;
     }
 
