@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coupler/protocol/failure.hpp"
-#include "launcher/case/nearest_name.hpp"
+#include "coupler/keys/nearest_name.hpp"
 #include "launcher/commands/command.hpp"
 
 namespace turbidite {

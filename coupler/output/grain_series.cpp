@@ -66,6 +66,8 @@ void GrainSeries::write_points(const std::string& name, double window, const Mot
         out << "</Verts>\n<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
         vtk::integers(out, "id", grains, [](Grain g) { return g.id; });
         vtk::integers(out, "shape", grains, [](Grain g) { return g.shape; });
+        vtk::integers(out, "material", grains, [](Grain g) { return g.material; });
+        vtk::integers(out, "prescribed", grains, [](Grain g) { return g.prescribed ? 1 : 0; });
         vtk::scalars(out, "radius", grains, [](Grain g) { return g.radius; });
         vtk::scalars(out, "density", grains, [](Grain g) { return g.density; });
         vtk::data_array(out, "type=\"Float64\" Name=\"orientation\" NumberOfComponents=\"4\"",

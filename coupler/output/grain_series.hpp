@@ -20,9 +20,10 @@ class GrainSeries {
  public:
     GrainSeries(std::filesystem::path folder, const ShapeTable& shapes);
 
-    /// Points in run units with id, shape, radius, density, orientation (quaternion w, x, y, z),
-    /// velocity, angular_velocity, force, contact_force. The series file is complete after every
-    /// call. `time` is in run units, `window` the step over which contact impulses were summed.
+    /// Points in run units with id, shape, material, prescribed (0, 1), radius, density,
+    /// orientation (quaternion w, x, y, z), velocity, angular_velocity, force, contact_force. The
+    /// series file is complete after every call. `time` is in run units, `window` the step over
+    /// which contact impulses were summed.
     void write(double time, std::int64_t step, double window, const Motion& state,
                const std::vector<Kick>& kicks);
 

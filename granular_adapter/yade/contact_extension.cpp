@@ -4,11 +4,12 @@
 #include <boost/python.hpp>
 #include <string>
 
+#include "coupler/keys/key_check.hpp"
 #include "coupler/protocol/freed_memory.hpp"
 #include "coupler/shapes/polygon_outline.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "granular_adapter/nscd_adapter/contact_settings.hpp"
 #include "granular_adapter/yade/contact_host.hpp"
-#include "launcher/case/key_check.hpp"
 
 namespace turbidite::yade {
 namespace {
@@ -47,7 +48,7 @@ Settings checked_settings(const python::dict& options) {
         entry.value = python::extract<std::string>(items[i][1]);
         entries.entries.push_back(entry);
     }
-    Settings settings = check_keys(entries);
+    Settings settings = check_keys(contact_key_table(), entries);
     std::vector<CaseProblem> ours;
     for (const CaseProblem& problem : entries.problems)
         if (problem.key.rfind("contact.", 0) == 0) ours.push_back(problem);

@@ -130,12 +130,6 @@ void replace(const CaseEntry& entry, std::vector<CaseEntry>& entries) {
 
 }  // namespace
 
-const CaseEntry* CaseEntries::find(const std::string& key) const {
-    const auto at = std::find_if(entries.begin(), entries.end(),
-                                 [&](const CaseEntry& entry) { return entry.key == key; });
-    return at == entries.end() ? nullptr : &*at;
-}
-
 CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {
     CaseEntries result;

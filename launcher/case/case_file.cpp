@@ -12,17 +12,22 @@
 #include <utility>
 
 #include "coupler/hub/schemes/scheme.hpp"
+#include "coupler/keys/key_check.hpp"
+#include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/case_hash.hpp"
 #include "launcher/case/case_entries.hpp"
 #include "launcher/case/case_rules.hpp"
+#include "launcher/case/earlier_run.hpp"
 #include "launcher/case/grain_forms.hpp"
+#include "launcher/case/grains_adapters.hpp"
 #include "launcher/case/inner_walls.hpp"
-#include "launcher/case/key_check.hpp"
-#include "launcher/case/key_value.hpp"
+#include "launcher/case/keys.hpp"
+#include "launcher/case/materials.hpp"
 #include "launcher/case/population.hpp"
 #include "launcher/case/resolved_text.hpp"
 #include "launcher/case/run_folder.hpp"
 #include "launcher/case/soft_contact.hpp"
+#include "launcher/case/wall_motion.hpp"
 
 namespace turbidite {
 namespace {
@@ -42,6 +47,20 @@ struct Population {
     PopulationSource source;
     std::vector<std::string> notes;
 };
+
+/// Grains that are there already: those of a run folder, or of another run.
+struct EarlierStart {
+    EarlierRun run;
+    EarlierCase earlier;
+};
+struct GivenGrains {
+    std::filesystem::path file = {};
+    std::optional<EarlierStart> earlier = {};
+};
+
+double overlap_of(const Settings& settings) {
+    return settings.real("grains.overlap");
+}
 
 PackingBox packing_box(const Settings& settings) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
@@ -116,13 +135,13 @@ CaseProblem missing_file(const CaseEntries& entries, const std::string& key,
             .remedy = "Paths are relative to the folder of the case file."};
 }
 
-Population grains_from_file(const std::filesystem::path& file, const GrainForms& forms,
-                            CaseEntries& entries) {
+Population grains_from_file(const std::filesystem::path& file, const Settings& settings,
+                            const GrainForms& forms, CaseEntries& entries) {
     if (!std::filesystem::is_regular_file(file)) {
         entries.problems.push_back(missing_file(entries, "grains.file", file));
         return {};
     }
-    PopulationFile read = read_population_csv(file, forms);
+    PopulationFile read = read_population_csv(file, forms, material_names(settings));
     for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
     if (!read.problems.empty()) return {};  // places that could not be read would be judged as 0
     return {std::move(read.grains), std::move(read.source), {}};
@@ -131,8 +150,98 @@ Population grains_from_file(const std::filesystem::path& file, const GrainForms&
 void check_grains(const Population& population, const Settings& settings, const GrainForms& forms,
                   CaseEntries& entries) {
     auto problems = check_population(population.grains, population.source, packing_box(settings),
-                                     solid_sides(settings), forms);
+                                     solid_sides(settings), forms, overlap_of(settings));
     for (CaseProblem& problem : problems) entries.problems.push_back(std::move(problem));
+}
+
+void refuse_grain(const Population& population, std::size_t i, const std::string& fault,
+                  const std::string& allowed, const std::string& remedy, CaseEntries& entries) {
+    const auto& lines = population.source.lines;
+    entries.problems.push_back(
+        {.source = population.source.name,
+         .line = i < lines.size() ? lines[i] : 0,
+         .key = {},
+         .value = {},
+         .fault = fmt::format("grain {}: {}", population.grains[i].id, fault),
+         .allowed = allowed,
+         .remedy = remedy});
+}
+
+/// What the fluid or the adapter cannot do with a grain; the first of each kind is named.
+void check_abilities(const Population& population, const Settings& settings,
+                     const GrainForms& forms, CaseEntries& entries) {
+    if (!settings.has("grains.adapter") || !settings.has("fluid.enabled")) return;
+    const GrainsAdapter& adapter = grains_adapter(settings);
+    const bool wet = settings.flag("fluid.enabled");
+    const Packing& grains = population.grains;
+    const auto first = [&](auto&& test) {
+        return static_cast<std::size_t>(std::find_if(grains.begin(), grains.end(), test) -
+                                        grains.begin());
+    };
+    if (const auto i = first([&](const PlacedGrain& g) {
+            const auto& kind = forms.forms[static_cast<std::size_t>(g.shape)].record.kind;
+            return std::find(adapter.shapes.begin(), adapter.shapes.end(), kind) ==
+                   adapter.shapes.end();
+        });
+        i < grains.size() && !population.source.lines.empty())
+        refuse_grain(
+            population, i, "its shape is unknown to " + adapter.name,
+            fmt::format("Known to it: {}.", fmt::join(adapter.shapes, ", ")),
+            fmt::format("Use one of these, or grains.adapter: {}.",
+                        adapters_that([](const GrainsAdapter& a) { return a.shapes.size() > 1; })),
+            entries);
+    if (const auto i = first([](const PlacedGrain& g) { return g.prescribed; });
+        i < grains.size() && (wet || !adapter.prescribed_grains))
+        refuse_grain(population, i, "motion is fixed or driven",
+                     wet ? "In a fluid all grains are free in this version."
+                         : fmt::format("{} knows free grains only.", adapter.name),
+                     wet ? "Use motion = free, or fluid.enabled: false."
+                         : fmt::format("Use motion = free, or grains.adapter: {}.",
+                                       adapters_that([](const GrainsAdapter& a) {
+                                           return a.prescribed_grains;
+                                       })),
+                     entries);
+    if (const auto i = first([](const PlacedGrain& g) { return g.density && *g.density <= 1.0; });
+        i < grains.size() && wet)
+        refuse_grain(population, i, fmt::format("density = {}", *grains[i].density),
+                     "Grains in a fluid must be denser than it: a ratio above 1.",
+                     "Use for example 1.5, or fluid.enabled: false.", entries);
+}
+
+Population grains_of(const EarlierStart& start, const Settings& settings, const GrainForms& forms) {
+    EarlierGrains read =
+        read_earlier_grains(start.run, start.earlier, forms, material_names(settings));
+    std::vector<std::string> notes{
+        fmt::format("grains are those of {} at {:.6g} t_c", read.source, read.time)};
+    if (settings.flag("fluid.enabled")) notes.push_back("the fluid starts at rest");
+    return {std::move(read.grains), {read.source, {}}, std::move(notes)};
+}
+
+/// They are in the run folder, and the case's own grains are not asked for.
+void name_grains_file(CaseEntries& entries) {
+    CaseEntry entry;
+    entry.source = "--from";
+    entry.key = "grains.file";
+    entry.value = copied_grains;
+    auto& list = entries.entries;
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [](const CaseEntry& other) { return other.key == "grains.file"; }),
+               list.end());
+    list.push_back(entry);
+}
+
+/// A packing that was computed overlaps by what its run allowed.
+void accept_overlaps(Settings& settings) {
+    if (!settings.has("limits.penetration") || !settings.has("grains.overlap")) return;
+    settings.set("grains.overlap",
+                 std::max(overlap_of(settings), settings.real("limits.penetration")));
+}
+
+void set_materials(Settings& settings) {
+    std::string names;
+    for (const std::string& name : material_names(settings))
+        if (name != "default") names += (names.empty() ? "" : " ") + name;
+    settings.set("run.materials", names);
 }
 
 // A region that was refused would only be refused again, grain by grain.
@@ -147,23 +256,25 @@ bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
 
 /// Grains of the given file, else of grains.file, else generated. Needs a valid box.
 Population make_population(Settings& settings, const GrainForms& forms, CaseEntries& entries,
-                           const std::filesystem::path& folder,
-                           const std::filesystem::path& given) {
+                           const std::filesystem::path& folder, const GivenGrains& given) {
     for (const char* key : {"domain.size", "domain.left", "domain.right", "domain.bottom",
                             "domain.top", "grains.generator", "grains.compacity", "grains.jitter",
-                            "grains.size_ratio", "random.seed"})
+                            "grains.size_ratio", "grains.overlap", "random.seed"})
         if (!settings.has(key)) return {};
     if (region_is_refused(settings, entries)) return {};
-    const bool from_file = !given.empty() || settings.has("grains.file");
+    const bool from_file = given.earlier || !given.file.empty() || settings.has("grains.file");
     // A valid count is missing: the generator has nothing to go by.
     const bool uncounted =
         settings.text("grains.generator") == "random" && !settings.has("grains.count");
     if (!from_file && uncounted) return {};
     Population population =
-        !given.empty() ? grains_from_file(given, forms, entries)
-        : from_file    ? grains_from_file(folder / settings.text("grains.file"), forms, entries)
-                       : generated_grains(settings, forms, entries);
+        given.earlier         ? grains_of(*given.earlier, settings, forms)
+        : !given.file.empty() ? grains_from_file(given.file, settings, forms, entries)
+        : from_file
+            ? grains_from_file(folder / settings.text("grains.file"), settings, forms, entries)
+            : generated_grains(settings, forms, entries);
     check_grains(population, settings, forms, entries);
+    check_abilities(population, settings, forms, entries);
     if (settings.has("grains.file")) settings.set("grains.file", std::string(copied_grains));
     return population;
 }
@@ -190,7 +301,8 @@ std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
     }
     InnerWalls read = read_walls_csv(file);
     if (read.problems.empty())
-        read.problems = check_walls(read.walls, grains, forms, file.filename().string());
+        read.problems = check_walls(read.walls, grains, forms, file.filename().string(),
+                                    std::max(overlap_of(settings), touching_tolerance));
     for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
     settings.set("domain.walls_file", std::string(copied_walls));
     return std::move(read.walls);
@@ -223,7 +335,12 @@ std::vector<GrainState> grain_states(const Packing& grains, const Settings& sett
         state.shape = grain.shape;
         state.orientation = turned(grain.angle);
         state.radius = grain.radius * scales.diameter;
-        state.density = settings.real("grains.density_ratio") * scales.fluid_density;
+        state.material = grain.material;
+        state.prescribed = grain.prescribed;
+        state.density =
+            grain.density.value_or(settings.real("grains.density_ratio")) * scales.fluid_density;
+        state.velocity = {grain.vx * scales.velocity, grain.vy * scales.velocity, 0.0};
+        state.angular_velocity = {0.0, 0.0, grain.spin / scales.time};
         state.position = {grain.x * scales.diameter, grain.y * scales.diameter, 0.0};
         states.push_back(state);
     }
@@ -245,7 +362,7 @@ void set_scheme(Settings& settings) {
 
 /// What molecular dynamics takes its contacts and sub-steps from.
 void set_soft_contact(Settings& settings, const Packing& grains) {
-    if (settings.text("grains.adapter") != "yade-md") return;
+    if (grains_adapter(settings).family != "md") return;
     const SoftContact contact = soft_contact(settings, height_of(grains));
     settings.set("run.md_frequency", contact.frequency);
     settings.set("run.md_damping", contact.damping);
@@ -253,24 +370,25 @@ void set_soft_contact(Settings& settings, const Packing& grains) {
 }
 
 ResolvedCase finish(Settings settings, Population population, std::vector<InnerWall> walls,
-                    std::string script, const GrainForms& forms) {
+                    std::string script, const GrainForms& forms, const CaseEntries& entries) {
     ResolvedCase result;
     result.script = std::move(script);
     result.scales = make_scales(settings);
-    result.grains_csv = population_csv(population.grains, forms);
+    result.grains_csv = population_csv(population.grains, forms, material_names(settings));
     result.walls_csv = walls.empty() ? "" : walls_csv(walls);
-    result.yaml =
-        resolved_text(settings, population.grains.size(), result.grains_csv, result.walls_csv,
-                      result.script);
+    result.yaml = resolved_text(settings, population.grains.size(), result.grains_csv,
+                                result.walls_csv, result.script);
     result.notes = std::move(population.notes);
     for (const std::string& note : forms.notes) result.notes.push_back(note);
-    for (std::string& note : rule_notes(settings)) result.notes.push_back(std::move(note));
+    for (std::string& note : rule_notes(settings, entries)) result.notes.push_back(std::move(note));
     result.shapes = used_shapes(population.grains, forms);
     result.population = grain_states(population.grains, settings, result.scales);
     set_run_values(settings, result.scales);
     set_scheme(settings);
     settings.set("run.walls",
                  walls_setting(walls, result.scales, settings.real("contact.friction")));
+    settings.set("run.wall_motions", motions_setting(settings, walls, result.scales));
+    set_materials(settings);
     set_soft_contact(settings, population.grains);
     result.packing = std::move(population.grains);
     settings.set("run.hash", case_hash(result.yaml));
@@ -279,26 +397,39 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
 }
 
 ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
-                     const std::filesystem::path& given_grains) {
+                     const GivenGrains& given_grains) {
     if (entries.entries.empty() && !entries.problems.empty())
         throw CaseRefused(std::move(entries.problems));
-    Settings settings = check_keys(entries);
+    if (given_grains.earlier) name_grains_file(entries);
+    Settings settings = check_keys(key_table(), entries);
     check_rules(settings, entries);
+    check_materials(settings, entries);
+    if (given_grains.earlier) accept_overlaps(settings);
     const std::optional<GrainForms> forms = forms_of(settings);
     if (!forms) throw CaseRefused(std::move(entries.problems));
     Population population = make_population(settings, *forms, entries, folder, given_grains);
     std::vector<InnerWall> walls = make_walls(settings, population.grains, *forms, folder, entries);
     std::string script = users_script(settings, folder, entries);
+    if (settings.has("grains.adapter")) check_motions(settings, walls, entries);
     if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
     return finish(std::move(settings), std::move(population), std::move(walls), std::move(script),
-                  *forms);
+                  *forms, entries);
+}
+
+EarlierStart earlier_run(const std::string& text) {
+    const EarlierRun run = parse_earlier_run(text);
+    ResolvedCase resolved = load_run_folder(run.folder);
+    std::vector<std::string> materials = material_names(resolved.settings);
+    return {run, {resolved.scales, std::move(resolved.shapes), std::move(materials)}};
 }
 
 }  // namespace
 
-ResolvedCase load_case(const std::filesystem::path& file,
-                       const std::vector<std::string>& overrides) {
-    ResolvedCase result = resolve(read_case_entries(file, overrides), file.parent_path(), {});
+ResolvedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       const std::string& from) {
+    GivenGrains given;
+    if (!from.empty()) given.earlier = earlier_run(from);
+    ResolvedCase result = resolve(read_case_entries(file, overrides), file.parent_path(), given);
     result.name = file.stem().string();
     return result;
 }
@@ -306,7 +437,7 @@ ResolvedCase load_case(const std::filesystem::path& file,
 ResolvedCase load_run_folder(const std::filesystem::path& folder) {
     const RunFolder paths{folder};
     ResolvedCase result =
-        resolve(read_case_entries(paths.resolved_case(), {}), folder, paths.initial_grains());
+        resolve(read_case_entries(paths.resolved_case(), {}), folder, {paths.initial_grains(), {}});
     result.name = std::filesystem::absolute(folder).lexically_normal().filename().string();
     // Every program of the job hashes the file itself, which may have been edited by hand.
     result.settings.set("run.hash", case_hash(file_text(paths.resolved_case())));

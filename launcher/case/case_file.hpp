@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "coupler/keys/case_error.hpp"
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "launcher/case/case_error.hpp"
 #include "launcher/case/packing.hpp"
 #include "launcher/case/scales.hpp"
 
@@ -20,7 +20,7 @@ namespace turbidite {
 struct ResolvedCase {
     std::string name;                    ///< file name without its ending; names the run folder
     Settings settings;                   ///< all keys and the run.* values, run.hash included
-    std::vector<GrainState> population;  ///< at rest, run units, in the order of the packing
+    std::vector<GrainState> population;  ///< run units, in the order of the packing
     ShapeTable shapes;                   ///< GrainState::shape indexes it
     Packing packing;                     ///< the same grains in D
     std::string grains_csv;              ///< the same grains as a grains file
@@ -31,9 +31,11 @@ struct ResolvedCase {
     Scales scales;
 };
 
-/// Overrides are the arguments of --set, `key=value` with the value in YAML.
+/// Overrides are the arguments of --set, `key=value` with the value in YAML; `from` is that of
+/// --from, DIR[@time], whose grains take the place of the case's.
 ResolvedCase load_case(const std::filesystem::path& file,
-                       const std::vector<std::string>& overrides = {});
+                       const std::vector<std::string>& overrides = {},
+                       const std::string& from = "");
 
 /// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: what `turbidite run` prepared.
 ResolvedCase load_run_folder(const std::filesystem::path& folder);

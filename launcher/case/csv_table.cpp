@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "launcher/case/key_value.hpp"
+#include "coupler/keys/key_value.hpp"
 
 namespace turbidite {
 namespace {

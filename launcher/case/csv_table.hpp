@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/case/case_error.hpp"
+#include "coupler/keys/case_error.hpp"
 
 namespace turbidite {
 

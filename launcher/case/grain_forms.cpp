@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupler/keys/key_value.hpp"
 #include "coupler/shapes/shape.hpp"
-#include "launcher/case/key_value.hpp"
 
 namespace turbidite {
 namespace {

@@ -17,9 +17,10 @@ constexpr std::size_t most_problems = 10;  // a wall through a packing cuts many
 
 const CsvForm& csv_form() {
     static const CsvForm form = {
-        {"id", "x1", "y1", "x2", "y2", "vx", "vy", "spin", "px", "py", "friction"},
+        {"id", "x1", "y1", "x2", "y2", "vx", "vy", "spin", "px", "py", "friction", "motion"},
         {"id", "x1", "y1", "x2", "y2"},
-        "The first line must read id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction]; lengths in D, "
+        "The first line must read id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction][,motion]; "
+        "lengths in D, "
         "velocities in u_c, spin in 1/t_c.",
         "wall"};
     return form;
@@ -54,6 +55,10 @@ InnerWall wall_of(CsvTable& table, const CsvTable::Row& row) {
         const std::string &column = table.columns[i], &text = row.fields[i];
         if (column == "id") {
             wall.id = whole_number(table, row.line, column, text).value_or(0);
+            continue;
+        }
+        if (column == "motion") {
+            wall.motion = text;
             continue;
         }
         const auto number = finite_number(table, row.line, column, text, "Give a number.");
@@ -105,25 +110,30 @@ std::string walls_csv(const std::vector<InnerWall>& walls) {
     const bool with_friction = std::all_of(walls.begin(), walls.end(),
                                            [](const InnerWall& w) { return bool(w.friction); });
     std::string text = "id,x1,y1,x2,y2,vx,vy,spin,px,py";
-    text += with_friction ? ",friction\n" : "\n";
+    const bool with_motion = std::any_of(walls.begin(), walls.end(),
+                                         [](const InnerWall& w) { return !w.motion.empty(); });
+    if (with_friction) text += ",friction";
+    text += with_motion ? ",motion\n" : "\n";
     for (const InnerWall& wall : walls) {
         const Point2 pivot = wall.pivot.value_or(middle(wall));
         text += fmt::format("{},{},{},{},{},{},{},{},{},{}", wall.id, wall.from[0], wall.from[1],
                             wall.to[0], wall.to[1], wall.velocity[0], wall.velocity[1], wall.spin,
                             pivot[0], pivot[1]);
-        text += with_friction ? fmt::format(",{}\n", *wall.friction) : "\n";
+        if (with_friction) text += fmt::format(",{}", *wall.friction);
+        text += with_motion ? "," + wall.motion + "\n" : "\n";
     }
     return text;
 }
 
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
-                                     const GrainForms& forms, const std::string& source) {
+                                     const GrainForms& forms, const std::string& source,
+                                     double tolerance) {
     std::vector<CaseProblem> problems;
     for (const InnerWall& wall : walls) {
         const PlacedOutline plate{middle(wall), 0.0, {wall.from, wall.to}};
         for (const PlacedGrain& grain : grains) {
             const double gap = surface_gap(plate, placed_outline(grain, forms));
-            if (gap >= -touching_tolerance || problems.size() >= most_problems) continue;
+            if (gap >= -tolerance || problems.size() >= most_problems) continue;
             problems.push_back(
                 {.source = source,
                  .line = 0,

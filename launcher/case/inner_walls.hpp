@@ -2,12 +2,13 @@
 //
 // Walls inside the box, from a CSV file (`domain.walls_file`):
 //
-//     id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction]
+//     id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction][,motion]
 //
 // Each is a thin plate from (x1, y1) to (x2, y2) that holds grains on both sides. It follows a
 // prescribed motion: its pivot moves at (vx, vy), and it turns about the pivot. Lengths in D,
 // velocities in u_c, spin in 1/t_c; at rest, pivot in the middle and contact.friction unless given.
-// A plate that moves along itself and is long enough is a belt.
+// A plate that moves along itself and is long enough is a belt. Other motions are described below
+// domain.motions and named in the column motion.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +28,7 @@ struct InnerWall {
     double spin = 0.0;               ///< [1/t_c]
     std::optional<Point2> pivot;     ///< [D]
     std::optional<double> friction;  ///< mu
+    std::string motion = {};         ///< name below domain.motions; empty: velocity and spin
 };
 
 struct InnerWalls {
@@ -38,9 +40,10 @@ InnerWalls read_walls_csv(const std::filesystem::path& file);
 /// Every column; reads back to the same walls.
 std::string walls_csv(const std::vector<InnerWall>& walls);
 
-/// Grains that a plate cuts at the start, by how much.
+/// Grains that a plate cuts at the start by more than `tolerance` [D].
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
-                                     const GrainForms& forms, const std::string& source);
+                                     const GrainForms& forms, const std::string& source,
+                                     double tolerance = touching_tolerance);
 
 /// The value of `run.walls`: walls separated by `;`, each
 /// `id x1 y1 x2 y2 vx vy spin px py friction` in the run's units.

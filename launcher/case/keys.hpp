@@ -1,69 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every key of a case file, registered once: type, unit, range or choices, default, help. Parser,
+// Every key of a case file, registered once (keys/, granular_adapter/contact_keys). Parser,
 // validator, `turbidite keys`, the reference (docs/case-reference.md) and the resolved case are
 // made from this table.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "coupler/protocol/settings.hpp"
+#include "coupler/keys/rule.hpp"
 
 namespace turbidite {
 
-enum class KeyType { text, choice, real, integer, flag, real_list };
+const std::vector<KeyGroup>& key_groups();
 
-/// A value of a choice. Those that later versions will have are known, and refused as such.
-struct Choice {
-    std::string name;
-    std::string help;
-    bool available = true;
-};
-
-struct Range {
-    double lower = -std::numeric_limits<double>::infinity();
-    double upper = std::numeric_limits<double>::infinity();
-    bool lower_open = false;  ///< the bound itself is not allowed
-    bool upper_open = false;
-
-    bool contains(double value) const;
-};
-
-/// When a key must be given; `fallback` keys have a default, `optional` ones may be left out.
-enum class Need { fallback, required, optional, conditional };
-
-struct KeySpec {
-    std::string name;  ///< "contact.friction"
-    KeyType type = KeyType::real;
-    std::string unit = {};  ///< "D", "t_c", "u_c", "s"; "" for pure numbers
-    Need need = Need::fallback;
-    std::string fallback = {};  ///< default as text
-    Range range = {};           ///< of numbers, and of every entry of a list
-    std::vector<Choice> choices = {};
-    std::string help = {};     ///< what it means
-    std::string allowed = {};  ///< one sentence, shown when the value is refused; made up if empty
-    std::string remedy = {};   ///< one sentence: what to do
-    int entries = 2;           ///< of a list; 0: any number
-    std::string when = {};     ///< conditional: in words, when it is required
-    bool (*required)(const Settings&) = nullptr;  ///< conditional: the same as a test
-    bool available = true;                        ///< false: known, of a later version
-};
-
-const std::vector<KeySpec>& key_table();
+/// The keys of all groups; those whose names begin alike stand together.
+const KeyTable& key_table();
 
 /// nullptr when there is no such key.
 const KeySpec* find_key(const std::string& name);
-std::vector<std::string> key_names();
-
-/// "A number above 0.", "One of split." : what the key accepts, as a sentence.
-std::string allowed_values(const KeySpec& key);
-
-/// "a number", "a whole number", …
-std::string type_name(KeyType type);
-
-/// "contact" of "contact.friction"; empty for keys outside any group.
-std::string group_of(const std::string& key);
 
 }  // namespace turbidite

@@ -16,11 +16,16 @@ struct GrainForms;
 
 struct PlacedGrain {
     GrainId id = 0;
-    double x = 0.0;          ///< [D]
-    double y = 0.0;          ///< [D]
-    double radius = 0.5;     ///< circumscribed [D]
-    std::int32_t shape = 0;  ///< index of GrainForms
-    double angle = 0.0;      ///< counter-clockwise [rad]
+    double x = 0.0;                      ///< [D]
+    double y = 0.0;                      ///< [D]
+    double radius = 0.5;                 ///< circumscribed [D]
+    std::int32_t shape = 0;              ///< index of GrainForms
+    double angle = 0.0;                  ///< counter-clockwise [rad]
+    double vx = 0.0, vy = 0.0;           ///< [u_c]
+    double spin = 0.0;                   ///< [1/t_c]
+    std::optional<double> density = {};  ///< over the fluid's; grains.density_ratio unless given
+    std::int32_t material = 0;           ///< index of material_names
+    bool prescribed = false;             ///< keeps its velocity and spin: fixed or driven
 };
 using Packing = std::vector<PlacedGrain>;
 

@@ -26,12 +26,20 @@ CaseProblem problem_at(const std::string& source, int line, const std::string& f
             .remedy = remedy};
 }
 
+/// What the words of a grains file mean.
+struct FileWords {
+    const GrainForms& forms;
+    const std::vector<std::string>& materials;
+};
+
 const CsvForm& csv_form() {
-    static const CsvForm form = {{"id", "x", "y", "z", "radius", "shape", "angle"},
-                                 {"id", "x", "y"},
-                                 "The first line must read id,x,y[,z][,radius][,shape][,angle], "
-                                 "lengths in D, angles in rad.",
-                                 "grain"};
+    static const CsvForm form = {
+        {"id", "x", "y", "z", "radius", "shape", "angle", "vx", "vy", "spin", "density", "material",
+         "motion"},
+        {"id", "x", "y"},
+        "The first line must read id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin][,density]"
+        "[,material][,motion], lengths in D, angles in rad, velocities in u_c, spin in 1/t_c.",
+        "grain"};
     return form;
 }
 
@@ -54,16 +62,43 @@ void set_shape(CsvTable& table, int line, const GrainForms& forms, const std::st
             text == "polygon" ? "Say what it is with grains.vertices." : "Use one of them.");
 }
 
-void set_field(CsvTable& table, int line, const GrainForms& forms, const std::string& column,
+void set_material(CsvTable& table, int line, const std::vector<std::string>& materials,
+                  const std::string& text, PlacedGrain& grain) {
+    const auto at = std::find(materials.begin(), materials.end(), text);
+    if (at != materials.end())
+        grain.material = static_cast<std::int32_t>(at - materials.begin());
+    else
+        table.refuse(line, fmt::format("material = {}", text),
+                     fmt::format("Known here: {}.", fmt::join(materials, ", ")),
+                     "Describe it below contact.materials, or correct the name.");
+}
+
+void set_motion(CsvTable& table, int line, const std::string& text, PlacedGrain& grain) {
+    grain.prescribed = text != "free";
+    if (text != "free" && text != "fixed" && text != "driven")
+        table.refuse(line, fmt::format("motion = {}", text),
+                     "free moves as forces say, fixed stays, driven keeps vx, vy and spin.",
+                     "Use one of the three.");
+}
+
+const char* field_remedy(const std::string& column) {
+    if (column == "angle") return "Give the angle in radians.";
+    if (column == "vx" || column == "vy") return "Give the velocity in u_c.";
+    if (column == "spin") return "Give the spin in 1/t_c.";
+    if (column == "density") return "Give the density over the fluid's.";
+    return "Give the length in grain diameters.";
+}
+
+void set_field(CsvTable& table, int line, const FileWords& words, const std::string& column,
                const std::string& text, PlacedGrain& grain) {
-    if (column == "shape") return set_shape(table, line, forms, text, grain);
+    if (column == "shape") return set_shape(table, line, words.forms, text, grain);
+    if (column == "material") return set_material(table, line, words.materials, text, grain);
+    if (column == "motion") return set_motion(table, line, text, grain);
     if (column == "id") {
         grain.id = whole_number(table, line, column, text).value_or(0);
         return;
     }
-    const auto number = finite_number(
-        table, line, column, text,
-        column == "angle" ? "Give the angle in radians." : "Give the length in grain diameters.");
+    const auto number = finite_number(table, line, column, text, field_remedy(column));
     if (!number) return;
     if (column == "z" && *number != 0.0)
         table.refuse(line, fmt::format("z = {}", text), "In two dimensions z is 0.",
@@ -72,12 +107,30 @@ void set_field(CsvTable& table, int line, const GrainForms& forms, const std::st
     if (column == "y") grain.y = *number;
     if (column == "angle") grain.angle = *number;
     if (column == "radius") grain.radius = *number;
+    if (column == "vx") grain.vx = *number;
+    if (column == "vy") grain.vy = *number;
+    if (column == "spin") grain.spin = *number;
+    if (column == "density") grain.density = *number;
 }
 
-PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const GrainForms& forms) {
+/// A fixed grain is one whose prescribed velocity is zero.
+void check_fixed(CsvTable& table, const CsvTable::Row& row, const PlacedGrain& grain) {
+    const auto column = std::find(table.columns.begin(), table.columns.end(), "motion");
+    if (column == table.columns.end()) return;
+    const bool fixed =
+        row.fields[static_cast<std::size_t>(column - table.columns.begin())] == "fixed";
+    if (fixed && (grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0))
+        table.refuse(row.line, fmt::format("grain {} is fixed and has a velocity", grain.id),
+                     "vx, vy and spin of a fixed grain are 0.",
+                     "Set them to 0, or use motion = driven.");
+}
+
+PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const FileWords& words) {
+    const GrainForms& forms = words.forms;
     PlacedGrain grain;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
-        set_field(table, row.line, forms, table.columns[i], row.fields[i], grain);
+        set_field(table, row.line, words, table.columns[i], row.fields[i], grain);
+    check_fixed(table, row, grain);
     const auto& columns = table.columns;
     if (std::find(columns.begin(), columns.end(), "radius") == columns.end())
         grain.radius = forms.forms[static_cast<std::size_t>(grain.shape)].radius;
@@ -127,6 +180,15 @@ void check_radii(const Packing& grains, Collector problems) {
     problems.finish("bad radii");
 }
 
+void check_densities(const Packing& grains, Collector problems) {
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        if (grains[i].density && !(*grains[i].density > 0.0))
+            problems.add(i, fmt::format("grain {}: density = {}", grains[i].id, *grains[i].density),
+                         "A density over the fluid's is above 0, in a fluid above 1.",
+                         "Correct it, or leave the column out for grains.density_ratio.");
+    problems.finish("bad densities");
+}
+
 struct Side {
     const char* name;
     double excess;  // how far beyond the side, >= 0 when outside [D]
@@ -145,10 +207,10 @@ Side worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSide
 }
 
 void check_inside(const Packing& grains, const PackingBox& box, const SolidSides& walls,
-                  const GrainForms& forms, Collector problems) {
+                  const GrainForms& forms, double tolerance, Collector problems) {
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const Side side = worst_side(grains[i], box, walls, forms);
-        if (side.excess > touching_tolerance)
+        if (side.excess > tolerance)
             problems.add(
                 i,
                 fmt::format("grain {} at ({}, {}) is outside the box: {:.4g} D beyond its "
@@ -161,19 +223,20 @@ void check_inside(const Packing& grains, const PackingBox& box, const SolidSides
 }
 
 void check_overlaps(const Packing& grains, const PackingBox& box, const GrainForms& forms,
-                    Collector problems) {
+                    double tolerance, Collector problems) {
     const double largest = largest_radius(grains);
     if (largest <= 0.0) return;
     NeighbourGrid grid(box, largest, 0.0, &forms);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         for (const std::size_t j : grid.near(grains[i].x, grains[i].y)) {
-            if (grid.circle_gap(grains[i], grains[j]) >= -touching_tolerance) continue;
+            if (grid.circle_gap(grains[i], grains[j]) >= -tolerance) continue;
             const double gap = grid.gap(grains[i], grains[j]);
-            if (gap < -touching_tolerance)
+            if (gap < -tolerance)
                 problems.add(i,
                              fmt::format("grains {} and {} overlap by {:.4g} D", grains[j].id,
                                          grains[i].id, -gap),
-                             "Grains may touch but not overlap.", "Move one of them.");
+                             "Grains may touch but not overlap by more than grains.overlap.",
+                             "Move one of them.");
         }
         grid.insert(grains[i]);
     }
@@ -182,40 +245,96 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
 
 }  // namespace
 
-PopulationFile read_population_csv(const std::filesystem::path& file, const GrainForms& forms) {
+PopulationFile read_population_csv(const std::filesystem::path& file, const GrainForms& forms,
+                                   const std::vector<std::string>& materials) {
     CsvTable table = read_csv(file, csv_form());
     PopulationFile result;
     result.source.name = table.name;
     for (const CsvTable::Row& row : table.rows) {
-        result.grains.push_back(grain_of(table, row, forms));
+        result.grains.push_back(grain_of(table, row, {forms, materials}));
         result.source.lines.push_back(row.line);
     }
     result.problems = std::move(table.problems);
     return result;
 }
 
-std::string population_csv(const Packing& grains, const GrainForms& forms) {
-    const bool round = std::all_of(grains.begin(), grains.end(), [&](const PlacedGrain& grain) {
-        return forms.forms[static_cast<std::size_t>(grain.shape)].outline.empty() &&
-               grain.angle == 0.0;
-    });
-    std::string text = round ? "id,x,y,radius\n" : "id,x,y,radius,shape,angle\n";
+namespace {
+
+/// Columns that are written only where a grain has something to say there.
+struct OptionalColumns {
+    const char* header;
+    bool (*needed)(const PlacedGrain&, const GrainForms&);
+    std::string (*text)(const PlacedGrain&, const FileWords&);
+};
+
+const std::string& kind_of(const PlacedGrain& grain, const GrainForms& forms) {
+    return forms.forms[static_cast<std::size_t>(grain.shape)].record.kind;
+}
+
+bool is_turned(const PlacedGrain& grain, const GrainForms& forms) {
+    const bool round = forms.forms[static_cast<std::size_t>(grain.shape)].outline.empty();
+    return !round || grain.angle != 0.0;
+}
+
+bool moves(const PlacedGrain& grain, const GrainForms&) {
+    return grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0;
+}
+
+const char* motion_of(const PlacedGrain& grain) {
+    if (!grain.prescribed) return "free";
+    return moves(grain, plain_discs()) ? "driven" : "fixed";
+}
+
+const OptionalColumns optional_columns[] = {
+    {",shape,angle", is_turned,
+     [](const PlacedGrain& g, const FileWords& words) {
+         return fmt::format(",{},{}", kind_of(g, words.forms), g.angle);
+     }},
+    {",vx,vy,spin", moves,
+     [](const PlacedGrain& g, const FileWords&) {
+         return fmt::format(",{},{},{}", g.vx, g.vy, g.spin);
+     }},
+    {",density", [](const PlacedGrain& g, const GrainForms&) { return g.density.has_value(); },
+     [](const PlacedGrain& g, const FileWords&) { return fmt::format(",{}", *g.density); }},
+    {",material", [](const PlacedGrain& g, const GrainForms&) { return g.material != 0; },
+     [](const PlacedGrain& g, const FileWords& words) {
+         return "," + words.materials.at(static_cast<std::size_t>(g.material));
+     }},
+    {",motion", [](const PlacedGrain& g, const GrainForms&) { return g.prescribed; },
+     [](const PlacedGrain& g, const FileWords&) { return std::string(",") + motion_of(g); }},
+};
+
+}  // namespace
+
+std::string population_csv(const Packing& grains, const GrainForms& forms,
+                           const std::vector<std::string>& materials) {
+    std::vector<const OptionalColumns*> columns;
+    for (const OptionalColumns& column : optional_columns)
+        if (std::any_of(grains.begin(), grains.end(),
+                        [&](const PlacedGrain& grain) { return column.needed(grain, forms); }))
+            columns.push_back(&column);
+    std::string text = "id,x,y,radius";
+    for (const OptionalColumns* column : columns) text += column->header;
+    text += "\n";
     for (const PlacedGrain& grain : grains) {
         text += fmt::format("{},{},{},{}", grain.id, grain.x, grain.y, grain.radius);
-        const std::string& kind = forms.forms[static_cast<std::size_t>(grain.shape)].record.kind;
-        text += round ? "\n" : fmt::format(",{},{}\n", kind, grain.angle);
+        for (const OptionalColumns* column : columns)
+            text += column->text(grain, {forms, materials});
+        text += "\n";
     }
     return text;
 }
 
 std::vector<CaseProblem> check_population(const Packing& grains, const PopulationSource& source,
                                           const PackingBox& box, const SolidSides& walls,
-                                          const GrainForms& forms) {
+                                          const GrainForms& forms, double overlap) {
+    const double tolerance = std::max(overlap, touching_tolerance);
     std::vector<CaseProblem> problems;
     check_ids(grains, {problems, source});
     check_radii(grains, {problems, source});
-    check_inside(grains, box, walls, forms, {problems, source});
-    check_overlaps(grains, box, forms, {problems, source});
+    check_densities(grains, {problems, source});
+    check_inside(grains, box, walls, forms, tolerance, {problems, source});
+    check_overlaps(grains, box, forms, tolerance, {problems, source});
     return problems;
 }
 

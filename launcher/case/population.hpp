@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle]`, lengths in D, angles in rad;
-// `grains.shape` and its radius unless given), and what must hold for any population: ids once,
-// radii positive, nobody outside, nobody overlapping, all by true shapes.
+// Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin][,density]
+// [,material][,motion]`, lengths in D, angles in rad, velocities in u_c, spin in 1/t_c;
+// `grains.shape` and its radius unless given; at rest, grains.density_ratio, material default,
+// free), and what must hold for any population: ids once, radii positive, nobody outside, nobody
+// overlapping, all by true shapes.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/case/case_error.hpp"
+#include "coupler/keys/case_error.hpp"
 #include "launcher/case/grain_forms.hpp"
 #include "launcher/case/packing.hpp"
 
@@ -28,18 +30,23 @@ struct PopulationFile {
     std::vector<CaseProblem> problems;
 };
 PopulationFile read_population_csv(const std::filesystem::path& file,
-                                   const GrainForms& forms = plain_discs());
+                                   const GrainForms& forms = plain_discs(),
+                                   const std::vector<std::string>& materials = {"default"});
 
-/// Numbers round-trip exactly. Columns for shape and angle only where a grain is not round.
-std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs());
+/// Numbers round-trip exactly. Columns beyond the radius only where a grain needs them. A density
+/// is given for all grains or for none.
+std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs(),
+                           const std::vector<std::string>& materials = {"default"});
 
 /// A side that is a wall keeps the whole grain inside; of the others the centre must be inside.
 struct SolidSides {
     bool left = true, right = true, bottom = true, top = true;
 };
 
+/// Overlaps up to `overlap` are accepted [D].
 std::vector<CaseProblem> check_population(const Packing& grains, const PopulationSource& source,
                                           const PackingBox& box, const SolidSides& walls,
-                                          const GrainForms& forms = plain_discs());
+                                          const GrainForms& forms = plain_discs(),
+                                          double overlap = 0.0);
 
 }  // namespace turbidite

@@ -18,17 +18,26 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-std::string value_text(const KeySpec& key, const Settings& settings) {
-    if (!settings.has(key.name)) return "~";
-    const std::string& value = settings.text(key.name);
+std::string value_text(const KeySpec& key, const std::string& name, const Settings& settings) {
+    if (!settings.has(name)) return "~";
+    const std::string& value = settings.text(name);
     return key.type == KeyType::text ? quoted(value) : value;
 }
 
-std::string line_of(const KeySpec& key, const Settings& settings) {
-    const std::string group = group_of(key.name);
-    const std::string name = group.empty() ? key.name : "  " + key.name.substr(group.size() + 1);
+std::string line_of(const KeySpec& key, const std::string& full_name, const Settings& settings) {
+    const std::string group = group_of(full_name);
+    const std::string name = group.empty() ? full_name : "  " + full_name.substr(group.size() + 1);
     const std::string unit = key.unit.empty() ? "" : "  # " + key.unit;
-    return fmt::format("{}: {}{}\n", name, value_text(key, settings), unit);
+    return fmt::format("{}: {}{}\n", name, value_text(key, full_name, settings), unit);
+}
+
+/// Of a key with words of the user's in its name all that were given, otherwise the key itself.
+std::vector<std::string> names_of(const KeySpec& key, const Settings& settings) {
+    if (!has_words(key)) return {key.name};
+    std::vector<std::string> names;
+    for (const auto& [name, value] : settings.entries())
+        if (find_key(name) == &key) names.push_back(name);
+    return names;
 }
 
 // `~` is no value for keys that need one only in other circumstances, so they are left out.
@@ -54,7 +63,8 @@ std::string resolved_text(const Settings& settings, std::size_t grains,
         if (!is_written(key, settings)) continue;
         if (group_of(key.name) != group) text += group_of(key.name) + ":\n";
         group = group_of(key.name);
-        text += line_of(key, settings);
+        for (const std::string& name : names_of(key, settings))
+            text += line_of(key, name, settings);
     }
     return text;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The resolved case as YAML: every key in the order of the table, with its unit, and a fingerprint
-// of the grains, of the walls inside the box and of grains.script. Equal cases give equal text; it loads to itself.
+// of the grains, of the walls inside the box and of grains.script. Equal cases give equal text; it
+// loads to itself.
 #pragma once
 
 #include <string>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "launcher/case/key_value.hpp"
+#include "coupler/keys/key_value.hpp"
 
 namespace turbidite {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "launcher/case/nearest_name.hpp"
+#include "coupler/keys/nearest_name.hpp"
 
 namespace turbidite {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "launcher/case/key_value.hpp"
+#include "coupler/keys/key_value.hpp"
 
 namespace turbidite {
 namespace {

@@ -23,6 +23,7 @@ namespace {
 struct RunOptions {
     std::string file;
     std::vector<std::string> overrides;
+    std::string from;  ///< DIR[@time]
     RunOrder order;
     bool dry_run = false;
 };
@@ -60,7 +61,7 @@ int run_to_the_end(const PreparedRun& prepared, const Programs& programs) {
 }
 
 int run(const RunOptions& options) {
-    const ResolvedCase resolved = load_case(options.file, options.overrides);
+    const ResolvedCase resolved = load_case(options.file, options.overrides, options.from);
     const LaunchSite site = this_site();
     require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
     const RunFolder folder = make_run_folder(options.order, resolved.name);
@@ -84,6 +85,9 @@ CommandAction declare_run(CLI::App& app) {
                    "key=value, replaces a value of the case; may be repeated (see turbidite keys)")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
+    app.add_option("--from", options->from,
+                   "start from the grains of another run, at its end or at an output time [t_c]")
+        ->type_name("DIR[@TIME]");
     app.add_option("--out", options->order.out,
                    "run folder, new or empty; default runs/<case>-<date>-<time>")
         ->type_name("DIR");

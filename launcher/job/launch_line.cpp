@@ -8,54 +8,24 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "coupler/protocol/failure.hpp"
+#include "launcher/case/grains_adapters.hpp"
 
 namespace turbidite {
 namespace {
 
 using Arguments = std::vector<std::string>;
 
-Arguments standalone_nscd(const Programs& programs, const std::string& run) {
-    return {programs.grains(), run};
+std::filesystem::path grains_file(const GrainsAdapter& adapter, const Programs& programs) {
+    const bool script = adapter.host == GrainsHost::yade;
+    return (script ? programs.yade_folder() : programs.folder) / adapter.file;
 }
 
 // -x: a Python error ends the program instead of opening a prompt, at which the job would hang.
-Arguments yade_nscd(const Programs& programs, const std::string& run) {
-    return {programs.yade(), "-n", "-x", programs.yade_nscd(), run};
-}
-
-Arguments yade_md(const Programs& programs, const std::string& run) {
-    return {programs.yade(), "-n", "-x", programs.yade_md(), run};
-}
-
-/// Every granular adapter that can be started, by its name in `grains.adapter`.
-struct GrainsProgram {
-    const char* adapter;
-    Arguments (*command)(const Programs&, const std::string& run);
-    std::vector<std::filesystem::path> (*needs)(const Programs&);
-};
-
-const std::vector<GrainsProgram>& grains_programs() {
-    static const std::vector<GrainsProgram> table = {
-        {"yade-nscd", yade_nscd,
-         [](const Programs& p) {
-             return std::vector{p.yade(), p.yade_nscd(), p.yade_extension()};
-         }},
-        {"yade-md", yade_md,
-         [](const Programs& p) {
-             return std::vector{p.yade(), p.yade_md(), p.yade_extension()};
-         }},
-        {"standalone-nscd", standalone_nscd,
-         [](const Programs& p) { return std::vector{p.grains()}; }},
-    };
-    return table;
-}
-
-const GrainsProgram& grains_program(const std::string& adapter) {
-    for (const GrainsProgram& program : grains_programs())
-        if (adapter == program.adapter) return program;
-    throw Failure(ExitCode::bad_input,
-                  "grains.adapter = " + adapter + " has no program in this version");
+Arguments grains_command(const GrainsAdapter& adapter, const Programs& programs,
+                         const std::string& run) {
+    const std::string file = grains_file(adapter, programs);
+    if (adapter.host == GrainsHost::none) return {file, run};
+    return {programs.yade(), "-n", "-x", file, run};
 }
 
 void append(Arguments& to, const Arguments& more) {
@@ -123,9 +93,8 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
         append(line, part(ranks, site, fluid_command(ranks, folder, programs)));
     }
     line.push_back(":");
-    append(line,
-           part(settings.integer("grains.ranks"), site,
-                grains_program(settings.text("grains.adapter")).command(programs, folder.root)));
+    append(line, part(settings.integer("grains.ranks"), site,
+                      grains_command(grains_adapter(settings), programs, folder.root)));
     return line;
 }
 
@@ -153,8 +122,12 @@ std::vector<std::filesystem::path> needed_programs(const Settings& settings,
                                                    const Programs& programs) {
     std::vector<std::filesystem::path> needed{programs.coupler()};
     if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid());
-    for (const auto& file : grains_program(settings.text("grains.adapter")).needs(programs))
-        needed.push_back(file);
+    const GrainsAdapter& adapter = grains_adapter(settings);
+    if (adapter.host == GrainsHost::yade) {
+        needed.push_back(programs.yade());
+        needed.push_back(programs.yade_extension());
+    }
+    needed.push_back(grains_file(adapter, programs));
     return needed;
 }
 

@@ -16,14 +16,11 @@ struct Programs {
     std::filesystem::path build() const { return folder.parent_path(); }
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
     std::filesystem::path fluid() const { return folder / "turbidite-fluid"; }
-    std::filesystem::path grains() const { return folder / "turbidite-grains"; }
     std::filesystem::path bench() const { return folder / "turbidite-bench"; }
     std::filesystem::path yade() const { return "/usr/bin/yade"; }
     /// The extension that YADE's Python imports, and the scripts beside it.
     std::filesystem::path yade_folder() const { return library / "yade"; }
     std::filesystem::path yade_extension() const { return yade_folder() / "turbidite_yade.so"; }
-    std::filesystem::path yade_nscd() const { return yade_folder() / "turbidite_yade_nscd.py"; }
-    std::filesystem::path yade_md() const { return yade_folder() / "turbidite_yade_md.py"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
     std::filesystem::path compare() const { return source / "launcher/report/compare.py"; }

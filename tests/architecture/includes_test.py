@@ -18,9 +18,15 @@ PYTHON = r"^(Python\.h|pyconfig\.h|boost/python.*|pybind11/.*)$"
 YADE = r"^(yade/.*|core/.*|lib/.*|pkg/.*|granular_adapter/yade/.*)$"
 OPENFOAM = r"^([A-Za-z]*\.H|fluid_adapter/foam_.*)$"
 SICONOS = r"^(siconos/.*|FrictionContactProblem\.h|bench/siconos/siconos_problem\.hpp)$"
-HUB = r"^coupler/hub/.*$"
+PROJECT = r"^(coupler|fluid_adapter|granular_adapter|launcher|bench/(?!array_code/))/?.*$"
 LAUNCHER = r"^launcher/.*$"
-PROJECT = r"^(coupler|fluid_adapter|granular_adapter)/.*$"
+BENCH = r"^bench/.*$"
+HUB = r"^coupler/hub/.*$"
+OUTPUT = r"^coupler/output/.*$"
+ENGINE = r"^granular_adapter/(nscd/(?!names/)|nscd_adapter|md|grains)/?.*$"
+ADAPTERS = r"^(granular_adapter|fluid_adapter)/.*$"
+GRANULAR = r"^granular_adapter/.*$"
+FLUID = r"^fluid_adapter/.*$"
 
 # (files, forbidden headers, why)
 RULES = [
@@ -29,15 +35,28 @@ RULES = [
     ("coupler/participant/participant.hpp", [MPI, TRANSPORT, EIGEN], "any host code may include it"),
     ("coupler/participant/*.[hc]pp", [YAML, PYTHON, OPENFOAM], "the participant library knows no host"),
     ("coupler/participant/*.hpp", [MPI], "an MPI of the host's choice must not leak in"),
-    ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
-    ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "what is written knows nothing of who played it"),
-    ("coupler/hub/**/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM, LAUNCHER], "the hub sees channels, and no host"),
     ("coupler/shapes/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM], "shared by fluid and grains"),
     ("granular_adapter/nscd/**/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
     ("granular_adapter/*/*.[hc]pp", [SICONOS], "Siconos stays in tests and one contender"),
     ("fluid_adapter/multiplier/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
+    ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
+    ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "what is written knows nothing of who played it"),
+    ("coupler/hub/**/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM, LAUNCHER], "the hub sees channels, and no host"),
+    # The arrows between the houses: launcher -> adapters -> coupler, never back.
+    ("coupler/**/*.[hc]pp", [LAUNCHER, BENCH, ADAPTERS, PYTHON, YADE], "the ground floor knows no adapter and no roof"),
+    ("coupler/keys/*.[hc]pp", [MPI, TRANSPORT, EIGEN, YAML], "keys are described and checked without a file format"),
+    ("granular_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, FLUID, HUB, OUTPUT], "adapters stand below the roof and beside the fluid"),
+    ("fluid_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, GRANULAR, HUB, OUTPUT], "adapters stand below the roof and beside the grains"),
+    ("granular_adapter/contact_keys/*.[hc]pp", [ENGINE, EIGEN, MPI], "names and rules of contact keys need no numerics"),
+    ("granular_adapter/grains/*.[hc]pp", [YADE, PYTHON], "the grains of a case are for any host"),
+    ("granular_adapter/nscd_adapter/*.[hc]pp", [YADE, PYTHON], "the engine's adapter is for any host"),
+    ("granular_adapter/md/*.[hc]pp", [YADE, PYTHON], "molecular dynamics is for any host"),
+    ("launcher/case/**/*.[hc]pp", [ENGINE, FLUID, MPI, PYTHON, BENCH], "the case knows names of laws, solvers and schemes, and no program"),
+    ("launcher/commands/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "commands start programs and know none from inside"),
+    ("launcher/job/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a job is prepared, started and watched from outside"),
+    ("launcher/report/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a report reads files"),
     ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the yardstick stands alone"),
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
     ("fluid_adapter/foam_solver/*.[hc]pp", [MPI, EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
@@ -69,6 +88,20 @@ def violations(root, pattern, forbidden):
     ]
 
 
+def source_folders(root):
+    """Folders that hold sources, without tests."""
+    houses = ("coupler", "launcher", "fluid_adapter", "granular_adapter", "bench")
+    return sorted({str(file.parent.relative_to(root)) for house in houses
+                   for file in (root / house).rglob("*") if file.suffix in (".cpp", ".hpp", ".py", ".def")})
+
+
+def is_described(folder, root, table):
+    """The folder, or one that it lies in below a house, has a line of the README's table or a README."""
+    path = Path(folder)
+    lines = [p for p in (path, *path.parents) if str(p) != "."]
+    return any(f"`{p}`" in table or (root / p / "README.md").is_file() for p in lines)
+
+
 class Includes(unittest.TestCase):
     root = None
 
@@ -78,6 +111,16 @@ class Includes(unittest.TestCase):
                 files, found = violations(self.root, pattern, forbidden)
                 self.assertTrue(files, f"no file matches {pattern}: the rule guards nothing")
                 self.assertEqual(found, [], f"{reason}; forbidden here:\n" + "\n".join(found))
+
+    def test_every_folder_says_what_it_is_for(self):
+        table = "\n".join(line for line in (self.root / "README.md").read_text().splitlines() if line.startswith("| `"))
+        self.assertTrue(table)
+        homeless = [folder for folder in source_folders(self.root)
+                    if not is_described(folder, self.root, table)]
+        self.assertEqual(homeless, [], "these folders have no line in the README's table and no README")
+        named = re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)
+        self.assertEqual([folder for folder in named if not (self.root / folder).is_dir()], [],
+                         "these folders of the README's table do not exist")
 
     def test_a_forbidden_header_is_found_through_another_file(self):
         # a.hpp includes b.hpp includes mpi.h: one violation, with the chain that leads to it.

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
+#include "coupler/keys/nearest_name.hpp"
 #include "launcher/case/keys.hpp"
-#include "launcher/case/nearest_name.hpp"
 
 namespace turbidite {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/nearest_name.hpp"
+#include "coupler/keys/nearest_name.hpp"
 
 #include <algorithm>
 #include <limits>

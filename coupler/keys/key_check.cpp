@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/key_check.hpp"
+#include "coupler/keys/key_check.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "launcher/case/key_value.hpp"
-#include "launcher/case/keys.hpp"
-#include "launcher/case/nearest_name.hpp"
+#include "coupler/keys/key_value.hpp"
+#include "coupler/keys/nearest_name.hpp"
 
 namespace turbidite {
 namespace {
@@ -92,13 +91,22 @@ Checked check_value(const KeySpec& key, const CaseEntry& entry, CaseProblem& pro
     }
 }
 
-bool is_group(const std::string& name) {
-    const auto names = key_names();
-    return std::any_of(names.begin(), names.end(),
-                       [&](const std::string& key) { return group_of(key) == name; });
+std::vector<std::string> names_of(const KeyTable& table) {
+    std::vector<std::string> names;
+    for (const KeySpec& key : table) names.push_back(key.name);
+    return names;
 }
 
-CaseProblem unknown_key(const CaseEntry& entry) {
+/// "contact", "contact.materials", "contact.materials.steel".
+bool is_group(const KeyTable& table, const std::string& name) {
+    return std::any_of(table.begin(), table.end(), [&](const KeySpec& key) {
+        const auto end = key.name.rfind('.');
+        return key.name.rfind(name + ".", 0) == 0 ||
+               (end != std::string::npos && find_key({{.name = key.name.substr(0, end)}}, name));
+    });
+}
+
+CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
     CaseProblem problem{.source = entry.source,
                         .line = entry.line,
                         .key = entry.key,
@@ -106,19 +114,20 @@ CaseProblem unknown_key(const CaseEntry& entry) {
                         .fault = "is unknown",
                         .allowed = {},
                         .remedy = "`turbidite keys` lists them all."};
-    if (is_group(entry.key)) {
+    if (is_group(table, entry.key)) {
         problem.fault = "is a group of keys, not a key";
         problem.allowed = "Its keys stand below it, indented.";
         return problem;
     }
-    const KeySpec& nearest = *find_key(nearest_name(entry.key, key_names()));
+    const KeySpec& nearest = *find_key(table, nearest_name(entry.key, names_of(table)));
     problem.allowed = fmt::format("Did you mean {}? ({})", nearest.name, nearest.help);
     return problem;
 }
 
-void check_entry(const CaseEntry& entry, Settings& settings, std::vector<CaseProblem>& problems) {
-    const KeySpec* key = find_key(entry.key);
-    if (key == nullptr) return problems.push_back(unknown_key(entry));
+void check_entry(const KeyTable& table, const CaseEntry& entry, Settings& settings,
+                 std::vector<CaseProblem>& problems) {
+    const KeySpec* key = find_key(table, entry.key);
+    if (key == nullptr) return problems.push_back(unknown_key(table, entry));
     if (entry.is_null && key->need == Need::optional) return;
     CaseProblem problem = problem_of(entry, *key);
     if (entry.is_null) {
@@ -137,8 +146,8 @@ void check_entry(const CaseEntry& entry, Settings& settings, std::vector<CasePro
         problems.push_back(problem);
 }
 
-void fill_defaults(const CaseEntries& entries, Settings& settings) {
-    for (const KeySpec& key : key_table())
+void fill_defaults(const KeyTable& table, const CaseEntries& entries, Settings& settings) {
+    for (const KeySpec& key : table)
         if (key.need == Need::fallback && entries.find(key.name) == nullptr)
             settings.set(key.name, key.fallback);
 }
@@ -161,12 +170,13 @@ bool is_needed(const KeySpec& key, const Settings& settings) {
 
 }  // namespace
 
-Settings check_keys(CaseEntries& entries) {
+Settings check_keys(const KeyTable& table, CaseEntries& entries) {
     Settings settings;
     const std::string source = entries.entries.empty() ? "" : entries.entries.front().source;
-    for (const CaseEntry& entry : entries.entries) check_entry(entry, settings, entries.problems);
-    fill_defaults(entries, settings);
-    for (const KeySpec& key : key_table())
+    for (const CaseEntry& entry : entries.entries)
+        check_entry(table, entry, settings, entries.problems);
+    fill_defaults(table, entries, settings);
+    for (const KeySpec& key : table)
         if (is_needed(key, settings) && entries.find(key.name) == nullptr)
             entries.problems.push_back(missing_key(source, key));
     return settings;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/case_error.hpp"
+#include "coupler/keys/case_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/key_value.hpp"
+#include "coupler/keys/key_value.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/keys/key_spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace turbidite {
+namespace {
+
+std::string bound(const char* open, const char* closed, bool is_open, double value) {
+    return fmt::format("{} {}", is_open ? open : closed, value);
+}
+
+std::string range_text(const KeySpec& key) {
+    const Range& range = key.range;
+    std::string text = type_name(key.type);
+    if (range.lower == range.upper) return fmt::format("{}", range.lower);
+    if (std::isfinite(range.lower)) text += bound(" above", " from", range.lower_open, range.lower);
+    if (std::isfinite(range.upper))
+        text += bound(" below", " up to", range.upper_open, range.upper);
+    else if (std::isfinite(range.lower) && !range.lower_open)
+        text += " on";
+    return text;
+}
+
+std::string choice_names(const KeySpec& key) {
+    std::string text;
+    for (const Choice& choice : key.choices)
+        if (choice.available) text += (text.empty() ? "" : ", ") + choice.name;
+    return text;
+}
+
+std::vector<std::string> parts_of(const std::string& name) {
+    std::vector<std::string> parts(1);
+    for (const char c : name)
+        if (c == '.')
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
+
+bool is_word(const std::string& text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '_';
+    });
+}
+
+/// NAME stands for a word, FIRST-SECOND for two.
+bool stands_for(const std::string& part, const std::string& text) {
+    if (part == "NAME") return is_word(text);
+    if (part != "FIRST-SECOND") return part == text;
+    const auto dash = text.find('-');
+    return dash != std::string::npos && is_word(text.substr(0, dash)) &&
+           is_word(text.substr(dash + 1));
+}
+
+bool means(const KeySpec& key, const std::string& name) {
+    if (key.name == name) return true;
+    const auto parts = parts_of(key.name), words = parts_of(name);
+    return std::equal(parts.begin(), parts.end(), words.begin(), words.end(), stands_for);
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+    const bool above = lower_open ? value > lower : value >= lower;
+    const bool below = upper_open ? value < upper : value <= upper;
+    return above && below;
+}
+
+const KeySpec* find_key(const KeyTable& table, const std::string& name) {
+    const auto at = std::find_if(table.begin(), table.end(),
+                                 [&](const KeySpec& key) { return means(key, name); });
+    return at == table.end() ? nullptr : &*at;
+}
+
+bool has_words(const KeySpec& key) {
+    return key.name.find(".NAME.") != std::string::npos ||
+           key.name.find(".FIRST-SECOND.") != std::string::npos;
+}
+
+bool is(const Settings& settings, const char* key, const char* value) {
+    return settings.has(key) && settings.text(key) == value;
+}
+
+std::string allowed_values(const KeySpec& key) {
+    if (!key.allowed.empty()) return key.allowed;
+    if (key.type == KeyType::choice) return "Available: " + choice_names(key) + ".";
+    if (key.type == KeyType::flag) return "Either true or false.";
+    return fmt::format("It must be {}{}{}.", range_text(key), key.unit.empty() ? "" : ", in ",
+                       key.unit);
+}
+
+std::string type_name(KeyType type) {
+    switch (type) {
+        case KeyType::text:
+            return "a text";
+        case KeyType::choice:
+            return "a choice";
+        case KeyType::real:
+            return "a number";
+        case KeyType::integer:
+            return "a whole number";
+        case KeyType::flag:
+            return "true or false";
+        case KeyType::real_list:
+            return "a list of numbers";
+    }
+    return "";
+}
+
+std::string group_of(const std::string& key) {
+    const auto point = key.find('.');
+    return point == std::string::npos ? "" : key.substr(0, point);
+}
+
+}  // namespace turbidite

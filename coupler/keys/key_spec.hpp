@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A key of a case file: type, unit, range or choices, default, help. Tables of them stand beside
+// the rules that several keys must satisfy together (rule.hpp).
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+enum class KeyType { text, choice, real, integer, flag, real_list };
+
+/// A value of a choice. Those that later versions will have are known, and refused as such.
+struct Choice {
+    std::string name;
+    std::string help;
+    bool available = true;
+};
+
+struct Range {
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+    bool lower_open = false;  ///< the bound itself is not allowed
+    bool upper_open = false;
+
+    bool contains(double value) const;
+};
+
+/// When a key must be given; `fallback` keys have a default, `optional` ones may be left out.
+enum class Need { fallback, required, optional, conditional };
+
+/// A part of a name in capitals stands for a word of the user's: "contact.materials.NAME.friction".
+struct KeySpec {
+    std::string name;  ///< "contact.friction"
+    KeyType type = KeyType::real;
+    std::string unit = {};  ///< "D", "t_c", "u_c", "s"; "" for pure numbers
+    Need need = Need::fallback;
+    std::string fallback = {};  ///< default as text
+    Range range = {};           ///< of numbers, and of every entry of a list
+    std::vector<Choice> choices = {};
+    std::string help = {};     ///< what it means
+    std::string allowed = {};  ///< one sentence, shown when the value is refused; made up if empty
+    std::string remedy = {};   ///< one sentence: what to do
+    int entries = 2;           ///< of a list; 0: any number
+    std::string when = {};     ///< conditional: in words, when it is required
+    bool (*required)(const Settings&) = nullptr;  ///< conditional: the same as a test
+    bool available = true;                        ///< false: known, of a later version
+    std::string family = {};  ///< of grains adapters, "nscd" or "md", that alone know it; "": all
+    /// Why it has no effect in a case whose other keys are valid ("without a fluid"); empty when it
+    /// has.
+    std::string (*idle)(const Settings&) = nullptr;
+};
+using KeyTable = std::vector<KeySpec>;
+
+/// The key that a name means, nullptr when there is none.
+const KeySpec* find_key(const KeyTable& table, const std::string& name);
+
+/// Its name has parts in capitals.
+bool has_words(const KeySpec& key);
+
+/// "A number above 0.", "One of split." : what the key accepts, as a sentence.
+std::string allowed_values(const KeySpec& key);
+
+/// "a number", "a whole number", …
+std::string type_name(KeyType type);
+
+/// "contact" of "contact.friction"; empty for keys outside any group.
+std::string group_of(const std::string& key);
+
+/// The key has this value.
+bool is(const Settings& settings, const char* key, const char* value);
+
+inline constexpr Range positive{.lower = 0.0, .lower_open = true};
+inline constexpr Range not_negative{.lower = 0.0};
+inline constexpr Range open_unit_interval{
+    .lower = 0.0, .upper = 1.0, .lower_open = true, .upper_open = true};
+
+}  // namespace turbidite

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A rule over several keys of a case. It stands beside the keys that it is about, in a group of
+// them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupler/keys/key_spec.hpp"
+
+namespace turbidite {
+
+/// What is wrong with `key`, or nothing.
+struct Objection {
+    std::string allowed;
+    std::string remedy;
+};
+using Ruling = std::optional<Objection>;
+
+struct Rule {
+    const char* key;                 ///< the one that is blamed
+    std::vector<const char*> reads;  ///< the others
+    Ruling (*check)(const Settings&);
+};
+
+/// Keys, what they must satisfy together, and sentences for the user about a valid case.
+struct KeyGroup {
+    KeyTable keys;
+    std::vector<Rule> rules = {};
+    void (*notes)(const Settings&, std::vector<std::string>&) = nullptr;
+};
+
+}  // namespace turbidite

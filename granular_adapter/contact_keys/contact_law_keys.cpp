@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The laws of a contact. Forces are in weights of one grain, m g with the density of the
+// grains: the same physical force with and without a fluid.
+#include <algorithm>
+
+#include "coupler/keys/key_value.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
+
+#include <fmt/format.h>
+
+#include "granular_adapter/nscd/names/contact_names.hpp"
+
+namespace turbidite {
+namespace {
+
+std::vector<Choice> offered(const std::vector<nscd::NamedChoice>& names) {
+    std::vector<Choice> choices;
+    for (const nscd::NamedChoice& entry : names) choices.push_back({entry.name, entry.description});
+    return choices;
+}
+
+bool adheres(const Settings& s) {
+    return s.has("contact.adhesion") && !is(s, "contact.adhesion", "none");
+}
+
+Ruling sliding_holds_less(const Settings& s) {
+    if (s.real("contact.static_friction") >= s.real("contact.friction")) return std::nullopt;
+    return Objection{fmt::format("Contacts that stick hold at least as much as those that slide, "
+                                 "and contact.friction = {}.",
+                                 s.text("contact.friction")),
+                     "Enlarge it."};
+}
+
+// With restitution e an impact feeds energy in unless theta <= 1/(1 + e).
+Ruling theta_makes_no_energy(const Settings& s) {
+    const double e =
+        std::max(s.real("contact.restitution"), s.real("contact.restitution_tangential"));
+    const double most = 1.0 / (1.0 + e);
+    if (s.real("contact.theta") <= most * (1.0 + 1e-12)) return std::nullopt;
+    return Objection{fmt::format("With a restitution e = {} impacts make energy beyond "
+                                 "theta = 1/(1 + e) = {}.",
+                                 real_text(e), real_text(most)),
+                     "Use 0.5, which is right for every restitution."};
+}
+
+Ruling moreau_has_one_restitution(const Settings& s) {
+    if (s.text("contact.impact") != "moreau" || s.real("contact.restitution_tangential") == 0.0)
+        return std::nullopt;
+    return Objection{"With contact.impact: moreau one restitution serves both directions.",
+                     "Remove it, or use contact.impact: newton."};
+}
+
+Ruling only_discs_resist_rolling(const Settings& s) {
+    if (s.real("contact.rolling_friction") == 0.0 || s.text("grains.shape") == "disc")
+        return std::nullopt;
+    return Objection{fmt::format("Rolling resistance is for discs, and grains.shape = {}: faces "
+                                 "resist rolling by themselves.",
+                                 s.text("grains.shape")),
+                     "Use 0."};
+}
+
+Ruling range_of_neighbours(const Settings& s) {
+    if (s.text("contact.adhesion") == "none") return std::nullopt;
+    if (s.real("contact.adhesion_range") <= 1.0) return std::nullopt;
+    return Objection{"Adhesion acts between neighbours: up to 1 D.", "Use a smaller range."};
+}
+
+std::string without_static_friction(const Settings& s) {
+    return is(s, "contact.law", "static-dynamic") ? "" : "without contact.law: static-dynamic";
+}
+std::string without_adhesion(const Settings& s) {
+    return adheres(s) ? "" : "without contact.adhesion";
+}
+std::string without_bridges(const Settings& s) {
+    return is(s, "contact.adhesion", "capillary") ? "" : "without contact.adhesion: capillary";
+}
+std::string without_bonds(const Settings& s) {
+    return is(s, "contact.adhesion", "cohesion") ? "" : "without contact.adhesion: cohesion";
+}
+/// Also of any material or pair.
+std::string without_restitution(const Settings& s) {
+    for (const auto& [key, value] : s.entries())
+        if (key.rfind("contact.", 0) == 0 && key.find("restitution") != std::string::npos &&
+            key != "contact.restitution_speed" && parse_real(value).value_or(0.0) > 0.0)
+            return "";
+    return "without a restitution";
+}
+
+void notes(const Settings& s, std::vector<std::string>& notes) {
+    if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
+        s.real("contact.friction") > 0.0)
+        notes.push_back(
+            "contact.impact: newton with friction may make energy where several contacts of a "
+            "grain answer at once; contact.impact: moreau never does");
+}
+
+}  // namespace
+
+KeyGroup contact_law_keys() {
+    return {
+        .keys =
+            {
+                {.name = "contact.law",
+                 .type = KeyType::choice,
+                 .fallback = "coulomb",
+                 .choices = offered(nscd::law_choices(nscd::LawSlot::friction)),
+                 .help = "friction law"},
+                {.name = "contact.static_friction",
+                 .type = KeyType::real,
+                 .need = Need::conditional,
+                 .range = not_negative,
+                 .help = "friction coefficient of contacts that stick, at least contact.friction",
+                 .remedy = "Write for example static_friction: 0.5.",
+                 .when = "contact.law: static-dynamic",
+                 .required =
+                     [](const Settings& s) { return is(s, "contact.law", "static-dynamic"); },
+                 .idle = without_static_friction},
+                {.name = "contact.impact",
+                 .type = KeyType::choice,
+                 .fallback = "newton",
+                 .choices = offered(nscd::law_choices(nscd::LawSlot::impact)),
+                 .help = "impact law; without restitution both are the same",
+                 .family = "nscd"},
+                {.name = "contact.restitution",
+                 .type = KeyType::real,
+                 .fallback = "0",
+                 .range = {.lower = 0.0, .upper = 1.0},
+                 .help = "e: share of the approach velocity with which grains part",
+                 .allowed = "A restitution lies between 0 (no rebound) and 1 (no loss).",
+                 .remedy = "Use 0 for grains that do not bounce."},
+                {.name = "contact.restitution_tangential",
+                 .type = KeyType::real,
+                 .fallback = "0",
+                 .range = {.lower = 0.0, .upper = 1.0},
+                 .help = "the same along the contact (impact newton)",
+                 .allowed = "A restitution lies between 0 and 1.",
+                 .remedy = "Use 0.",
+                 .family = "nscd"},
+                {.name = "contact.restitution_speed",
+                 .type = KeyType::real,
+                 .unit = "u_c",
+                 .fallback = "0.001",
+                 .range = not_negative,
+                 .help = "grains that approach slower do not bounce",
+                 .family = "nscd",
+                 .idle = without_restitution},
+                {.name = "contact.rolling_friction",
+                 .type = KeyType::real,
+                 .fallback = "0",
+                 .range = not_negative,
+                 .help =
+                     "slope up to which a disc does not roll: its rolling resistance over R r_n",
+                 .allowed = "A coefficient of rolling resistance must be zero or positive.",
+                 .remedy = "Use 0 for grains that roll freely."},
+                {.name = "contact.adhesion",
+                 .type = KeyType::choice,
+                 .fallback = "none",
+                 .choices = offered(nscd::law_choices(nscd::LawSlot::adhesion)),
+                 .help = "what pulls grains together"},
+                {.name = "contact.adhesion_force",
+                 .type = KeyType::real,
+                 .unit = "m g",
+                 .need = Need::conditional,
+                 .range = positive,
+                 .help = "pull that parts two touching grains of diameter D",
+                 .remedy = "Write for example adhesion_force: 1.",
+                 .when = "contact.adhesion",
+                 .required = adheres,
+                 .idle = without_adhesion},
+                {.name = "contact.adhesion_range",
+                 .type = KeyType::real,
+                 .unit = "D",
+                 .need = Need::conditional,
+                 .range = positive,
+                 .help =
+                     "gap up to which it acts; cohesion: up to which the first window makes bonds",
+                 .remedy = "Write for example adhesion_range: 0.05; for cohesion 0.001.",
+                 .when = "contact.adhesion",
+                 .required = adheres,
+                 .idle = without_adhesion},
+                {.name = "contact.adhesion_length",
+                 .type = KeyType::real,
+                 .unit = "D",
+                 .need = Need::conditional,
+                 .range = positive,
+                 .help = "decay of a bridge's force over the gap",
+                 .remedy = "Write for example adhesion_length: 0.02.",
+                 .when = "contact.adhesion: capillary",
+                 .required =
+                     [](const Settings& s) { return is(s, "contact.adhesion", "capillary"); },
+                 .idle = without_bridges},
+                {.name = "contact.adhesion_shear",
+                 .type = KeyType::real,
+                 .need = Need::conditional,
+                 .range = positive,
+                 .help = "strength of a bond in shear over that in traction",
+                 .remedy = "Write for example adhesion_shear: 1.",
+                 .when = "contact.adhesion: cohesion",
+                 .required =
+                     [](const Settings& s) { return is(s, "contact.adhesion", "cohesion"); },
+                 .idle = without_bonds},
+            },
+        .rules = {{"contact.static_friction", {"contact.friction"}, sliding_holds_less},
+                  {"contact.theta",
+                   {"contact.restitution", "contact.restitution_tangential"},
+                   theta_makes_no_energy},
+                  {"contact.restitution_tangential",
+                   {"contact.impact"},
+                   moreau_has_one_restitution},
+                  {"contact.rolling_friction", {"grains.shape"}, only_discs_resist_rolling},
+                  {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours}},
+        .notes = notes};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How the contact problem of a window is posed and solved.
+#include "granular_adapter/contact_keys/contact_keys.hpp"
+
+#include <fmt/format.h>
+
+#include "granular_adapter/nscd/names/contact_names.hpp"
+
+namespace turbidite {
+namespace {
+
+std::vector<Choice> offered(const std::vector<nscd::NamedChoice>& names) {
+    std::vector<Choice> choices;
+    for (const nscd::NamedChoice& entry : names) choices.push_back({entry.name, entry.description});
+    return choices;
+}
+
+bool resists_rolling(const Settings& s) {
+    return s.real("contact.rolling_friction") > 0.0;
+}
+
+Ruling solver_knows_rolling(const Settings& s) {
+    if (s.text("contact.solver") != "nlgs-stored" || !resists_rolling(s)) return std::nullopt;
+    return Objection{fmt::format("nlgs-stored does not solve rolling resistance, and "
+                                 "contact.rolling_friction = {}.",
+                                 s.text("contact.rolling_friction")),
+                     "Use nlgs or central-path."};
+}
+
+Ruling dumps_know_rolling(const Settings& s) {
+    if (!resists_rolling(s)) return std::nullopt;
+    return Objection{fmt::format("The files of Siconos have no rolling resistance, and "
+                                 "contact.rolling_friction = {}.",
+                                 s.text("contact.rolling_friction")),
+                     "Remove one of the two."};
+}
+
+std::string without_recovery(const Settings& s) {
+    return s.real("contact.recovery_fraction") == 0.0 ? "with contact.recovery_fraction: 0" : "";
+}
+
+void notes(const Settings& s, std::vector<std::string>& notes) {
+    // It begins with 8000 sweeps (granular_adapter/nscd/solvers/central_path_solver.cpp).
+    if (constexpr std::int64_t enough = 20000;
+        s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
+        notes.push_back(
+            fmt::format("contact.iterations = {} leaves contact.solver: central-path, an "
+                        "interior-point method, with its first sweeps; "
+                        "{} is the least that is of use, 1000000 solves hard packings",
+                        s.integer("contact.iterations"), enough));
+}
+
+}  // namespace
+
+KeyGroup contact_problem_keys() {
+    return {
+        .keys =
+            {
+                {.name = "contact.friction",
+                 .type = KeyType::real,
+                 .fallback = "0.3",
+                 .range = not_negative,
+                 .help = "Coulomb friction coefficient, grains and walls; law static-dynamic: of "
+                         "sliding "
+                         "contacts",
+                 .allowed = "A friction coefficient must be zero or positive.",
+                 .remedy = "Use 0 for smooth grains."},
+                {.name = "contact.theta",
+                 .type = KeyType::real,
+                 .fallback = "0.5",
+                 .range = {.lower = 0.5, .upper = 1.0},
+                 .help = "theta of the time integration, Eqs. 16-18",
+                 .family = "nscd"},
+                {.name = "contact.solver",
+                 .type = KeyType::choice,
+                 .fallback = "nlgs",
+                 .choices = offered(nscd::solver_choices()),
+                 .help = "how the contact problem of a window is solved",
+                 .family = "nscd"},
+                {.name = "contact.tolerance",
+                 .type = KeyType::real,
+                 .fallback = "0.001",
+                 .range = open_unit_interval,
+                 .help = "scaled natural map at which the contact solver stops",
+                 .family = "nscd"},
+                {.name = "contact.iterations",
+                 .type = KeyType::integer,
+                 .fallback = "2000",
+                 .range = {.lower = 1.0},
+                 .help = "most sweeps of the contact solver",
+                 .family = "nscd"},
+                {.name = "contact.threads",
+                 .type = KeyType::integer,
+                 .fallback = "1",
+                 .range = {.lower = 1.0, .upper = 64.0},
+                 .help = "threads of the contact solver's sweeps; results do not depend on it",
+                 .family = "nscd"},
+                {.name = "contact.recovery_fraction",
+                 .type = KeyType::real,
+                 .unit = "per window",
+                 .fallback = "0.2",
+                 .range = {.lower = 0.0, .upper = 1.0},
+                 .help = "part of an overlap that is pushed out in a window",
+                 .family = "nscd"},
+                {.name = "contact.recovery_speed",
+                 .type = KeyType::real,
+                 .unit = "u_c",
+                 .fallback = "0.5",
+                 .range = not_negative,
+                 .help = "fastest such push",
+                 .family = "nscd",
+                 .idle = without_recovery},
+                {.name = "contact.dump_interval",
+                 .type = KeyType::real,
+                 .unit = "t_c",
+                 .need = Need::optional,
+                 .range = positive,
+                 .help =
+                     "between contact problems written to contacts/problem_STEP.dat, for Siconos",
+                 .family = "nscd"},
+            },
+        .rules = {{"contact.solver", {"contact.rolling_friction"}, solver_knows_rolling},
+                  {"contact.dump_interval", {"contact.rolling_friction"}, dumps_know_rolling}},
+        .notes = notes};
+}
+
+KeyTable contact_key_table() {
+    KeyTable table;
+    for (const auto& group :
+         {contact_problem_keys(), contact_law_keys(), material_keys(), molecular_dynamics_keys()})
+        table.insert(table.end(), group.keys.begin(), group.keys.end());
+    return table;
+}
+
+}  // namespace turbidite

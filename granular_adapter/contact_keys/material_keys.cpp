@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Further materials and pairs of them. What a material does not say is as in contact.*; a pair has
+// the smaller value of both, or what it says itself.
+#include <algorithm>
+
+#include "granular_adapter/contact_keys/contact_keys.hpp"
+
+namespace turbidite {
+namespace {
+
+struct Coefficient {
+    const char* name;
+    const char* unit;
+    Range range;
+    const char* help;
+};
+
+constexpr Range unit_interval{.lower = 0.0, .upper = 1.0};
+const Coefficient coefficients[] = {
+    {"friction", "", not_negative, "friction coefficient"},
+    {"static_friction", "", not_negative, "the same of contacts that stick (law static-dynamic)"},
+    {"restitution", "", unit_interval, "restitution"},
+    {"restitution_tangential", "", unit_interval, "restitution along the contact"},
+    {"rolling_friction", "", not_negative, "rolling resistance"},
+    {"adhesion_force", "m g", not_negative, "pull that parts two touching grains of diameter D"},
+};
+
+KeyTable keys_of(const std::string& group, const std::string& whose) {
+    KeyTable table;
+    for (const Coefficient& c : coefficients)
+        table.push_back({.name = group + "." + c.name,
+                         .type = KeyType::real,
+                         .unit = c.unit,
+                         .need = Need::optional,
+                         .range = c.range,
+                         .help = c.help + std::string(" of ") + whose});
+    return table;
+}
+
+}  // namespace
+
+KeyGroup material_keys() {
+    KeyTable table = keys_of("contact.materials.NAME", "the material NAME (column material)");
+    for (KeySpec& key :
+         keys_of("contact.pairs.FIRST-SECOND", "two materials; the first of all is called default"))
+        table.push_back(std::move(key));
+    return {.keys = std::move(table)};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The soft contact of molecular dynamics.
+#include "granular_adapter/contact_keys/contact_keys.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string beside_stiffness(const Settings& s) {
+    return s.has("contact.md_stiffness") ? "beside contact.md_stiffness" : "";
+}
+
+}  // namespace
+
+KeyGroup molecular_dynamics_keys() {
+    return {
+        .keys = {
+            {.name = "contact.md_overlap",
+             .type = KeyType::real,
+             .unit = "D",
+             .fallback = "0.001",
+             .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
+             .help = "yade-md: overlap that the stiffness is made for",
+             .family = "md",
+             .idle = beside_stiffness},
+            {.name = "contact.md_speed",
+             .type = KeyType::real,
+             .unit = "u_c",
+             .need = Need::optional,
+             .range = positive,
+             .help =
+                 "yade-md: speed of approach that the stiffness is made for; otherwise 2 with a "
+                 "fluid, twice the speed of a fall from the top of the packing without",
+             .remedy = "Leave it out, or use for example 2.",
+             .family = "md",
+             .idle = beside_stiffness},
+            {.name = "contact.md_stiffness",
+             .type = KeyType::real,
+             .unit = "m g/D",
+             .need = Need::optional,
+             .range = positive,
+             .help =
+                 "yade-md: stiffness of two touching grains; otherwise from contact.md_overlap, "
+                 "contact.md_speed and the height of the packing",
+             .remedy = "Leave it out, or use for example 1e5.",
+             .family = "md"},
+            {.name = "contact.md_substeps",
+             .type = KeyType::real,
+             .unit = "per contact time",
+             .fallback = "20",
+             .range = {.lower = 12.0, .upper = 1000.0},
+             .help = "yade-md: least sub-steps in the time that two grains take to bounce",
+             .allowed = "Between 12, below which dense packings may grow unstable, and 1000.",
+             .remedy = "Use 20.",
+             .family = "md"},
+        }};
+}
+
+}  // namespace turbidite

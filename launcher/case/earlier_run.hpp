@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The grains of another run at one of its outputs, as the start of a new case: `turbidite run CASE
+// --from DIR[@time]`. They keep position, orientation, velocity, spin, size, density, shape and
+// material in units of D, u_c and t_c, with the nine digits of the series.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/settings.hpp"
+#include "launcher/case/grain_forms.hpp"
+#include "launcher/case/packing.hpp"
+#include "launcher/case/scales.hpp"
+
+namespace turbidite {
+
+/// What the earlier run's case says about its grains files.
+struct EarlierCase {
+    Scales scales;
+    ShapeTable shapes;                   ///< by the index in the files
+    std::vector<std::string> materials;  ///< by the index in the files
+};
+
+struct EarlierGrains {
+    Packing grains;      ///< shapes and materials of the new case
+    std::string source;  ///< file they came from
+    double time = 0.0;   ///< [t_c] of the earlier run
+};
+
+/// DIR and the time behind the last @, which is missing where the end is meant. Throws Failure
+/// (bad input) when DIR is no run folder or the time no number.
+struct EarlierRun {
+    std::filesystem::path folder;
+    std::optional<double> time;  ///< [t_c]
+};
+EarlierRun parse_earlier_run(const std::string& text);
+
+/// Throws Failure (bad input) naming what is wrong: no series, no output at that time (with the
+/// nearest), a shape or material that the new case does not have.
+EarlierGrains read_earlier_grains(const EarlierRun& run, const EarlierCase& earlier,
+                                  const GrainForms& forms,
+                                  const std::vector<std::string>& materials);
+
+}  // namespace turbidite

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/grains_adapters.hpp"
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+/// What every host of the contact engine can do.
+GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host,
+                             const char* file) {
+    return {.name = name,
+            .help = help,
+            .family = "nscd",
+            .host = host,
+            .file = file,
+            .shapes = {"disc", "triangle", "polygon"},
+            .schemes = {"split", "joint"},
+            .adhesion_and_rolling = true,
+            .cyclic_sides = true,
+            .inner_walls = true,
+            .moving_sides = true,
+            .materials = true,
+            .prescribed_grains = true};
+}
+
+}  // namespace
+
+const std::vector<GrainsAdapter>& grains_adapters() {
+    static const std::vector<GrainsAdapter> table = {
+        contact_engine("yade-nscd", "contact engine hosted by YADE", GrainsHost::yade,
+                       "turbidite_yade_nscd.py"),
+        contact_engine("standalone-nscd", "the same engine without YADE", GrainsHost::none,
+                       "turbidite-grains"),
+        {.name = "yade-md",
+         .help = "YADE's own molecular dynamics, in sub-steps",
+         .family = "md",
+         .host = GrainsHost::yade,
+         .file = "turbidite_yade_md.py",
+         .shapes = {"disc"},
+         .schemes = {"split"},
+         .laws = {"coulomb"}},
+        {.name = "lammps-md", .help = "LAMMPS granular", .family = "md"},
+    };
+    return table;
+}
+
+const GrainsAdapter& grains_adapter(const Settings& settings) {
+    const std::string& name = settings.text("grains.adapter");
+    for (const GrainsAdapter& adapter : grains_adapters())
+        if (adapter.name == name && !adapter.file.empty()) return adapter;
+    throw Failure(ExitCode::bad_input,
+                  "grains.adapter = " + name + " has no program in this version");
+}
+
+std::string adapters_that(bool (*can)(const GrainsAdapter&)) {
+    std::string names;
+    for (const GrainsAdapter& adapter : grains_adapters())
+        if (!adapter.file.empty() && can(adapter))
+            names += (names.empty() ? "" : " or ") + adapter.name;
+    return names;
+}
+
+}  // namespace turbidite

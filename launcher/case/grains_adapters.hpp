@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The programs that move the grains, and what each can do: the one table that the keys, the rules
+// and the launch line read. A new one is a line here, and its own program or script.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// Who runs the adapter's file.
+enum class GrainsHost {
+    none,  ///< it is a program, BUILD/bin/FILE
+    yade,  ///< YADE runs the script BUILD/lib/yade/FILE
+};
+
+struct GrainsAdapter {
+    std::string name;    ///< grains.adapter
+    std::string help;    ///< one line
+    std::string family;  ///< of keys that mean something to it: "nscd" or "md"
+    GrainsHost host = GrainsHost::none;
+    std::string file = {};                  ///< empty: of a later version
+    std::vector<std::string> shapes = {};   ///< grains.shape
+    std::vector<std::string> schemes = {};  ///< coupling.scheme
+    std::vector<std::string> laws = {};     ///< contact.law; empty: every one
+    bool adhesion_and_rolling = false;      ///< contact.adhesion, contact.rolling_friction
+    bool cyclic_sides = false;
+    bool inner_walls = false;        ///< domain.walls_file
+    bool moving_sides = false;       ///< domain.SIDE_motion
+    bool materials = false;          ///< more than the first, contact.pairs
+    bool prescribed_grains = false;  ///< fixed and driven ones
+    int most_ranks = 1;
+};
+
+const std::vector<GrainsAdapter>& grains_adapters();
+
+/// That of grains.adapter. Throws Failure (bad input) for a name that is not there or has no
+/// program in this version.
+const GrainsAdapter& grains_adapter(const Settings& settings);
+
+/// "yade-nscd or standalone-nscd": those that can do something.
+std::string adapters_that(bool (*can)(const GrainsAdapter&));
+
+}  // namespace turbidite

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The program that moves the grains, and what the table of them says that it can do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "launcher/case/grains_adapters.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+#include "launcher/case/soft_contact.hpp"
+
+namespace turbidite {
+namespace {
+
+std::vector<Choice> adapter_choices() {
+    std::vector<Choice> choices;
+    for (const GrainsAdapter& adapter : grains_adapters())
+        choices.push_back({adapter.name, adapter.help, !adapter.file.empty()});
+    return choices;
+}
+
+bool has(const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// "yade-md knows no WHAT."; the remedy names the adapters that do.
+Objection unknown_to(const Settings& s, const std::string& what, bool (*can)(const GrainsAdapter&),
+                     const std::string& first_remedy) {
+    return {fmt::format("{} {}.", s.text("grains.adapter"), what),
+            fmt::format("{}, or grains.adapter: {}.", first_remedy, adapters_that(can))};
+}
+
+Ruling scheme_is_known(const Settings& s) {
+    if (!s.flag("fluid.enabled") || has(grains_adapter(s).schemes, s.text("coupling.scheme")))
+        return std::nullopt;
+    return unknown_to(
+        s,
+        "moves grains in sub-steps of its own and solves no contact problem that could take the "
+        "fluid's inertia in",
+        [](const GrainsAdapter& a) { return has(a.schemes, "joint"); }, "Use split");
+}
+
+Ruling no_cyclic_side(const Settings& s, const char* key) {
+    if (grains_adapter(s).cyclic_sides || s.text(key) != "cyclic") return std::nullopt;
+    return unknown_to(
+        s, "knows no cyclic sides in this version",
+        [](const GrainsAdapter& a) { return a.cyclic_sides; }, "Use wall or free");
+}
+Ruling left_is_not_cyclic(const Settings& s) {
+    return no_cyclic_side(s, "domain.left");
+}
+Ruling bottom_is_not_cyclic(const Settings& s) {
+    return no_cyclic_side(s, "domain.bottom");
+}
+
+Ruling shape_is_known(const Settings& s) {
+    if (has(grains_adapter(s).shapes, s.text("grains.shape"))) return std::nullopt;
+    return unknown_to(
+        s, "knows discs only: YADE has no polygons in the plane",
+        [](const GrainsAdapter& a) { return has(a.shapes, "polygon"); }, "Use disc");
+}
+
+Ruling law_is_known(const Settings& s) {
+    const auto& laws = grains_adapter(s).laws;
+    if (laws.empty() || has(laws, s.text("contact.law"))) return std::nullopt;
+    return unknown_to(
+        s, "has one coefficient of friction: coulomb",
+        [](const GrainsAdapter& a) { return a.laws.empty(); }, "Use coulomb");
+}
+
+bool adheres_and_rolls(const GrainsAdapter& adapter) {
+    return adapter.adhesion_and_rolling;
+}
+
+Ruling adhesion_is_known(const Settings& s) {
+    if (grains_adapter(s).adhesion_and_rolling || s.text("contact.adhesion") == "none")
+        return std::nullopt;
+    return unknown_to(s, "has dry contacts only: none", adheres_and_rolls, "Use none");
+}
+
+Ruling rolling_is_known(const Settings& s) {
+    if (grains_adapter(s).adhesion_and_rolling || s.real("contact.rolling_friction") == 0.0)
+        return std::nullopt;
+    return unknown_to(s, "has no rolling resistance: 0", adheres_and_rolls, "Use 0");
+}
+
+// The fluid's mesh knows the sides of the box only; soft-sphere adapters know no plates.
+Ruling walls_have_an_engine(const Settings& s) {
+    if (s.flag("fluid.enabled"))
+        return Objection{"Walls inside the box are not seen by the fluid.",
+                         "Set fluid.enabled: false, or remove them."};
+    if (grains_adapter(s).inner_walls) return std::nullopt;
+    return Objection{
+        fmt::format("Walls inside the box need a contact-dynamics adapter, not {}.",
+                    s.text("grains.adapter")),
+        fmt::format("Use grains.adapter: {}.",
+                    adapters_that([](const GrainsAdapter& a) { return a.inner_walls; }))};
+}
+
+Ruling script_has_a_yade(const Settings& s) {
+    if (grains_adapter(s).host == GrainsHost::yade) return std::nullopt;
+    return Objection{fmt::format("A script runs inside YADE, but grains.adapter = {} has none.",
+                                 s.text("grains.adapter")),
+                     fmt::format("Use grains.adapter: {}, or remove grains.script.",
+                                 adapters_that([](const GrainsAdapter& a) {
+                                     return a.host == GrainsHost::yade;
+                                 }))};
+}
+
+Ruling script_is_python(const Settings& s) {
+    if (std::filesystem::path(s.text("grains.script")).extension() == ".py") return std::nullopt;
+    return Objection{"A Python file, whose name ends with .py.", "Rename it."};
+}
+
+void notes(const Settings& s, std::vector<std::string>& notes) {
+    const double wanted = s.real("contact.restitution"), least = restitution_of(1.0);
+    if (grains_adapter(s).family == "md" && wanted > 0.0 && wanted < least)
+        notes.push_back(fmt::format(
+            "contact.restitution = {}: {} gives its least, {:.3f}, that of critical damping",
+            s.text("contact.restitution"), s.text("grains.adapter"), least));
+}
+
+}  // namespace
+
+KeyGroup adapter_keys() {
+    return {
+        .keys = {{.name = "grains.adapter",
+                  .type = KeyType::choice,
+                  .fallback = "yade-nscd",
+                  .choices = adapter_choices(),
+                  .help = "the program that moves the grains"},
+                 {.name = "grains.ranks",
+                  .type = KeyType::integer,
+                  .fallback = "1",
+                  .range = {.lower = 1.0, .upper = 1.0},
+                  .help = "MPI ranks of the grains program",
+                  .allowed = "The NSCD adapters run on one rank in this version.",
+                  .remedy = "Use 1."}},
+        .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},
+                  {"domain.left", {"grains.adapter"}, left_is_not_cyclic},
+                  {"domain.bottom", {"grains.adapter"}, bottom_is_not_cyclic},
+                  {"domain.walls_file", {"fluid.enabled", "grains.adapter"}, walls_have_an_engine},
+                  {"grains.shape", {"grains.adapter"}, shape_is_known},
+                  {"grains.script", {"grains.adapter"}, script_has_a_yade},
+                  {"grains.script", {}, script_is_python},
+                  {"contact.law", {"grains.adapter"}, law_is_known},
+                  {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},
+                  {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known}},
+        .notes = notes};
+}
+
+}  // namespace turbidite

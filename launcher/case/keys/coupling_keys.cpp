@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How fluid and grains exchange within a window.
+#include "coupler/hub/schemes/scheme.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Those of hub/schemes that couple, and the one to come.
+std::vector<Choice> scheme_choices() {
+    std::vector<Choice> choices;
+    for (const SchemeEntry& scheme : scheme_list())
+        if (!scheme.fluid.empty()) choices.push_back({scheme.name, scheme.help});
+    choices.push_back({"sub-iterated", "both repeated within a window", false});
+    return choices;
+}
+
+bool is_joint(const Settings& s) {
+    return s.flag("fluid.enabled") && is(s, "coupling.scheme", "joint");
+}
+std::string without_joint(const Settings& s) {
+    if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
+    return is_joint(s) ? "" : "with coupling.scheme: " + s.text("coupling.scheme");
+}
+std::string idle_positions(const Settings& s) {
+    if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
+    return is_joint(s) ? "with coupling.scheme: joint, where grains move with the contact velocity"
+                       : "";
+}
+
+}  // namespace
+
+KeyGroup coupling_keys() {
+    return {
+        .keys = {
+            {.name = "coupling.scheme",
+             .type = KeyType::choice,
+             .fallback = "split",
+             .choices = scheme_choices(),
+             .help = "order of the exchange",
+             .idle = without_fluid},
+            {.name = "coupling.positions",
+             .type = KeyType::choice,
+             .fallback = "corrected",
+             .choices = {{"corrected", "grains move with the fluid-corrected velocity"},
+                         {"contact", "grains move with the velocity the contacts allow"}},
+             .help = "velocity that moves the grains (split; under joint always contact)",
+             .family = "nscd",
+             .idle = idle_positions},
+            {.name = "coupling.md_hold",
+             .type = KeyType::flag,
+             .fallback = "true",
+             .help =
+                 "yade-md: grains feel the last window's hydrodynamic impulse in their sub-steps",
+             .family = "md",
+             .idle = without_fluid},
+            {.name = "coupling.tolerance",
+             .type = KeyType::real,
+             .unit = "u_c",
+             .fallback = "0.0001",
+             .range = open_unit_interval,
+             .help = "joint: largest difference between contact and fluid velocity of a grain",
+             .idle = without_joint},
+            {.name = "coupling.iterations",
+             .type = KeyType::integer,
+             .fallback = "10",
+             .range = {.lower = 1.0},
+             .help = "joint: most contact solves per window; windows that need more are counted",
+             .idle = without_joint},
+        }};
+}
+
+}  // namespace turbidite

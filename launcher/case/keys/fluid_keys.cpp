@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The fluid: mesh, ranks, multipliers, transport, linear solvers.
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/keys/key_value.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+#include "launcher/case/scales.hpp"
+#include "launcher/case/transport_schemes.hpp"
+
+namespace turbidite {
+namespace {
+
+bool needs_reynolds(const Settings& s) {
+    return is(s, "fluid.enabled", "true") && !is(s, "scales.kind", "physical");
+}
+
+/// u_c D/nu, or nothing while the keys it follows from are not all valid.
+std::optional<double> reynolds_of(const Settings& s) {
+    const bool physical = s.text("scales.kind") == "physical";
+    const std::vector<const char*> needed =
+        physical ? std::vector<const char*>{"scales.diameter",      "scales.gravity",
+                                            "scales.fluid_density", "scales.viscosity",
+                                            "grains.density_ratio", "scales.compacity"}
+                 : std::vector<const char*>{"fluid.reynolds", "grains.density_ratio",
+                                            "scales.compacity"};
+    for (const char* key : needed)
+        if (!s.has(key)) return std::nullopt;
+    return make_scales(s).reynolds;
+}
+
+Ruling scheme_is_known(const Settings& s) {
+    const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
+    if (choice.scheme) return std::nullopt;
+    return Objection{choice.fault, choice.remedy};
+}
+
+// Jets between grains that settle: a cloud under sedimentation-discs.yaml reaches these [u_c].
+constexpr double usual_peak = 6.0;
+constexpr double highest_peak = 8.0;
+
+// Transport is cut into parts in which nothing crosses more than this share of a cell, up to so
+// many (fluid_adapter/box_step/transport_parts.hpp).
+constexpr double cells_per_part = 2.0 / 3.0;
+constexpr double most_parts = 1000.0;
+
+Ruling transport_can_be_cut(const Settings& s) {
+    const double cells = s.real("fluid.cells_per_diameter");
+    const double largest = cells_per_part * most_parts / (highest_peak * cells);
+    if (!s.flag("fluid.enabled") || s.real("time.step") <= largest * (1.0 + 1e-12))
+        return std::nullopt;
+    return Objection{
+        fmt::format(
+            "Transport is cut into at most {:.0f} parts per window, in each of which the "
+            "fastest jets (up to {:.0f} u_c) cross {:.2g} of a cell: at {} cells per diameter "
+            "the step must be at most {:.3g} t_c.",
+            most_parts, highest_peak, cells_per_part, s.text("fluid.cells_per_diameter"), largest),
+        "Use a smaller step or fewer cells."};
+}
+
+/// The largest stable step [t_c] of a scheme of this kind where the fluid moves at `peak` [u_c] and
+/// the case's step is above it: 2 nu/u2 (transport_schemes.hpp), for a part of a window. Where
+/// cells are so small that no part is above it, any step is stable.
+std::optional<double> step_limit_exceeded(const Settings& s, SchemeKind kind, double peak) {
+    const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
+    if (!s.flag("fluid.enabled") || !choice.scheme || choice.scheme->kind != kind)
+        return std::nullopt;
+    const std::optional<double> reynolds = reynolds_of(s);
+    if (!reynolds) return std::nullopt;
+    const double limit = 2.0 / (*reynolds * peak * peak);
+    const double longest_part = cells_per_part / (peak * s.real("fluid.cells_per_diameter"));
+    if (std::min(s.real("time.step"), longest_part) <= limit * (1.0 + 1e-12)) return std::nullopt;
+    return limit;
+}
+
+Ruling scheme_is_stable(const Settings& s) {
+    const auto limit = step_limit_exceeded(s, SchemeKind::central, usual_peak);
+    if (!limit) return std::nullopt;
+    return Objection{
+        fmt::format("Explicit transport with central differences is unstable beyond "
+                    "2 nu/u^2, and jets between grains reach u = {:.0f} to {:.0f} u_c: "
+                    "at most 2/(36 Re) = {:.3g} t_c, and time.step = {}.",
+                    usual_peak, highest_peak, *limit, s.text("time.step")),
+        "Use Gauss limitedLinearV 1, which stays bounded, or a smaller step."};
+}
+
+// Step 5 keeps a halo of three layers (halo_layers in foamFluidField.cpp), and a rank should have
+// more than its halo.
+constexpr double least_layers = 4.0;
+
+Ruling ranks_have_cells(const Settings& s) {
+    if (!s.flag("fluid.enabled")) return std::nullopt;
+    const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
+    const bool rows = s.text("fluid.decomposition") == "rows";
+    const double layers = size.at(rows ? 1 : 0) * s.real("fluid.cells_per_diameter");
+    const double most = std::max(1.0, std::floor(layers / least_layers));
+    if (static_cast<double>(s.integer("fluid.ranks")) <= most) return std::nullopt;
+    return Objection{
+        fmt::format("A rank needs {} {} of cells or more, and there are {}.",
+                    real_text(least_layers), s.text("fluid.decomposition"), real_text(layers)),
+        fmt::format("Use {} or fewer.", real_text(most))};
+}
+
+Ruling reynolds_follows(const Settings& s) {
+    if (s.text("scales.kind") != "physical") return std::nullopt;
+    return Objection{
+        "With scales.kind: physical the Reynolds number follows from scales.viscosity.",
+        "Remove it."};
+}
+
+std::string unless(bool used, const Settings& s, const char* reason) {
+    if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
+    return used ? "" : reason;
+}
+std::string without_fluid_ranks(const Settings& s) {
+    return unless(s.integer("fluid.ranks") > 1, s, "with fluid.ranks: 1");
+}
+std::string without_iterative_pressure(const Settings& s) {
+    return unless(!is(s, "fluid.pressure_solver", "FFT"), s, "with fluid.pressure_solver: FFT");
+}
+std::string without_iterative_viscosity(const Settings& s) {
+    return unless(!is(s, "fluid.viscous_solver", "FFT"), s, "with fluid.viscous_solver: FFT");
+}
+std::string without_boundary_points(const Settings& s) {
+    return unless(!is(s, "fluid.points", "interior"), s, "with fluid.points: interior");
+}
+
+void notes(const Settings& s, std::vector<std::string>& notes) {
+    const std::string& scheme = s.text("fluid.transport_scheme");
+    if (const auto limit = step_limit_exceeded(s, SchemeKind::central, highest_peak))
+        notes.push_back(
+            fmt::format("fluid.transport_scheme = {}: where jets between grains reach {:.0f} u_c "
+                        "it is unstable "
+                        "beyond 2/(64 Re) = {:.3g} t_c, and time.step = {}",
+                        scheme, highest_peak, *limit, s.text("time.step")));
+    if (const auto limit = step_limit_exceeded(s, SchemeKind::biased, usual_peak))
+        notes.push_back(fmt::format(
+            "fluid.transport_scheme = {}: where jets between grains reach {:.0f} u_c its explicit "
+            "transport may grow beyond 2/(36 Re) = {:.3g} t_c, and time.step = {}; Gauss "
+            "limitedLinearV 1 stays bounded",
+            scheme, usual_peak, *limit, s.text("time.step")));
+}
+
+}  // namespace
+
+std::string without_fluid(const Settings& s) {
+    return s.flag("fluid.enabled") ? "" : "without a fluid";
+}
+
+KeyGroup fluid_keys() {
+    return {
+        .keys =
+            {
+                {.name = "fluid.enabled",
+                 .type = KeyType::flag,
+                 .fallback = "true",
+                 .help = "false: dry grains, no fluid program"},
+                {.name = "fluid.ranks",
+                 .type = KeyType::integer,
+                 .fallback = "1",
+                 .range = {.lower = 1.0, .upper = 4096.0},
+                 .help = "MPI ranks of the fluid program",
+                 .idle = without_fluid},
+                {.name = "fluid.decomposition",
+                 .type = KeyType::choice,
+                 .fallback = "rows",
+                 .choices = {{"rows", "slabs above each other, which costs least"},
+                             {"columns", "slabs side by side"}},
+                 .help = "how the ranks share the fluid's cells",
+                 .idle = without_fluid_ranks},
+                {.name = "fluid.cells_per_diameter",
+                 .type = KeyType::integer,
+                 .fallback = "16",
+                 .range = {.lower = 2.0, .upper = 1024.0},
+                 .help = "mesh cells along a grain diameter",
+                 .idle = without_fluid},
+                {.name = "fluid.reynolds",
+                 .type = KeyType::real,
+                 .need = Need::conditional,
+                 .range = positive,
+                 .help = "u_c D / nu",
+                 .remedy = "Write for example reynolds: 36.",
+                 .when = "a fluid, unless scales.kind is physical",
+                 .required = needs_reynolds,
+                 .idle = without_fluid},
+                {.name = "fluid.splitting",
+                 .type = KeyType::choice,
+                 .fallback = "marchuk-yanenko",
+                 .choices =
+                     {{"marchuk-yanenko", "the paper's"},
+                      {"explicit-multiplier", "carries the multipliers into steps 1-3", false},
+                      {"implicit-multiplier", "viscosity solved with the multipliers", false}},
+                 .help = "order of the fluid's fractional steps",
+                 .idle = without_fluid},
+                {.name = "fluid.hydrodynamic_radius",
+                 .type = KeyType::real,
+                 .fallback = "1",
+                 .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
+                 .help = "radius of the rigid disc the fluid sees, over the grain's",
+                 .idle = without_fluid},
+                {.name = "fluid.points",
+                 .type = KeyType::choice,
+                 .fallback = "interior+boundary",
+                 .choices = {{"interior", "cell centres inside a grain"},
+                             {"interior+boundary", "and points on its surface"}},
+                 .help = "where the rigid motion is imposed",
+                 .idle = without_fluid},
+                {.name = "fluid.point_spacing",
+                 .type = KeyType::real,
+                 .unit = "cells",
+                 .fallback = "1.5",
+                 .range = {.lower = 1.4, .upper = 4.0},
+                 .help = "distance of boundary points",
+                 .allowed =
+                     "Between 1.4 and 4 cells; closer points make the multipliers ill-conditioned.",
+                 .remedy = "Use 1.5.",
+                 .idle = without_boundary_points},
+                {.name = "fluid.multiplier_tolerance",
+                 .type = KeyType::real,
+                 .unit = "u_c",
+                 .fallback = "0.0001",
+                 .range = open_unit_interval,
+                 .help = "rms slip at which the multipliers stop; joint: at most a tenth of "
+                         "coupling.tolerance",
+                 .idle = without_fluid},
+                {.name = "fluid.multiplier_iterations",
+                 .type = KeyType::integer,
+                 .fallback = "200",
+                 .range = {.lower = 1.0},
+                 .help = "most iterations of the multiplier problem",
+                 .idle = without_fluid},
+                {.name = "fluid.transport_scheme",
+                 .type = KeyType::text,
+                 .fallback = "Gauss limitedLinearV 1",
+                 .help = "OpenFOAM scheme of div(phi,U); central ones need a step below 2/(36 Re)",
+                 .idle = without_fluid},
+                {.name = "fluid.pressure_solver",
+                 .type = KeyType::choice,
+                 .fallback = "FFT",
+                 .choices = {{"FFT", "direct, by fast transforms; uniform boxes"},
+                             {"GAMG", "OpenFOAM's multigrid"},
+                             {"PCG", "conjugate gradients"}},
+                 .help = "linear solver of the pressure",
+                 .idle = without_fluid},
+                {.name = "fluid.pressure_tolerance",
+                 .type = KeyType::real,
+                 .fallback = "1e-06",
+                 .range = open_unit_interval,
+                 .help = "relative tolerance of the pressure (GAMG, PCG)",
+                 .idle = without_iterative_pressure},
+                {.name = "fluid.viscous_solver",
+                 .type = KeyType::choice,
+                 .fallback = "FFT",
+                 .choices = {{"FFT", "direct, by fast transforms; uniform boxes"},
+                             {"PCG", "conjugate gradients"}},
+                 .help = "linear solver of the viscous step",
+                 .idle = without_fluid},
+                {.name = "fluid.viscous_tolerance",
+                 .type = KeyType::real,
+                 .fallback = "1e-08",
+                 .range = open_unit_interval,
+                 .help = "relative tolerance of the viscous step (PCG)",
+                 .idle = without_iterative_viscosity},
+            },
+        .rules =
+            {{"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_can_be_cut},
+             {"fluid.transport_scheme", {}, scheme_is_known},
+             {"fluid.transport_scheme",
+              {"fluid.enabled", "fluid.cells_per_diameter", "time.step", "scales.kind"},
+              scheme_is_stable},
+             {"fluid.ranks",
+              {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},
+              ranks_have_cells},
+             {"fluid.reynolds", {"scales.kind"}, reynolds_follows}},
+        .notes = notes};
+}
+
+}  // namespace turbidite

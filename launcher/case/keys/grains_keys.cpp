@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Which grains, and where they are at the start.
+#include <fmt/format.h>
+#include "coupler/shapes/shape.hpp"
+#include "launcher/case/grain_forms.hpp"
+#include "launcher/case/packing.hpp"
+
+#include "coupler/keys/key_value.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+
+namespace turbidite {
+namespace {
+
+bool is_polygon(const Settings& s) {
+    return is(s, "grains.shape", "polygon");
+}
+bool needs_count(const Settings& s) {
+    return is(s, "grains.generator", "random") && !s.has("grains.file");
+}
+
+std::vector<Choice> generator_choices() {
+    std::vector<Choice> choices;
+    for (const GeneratorEntry& entry : generator_list())
+        choices.push_back({entry.name, entry.help});
+    return choices;
+}
+
+std::vector<Choice> shape_choices() {
+    std::vector<Choice> choices;
+    for (const ShapeEntry& entry : shape_list()) choices.push_back({entry.kind, entry.description});
+    choices.push_back({"sphere", "ball in space", false});
+    return choices;
+}
+
+Ruling region_in_box(const Settings& s) {
+    const std::vector<double> region = real_list("grains.region", s.text("grains.region"));
+    const std::vector<double> box = real_list("domain.size", s.text("domain.size"));
+    if (region.at(0) <= box.at(0) && region.at(1) <= box.at(1)) return std::nullopt;
+    return Objection{
+        fmt::format("The region lies in the box, domain.size = {} D.", s.text("domain.size")),
+        "Make it smaller, or remove it to fill the whole box."};
+}
+
+Ruling vertices_are_convex(const Settings& s) {
+    const std::string fault =
+        outline_fault(real_list("grains.vertices", s.text("grains.vertices")));
+    if (fault.empty()) return std::nullopt;
+    return Objection{fault + ".", "Corners go round a convex polygon, each once."};
+}
+
+bool is_lattice(const Settings& s) {
+    return s.text("grains.generator") == "lattice" && !s.has("grains.file");
+}
+
+Objection lattice_objection(const char* what) {
+    return {fmt::format("The lattice has discs of diameter D only, not {}.", what),
+            "Use grains.generator: random, or give the grains in grains.file."};
+}
+
+Ruling lattice_has_discs(const Settings& s) {
+    if (!is_lattice(s) || s.text("grains.shape") == "disc") return std::nullopt;
+    return lattice_objection("other shapes");
+}
+Ruling lattice_has_radius(const Settings& s) {
+    if (!is_lattice(s) || s.real("grains.radius") == 0.5) return std::nullopt;
+    return lattice_objection("other radii");
+}
+Ruling lattice_has_one_size(const Settings& s) {
+    if (!is_lattice(s) || s.real("grains.size_ratio") == 1.0) return std::nullopt;
+    return lattice_objection("several sizes");
+}
+
+// Step 5 has the inertia c M with c = 1 - rho_f/rho_s, which must not vanish; scales.kind:
+// sedimentation has no velocity without weight in the fluid.
+Ruling sinks_in_the_fluid(const Settings& s) {
+    const bool falls = s.text("scales.kind") == "sedimentation" ||
+                       (s.text("scales.kind") == "physical" && !s.has("scales.velocity"));
+    if (s.real("grains.density_ratio") > 1.0 || !(s.flag("fluid.enabled") || falls))
+        return std::nullopt;
+    return Objection{
+        s.flag("fluid.enabled")
+            ? "Grains in a fluid must be denser than it: a ratio above 1."
+            : "Eq. 21 gives a velocity to grains denser than the fluid: a ratio above 1.",
+        s.flag("fluid.enabled") ? "Use for example 1.5, or fluid.enabled: false."
+                                : "Use for example 1.5, or scales.kind: avalanche."};
+}
+
+std::string beside_a_file(const Settings& s) {
+    return s.has("grains.file") ? "with grains.file" : "";
+}
+std::string without_lattice(const Settings& s) {
+    if (s.has("grains.file")) return "with grains.file";
+    return is(s, "grains.generator", "lattice") ? "" : "without grains.generator: lattice";
+}
+std::string without_random(const Settings& s) {
+    if (s.has("grains.file")) return "with grains.file";
+    return is(s, "grains.generator", "random") ? "" : "without grains.generator: random";
+}
+std::string without_chance(const Settings& s) {
+    if (s.has("grains.file")) return "with grains.file";
+    const bool still = is(s, "grains.generator", "lattice") && s.real("grains.jitter") == 0.0;
+    return still ? "with grains.generator: lattice and no grains.jitter" : "";
+}
+/// A grains file may name the polygon grain by grain.
+std::string without_polygons(const Settings& s) {
+    return is_polygon(s) || s.has("grains.file") ? "" : "without grains.shape: polygon";
+}
+
+}  // namespace
+
+KeyGroup grains_keys() {
+    return {
+        .keys =
+            {
+                {.name = "grains.shape",
+                 .type = KeyType::choice,
+                 .fallback = "disc",
+                 .choices = shape_choices(),
+                 .help = "shape of every grain; grains.file may say otherwise grain by grain"},
+                {.name = "grains.vertices",
+                 .type = KeyType::real_list,
+                 .need = Need::conditional,
+                 .help = "corners x1, y1, x2, y2, ... of the polygon, in order and in any unit: "
+                         "they are "
+                         "moved to the centre of mass and scaled to circumscribed radius 1",
+                 .allowed =
+                     "A list x1, y1, x2, y2, ... of at least three corners of a convex polygon.",
+                 .remedy = "Write for example vertices: [0, 0, 2, 0, 2, 1, 0, 1].",
+                 .entries = 0,
+                 .when = "grains.shape: polygon",
+                 .required = is_polygon,
+                 .idle = without_polygons},
+                {.name = "grains.radius",
+                 .type = KeyType::real,
+                 .unit = "D",
+                 .need = Need::optional,
+                 .range = positive,
+                 .help = "circumscribed radius of every grain, or the mean one; 0.5 unless given, "
+                         "triangles "
+                         "0.75"},
+                {.name = "grains.size_ratio",
+                 .type = KeyType::real,
+                 .fallback = "1",
+                 .range = {.lower = 1.0, .upper = 100.0},
+                 .help = "largest radius over the smallest (generator random): radii lie between 2 "
+                         "R/(1 + q) "
+                         "and 2 R q/(1 + q), uniform, so that grains.radius R stays the mean",
+                 .idle = without_random},
+                {.name = "grains.density_ratio",
+                 .type = KeyType::real,
+                 .fallback = "1.5",
+                 .range = positive,
+                 .help = "density of the grains over the fluid's",
+                 .allowed = "A ratio above 0; in a fluid above 1.",
+                 .remedy = "Use for example 1.5."},
+                {.name = "grains.generator",
+                 .type = KeyType::choice,
+                 .fallback = "random",
+                 .choices = generator_choices(),
+                 .help = "how the grains are placed",
+                 .idle = beside_a_file},
+                {.name = "grains.region",
+                 .type = KeyType::real_list,
+                 .unit = "D",
+                 .need = Need::optional,
+                 .range = {.lower = 1.0},
+                 .help = "width and height of the part of the box that the generator fills, from "
+                         "the lower "
+                         "left corner; the whole box unless given",
+                 .allowed = "Width and height in D, each at least one grain and at most the box's.",
+                 .remedy =
+                     "Write for example region: [25, 50], or remove it to fill the whole box.",
+                 .idle = beside_a_file},
+                {.name = "grains.compacity",
+                 .type = KeyType::real,
+                 .fallback = "0.9069",
+                 .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
+                 .help = "solid fraction of the lattice (generator lattice)",
+                 .idle = without_lattice},
+                {.name = "grains.count",
+                 .type = KeyType::integer,
+                 .need = Need::conditional,
+                 .range = {.lower = 1.0},
+                 .help = "number of grains (generator random)",
+                 .remedy = "Write for example count: 60.",
+                 .when = "grains.generator: random without grains.file",
+                 .required = needs_count,
+                 .idle = without_random},
+                {.name = "grains.jitter",
+                 .type = KeyType::real,
+                 .unit = "D",
+                 .fallback = "0",
+                 .range = not_negative,
+                 .help =
+                     "largest random displacement along each axis; shortened where grains would "
+                     "overlap. A lattice is stretched first to make room, by at most 1 % of its "
+                     "compacity",
+                 .idle = beside_a_file},
+                {.name = "grains.file",
+                 .type = KeyType::text,
+                 .need = Need::optional,
+                 .help = "CSV file of the grains (header "
+                         "id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin]"
+                         "[,density][,material][,motion]; lengths in D, angles in rad, velocities "
+                         "in u_c, spin in 1/t_c, density over the "
+                         "fluid's, motion free, fixed or driven; path relative to the case file); "
+                         "overrides the generator"},
+                {.name = "grains.script",
+                 .type = KeyType::text,
+                 .need = Need::optional,
+                 .help = "Python file that adds recorders, plots or engines to YADE's scene "
+                         "(yade-nscd, "
+                         "yade-md; path relative to the case file; docs/yade.md says what it may "
+                         "touch)"},
+                {.name = "grains.overlap",
+                 .type = KeyType::real,
+                 .unit = "D",
+                 .fallback = "0",
+                 .range = not_negative,
+                 .help = "overlap of grains at the start that is accepted; run --from sets "
+                         "limits.penetration"},
+                {.name = "random.seed",
+                 .type = KeyType::integer,
+                 .fallback = "1",
+                 .range = not_negative,
+                 .help = "seed of everything random",
+                 .idle = without_chance},
+            },
+        .rules = {{"grains.vertices", {}, vertices_are_convex},
+                  {"grains.shape", {"grains.generator"}, lattice_has_discs},
+                  {"grains.radius", {"grains.generator"}, lattice_has_radius},
+                  {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
+                  {"grains.region", {"domain.size"}, region_in_box},
+                  {"grains.density_ratio", {"fluid.enabled", "scales.kind"}, sinks_in_the_fluid}}};
+}
+
+}  // namespace turbidite

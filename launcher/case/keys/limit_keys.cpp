@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// When a run ends against its will.
+#include <fmt/format.h>
+
+#include "coupler/keys/key_value.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+
+namespace turbidite {
+namespace {
+
+Ruling limits_in_order(const Settings& s) {
+    if (s.real("limits.stall_soft") <= s.real("limits.stall_hard")) return std::nullopt;
+    return Objection{fmt::format("The hard limit comes after limits.stall_soft = {} s.",
+                                 s.text("limits.stall_soft")),
+                     "Enlarge it."};
+}
+
+}  // namespace
+
+KeyGroup limit_keys() {
+    return {.keys =
+                {
+                    {.name = "limits.stall_soft",
+                     .type = KeyType::real,
+                     .unit = "s",
+                     .fallback = "60",
+                     .range = positive,
+                     .help = "waiting after which who waits for whom is printed"},
+                    {.name = "limits.stall_hard",
+                     .type = KeyType::real,
+                     .unit = "s",
+                     .fallback = "600",
+                     .range = positive,
+                     .help = "waiting after which the run ends with code 5"},
+                    {.name = "limits.penetration",
+                     .type = KeyType::real,
+                     .unit = "D",
+                     .fallback = "0.2",
+                     .range = positive,
+                     .help = "overlap of grains beyond which the run ends with code 6"},
+                },
+            .rules = {{"limits.stall_hard", {"limits.stall_soft"}, limits_in_order}}};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/wall_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupler/keys/key_value.hpp"
+#include "launcher/case/case_rules.hpp"
+#include "launcher/case/grains_adapters.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr const char* prefix = "domain.motions.";
+constexpr const char* sides[] = {"left", "right", "bottom", "top"};  // keys 0 to 3 of the walls
+constexpr std::int32_t first_inner_wall = 4;
+
+std::vector<std::string> motion_names(const Settings& s) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : s.entries()) {
+        if (key.rfind(prefix, 0) != 0) continue;
+        const std::string name = key.substr(15, key.find('.', 15) - 15);
+        if (names.empty() || names.back() != name) names.push_back(name);
+    }
+    return names;
+}
+static_assert(std::string_view(prefix).size() == 15);
+
+std::string key_of(const std::string& name, const char* part) {
+    return prefix + name + "." + part;
+}
+
+bool gives(const Settings& s, const std::string& name, const char* part) {
+    return s.has(key_of(name, part));
+}
+
+double number(const Settings& s, const std::string& name, const char* part) {
+    return gives(s, name, part) ? s.real(key_of(name, part)) : 0.0;
+}
+
+std::vector<double> numbers(const Settings& s, const std::string& name, const char* part) {
+    if (!gives(s, name, part)) return {0.0, 0.0};
+    return real_list(key_of(name, part), s.text(key_of(name, part)));
+}
+
+/// Turns a wall about its pivot.
+bool turns(const Settings& s, const std::string& name) {
+    return number(s, name, "spin") != 0.0 || number(s, name, "turn") != 0.0;
+}
+
+struct Kind {
+    const char* name;
+    std::vector<const char*> needs;
+    std::vector<const char*> may;
+    /// Numbers of run.wall_motions, in run units.
+    std::vector<double> (*numbers)(const Settings&, const std::string& name, const Scales&);
+};
+
+std::vector<double> constant(const Settings& s, const std::string& name, const Scales& scales) {
+    const auto v = numbers(s, name, "velocity");
+    return {v[0] * scales.velocity, v[1] * scales.velocity, number(s, name, "spin") / scales.time};
+}
+
+std::vector<double> harmonic(const Settings& s, const std::string& name, const Scales& scales) {
+    const auto a = numbers(s, name, "amplitude");
+    return {a[0] * scales.diameter, a[1] * scales.diameter, number(s, name, "turn"),
+            number(s, name, "period") * scales.time, number(s, name, "phase")};
+}
+
+std::vector<double> table(const Settings& s, const std::string& name, const Scales& scales) {
+    const auto rows = numbers(s, name, "table");
+    std::vector<double> result;
+    for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
+        result.insert(result.end(), {rows[i] * scales.time, rows[i + 1] * scales.diameter,
+                                     rows[i + 2] * scales.diameter, 0.0});
+    return result;
+}
+
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> list = {
+        {"constant", {}, {"velocity", "spin"}, constant},
+        {"harmonic", {"period"}, {"amplitude", "turn", "phase"}, harmonic},
+        {"table", {"table"}, {}, table},
+    };
+    return list;
+}
+
+const Kind& kind_of(const Settings& s, const std::string& name) {
+    const std::string& wanted = s.text(key_of(name, "kind"));
+    return *std::find_if(kinds().begin(), kinds().end(),
+                         [&](const Kind& kind) { return wanted == kind.name; });
+}
+
+bool has(const std::vector<const char*>& list, const std::string& word) {
+    return std::any_of(list.begin(), list.end(), [&](const char* w) { return word == w; });
+}
+
+std::optional<Objection> bad_table(const Settings& s, const std::string& name) {
+    const auto rows = numbers(s, name, "table");
+    bool good = rows.size() >= 3 && rows.size() % 3 == 0 && rows[0] == 0.0 && rows[1] == 0.0 &&
+                rows[2] == 0.0;
+    for (std::size_t i = 3; good && i < rows.size(); i += 3) good = rows[i] > rows[i - 3];
+    if (good) return std::nullopt;
+    return Objection{"Rows of time [t_c], x, y [D]: the first is 0, 0, 0, and times grow.",
+                     "Write for example table: [0, 0, 0, 2, -1, 0]."};
+}
+
+void check_motion(const Settings& s, const std::string& name, CaseEntries& entries) {
+    if (!gives(s, name, "kind")) {
+        entries.problems.push_back({.source = entries.entries.front().source,
+                                    .line = 0,
+                                    .key = key_of(name, "kind"),
+                                    .value = {},
+                                    .fault = "is missing",
+                                    .allowed = "Available: constant, harmonic, table.",
+                                    .remedy = "Say what kind of motion it is."});
+        return;
+    }
+    const Kind& kind = kind_of(s, name);
+    for (const char* part : kind.needs)
+        if (!gives(s, name, part))
+            object(key_of(name, "kind"),
+                   {fmt::format("A motion of this kind needs {}.", key_of(name, part)), "Add it."},
+                   s, entries);
+    for (const auto& [key, value] : s.entries()) {
+        if (key.rfind(prefix + name + ".", 0) != 0) continue;
+        const std::string part = key.substr(key.rfind('.') + 1);
+        if (part != "kind" && !has(kind.needs, part) && !has(kind.may, part))
+            object(key, {fmt::format("A {} motion has no {}.", kind.name, part), "Remove it."}, s,
+                   entries);
+    }
+    if (gives(s, name, "table"))
+        if (const auto objection = bad_table(s, name))
+            object(key_of(name, "table"), *objection, s, entries);
+}
+
+Objection unknown_motion(const Settings& s) {
+    return {
+        fmt::format(
+            "There is no motion of this name below domain.motions; there are {}.",
+            motion_names(s).empty() ? "none" : fmt::format("{}", fmt::join(motion_names(s), ", "))),
+        "Describe it there, or correct the name."};
+}
+
+bool is_known(const Settings& s, const std::string& name) {
+    const auto names = motion_names(s);
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::optional<Objection> bad_side(const Settings& s, const std::string& side) {
+    const std::string& name = s.text("domain." + side + "_motion");
+    if (!is_known(s, name)) return unknown_motion(s);
+    if (!is(s, ("domain." + side).c_str(), "wall"))
+        return Objection{
+            fmt::format("Only walls move, and domain.{} = {}.", side, s.text("domain." + side)),
+            fmt::format("Use domain.{}: wall, or remove it.", side)};
+    if (turns(s, name))
+        return Objection{"A side of the box does not turn.", "Remove spin and turn."};
+    if (s.flag("fluid.enabled"))
+        return Objection{"The fluid knows no moving sides in this version.",
+                         "Set fluid.enabled: false, or remove it."};
+    if (grains_adapter(s).moving_sides) return std::nullopt;
+    return Objection{
+        fmt::format("{} knows no moving sides.", s.text("grains.adapter")),
+        fmt::format("Remove it, or use grains.adapter: {}.",
+                    adapters_that([](const GrainsAdapter& a) { return a.moving_sides; }))};
+}
+
+void check_inner_wall(const Settings& s, const InnerWall& wall, CaseEntries& entries) {
+    const auto refuse = [&](const Objection& objection) {
+        entries.problems.push_back(
+            {.source = s.text("domain.walls_file"),
+             .line = 0,
+             .key = {},
+             .value = {},
+             .fault = fmt::format("wall {}: motion = {}", wall.id, wall.motion),
+             .allowed = objection.allowed,
+             .remedy = objection.remedy});
+    };
+    if (!is_known(s, wall.motion)) return refuse(unknown_motion(s));
+    if (wall.velocity != Point2{} || wall.spin != 0.0)
+        refuse({"A wall that follows a motion has no vx, vy and spin of its own.",
+                "Set them to 0, or leave motion empty."});
+}
+
+void append(std::string& text, std::int32_t wall, const Settings& s, const std::string& name,
+            const Scales& scales) {
+    const Kind& kind = kind_of(s, name);
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ";", wall, kind.name,
+                        fmt::join(kind.numbers(s, name, scales), " "));
+}
+
+}  // namespace
+
+void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
+                   CaseEntries& entries) {
+    for (const std::string& name : motion_names(settings)) check_motion(settings, name, entries);
+    for (const char* side : sides)
+        if (const std::string key = std::string("domain.") + side + "_motion"; settings.has(key))
+            if (const auto objection = bad_side(settings, side))
+                object(key, *objection, settings, entries);
+    for (const InnerWall& wall : walls)
+        if (!wall.motion.empty()) check_inner_wall(settings, wall, entries);
+}
+
+std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,
+                            const Scales& scales) {
+    std::string text;
+    for (std::int32_t i = 0; i < first_inner_wall; ++i)
+        if (const std::string key = std::string("domain.") + sides[i] + "_motion";
+            settings.has(key))
+            append(text, i, settings, settings.text(key), scales);
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        if (!walls[i].motion.empty())
+            append(text, first_inner_wall + static_cast<std::int32_t>(i), settings, walls[i].motion,
+                   scales);
+    return text;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A case that starts from the grains of another run, which is written here as the coupler would.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/case/case_test.hpp"
+
+namespace turbidite {
+namespace {
+
+std::string array(const char* name, const std::string& numbers) {
+    return fmt::format(
+        "<DataArray type=\"Float64\" Name=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n", name,
+        numbers);
+}
+
+/// Two discs of material default and steel, the first moved by `shift`.
+std::string points(double shift) {
+    return array("position", fmt::format("{} 2 0\n5 5 0", 2.0 + shift)) + array("id", "7\n9") +
+           array("shape", "0\n0") + array("material", "0\n1") + array("prescribed", "0\n1") +
+           array("radius", "0.5\n0.4") + array("density", "2\n3") +
+           array("orientation", "0.8 0 0 0.6\n1 0 0 0") + array("velocity", "0.5 -1 0\n0 0 0") +
+           array("angular_velocity", "0 0 4\n0 0 0");
+}
+
+class EarlierRuns : public CaseTest {
+ protected:
+    EarlierRuns()
+        : CaseTest(
+              "domain: {size: [10, 20]}\n"
+              "grains: {adapter: standalone-nscd}\n"
+              "fluid: {enabled: false}\n"
+              "contact: {materials: {steel: {friction: 0.1}}}\n"
+              "time: {step: 0.01, end: 1}\n") {
+        const ResolvedCase earlier = load("", {"grains.count=2"});
+        folder.write("old/case.yaml", earlier.yaml);
+        folder.write("old/grains/initial.csv", earlier.grains_csv);
+        folder.write("old/grains/grains.pvd",
+                     "<DataSet timestep=\"0\" part=\"0\" file=\"a.vtp\"/>\n"
+                     "<DataSet timestep=\"0.5\" part=\"0\" file=\"b.vtp\"/>\n"
+                     "<DataSet timestep=\"0.5\" part=\"1\" file=\"outlines.vtp\"/>\n");
+        folder.write("old/grains/a.vtp", points(0.0));
+        folder.write("old/grains/b.vtp", points(1.5));
+    }
+
+    /// Without grains of its own it is a case only with --from.
+    void write_case() const { EXPECT_SAYS(refusal(""), "grains.count is missing"); }
+
+    ResolvedCase start(const std::string& time, const std::vector<std::string>& set = {}) const {
+        return load_case(folder.path() / "box.yaml", set, (folder.path() / "old").string() + time);
+    }
+
+    std::string refusal_of(const std::string& time) const {
+        try {
+            start(time);
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.code(), ExitCode::bad_input);
+            return failure.what();
+        }
+        return "";
+    }
+};
+
+// The case itself says no number of grains: it need not.
+TEST_F(EarlierRuns, GrainsAreThoseOfTheEnd) {
+    write_case();
+    const ResolvedCase later = start("");
+    ASSERT_EQ(later.population.size(), 2u);
+    const GrainState &first = later.population[0], &second = later.population[1];
+    EXPECT_EQ(first.id, 7);
+    EXPECT_EQ(first.position, (Vec3{3.5, 2.0, 0.0}));
+    EXPECT_EQ(first.velocity, (Vec3{0.5, -1.0, 0.0}));
+    EXPECT_EQ(first.angular_velocity[2], 4.0);
+    EXPECT_EQ(first.density, 2.0);
+    EXPECT_NEAR(first.orientation[3], 0.6, 1e-15);
+    EXPECT_EQ(second.radius, 0.4);
+    EXPECT_EQ(second.material, 1);
+    EXPECT_TRUE(second.prescribed);
+    EXPECT_SAYS(later.notes.at(0), "b.vtp at 0.5 t_c");
+    EXPECT_EQ(later.settings.text("grains.file"), "grains/initial.csv");
+}
+
+TEST_F(EarlierRuns, ATimeBeforeTheEndIsChosenWithAt) {
+    write_case();
+    EXPECT_EQ(start("@0").population.at(0).position[0], 2.0);
+    EXPECT_EQ(start("@0.5").population.at(0).position[0], 3.5);
+}
+
+// What `turbidite run` writes of it is what the coupler reads.
+TEST_F(EarlierRuns, TheNewRunFolderHoldsThem) {
+    write_case();
+    const ResolvedCase later = start("");
+    folder.write("new/case.yaml", later.yaml);
+    folder.write("new/grains/initial.csv", later.grains_csv);
+    const ResolvedCase read = load_run_folder(folder.path() / "new");
+    ASSERT_EQ(read.population.size(), 2u);
+    EXPECT_EQ(read.population[0].velocity, later.population[0].velocity);
+    EXPECT_EQ(read.population[0].angular_velocity, later.population[0].angular_velocity);
+    EXPECT_EQ(read.population[1].prescribed, true);
+    EXPECT_EQ(read.settings.real("grains.overlap"), 0.2);  // limits.penetration
+}
+
+TEST_F(EarlierRuns, WhatIsNotThereIsNamed) {
+    write_case();
+    EXPECT_SAYS(refusal_of("@0.4"), "has no output at 0.4 t_c");
+    EXPECT_SAYS(refusal_of("@0.4"), "There are 2 from 0 to 0.5 t_c; the nearest is @0.5.");
+    EXPECT_SAYS(refusal_of("@end"), "\"end\" is no time");
+    EXPECT_SAYS(refusal_of("er"), "is no run folder: it has no case.yaml");
+}
+
+TEST_F(EarlierRuns, ShapesAndMaterialsMustBeKnown) {
+    folder.write("box.yaml",
+                 "domain: {size: [10, 20]}\ngrains: {adapter: standalone-nscd}\n"
+                 "fluid: {enabled: false}\ntime: {step: 0.01, end: 1}\n");
+    EXPECT_SAYS(refusal_of(""), "grains of material steel, which the case does not have");
+}
+
+}  // namespace
+}  // namespace turbidite
