@@ -109,6 +109,7 @@ class Scene:
 
     def step(self):
         """One sub-step. O.run(n, wait=True) would look every 40 ms only whether it is through."""
+        self.script.check_step()
         O.step()
 
     def contacts(self):

@@ -126,7 +126,9 @@ void CoupledRun::advance(bool write_output) {
                         write_output, false};
     before_ = grains_;
     fluid_.advance(window);
-    between_ = contact_.advance(window, {}).grains;
+    const Motion motion = contact_.advance(window, {});
+    between_ = motion.grains;
+    contacts_ += motion.report.contacts;
     fluid_.correct(window, between_);
     answer_ = fluid_.impose(window);
     grains_ = contact_.apply_kick(window, answer_.kicks).grains;

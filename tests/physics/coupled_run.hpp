@@ -71,6 +71,7 @@ class CoupledRun {
     const std::vector<GrainState>& between() const { return between_; }  ///< U^{n+4/5}
     const std::vector<GrainState>& grains() const { return grains_; }    ///< U^{n+1}
     const Kicks& answer() const { return answer_; }
+    std::int64_t contacts() const { return contacts_; }  ///< with an impulse, of all windows
     ImmersedBody body() const;
 
  private:
@@ -80,7 +81,7 @@ class CoupledRun {
     NscdAdapter contact_;
     std::vector<GrainState> before_, between_, grains_;
     Kicks answer_;
-    std::int64_t window_ = 0;
+    std::int64_t window_ = 0, contacts_ = 0;
 };
 
 }  // namespace turbidite

@@ -46,7 +46,8 @@ CoupledSetup iterative(CoupledSetup setup) {
 
 std::vector<GrainState> some_discs(const CoupledSetup& setup) {
     return {disc_at(setup, 1.13, 1.02, 0.3, -0.2), disc_at(setup, 2.47, 2.2, -0.4, 0.1),
-            disc_at(setup, 3.61, 1.33), disc_at(setup, 1.39, 3.27, 0.2, -0.5)};
+            disc_at(setup, 3.61, 1.33), disc_at(setup, 1.39, 3.36, 0.2, -0.5),
+            disc_at(setup, 1.45, 2.3, 0.2)};
 }
 
 /// max |difference| of a quantity over all cells of two runs.
@@ -94,6 +95,8 @@ TEST_P(DirectSolvers, AgreeWithTheIterativeOnes) {
         fastest = std::max(fastest, std::abs(one[1]));
     }
     EXPECT_GT(fastest, 0.1);  // something did move
+    EXPECT_GE(direct.contacts(),
+              10);  // and met: the second disc reaches the fifth in about four windows
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, DirectSolvers, testing::ValuesIn(all_sides),
