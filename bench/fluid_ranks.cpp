@@ -28,10 +28,10 @@ std::vector<Record> of_all_ranks(const std::vector<Record>& records) {
     return result;
 }
 
-/// How far beyond its surface a grain matters to a rank. More than any stencil or rule of points
-/// reaches, so that nothing here depends on them.
+/// How far beyond its surface a grain matters to a rank: 16 cells, more than any stencil or rule of
+/// points reaches, so that nothing here depends on them.
 double margin(const Settings& settings) {
-    return settings.real("run.diameter");
+    return 16.0 * settings.real("run.diameter") / settings.real("fluid.cells_per_diameter");
 }
 
 }  // namespace

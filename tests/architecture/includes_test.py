@@ -59,7 +59,7 @@ RULES = [
     ("launcher/report/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a report reads files"),
     ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the yardstick stands alone"),
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
-    ("fluid_adapter/foam_solver/*.[hc]pp", [MPI, EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
+    ("fluid_adapter/foam_solver/*.[hc]pp", [EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
