@@ -92,11 +92,11 @@ TEST_F(FluidRanks, CyclicSidesAndOpenOnes) {
                     "columns");
 }
 
-/// OpenFOAM's own solvers, to their tolerance: 1e-11 of a residual norm.
+/// OpenFOAM's own solvers, to their tolerance: 1e-12 of a residual norm.
 TEST_F(FluidRanks, WithOpenFoamsSolvers) {
     const std::string matrix =
         " --set fluid.pressure_solver=GAMG --set fluid.viscous_solver=PCG"
-        " --set fluid.pressure_tolerance=1e-11 --set fluid.viscous_tolerance=1e-11";
+        " --set fluid.pressure_tolerance=1e-12 --set fluid.viscous_tolerance=1e-12";
     expect_the_same(places("fluid.ranks=1" + matrix), places("fluid.ranks=2" + matrix), "GAMG");
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Step 5 solved another way, for comparison: no multiplier is eliminated, all points of all grains
-// are rows of one dense matrix S = B m^-1 B^T + T C^-1 T^T, C = diag(cM, cM, cI), solved by LU.
+// are rows of one dense matrix S = B m^-1 B^T + T C^-1 T^T, C = diag(cM, cM, cI), solved directly.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 #include <array>
 
 #include "fluid_adapter/multiplier/collocation_points.hpp"
@@ -55,7 +57,8 @@ class DenseReference {
             free.segment<3>(3 * g) =
                 grains_[g].free_motion() + inverse.segment<3>(3 * g).cwiseProduct(pushes[g]);
         }
-        const Eigen::MatrixXd gram = B_ * per_mass_.asDiagonal() * B_.transpose();
+        const Eigen::SparseMatrix<double> B = B_.sparseView();  // nine entries in a row at most
+        const Eigen::MatrixXd gram(B * per_mass_.asDiagonal() * B.transpose());
         Eigen::MatrixXd S = T * inverse.asDiagonal() * T.transpose();
         S.topLeftCorner(n, n) += gram;
         S.bottomRightCorner(n, n) += gram;
@@ -65,13 +68,20 @@ class DenseReference {
         slip << B_ * ux, B_ * uy;
         slip -= T * free;
         const Eigen::VectorXd moved =
-            free + inverse.cwiseProduct(T.transpose() * S.partialPivLu().solve(slip));
+            free + inverse.cwiseProduct(T.transpose() * solved(S, slip));
         std::vector<Planar> result;
         for (std::size_t g = 0; g < grains_.size(); ++g) result.push_back(moved.segment<3>(3 * g));
         return result;
     }
 
  private:
+    /// S is indefinite where a grain is lighter than the fluid (cM < 0).
+    static Eigen::VectorXd solved(const Eigen::MatrixXd& S, const Eigen::VectorXd& slip) {
+        const Eigen::LLT<Eigen::MatrixXd> factors(S);
+        if (factors.info() == Eigen::Success) return factors.solve(slip);
+        return S.partialPivLu().solve(slip);
+    }
+
     struct Row {
         int grain;
         double arm_x, arm_y;
