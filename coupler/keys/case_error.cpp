@@ -26,6 +26,17 @@ std::string advice(const CaseProblem& problem) {
 
 }  // namespace
 
+CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
+                       const std::string& allowed, const std::string& remedy) {
+    return {.source = source,
+            .line = line,
+            .key = {},
+            .value = {},
+            .fault = fault,
+            .allowed = allowed,
+            .remedy = remedy};
+}
+
 std::string format_problems(const std::vector<CaseProblem>& problems) {
     std::string text;
     for (const CaseProblem& problem : problems)

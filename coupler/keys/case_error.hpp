@@ -22,6 +22,10 @@ struct CaseProblem {
     std::string remedy;   ///< a sentence
 };
 
+/// A problem of a place rather than of a key.
+CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
+                       const std::string& allowed, const std::string& remedy);
+
 /// The text shown on stderr; ends with "N errors, nothing was started. Exit code 2."
 std::string format_problems(const std::vector<CaseProblem>& problems);
 

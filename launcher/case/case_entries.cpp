@@ -11,17 +11,6 @@
 namespace turbidite {
 namespace {
 
-CaseProblem sentence(const std::string& source, int line, const std::string& fault,
-                     const std::string& allowed, const std::string& remedy) {
-    return {.source = source,
-            .line = line,
-            .key = {},
-            .value = {},
-            .fault = fault,
-            .allowed = allowed,
-            .remedy = remedy};
-}
-
 std::string item_text(const YAML::Node& node) {
     return node.IsScalar() ? node.Scalar() : YAML::Dump(node);
 }
@@ -84,16 +73,16 @@ void read_document(const std::string& text, const Place& place, CaseEntries& res
     try {
         const YAML::Node document = YAML::Load(text);
         if (!document.IsMap())
-            result.problems.push_back(sentence(place.source, 0, "holds no keys",
-                                               "A case is a list of `key: value` in groups.",
-                                               "See configs/ for examples."));
+            result.problems.push_back(problem_at(place.source, 0, "holds no keys",
+                                                 "A case is a list of `key: value` in groups.",
+                                                 "See configs/ for examples."));
         else
             flatten("", document, place, result.entries);
     } catch (const YAML::Exception& error) {
         const int line = place.has_lines ? error.mark.line + 1 : 0;
-        result.problems.push_back(sentence(place.source, line, "is not YAML: " + error.msg,
-                                           "A case is a list of `key: value` in groups.",
-                                           "Correct this line; indentation counts."));
+        result.problems.push_back(problem_at(place.source, line, "is not YAML: " + error.msg,
+                                             "A case is a list of `key: value` in groups.",
+                                             "Correct this line; indentation counts."));
     }
 }
 
@@ -101,8 +90,8 @@ void read_file(const std::filesystem::path& file, CaseEntries& result) {
     std::ifstream input(file);
     std::stringstream text;
     if (std::filesystem::is_directory(file) || !input || !(text << input.rdbuf())) {
-        result.problems.push_back(sentence(file.string(), 0, "cannot be read",
-                                           "A case file (YAML) is needed.", "Check the path."));
+        result.problems.push_back(problem_at(file.string(), 0, "cannot be read",
+                                             "A case file (YAML) is needed.", "Check the path."));
         return;
     }
     read_document(text.str(), {file.filename().string()}, result);
@@ -113,9 +102,9 @@ CaseEntries read_override(const std::string& text) {
     CaseEntries result;
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        result.problems.push_back(sentence("--set " + text, 0, "has no value",
-                                           "An override is key=value.",
-                                           "Write for example --set contact.friction=0.5."));
+        result.problems.push_back(problem_at("--set " + text, 0, "has no value",
+                                             "An override is key=value.",
+                                             "Write for example --set contact.friction=0.5."));
         return result;
     }
     read_document(text.substr(0, equals) + ": " + text.substr(equals + 1), place, result);

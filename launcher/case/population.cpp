@@ -15,17 +15,6 @@ namespace {
 // A packing that is wrong everywhere should not scroll the first error away.
 constexpr std::size_t most_problems_of_a_kind = 10;
 
-CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
-                       const std::string& allowed, const std::string& remedy) {
-    return {.source = source,
-            .line = line,
-            .key = {},
-            .value = {},
-            .fault = fault,
-            .allowed = allowed,
-            .remedy = remedy};
-}
-
 /// What the words of a grains file mean.
 struct FileWords {
     const GrainForms& forms;
