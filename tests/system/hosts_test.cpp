@@ -110,5 +110,35 @@ TEST_F(Hosts, MovingWallsDragAndLift) {
     }
 }
 
+// The floor shakes along itself under discs of two materials, one of them without friction.
+TEST_F(Hosts, MaterialsOnAShakenFloorActTheSame) {
+    scratch.write("grains.csv",
+                  "id,x,y,vx,material\n0,2,0.5,0,default\n1,4,0.5,0,ice\n2,6,0.5,0,default\n"
+                  "3,6.5,1.367,0,default\n4,7.1,0.5,0,default\n");
+    const std::string shaken = R"(
+domain:
+  size: [8, 8]
+  bottom_motion: shake
+  motions:
+    shake: {kind: harmonic, amplitude: [0.2, 0], period: 2}
+grains: {file: grains.csv, density_ratio: 1.5}
+fluid: {enabled: false}
+contact: {friction: 0.5, materials: {ice: {friction: FRICTION}}}
+time: {step: 0.01, end: 3}
+output: {interval: 0.5}
+)";
+    const auto with_friction = [&](const std::string& value) {
+        std::string words = shaken;
+        scratch.write("case.yaml", words.replace(words.find("FRICTION"), 8, value));
+    };
+    with_friction("0");
+    const auto in_yade = physics("yade-nscd"), alone = physics("standalone-nscd");
+    ASSERT_EQ(in_yade.size(), 8u);
+    EXPECT_EQ(in_yade, alone);
+    EXPECT_NE(alone[1], alone[7]);  // the floor drags some of them along
+    with_friction("0.5");
+    EXPECT_NE(physics("standalone-nscd --force"), alone);  // ice is ice
+}
+
 }  // namespace
 }  // namespace turbidite
