@@ -5,7 +5,6 @@
 // itself and comes to rest. Pores are open (hydrodynamic radius 0.85 R), so that water leaves them
 // and rest is rest; with closed pores the bed creeps (docs/decisions.md).
 #include <cmath>
-#include <sstream>
 
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
@@ -34,10 +33,6 @@ constexpr double grains = 102;
 /// Rows per t_c of the history.
 constexpr std::size_t rows_per_time = 4;
 
-struct Disc {
-    double x, y;  ///< [D]
-};
-
 class BedUnderJoint : public ShellTest {
  protected:
     Columns play(const std::string& changes = {}) {
@@ -46,17 +41,6 @@ class BedUnderJoint : public ShellTest {
             shell(std::string(TURBIDITE_PROGRAM) + " run case.yaml --force --out run" + changes);
         EXPECT_EQ(answer.code, 0) << changes << answer.out << answer.err;
         return columns_of(text(run_folder() / "history.csv"));
-    }
-
-    /// Centres at a step, from the grains' `Points`.
-    std::vector<Disc> discs(const std::string& step) const {
-        const std::string file = text(run_folder() / ("grains/grains_" + step + ".vtp"));
-        const std::size_t points = file.find('>', file.find("<DataArray", file.find("<Points>")));
-        std::istringstream numbers(file.substr(points + 1));
-        std::vector<Disc> result;
-        double z;
-        for (Disc disc; numbers >> disc.x >> disc.y >> z;) result.push_back(disc);
-        return result;
     }
 
     /// Momentum of grains and of fluid, overlap, and what was left unsolved.
@@ -99,8 +83,10 @@ TEST_F(BedUnderJoint, OnTwoFluidRanksItIsTheSameBed) {
     ASSERT_EQ(two.at("time").size(), one.at("time").size());
     EXPECT_GT(one.at("contacts").back(), 1.3 * grains);
     // The ranks meet at half the height, with discs across it that touch discs of either side.
+    const std::vector<double> xyz = centres("00000100");
+    ASSERT_EQ(xyz.size(), 3 * static_cast<std::size_t>(grains));
     std::size_t across = 0;
-    for (const Disc& disc : discs("00000100")) across += std::abs(disc.y - 5.75) < 0.5 ? 1 : 0;
+    for (std::size_t y = 1; y < xyz.size(); y += 3) across += std::abs(xyz[y] - 5.75) < 0.5 ? 1 : 0;
     EXPECT_GE(across, 8u);
     for (const char* column : {"mean_velocity_x", "mean_velocity_y", "mean_speed",
                                "mean_position_x", "mean_position_y"}) {

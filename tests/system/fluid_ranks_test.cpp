@@ -7,8 +7,6 @@
 // kinds of points, closed, cyclic and free sides, two to four ranks, rows and columns; it is the
 // last digit written), and u by up to 3e-9 u_c. Without the margin by which grains are sent to
 // ranks beyond their boxes, the run does not get through its first window.
-#include <cmath>
-#include <sstream>
 
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
@@ -49,22 +47,14 @@ class FluidRanks : public ShellTest {
         EXPECT_LT(record().at("maxima").at("grain_balance").get<double>(), 1e-12) << changes;
         EXPECT_LT(record().at("maxima").at("fluid_balance").get<double>(), 1e-10) << changes;
         EXPECT_GT(columns_of(text(run_folder() / "history.csv")).at("contacts").back(), grains);
-        const std::string file = text(run_folder() / "grains/grains_00000200.vtp");
-        const std::size_t points = file.find('>', file.find("<DataArray", file.find("<Points>")));
-        std::istringstream numbers(file.substr(points + 1));
-        std::vector<double> result;
-        for (double number; numbers >> number;) result.push_back(number);
-        return result;
+        return centres("00000200");
     }
 
     void expect_the_same(const std::vector<double>& one, const std::vector<double>& several,
                          const std::string& which) {
         ASSERT_EQ(one.size(), 3 * grains);
         ASSERT_EQ(several.size(), one.size()) << which;
-        double largest = 0.0;
-        for (std::size_t k = 0; k < one.size(); ++k)
-            largest = std::max(largest, std::abs(one[k] - several[k]));
-        EXPECT_LT(largest, 1e-8) << which;  // D
+        EXPECT_LT(largest_difference(one, several), 1e-8) << which;  // D
     }
 };
 

@@ -12,7 +12,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/unit/case/scratch_folder.hpp"
 
@@ -46,6 +48,16 @@ class ShellTest : public ::testing::Test {
     std::string into_run_folder() const { return " --out " + run_folder().string(); }
 
     nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }
+
+    /// x, y, z of every grain's centre at a step of eight digits, from the `Points` of the series.
+    std::vector<double> centres(const std::string& step) const {
+        const std::string file = text(run_folder() / ("grains/grains_" + step + ".vtp"));
+        const std::size_t points = file.find('>', file.find("<DataArray", file.find("<Points>")));
+        std::istringstream numbers(file.substr(points + 1));
+        std::vector<double> result;
+        for (double number; numbers >> number;) result.push_back(number);
+        return result;
+    }
 
     long rows_of_history() const {
         const std::string history = text(run_folder() / "history.csv");
