@@ -28,7 +28,7 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     }
 }
 
-/// 0, n-1, 1, n-2, ...: every grain's ring folded flat.
+/// The order 0, n-1, 1, n-2, ... of every grain's ring, which keeps the profile narrow.
 void BoundaryBlocks::order_points() {
     order_.clear();
     for (int g = 0; g < points_->grains(); ++g) {
@@ -41,7 +41,7 @@ void BoundaryBlocks::order_points() {
     }
 }
 
-/// G_pq = sum over shared cells of w_p w_q / m_c.
+/// Row i of G: G_pq = sum over shared cells of w_p w_q / m_c.
 void BoundaryBlocks::add_row(const int* order, int i, double per_mass) {
     const CollocationPoints& points = *points_;
     const int p = order[i];
@@ -64,7 +64,8 @@ void BoundaryBlocks::add_row(const int* order, int i, double per_mass) {
     std::copy(row_.begin() + first, row_.end(), factors_.add_row(first));
 }
 
-/// T = [1 0 -r_y; 0 1 r_x]: with G^-1 of the columns (1, r_x, r_y) all entries are at hand.
+/// T^T G^-1 T with T = [1 0 -r_y; 0 1 r_x] at each point: its entries are products of the columns
+/// 1, r_x, r_y with G^-1 of these columns.
 Eigen::Matrix3d BoundaryBlocks::tie(int g) {
     const CollocationPoints& points = *points_;
     const int* order = order_of(g);
@@ -73,7 +74,7 @@ Eigen::Matrix3d BoundaryBlocks::tie(int g) {
     for (int i = 0; i < rows; ++i)
         columns_.insert(columns_.end(), {1.0, points.arm_x[order[i]], points.arm_y[order[i]]});
     factors_.solve<3>(g, columns_.data());
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // of (1, r_x, r_y) and their images
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // (1, r_x, r_y)^T G^-1 (1, r_x, r_y)
     for (int i = 0; i < rows; ++i) {
         const int p = order[i];
         images_[p] = Eigen::Map<const Eigen::Vector3d>(&columns_[3 * i]);

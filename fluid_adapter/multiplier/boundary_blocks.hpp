@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The boundary points of one grain by themselves: with G = B m^-1 B^T over a grain's points on this
-// rank (the same for x and y), factorised exactly,
+// The diagonal blocks of the saddle-point operator, one per grain. With G = B m^-1 B^T restricted
+// to the boundary points of one grain on this rank (the same for x and y) and factorised exactly,
 //
-//     tied inertia        T^T G^-1 T       the fluid that the points drag along with the grain
+//     tied inertia        T^T G^-1 T       inertia of the fluid that moves with the boundary points
 //
-// and A plus the tied inertia is what an impulse on the grain moves: its effective inertia, exact
-// for a grain that shares no fluid cell with the points of another grain or rank. Two points share
-// cells only if they are near, and points go round the grain: taken alternately from both ends of
-// the ring, neighbours are near each other in the matrix, whose profile is then narrow.
-// Valid C++17.
+// The effective inertia of a grain, which relates an impulse to the change of velocity it causes,
+// is A plus the tied inertia. It is exact for a grain that shares no fluid cell with the boundary
+// points of another grain or rank.
+//
+// A row of G is one boundary point. Only points close to each other share cells, and the points go
+// round the grain. They are therefore ordered alternately from both ends of the ring: neighbours on
+// the ring stay close in the matrix, whose profile is narrow. Valid C++17.
 #pragma once
 
 #include <vector>
@@ -25,13 +27,14 @@ class BoundaryBlocks {
     void factorise(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                    const CollocationPoints& points);
 
-    /// z = G^-1 r, grain by grain; point vectors as in boundary_operator.hpp.
+    /// z = G^-1 r, grain by grain; r and z are point vectors as in boundary_operator.hpp.
     void solve(const double* r, double* z);
 
-    /// z -= G^-1 T q, one q per grain.
+    /// z -= G^-1 T q, with one q = (x, y, spin) per grain.
     void subtract_images(const Planar* q, double* z) const;
 
-    /// T^T G^-1 T of this rank's points.
+    /// T^T G^-1 T of this rank's points, one 3 x 3 matrix per grain [kg, kg m, kg m2 per unit
+    /// length].
     const std::vector<Eigen::Matrix3d>& tied_inertia() const { return tied_; }
 
  private:
@@ -42,11 +45,12 @@ class BoundaryBlocks {
 
     const CollocationPoints* points_ = nullptr;
     ProfileCholesky factors_;
-    std::vector<int> order_;               // rows of the grains' matrices -> points
-    std::vector<double> on_slots_;         // weights of one point by slot; zero between uses
-    std::vector<double> row_;              // of the matrix that is being assembled
+    std::vector<int> order_;  // row of a grain's matrix -> boundary point
+    // of one point: weight over relative cell volume, by slot; zero between uses
+    std::vector<double> on_slots_;
+    std::vector<double> row_;              // of the matrix being assembled
     std::vector<double> columns_;          // right-hand sides of one grain
-    std::vector<Eigen::Vector3d> images_;  // G^-1 of (1, r_x, r_y), by point
+    std::vector<Eigen::Vector3d> images_;  // G^-1 of the columns 1, r_x, r_y; by point
     std::vector<Eigen::Matrix3d> tied_;
 };
 

@@ -4,9 +4,10 @@
 //
 //     slip = B u - T U        (u - U - omega x r, point by point) [m/s]
 //
-// and its transpose. Point vectors hold all x components, then all y components. Velocities of
-// grains are (x, y, spin); those of cells are (x, y), by slot (collocation_points.hpp). Valid
-// C++17.
+// and its transpose. B interpolates the fluid velocity at the points, B^T spreads point values to
+// the cells. Point vectors have size rows(): all x components, then all y components. Grain
+// velocities are (x, y, spin), one per grain; cell velocities are (x, y), one per slot
+// (collocation_points.hpp). Valid C++17.
 #pragma once
 
 #include <vector>
@@ -15,7 +16,7 @@
 
 namespace turbidite {
 
-/// Both components of something in a cell.
+/// Both components of a vector field in a cell.
 struct PlaneVector {
     double x = 0.0, y = 0.0;
 };
@@ -32,10 +33,10 @@ class BoundaryOperator {
     /// out -= T U.
     void subtract_motion(const Planar* motions, double* out) const;
 
-    /// f += B^T values; on halo cells too.
+    /// Spreading: f += B^T values, halo cells included.
     void spread(const double* values, PlaneVector* f) const;
 
-    /// out = T^T values: force and moment of every grain, from this rank's points.
+    /// out = T^T values: force and moment on every grain from this rank's points.
     void sum_by_grain(const double* values, Planar* out) const;
 
  private:

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A rectilinear grid of cells by numbers alone: cell (i, j, k) is found from a place, never by
-// scanning all cells. In two dimensions the third axis has one cell. The cells of an axis are
-// equal, or lie between given edges; lengths that a rule counts in cells are then those of the
-// cells at hand.
-//
-// Valid C++17.
+// A rectilinear grid of cells, described by numbers alone: the cell (i, j, k) that contains a
+// position is computed or found by bisection, never by scanning all cells. In two dimensions the
+// third axis has one cell. A layer is all cells with the same index along an axis. Layers are
+// equally thick or, on a stretched axis, lie between given edges; rules that count lengths in cells
+// then use the sizes of the cells at hand. Valid C++17.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,20 +15,21 @@
 
 namespace turbidite {
 
-/// What closes the grid at one end of an axis.
+/// Boundary type at one end of an axis.
 enum class Side { wall, open, cyclic };
 
 struct CellGrid {
     int dimension = 2;
     std::array<double, 3> origin{};  ///< lower corner of cell (0, 0, 0) [m]
     std::array<double, 3>
-        spacing{};  ///< cell edge along each axis; of a stretched one the mean [m]
+        spacing{};  ///< cell size along each axis; the mean on a stretched one [m]
     std::array<int, 3> counts{1, 1, 1};
     std::array<std::array<Side, 2>, 3> sides{};  ///< [axis][lower, upper]
-    /// Of a stretched axis the ends of its cells, ascending, one more than cells [m]; else empty.
+    /// Ascending cell edges of a stretched axis, one more than it has cells [m]; empty for a
+    /// uniform axis.
     std::array<std::vector<double>, 3> edges{};
 
-    /// Makes an axis a stretched one.
+    /// Makes an axis stretched, with the given cell edges [m].
     void stretch(int axis, const std::vector<double>& ends) {
         edges[axis] = ends;
         counts[axis] = static_cast<int>(ends.size()) - 1;
@@ -41,24 +41,25 @@ struct CellGrid {
     bool cyclic(int axis) const { return sides[axis][0] == Side::cyclic; }
     double length(int axis) const { return counts[axis] * spacing[axis]; }
 
-    /// Coordinate of the centre of the i-th layer of cells; i may lie outside a cyclic grid.
+    /// Coordinate of the centre of layer i [m]; i may lie outside a cyclic grid.
     double centre(int axis, int i) const {
         if (!stretched(axis)) return origin[axis] + (i + 0.5) * spacing[axis];
         const int turns = turns_of(axis, i), at = i - turns * counts[axis];
         return turns * length(axis) + 0.5 * (edges[axis][at] + edges[axis][at + 1]);
     }
 
-    /// Edge of the cells of a layer along the axis [m]; i may lie outside a cyclic grid.
+    /// Thickness of layer i [m]; i may lie outside a cyclic grid.
     double size(int axis, int i) const {
         if (!stretched(axis)) return spacing[axis];
         const int at = i - turns_of(axis, i) * counts[axis];
         return edges[axis][at + 1] - edges[axis][at];
     }
 
-    /// Volume of a cell over that of one with the edges `spacing`; exactly 1 in a uniform grid.
+    /// V_c over the volume of the reference cell, whose edges are `spacing`; exactly 1 in a uniform
+    /// grid.
     double relative_volume(int i, int j) const { return relative_size(0, i) * relative_size(1, j); }
 
-    /// Layer of cells that holds a coordinate; may lie outside the grid.
+    /// Index of the layer that contains a coordinate; may lie outside the grid.
     int layer(int axis, double coordinate) const {
         if (!stretched(axis))
             return static_cast<int>(std::floor((coordinate - origin[axis]) / spacing[axis]));
@@ -70,7 +71,8 @@ struct CellGrid {
         return static_cast<int>(above - ends.begin()) - 1 + static_cast<int>(turns) * counts[axis];
     }
 
-    /// The last layer whose centre lies at or below a coordinate; may lie outside the grid.
+    /// Index of the last layer whose centre lies at or below a coordinate; may lie outside the
+    /// grid.
     int layer_below(int axis, double coordinate) const {
         if (!stretched(axis))
             return static_cast<int>(std::floor((coordinate - origin[axis]) / spacing[axis] - 0.5));
@@ -79,7 +81,7 @@ struct CellGrid {
         return inside && coordinate >= centre(axis, i) ? i : i - 1;
     }
 
-    /// Layer brought back into a cyclic grid, or -1 outside a bounded one.
+    /// Layer index wrapped into a cyclic grid; -1 outside a bounded one.
     int wrapped(int axis, int i) const {
         const int n = counts[axis];
         if (i >= 0 && i < n) return i;
@@ -87,7 +89,7 @@ struct CellGrid {
         return ((i % n) + n) % n;
     }
 
-    /// The shortest of the images of a difference of places.
+    /// The shortest periodic image of a difference of positions.
     Eigen::Vector3d nearest_image(Eigen::Vector3d difference) const {
         for (int axis = 0; axis < dimension; ++axis)
             if (cyclic(axis))
@@ -95,7 +97,7 @@ struct CellGrid {
         return difference;
     }
 
-    /// The longest cell edge within `reach` of a place [m].
+    /// The longest cell edge within `reach` of a position [m].
     double largest_size(const Eigen::Vector3d& place, double reach) const {
         double h = 0.0;
         for (int axis = 0; axis < dimension; ++axis) {
@@ -114,7 +116,7 @@ struct CellGrid {
         return stretched(axis) ? size(axis, i) / spacing[axis] : 1.0;
     }
 
-    /// How often a layer's number goes round a cyclic axis.
+    /// How many times a layer index has gone round a cyclic axis.
     int turns_of(int axis, int i) const {
         const int n = counts[axis];
         return i >= 0 ? i / n : -((n - 1 - i) / n);

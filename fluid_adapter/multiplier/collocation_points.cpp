@@ -10,14 +10,15 @@
 namespace turbidite {
 namespace {
 
-/// Weights of the nodes of one axis.
+/// Interpolation nodes along one axis, with their weights.
 struct AxisStencil {
     std::array<int, 3> layer{};
     std::array<double, 3> weight{};
     int nodes = 0;
 };
 
-/// The node at which a coordinate is seen along `out`: the last centre at or behind it.
+/// The first node of the outward stencil: the last cell centre at or behind the coordinate, seen
+/// along `out`.
 int node_behind(const CellGrid& grid, int axis, double coordinate, int out) {
     if (grid.stretched(axis)) {
         const int below = grid.layer_below(axis, coordinate);
@@ -27,7 +28,7 @@ int node_behind(const CellGrid& grid, int axis, double coordinate, int out) {
     return static_cast<int>(out > 0 ? std::floor(place) : std::ceil(place));
 }
 
-/// Lagrange's weights of three centres: w_n = prod_{m != n} (x - x_m)/(x_n - x_m).
+/// Lagrange weights of three cell centres: w_n = prod_{m != n} (x - x_m)/(x_n - x_m).
 std::array<double, 3> lagrange(const CellGrid& grid, int axis, double x,
                                const std::array<int, 3>& layer) {
     std::array<double, 3> node{}, weight{1.0, 1.0, 1.0};
@@ -38,17 +39,17 @@ std::array<double, 3> lagrange(const CellGrid& grid, int axis, double x,
     return weight;
 }
 
-/// All layers of a stencil lie in the grid.
+/// Whether all layers of a stencil lie in the grid.
 bool fits(const CellGrid& grid, int axis, const AxisStencil& stencil) {
     for (int n = 0; n < stencil.nodes; ++n)
         if (grid.wrapped(axis, stencil.layer[n]) < 0) return false;
     return true;
 }
 
-/// Quadratic through the last centre at or behind the point and the two ahead of it, seen along the
-/// outward direction: the point always lies between the first two nodes, so nothing is
-/// extrapolated. A normal without component along the axis counts as positive, whatever its
-/// rounding. Without nodes where they leave the grid.
+/// Quadratic interpolation from the last centre at or behind the point and the two ahead of it,
+/// along the outward direction. The point always lies between the first two nodes, so nothing is
+/// extrapolated. A normal component that is zero to rounding counts as positive. Returns no nodes
+/// if they leave the grid.
 AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate, double normal) {
     const int out = normal < -1e-9 ? -1 : 1;
     const int inner = node_behind(grid, axis, coordinate, out);
@@ -64,7 +65,8 @@ AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate,
     return stencil;
 }
 
-/// Between the two centres around the point. Without nodes where they leave the grid.
+/// Linear interpolation between the two centres around the point. Returns no nodes if they leave
+/// the grid.
 AxisStencil linear(const CellGrid& grid, int axis, double coordinate) {
     const int lower = grid.layer_below(axis, coordinate);
     AxisStencil stencil{{lower, lower + 1, 0}, {}, 2};
@@ -80,7 +82,7 @@ AxisStencil linear(const CellGrid& grid, int axis, double coordinate) {
 
 using PlaneStencil = std::array<AxisStencil, 2>;
 
-/// Quadratic along both axes where that fits, else linear, else without nodes.
+/// Quadratic along both axes if that fits, else linear, else no nodes.
 PlaneStencil plane_stencil(const CellGrid& grid, const Eigen::Vector3d& x,
                            const Eigen::Vector3d& normal) {
     PlaneStencil along;
@@ -92,7 +94,7 @@ PlaneStencil plane_stencil(const CellGrid& grid, const Eigen::Vector3d& x,
     return {};
 }
 
-/// Edge of the cell at a place, beyond the grid of the nearest one.
+/// Size of the cell at a coordinate [m]; outside the grid that of the nearest cell.
 double size_at(const CellGrid& grid, int axis, double x) {
     if (!grid.stretched(axis)) return grid.spacing[axis];
     const int layer = grid.layer(axis, x);
@@ -109,7 +111,8 @@ Layers layers_of(const CellGrid& grid, int axis, const ImmersedGrain& grain) {
             grid.layer(axis, grain.position[axis] + grain.radius)};
 }
 
-/// Does the grain contain a place? Its core needs no question.
+/// Whether the grain contains a position relative to its centre. Inside the core radius the shape
+/// is not queried.
 class Inside {
  public:
     explicit Inside(const ImmersedGrain& grain)
@@ -129,7 +132,7 @@ class Inside {
     double core_squared_;
 };
 
-/// Calls visit(point) for the known cells whose centre the grain contains.
+/// Calls visit(point) for the cells known to this rank whose centre the grain contains.
 template <class Visit>
 void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit visit) {
     const CellGrid& grid = field.grid();
@@ -279,7 +282,8 @@ void PointPlacement::collect_boundary(const FluidField& field,
     }
 }
 
-/// The tensor product of the stencils of both axes. Another rank's point gets slots alone.
+/// Appends a boundary point with the tensor product of both axes' stencils. A point of another rank
+/// only reserves the slots.
 void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain,
                              Candidate& candidate, CollocationPoints& points) {
     const CellGrid& grid = field.grid();
@@ -309,7 +313,7 @@ void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain
     points.stencil.push_back(static_cast<int>(points.slot.size()));
 }
 
-/// Of a cell, a new one if need be; -1 beyond the halo, for another rank's point.
+/// Slot of a cell, assigned on first use; -1 for a cell beyond the halo (of another rank's point).
 int PointPlacement::slot_of(const FluidField& field, int column, int row,
                             CollocationPoints& points) {
     const int cell = field.cells().at(column, row);
@@ -321,7 +325,7 @@ int PointPlacement::slot_of(const FluidField& field, int column, int row,
     return slot_[cell];
 }
 
-/// Rule 5, for the grains that it may concern.
+/// Rule 5, for the grains it can concern.
 void PointPlacement::claim_cells(const FluidField& field,
                                  const std::vector<ImmersedGrain>& grains) {
     claimed_.clear();

@@ -1,34 +1,32 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The points at which the fluid must move with the grain (Topin 2011, Eq. 10), on the disc of
-// radius R_h. Two kinds:
+// The collocation points of the constraint: where the fluid must move with the grain (Topin 2011,
+// Eq. 10), on the disc of radius R_h. There are two kinds:
 //
-//   interior   a cell centre inside the grain: u there is the cell's velocity
-//   boundary   a point of the surface: u there is interpolated from 3 x 3 cells which reach out
-//              into the fluid (quadratic, chosen by the outward normal), or from 2 x 2 where those
-//              leave the grid
+//   interior   a cell centre inside the grain; u there is the cell's velocity
+//   boundary   a point on the surface; u there is interpolated from 3 x 3 cells that extend out
+//              into the fluid (quadratic, selected by the outward normal), or from 2 x 2 cells
+//              where those leave the grid
 //
-// Interpolation that reaches outwards ties fluid beyond the surface and makes the grain look larger
-// by about a tenth of a cell to the drag: a square array (Sangani & Acrivos 1982, area fraction
-// 0.2, D/16) came out 5 % high, as published for such points. `fluid.hydrodynamic_radius` can
-// calibrate it.
+// Outward interpolation constrains fluid beyond the surface, so that the drag is that of a grain
+// larger by about a tenth of a cell: for a square array (Sangani & Acrivos 1982, area fraction 0.2,
+// D/16) it came out 5 % high, as published for such points. `fluid.hydrodynamic_radius` can
+// calibrate this.
 //
-// Rules, in this order. Rules 1-3 look at all candidates and not at survivors, so that the outcome
-// does not depend on how the grains are numbered.
+// The rules, in this order. Rules 1-3 are applied to all candidates, not to those that survive an
+// earlier rule, so that the result does not depend on the numbering of the grains. Lengths in cells
+// refer to the longest edge of the cells around a grain, in rule 1 to the cell at the point.
 //
-// Lengths counted in cells are those of the longest edges of the cells around a grain; rule 1
-// counts the cells at the point itself.
-//
-//   1. A boundary point nearer than 2 cells to a wall is dropped.
+//   1. A boundary point closer than 2 cells to a wall is dropped.
 //   2. A boundary point inside another grain is dropped.
-//   3. Two boundary points of different grains nearer than the point spacing are both dropped.
+//   3. Two boundary points of different grains closer than the point spacing are both dropped.
 //   4. A boundary point whose 2 x 2 cells leave the grid is dropped.
 //   5. A cell centre inside several grains belongs to the one in which it lies deepest (smallest
 //      distance from the centre over R_h; the smaller id if equal).
-//   6. A cell used by a boundary point that is left, of whatever grain, is no interior point.
+//   6. A cell used by a remaining boundary point, of any grain, is not an interior point.
 //
-// With several ranks each looks at all grains it holds and keeps the points in cells it owns.
-// Valid C++17.
+// With several ranks, each rank considers all grains it holds and keeps the points that lie in
+// cells it owns. Valid C++17.
 #pragma once
 
 #include <array>
@@ -44,11 +42,11 @@ namespace turbidite {
 
 struct PointRules {
     bool boundary = true;        ///< place boundary points at all
-    double spacing = 1.5;        ///< between boundary points, and rule 3 [cells]
-    double wall_distance = 2.0;  ///< rule 1 [cells]
+    double spacing = 1.5;        ///< of boundary points, also the distance of rule 3 [cells]
+    double wall_distance = 2.0;  ///< distance of rule 1 [cells]
 };
 
-/// How many boundary points each rule took.
+/// Number of boundary points dropped by each rule.
 struct DroppedPoints {
     int near_wall = 0;
     int inside_grain = 0;
@@ -60,16 +58,16 @@ struct DroppedPoints {
 struct InteriorCell {
     int cell;             ///< local index
     double arm_x, arm_y;  ///< r = x - X [m]
-    double volume;        ///< V_c over the grid's reference cell
+    double volume;        ///< V_c over that of the reference cell
 };
 
-/// A cell that boundary points interpolate from.
+/// A cell used for interpolation by boundary points.
 struct StencilCell {
     int cell;       ///< local index
-    double volume;  ///< V_c over the grid's reference cell
+    double volume;  ///< V_c over that of the reference cell
 };
 
-/// The layers of a grid that a stencil covers, not wrapped.
+/// The layers of the grid covered by a stencil; indices are not wrapped.
 struct StencilBox {
     int low_x, high_x, low_y, high_y;
 
@@ -79,11 +77,11 @@ struct StencilBox {
     }
 };
 
-/// Interior points of grain g are interior_begin[g] .. interior_begin[g+1]-1 of `interior`,
-/// boundary points boundary_begin[g] .. boundary_begin[g+1]-1 of `arm`. The cells of boundary point
-/// p are stencil[p] .. stencil[p+1]-1 of `slot` and `weight`; slots number the cells that points
-/// interpolate from, so that what belongs to these cells lies close together. In-place: a window
-/// reuses the last one's memory.
+/// The points of all grains. Interior points of grain g are interior_begin[g] ..
+/// interior_begin[g+1]-1 of `interior`; its boundary points are boundary_begin[g] ..
+/// boundary_begin[g+1]-1 of `arm`. Boundary point p interpolates with stencil[p] .. stencil[p+1]-1
+/// of `slot` and `weight`. Slots number the cells used for interpolation, so that the data of these
+/// cells is contiguous. Filled in place: the memory is reused from window to window.
 struct CollocationPoints {
     std::vector<int> interior_begin;
     std::vector<InteriorCell> interior;
@@ -93,7 +91,7 @@ struct CollocationPoints {
     std::vector<int> stencil;
     std::vector<int> slot;
     std::vector<double> weight;
-    std::vector<StencilCell> stencilled;  ///< by slot; of other ranks' points too
+    std::vector<StencilCell> stencilled;  ///< by slot; includes cells used by other ranks' points
     DroppedPoints dropped;
 
     int grains() const { return static_cast<int>(boundary_begin.size()) - 1; }
@@ -101,11 +99,11 @@ struct CollocationPoints {
     int size() const { return static_cast<int>(interior.size()) + boundary_points(); }
     int slots() const { return static_cast<int>(stencilled.size()); }
 
-    /// Local index of the cell of the s-th weight.
+    /// Local index of the cell of weight s.
     int cell(int s) const { return stencilled[slot[s]].cell; }
 };
 
-/// Places the points of all grains.
+/// Places the points of all grains by the rules above.
 class PointPlacement {
  public:
     explicit PointPlacement(const PointRules& rules) : rules_(rules) {}
@@ -144,13 +142,13 @@ class PointPlacement {
     std::vector<double> local_size_;  // longest cell edge around each grain [m]
     std::vector<Candidate> candidates_;
     std::vector<std::pair<int, int>> pairs_;  // of grains whose points may be too close
-    std::vector<char> overlapped_;            // by grain: another may contain the same cells
-    std::vector<int> claimed_;                // cells inside such grains
-    // By cell, as between two calls: nothing claimed.
-    std::vector<int> owner_;     // grain that claims it, -1 none
-    std::vector<double> depth_;  // its squared relative distance
-    std::vector<int> slot_;      // in which points interpolate from it, -1 none
-    // Of shapes, radii and spacings met so far.
+    std::vector<char> overlapped_;            // by grain: another grain may contain the same cells
+    std::vector<int> claimed_;                // cells inside overlapped grains
+    // By local cell; reset to "not claimed" between calls.
+    std::vector<int> owner_;     // grain that claims the cell, -1 none
+    std::vector<double> depth_;  // squared distance from its centre over R_h
+    std::vector<int> slot_;      // of a cell used for interpolation, -1 none
+    // Surface points by shape, radius and spacing, computed once.
     std::map<std::tuple<const Shape*, double, double>, std::vector<SurfacePoint>> rings_;
 };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The interior multipliers eliminated: the cells of a grain move with it, so that grain and covered
-// fluid are one body. With m = rho_f V_c of each cell, r from the grain's
-// centre, sums over its interior cells,
+// Elimination of the interior multipliers: the cells inside a grain move with it, so grain and
+// covered fluid are one rigid body. With m = rho_f V_c of each cell and r from the grain's centre,
+// summed over its interior cells,
 //
 //     A  =  diag(cM, cM, cI)  +  sum m [ 1     0    -r_y ]      symmetric
 //                                      [ 0     1     r_x ]
 //                                      [-r_y   r_x   r^2 ]
 //     P  =  diag(cM, cM, cI) U45 - J_h  +  sum m (u_x, u_y, r_x u_y - r_y u_x)
 //
-// and the body's motion without boundary points is A^-1 P. A is positive for grains of any density
-// that cover fluid, also where cM <= 0. Valid C++17.
+// and, without boundary points, the body moves with A^-1 P. A is positive definite for grains of
+// any density that cover fluid, also where cM <= 0. Valid C++17.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,11 +19,11 @@
 
 namespace turbidite {
 
-/// Sums over the interior cells of a grain, each times its volume over the reference cell's: 1,
+/// Sums over the interior cells of a grain, weighted by V_c over the reference cell's volume: 1,
 /// r_x, r_y, r^2, u_x, u_y, r x u.
 using CellSums = Eigen::Matrix<double, 7, 1>;
 
-/// Over the cells of this rank.
+/// The sums over this rank's cells for grain g.
 CellSums sum_cells(const CollocationPoints& points, FluidField& field, int g);
 
 /// A [kg, kg m, kg m2 per unit length].
@@ -33,8 +33,8 @@ Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums,
 /// P [kg m/s, kg m2/s per unit length].
 Planar body_momentum(const ImmersedGrain& grain, const CellSums& sums, double reference_mass);
 
-/// Lets the cells of this rank move with the grain; returns the impulse and its moment that the
-/// fluid loses.
+/// Sets this rank's interior cells of grain g to the rigid motion; returns the impulse and its
+/// moment lost by the fluid.
 Planar carry_cells(const CollocationPoints& points, FluidField& field, int g, const Planar& motion);
 
 }  // namespace turbidite

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the multiplier method asks of a fluid: velocities in the cells of a rectilinear grid, the
-// mass that answers for them, and sums over the ranks that share the grid. A rank sees its own
-// cells and a halo of at least two layers; both have local indices. Valid C++17.
+// What the multiplier method needs from a fluid: velocities in the cells of a rectilinear grid, the
+// mass of the cells, and sums over the ranks that share the grid. A rank sees its own cells and a
+// halo of at least two layers; both have local indices. Valid C++17.
 #pragma once
 
 #include "coupler/protocol/records.hpp"
@@ -18,46 +18,49 @@ class FluidField {
     /// The whole grid, over all ranks.
     virtual const CellGrid& grid() const = 0;
 
-    /// Local index of a cell, halo included; -1 where this rank knows nothing of it.
+    /// Local index of a cell, halo included; -1 if this rank does not know the cell.
     int cell(int i, int j, int k) const {
         const std::array<int, 3>& counts = grid().counts;
         const bool inside = i >= 0 && j >= 0 && k == 0 && i < counts[0] && j < counts[1];
         return inside ? cells().at(i, j) : -1;
     }
 
-    /// The same for cells of the grid, unchecked and fast.
+    /// The same lookup without bounds checks, for cells of the grid.
     virtual const CellTable& cells() const = 0;
 
     virtual int local_cells() const = 0;  ///< owned and halo cells
     virtual bool owns(int cell) const = 0;
 
-    /// rho_f V of a cell with the edges grid().spacing [kg]; per unit length in two dimensions.
+    /// rho_f V of the reference cell, whose edges are grid().spacing [kg]; per unit length in two
+    /// dimensions.
     virtual double reference_mass() const = 0;
 
-    /// rho_f V_c [kg], the same.
+    /// rho_f V_c [kg]; per unit length in two dimensions.
     double cell_mass(int i, int j) const { return reference_mass() * grid().relative_volume(i, j); }
 
-    /// One component of velocity, contiguous over local cells [m/s].
+    /// One component of the velocity by local cell [m/s].
     virtual double* velocity(int axis) = 0;
 
-    /// Other ranks know the cell too: it is in this one's halo or in another's.
+    /// Whether other ranks know the cell too: it is in this rank's halo or in another's.
     virtual bool shares(int) const { return false; }
 
-    /// Owners' values of both components to the halos of the others.
+    /// Copies both components from the owners into the halos of the other ranks.
     virtual void import_halo(double*, double*) const {}
 
-    /// Adds up what ranks have in cells that several know, and gives the sum to all of them. Both
-    /// components are by local cell, and zero where the rank has nothing to say.
+    /// Sums, over all ranks that know a cell, the values they hold there, and returns the sum to
+    /// each of them. Both components are indexed by local cell, and zero where the rank contributes
+    /// nothing.
     virtual void share_sums(double*, double*) const {}
 
     /// Sums over the ranks of the fluid, in place.
     virtual void sum_over_ranks(double*, int) const {}
 
-    /// The grains this rank holds, before their first sum over holders; by every rank.
+    /// Announces the grains this rank holds. Called by every rank, before the first
+    /// sum_over_holders.
     virtual void hold_grains(const GrainId*, int) const {}
 
-    /// Sums, in place, the rows of grains that more than one rank holds: so many numbers for each
-    /// grain of `hold_grains`, in its order. The same bits for every holder.
+    /// Sums data of grains held by more than one rank, in place: so many numbers for each grain of
+    /// `hold_grains`, in its order. The result is bitwise the same on every holder.
     virtual void sum_over_holders(double*, int) const {}
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A grain as step 5 sees it (Topin 2011, Eqs. 9-10): where it is, what inertia it adds to the fluid
-// it covers, and how it would move without that fluid. Plane motion: two velocities and a spin.
-// Valid C++17.
+// A grain as seen by step 5 (Topin 2011, Eqs. 9-10): its position, the inertia it adds to the fluid
+// it covers, and the motion it would have without that fluid. Plane motion: two velocity components
+// and a spin. Valid C++17.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +26,8 @@ struct ImmersedGrain {
     Planar contact_motion = Planar::Zero();                     ///< U^{n+4/5}, omega^{n+4/5}
     Planar announced_impulse = Planar::Zero();                  ///< J_h and its moment
 
-    /// Velocity with which the multipliers find the grain: an announced impulse is already in
-    /// U^{n+4/5} and is taken back, for the multipliers contain it.
+    /// Velocity before the multipliers act: J_h is already contained in U^{n+4/5} and is
+    /// subtracted, since the multipliers include it.
     Planar free_motion() const {
         return contact_motion - Planar(announced_impulse.x() / effective_mass,
                                        announced_impulse.y() / effective_mass,

@@ -25,7 +25,7 @@ MultiplierSettings multiplier_settings(const Settings& settings) {
     return result;
 }
 
-/// The values of `fluid.points`: are there boundary points?
+/// The values of `fluid.points`, and whether they place boundary points.
 struct PointKind {
     const char* name;
     bool boundary;
@@ -42,7 +42,8 @@ PointRules point_rules(const Settings& settings) {
     throw std::invalid_argument("unknown fluid.points \"" + name + "\"; known: " + known);
 }
 
-/// The plane's (x, y, spin) are 0, 1, 5 of the six; the others do not move and get ones.
+/// The plane components (x, y, spin) are 0, 1, 5 of the six in space. The others are fixed; their
+/// diagonal entries are set to 1.
 std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
     constexpr std::size_t six[] = {0, 1, 5};
     std::array<double, 21> inertia{};
@@ -146,8 +147,8 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
     return result;
 }
 
-/// Exactly one rank does: the owner of the cell that holds the centre or, for a grain on its way
-/// out, of the nearest one.
+/// True on exactly one rank: the owner of the cell that contains the centre or, for a grain leaving
+/// the grid, of the nearest cell.
 bool ImmersedStep::answers_for(std::size_t grain) const {
     const CellGrid& grid = field_.grid();
     int index[2];

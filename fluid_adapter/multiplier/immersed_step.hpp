@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Step 5 for grains as the coupler sends them (coupler/protocol/records.hpp). In a window grains
-// are taken once, in one of two ways:
+// Step 5 for grains as the coupler sends them (coupler/protocol/records.hpp). The grains of a
+// window are taken once, in one of two ways:
 //
-//     free         at t^n; they move from U^n + g' dt, g' their weight over their inertia
-//     constrained  after a contact solve, with the velocities and impulses that they bring
+//     free         at t^n, moving with U^n + g' dt, where g' is their submerged weight over cM
+//     constrained  after a contact solve, with the velocities and impulses it found
 //
-// then come solve, push as often as the coupler asks, and `impose`, which writes u and yields the
-// kicks. A push applies what contact impulses have changed by to the coupled system of fluid and
-// grains, so that its momentum is exact whatever the effective inertia told to the contact solve.
-// Valid C++17.
+// Then follow solve, push as often as the coupler asks, and `impose`, which writes u and makes the
+// kicks available. A push applies the changes of the contact impulses to the coupled system of
+// fluid and grains, whose momentum is therefore exact even if the effective inertia used by the
+// contact solve is approximate. Valid C++17.
 #pragma once
 
 #include <memory>
@@ -28,30 +28,31 @@ class ImmersedStep {
     /// fluid.hydrodynamic_radius, and run.*: run.slip_tolerance among them.
     ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes);
 
-    /// Takes the grains that touch this rank and places their points; first call of a window. They
-    /// fall freely over `step` [s].
+    /// Takes the grains that touch this rank and places their points; first call of a window. The
+    /// grains are free, and fall for `step` [s].
     void take_free(const std::vector<GrainState>& grains, double step);
 
-    /// The same for grains that come with velocities in which their contact impulses are contained.
+    /// The same for grains whose velocities already contain their contact impulses.
     void take_constrained(const std::vector<GrainState>& grains);
 
-    /// Multipliers of the grains taken.
+    /// Solves for the multipliers of the grains taken.
     MultiplierResult solve();
 
-    /// Applies what the contact impulses have changed by and solves again. Throws
-    /// std::runtime_error unless they are for the grains taken, each once.
+    /// Applies the changes of the contact impulses and solves again. Throws std::runtime_error
+    /// unless there is exactly one entry for each grain taken.
     MultiplierResult push(const std::vector<GrainState>& with_contacts);
 
-    /// Of the grains whose centre this rank owns. Mismatches are those of the last push.
+    /// Responses of the grains whose centre this rank owns. Mismatches are those of the last push.
     std::vector<FreeResponse> responses() const;
 
     /// Writes u into the field; last call of a window.
     void impose();
 
-    /// Of the grains whose centre this rank owns; after impose.
+    /// Kicks of the grains whose centre this rank owns; after impose.
     std::vector<Kick> kicks() const;
 
-    /// Sum of the multiplier impulses of these grains [N s/m]; after impose.
+    /// Sum of the multiplier impulses over these grains [N s/m], and of their moments [N s]; after
+    /// impose.
     Planar impulse_to_grains() const;
 
     const CollocationPoints& points() const { return points_; }
@@ -66,11 +67,11 @@ class ImmersedStep {
     ImmersedBodies bodies_;
     double hydrodynamic_radius_, gravity_;
     MultiplierSettings settings_;
-    double slip_goal_ = 0.0;  // of the window's first solve [m/s]
+    double slip_goal_ = 0.0;  // rms slip to reach, set by the window's first solve [m/s]
 
     std::vector<ImmersedGrain> grains_;
     std::unordered_map<GrainId, std::size_t> index_;
-    std::vector<Planar> contact_impulses_;  // J, contained in the motions so far
+    std::vector<Planar> contact_impulses_;  // J, contained in the present motions
     std::vector<Planar> changes_;
     std::vector<Planar> solved_;  // velocities that came with the last contact impulses
     std::vector<double> mismatch_;

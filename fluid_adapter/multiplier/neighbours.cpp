@@ -6,7 +6,7 @@
 namespace turbidite {
 namespace {
 
-/// Square bins at least as wide as the reach of an interaction.
+/// Square bins at least as wide as the interaction distance.
 class Bins {
  public:
     Bins(const CellGrid& grid, double reach) : grid_(grid) {
@@ -19,7 +19,7 @@ class Bins {
         lists_[number(place(position))].push_back(grain);
     }
 
-    /// Numbers of the bins around a position, each once even where the grid is two bins wide.
+    /// The bins around a position, each once even where the grid is only two bins wide.
     const std::vector<int>& around(const Eigen::Vector3d& position) {
         near_.clear();
         const std::array<int, 3> centre = place(position);
@@ -81,7 +81,7 @@ std::vector<std::pair<int, int>> near_pairs(const CellGrid& grid,
     if (grains.size() < 2) return pairs;
     Bins bins(grid, 2.0 * largest_radius(grains) + margin);
     for (std::size_t b = 0; b < grains.size(); ++b) {
-        // Earlier grains only: each pair is met once, from its later member.
+        // Only grains with a smaller index are in the bins: each pair is found once.
         for (int bin : bins.around(grains[b].position))
             for (int a : bins.grains(bin)) {
                 const Eigen::Vector3d apart =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Which grains are near which, by cell lists: work grows with the number of grains, not with its
-// square. Valid C++17.
+// Pairs of neighbouring grains by cell lists: the cost is linear in the number of grains. Valid
+// C++17.
 #pragma once
 
 #include <utility>
@@ -12,8 +12,8 @@
 
 namespace turbidite {
 
-/// Pairs (a, b), a < b, of indices of grains whose circumscribed circles of radius R_h come nearer
-/// than `margin` [m], images across cyclic sides included; every pair once.
+/// Pairs (a, b), a < b, of grain indices whose circumscribed circles of radius R_h are closer than
+/// `margin` [m], periodic images included; each pair once.
 std::vector<std::pair<int, int>> near_pairs(const CellGrid& grid,
                                             const std::vector<ImmersedGrain>& grains,
                                             double margin);

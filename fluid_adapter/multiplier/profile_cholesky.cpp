@@ -7,7 +7,7 @@
 namespace turbidite {
 namespace {
 
-/// A pivot below this share of its diagonal entry is rounding.
+/// A pivot below this fraction of its diagonal entry is zero to rounding.
 constexpr double least_pivot = 1e-13;
 
 }  // namespace
@@ -43,7 +43,7 @@ bool ProfileCholesky::factorise() {
             const double* other = values_.data() + place_[begin + j];
             double sum = row[j];
             for (int k = std::max(first, first_[begin + j]); k < j; ++k) sum -= row[k] * other[k];
-            row[j] = sum * inverse_[begin + j];
+            row[j] = sum * inverse_[begin + j];  // L_ij = (A_ij - sum_k L_ik L_jk)/L_jj
         }
         double pivot = row[i];
         for (int k = first; k < i; ++k) pivot -= row[k] * row[k];

@@ -11,8 +11,8 @@
 namespace turbidite {
 namespace {
 
-/// Throws when a grain and the fluid it covers have no positive inertia: it is lighter than the
-/// fluid and covers too little.
+/// Throws if the inertia of a grain with its covered fluid is not positive: the grain is lighter
+/// than the fluid and covers too little of it.
 void demand_positive(const Eigen::Matrix3d& inertia, GrainId id) {
     if (inertia(0, 0) > 0.0 && inertia.determinant() > 0.0) return;
     std::ostringstream text;
@@ -43,7 +43,7 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
     BoundaryOperator(points).apply(cells_.data(), motions_.data(), slip_.data());
 }
 
-/// Masses of the cells that points interpolate from, and which of them other ranks know too.
+/// Masses of the cells used for interpolation, and which of these cells other ranks know too.
 void SaddlePoint::number_cells() {
     cells_.resize(points_->slots());
     per_mass_.clear();
@@ -57,7 +57,7 @@ void SaddlePoint::number_cells() {
     share_y_.resize(field_->local_cells(), 0.0);
 }
 
-/// cells = u.
+/// cells = u, the velocities at the slots.
 void SaddlePoint::import_velocity() {
     const double* ux = field_->velocity(0);
     const double* uy = field_->velocity(1);
@@ -112,6 +112,7 @@ void SaddlePoint::push(const std::vector<Planar>& impulses) {
     BoundaryOperator(*points_).subtract_motion(by_grain_.data(), slip_.data());
 }
 
+/// y = S w = B m^-1 B^T w + T A^-1 T^T w.
 void SaddlePoint::apply(const double* w, double* y) {
     const BoundaryOperator boundary(*points_);
     spread(w);
@@ -122,7 +123,8 @@ void SaddlePoint::apply(const double* w, double* y) {
     boundary.apply(cells_.data(), by_grain_.data(), y);
 }
 
-/// (B B^T/m)^-1 by blocks, with T A^-1 T^T added by the formula of Woodbury.
+/// z = C^-1 r, with C = G + T A^-1 T^T block by block and its inverse by the Woodbury formula:
+/// C^-1 = G^-1 - G^-1 T (A + T^T G^-1 T)^-1 T^T G^-1.
 void SaddlePoint::precondition(const double* r, double* z) {
     const BoundaryOperator boundary(*points_);
     blocks_.solve(r, z);
@@ -156,7 +158,7 @@ void SaddlePoint::impose() {
     }
 }
 
-/// cells = m^-1 B^T values, of the points of all ranks.
+/// cells = m^-1 B^T values, from the points of all ranks.
 void SaddlePoint::spread(const double* values) {
     std::fill(cells_.begin(), cells_.end(), PlaneVector{});
     BoundaryOperator(*points_).spread(values, cells_.data());
@@ -167,8 +169,8 @@ void SaddlePoint::spread(const double* values) {
     }
 }
 
-/// What ranks have written into cells that others know as well is added up at the owners', and
-/// their sums come back.
+/// Values that several ranks have spread into the same cell are summed on its owner, and the sums
+/// are returned.
 void SaddlePoint::share_sums() {
     for (const int slot : border_) {
         const int cell = points_->stencilled[slot].cell;
@@ -179,7 +181,7 @@ void SaddlePoint::share_sums() {
     for (const int slot : border_) {
         const int cell = points_->stencilled[slot].cell;
         cells_[slot] = {share_x_[cell], share_y_[cell]};
-        share_x_[cell] = share_y_[cell] = 0.0;  // for the next time
+        share_x_[cell] = share_y_[cell] = 0.0;  // for the next call
     }
 }
 

@@ -7,7 +7,7 @@
 namespace turbidite {
 namespace {
 
-/// Below this share of u_c a slip is rounding, and there is nothing to solve.
+/// A slip below this fraction of u_c is rounding; there is nothing to solve.
 constexpr double rounding = 1e-13;
 
 double target(const MultiplierSettings& settings, double first_rms) {
@@ -41,16 +41,16 @@ MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& setting
 
     MultiplierResult result;
     while (std::sqrt(rr / points) > goal && result.iterations < settings.iterations) {
-        system.precondition(r, z);
+        system.precondition(r, z);  // z = C^-1 r
         const double rz_new = system.dot(r, z);
         const double beta = result.iterations == 0 ? 0.0 : rz_new / rz;
         rz = rz_new;
-        for (int i = 0; i < rows; ++i) w[i] = z[i] + beta * w[i];
-        system.apply(w, y);
-        const double alpha = rz / system.dot(w, y);
+        for (int i = 0; i < rows; ++i) w[i] = z[i] + beta * w[i];  // w <- z + beta w
+        system.apply(w, y);                                        // y = S w
+        const double alpha = rz / system.dot(w, y);                // alpha = r z / w S w
         for (int i = 0; i < rows; ++i) {
-            L[i] += alpha * w[i];
-            r[i] -= alpha * y[i];
+            L[i] += alpha * w[i];  // L <- L + alpha w
+            r[i] -= alpha * y[i];  // r <- r - alpha S w
         }
         rr = system.dot(r, r);
         ++result.iterations;
