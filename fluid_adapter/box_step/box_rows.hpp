@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Which rows of a box a rank has, and what lies beyond them: another rank's rows, the rows at the
-// other end of a cyclic box, or a side. Valid C++17.
+// The rows of a box that belong to a rank, and what lies beyond them: rows of another rank, rows
+// from the opposite end of a cyclic box, or a side of the box. A row is all cells with the same y.
+// Valid C++17.
 #pragma once
 
 #include <memory>
@@ -13,24 +14,24 @@ namespace turbidite {
 
 class BoxRows {
  public:
-    /// How many rows beyond its own a rank sees, and the fewest it may have.
+    /// How many rows beyond its own a rank sees; also the fewest rows a rank may have.
     static constexpr int beyond = 2;
 
     virtual ~BoxRows() = default;
 
-    virtual int first() const = 0;  ///< of this rank's rows, in the box
+    virtual int first() const = 0;  ///< index in the box of this rank's first row
     virtual int count() const = 0;
 
-    /// Rows, not a side, lie below the first one and above the last one.
+    /// Whether there are rows, and not a side, below the first row; above the last row.
     virtual bool open_below() const = 0;
     virtual bool open_above() const = 0;
 
-    /// Arrays of these rows for a separable solve.
+    /// Arrays for a separable solve over these rows.
     virtual std::unique_ptr<Pencils> pencils() const = 0;
 
-    /// `edges`: this rank's first two and last two rows, one after the other. Fills, where rows
-    /// lie, `outside`: the two below the first row, then the two above the last one. Every rank
-    /// calls it.
+    /// Fills `outside`: the two rows below the first one, then the two above the last one, as far
+    /// as these exist. `edges`: this rank's first two and last two rows. Both arrays hold their
+    /// rows contiguously. Every rank calls it.
     virtual void exchange(const double* edges, double* outside) = 0;
 };
 

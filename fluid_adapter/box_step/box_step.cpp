@@ -51,13 +51,13 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
     }
 }
 
-/// k on the faces below row j: sides of the box have nothing to remember.
+/// k on the faces below row j. On the sides of the box it is 0: e is not carried over there.
 double BoxStep::kept_on_row(int j) const {
     const bool side = (j == 0 && !rows_->open_below()) || (j == ny_ && !rows_->open_above());
     return side ? 0.0 : kept_;
 }
 
-/// S.u + k e on the faces of row j across x.
+/// S.u + k e on the x faces of row j.
 void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
     mean_flux(nx_ + 1, u - 1, u, kept, excess_x(j), flux);
     if (fluid_.velocity.x.periodic()) return;
@@ -80,7 +80,7 @@ FluxReport BoxStep::project(double dt) {
     return {largest(largest_divergence_), 0.5 * dt * largest(largest_outflow_)};
 }
 
-/// -div(S.u + k e)/dt of row j, where the solve finds it.
+/// -div(S.u + k e)/dt of row j, written into the right-hand side of the pressure solve.
 void BoxStep::right_hand_side(int j, double dt) {
     flux_along(j, u_.row(j), kept_, flux_x_.data());
     mean_flux(nx_, v_.row(j), v_.row(j + 1), kept_on_row(j + 1), excess_y(j + 1),
@@ -91,7 +91,8 @@ void BoxStep::right_hand_side(int j, double dt) {
     flux_below_.swap(flux_above_);
 }
 
-/// u1 of row j, phi1 and e on the faces below it and across x; then row j - 1 has all its fluxes.
+/// u1 of row j, and phi1 and e on the faces below it and on its x faces; row j - 1 then has all its
+/// fluxes and is checked.
 void BoxStep::correct_row(int j, double dt) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
@@ -111,7 +112,7 @@ void BoxStep::correct_row(int j, double dt) {
     corrected_below_.swap(corrected_here_);
 }
 
-/// The same across x, and the row into u.
+/// The x component of u1, phi1 and e on the x faces of row j, and u1 of the row into u.
 void BoxStep::correct_across(int j, double dt, const double* p) {
     const double* u = u_.row(j);
     double* corrected = corrected_u_.data() + RowReader::beyond;
@@ -124,7 +125,8 @@ void BoxStep::correct_across(int j, double dt, const double* p) {
     std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
 }
 
-/// Of the row before: its fluxes across x, and along y those below and above it.
+/// Divergence and Courant number of the previous row, from its x fluxes and the fluxes below and
+/// above.
 void BoxStep::check_row() {
     const double *left = flux_x_.data(), *right = left + 1;
     divergence_row(nx_, 1.0 / hx_, left, right, 1.0 / hy_, flux_below_.data(), flux_above_.data(),
@@ -156,7 +158,7 @@ void BoxStep::hold_flux() {
     held_ = true;
 }
 
-/// Momentum through the faces above row j.
+/// Momentum carried through the faces above row j.
 void BoxStep::carry_above(int j) {
     const double two_by_k = 2.0 / fluid_.limiter;
     const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
@@ -187,8 +189,8 @@ void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
     viscous_[1].solve([](int) {}, take);
 }
 
-/// Sums per_cell(side, cell, face) |S| over the cells along sides that are not cyclic: side 0 to 3
-/// left, right, bottom, top; face: index of the side's face in excess(side/2).
+/// Sums per_cell(side, cell, face) |S| over the cells along the non-cyclic sides. Sides 0 to 3 are
+/// left, right, bottom, top; `face` is the index of the boundary face in excess(side/2).
 template <class PerCell>
 BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
     Force sum{};
@@ -215,7 +217,7 @@ End end_at(const PlaneOperator& plane, int side) {
     return side % 2 == 0 ? axis.lower : axis.upper;
 }
 
-/// Value at the side's face over that in the cell.
+/// Value at the boundary face over the value in the cell next to it.
 double at_face(const PlaneOperator& plane, int side) {
     return 0.5 * (1.0 + mirrored(end_at(plane, side)));
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Steps 1 to 3 of a window on a uniform box (Topin 2011, section 2.2), on contiguous components of
-// u, row by row. The same numbers as OpenFOAM's operators (foam_app/operatorStep.hpp) to rounding:
+// Steps 1 to 3 of a window on a uniform box (Topin 2011, section 2.2), on contiguous arrays of the
+// components of u, row by row (a row is all cells with the same y). The results equal those of
+// OpenFOAM's operators (foam_app/operatorStep.hpp) to rounding:
 //
 //     1  projection   phi1 = S.u + k e - dt S.grad p,  div phi1 = 0,   u1 = u - dt grad p,
 //                     e = phi1 - S.u1        k, e: foam_app/stokesProjection.hpp
 //     2  transport    u2 = u1 - dt div(phi1 u1)                        convective_flux.hpp
 //     3  viscosity    u3 - dt nu laplacian(u3) = u2
 //
-// Fluxes are face velocities: phi over |S|. The flux itself is never stored: it is e + S.u1, two
-// values per cell, beside u and p; only transport in several parts keeps it. Each step reads and
-// writes its fields once. Valid C++17.
+// Fluxes are face velocities: phi over |S|. The flux is not stored, but recomputed as e + S.u1,
+// with two values of e per cell beside u and p; only transport in several sub-steps stores it. Each
+// step reads and writes its fields once. Valid C++17.
 #pragma once
 
 #include <array>
@@ -23,15 +24,15 @@
 namespace turbidite {
 
 struct BoxFluid {
-    PlaneOperator velocity, pressure;  ///< grid, and the conditions of u and p
+    PlaneOperator velocity, pressure;  ///< grid, and the boundary conditions of u and p
     double viscosity = 0.0;            ///< nu [m2/s]
-    double limiter = 1.0;              ///< k of limitedLinearV
+    double limiter = 1.0;              ///< k of limitedLinearV (not the k of step 1)
 };
 
-/// Of the projected flux, over this rank's cells.
+/// Of the projected flux phi1, over this rank's cells.
 struct FluxReport {
     double divergence = 0.0;  ///< max |div phi1| [1/s]
-    double courant = 0.0;     ///< largest, as OpenFOAM defines it
+    double courant = 0.0;     ///< largest Courant number, as OpenFOAM defines it
 };
 
 class BoxStep {
@@ -42,31 +43,31 @@ class BoxStep {
     /// The whole box on one rank.
     explicit BoxStep(const BoxFluid& fluid);
 
-    /// One component of u, rows of x.cells values [m/s]: given before `project`, result after
-    /// `diffuse`.
+    /// One component of u [m/s], in rows of x.cells values: set it before `project`; holds the
+    /// result after `diffuse`.
     double* velocity(int axis) { return viscous_[axis].values(); }
 
-    /// p over rho_f [m2/s2], known up to a constant where no side fixes it; after `project`.
+    /// p over rho_f [m2/s2], up to a constant where no side fixes it; valid after `project`.
     double* pressure() { return pressure_.values(); }
 
-    /// e on the faces across an axis [m/s]: x, rows of x.cells + 1; y, rows of x.cells, one more
-    /// than this rank has rows of cells. On the sides of the box, where nothing is remembered, what
-    /// the flux has beyond the boundary value of u1.
+    /// e on the faces normal to an axis [m/s]. Axis x: rows of x.cells + 1 values; axis y: rows of
+    /// x.cells values, one row more than this rank has rows of cells. On the sides of the box,
+    /// where e is not carried over, it is the flux minus the boundary value of u1.
     std::vector<double>& excess(int axis) { return excess_[axis]; }
 
     FluxReport project(double dt);
 
     void transport(double dt);
 
-    /// For transport in several parts: between the two, phi1 is kept while u changes.
+    /// For transport in several sub-steps: keeps phi1 for all of them while u changes.
     void hold_flux();
     void release_flux() { held_ = false; }
 
-    /// `take(j)` is called once row j is complete.
+    /// Calls `take(j)` when row j is complete.
     void diffuse(double dt, const SeparableSolve::RowWork& take);
 
-    // What crosses the sides of the box that this rank has, over rho_f and per unit length out of
-    // the plane [m3/s2]: the rate at which the fluid's momentum changes by it.
+    // What crosses this rank's sides of the box: the rate of change of the fluid's momentum it
+    // causes, over rho_f and per unit length out of the plane [m3/s2].
     using Force = std::array<double, 2>;
     Force pressure_force();    ///< after `project`
     Force convective_force();  ///< after `project`, before `transport`
@@ -94,14 +95,14 @@ class BoxStep {
 
     BoxFluid fluid_;
     std::unique_ptr<BoxRows> rows_;
-    int nx_, ny_;  // of this rank
+    int nx_, ny_;  // cells of this rank
     double hx_, hy_;
     SeparableSolve pressure_;
     std::array<SeparableSolve, 2> viscous_;
     double factorised_for_ = 0.0;
-    double kept_ = 0.0;  // k of this window
+    double kept_ = 0.0;  // k of step 1 in this window
     std::array<std::vector<double>, 2> excess_;
-    std::array<std::vector<double>, 2> flux_;  // phi1 over |S|, where it was held; like excess_
+    std::array<std::vector<double>, 2> flux_;  // phi1 over |S| if held, laid out like excess_
     bool held_ = false;
     RowReader u_, v_, p_;
     Row flux_x_, flux_below_, flux_above_;

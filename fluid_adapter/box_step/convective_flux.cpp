@@ -12,7 +12,7 @@ void carry(int count, double two_by_k, const double* __restrict flux, const doub
            const double* __restrict v0, const double* __restrict v1, const double* __restrict v2,
            const double* __restrict v3, double* __restrict carried_u,
            double* __restrict carried_v) {
-    constexpr double tiny = 1e-300;  // no difference, no correction; never 0/0
+    constexpr double tiny = 1e-300;  // avoids 0/0: no difference, no correction
     for (int i = 0; i < count; ++i) {
         const bool up = flux[i] > 0.0;
         const double du = u2[i] - u1[i], dv = v2[i] - v1[i];

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Momentum carried through a row of faces, by OpenFOAM's `Gauss limitedLinearV k`: with d the
-// difference of u over the face and d' the one over the next face upstream,
+// Momentum carried through a row of faces, as by OpenFOAM's `Gauss limitedLinearV k`. With d the
+// difference of u across the face and d' that across the next face upstream,
 //
 //     u_f = u_upwind +- l d/2,    l = clamp((2/k) r, 0, 1),    r = d . d'/d . d
 //
-// which is linear interpolation where u is smooth. One limiter for both components. OpenFOAM writes
-// r with the gradient at the upwind cell, 2 d . (h grad u)/d . d - 1; on equal cells with mirror
-// images beyond the sides it is this. Valid C++17.
+// which is linear interpolation where u is smooth. Both components share one limiter. OpenFOAM
+// writes r with the gradient at the upwind cell, 2 d . (h grad u)/d . d - 1; on equal cells with
+// mirror images beyond the sides the two are the same. Valid C++17.
 #pragma once
 
 namespace turbidite {
 
-/// One component of u on the two sides of a row of faces: upstream and downstream by two cells.
+/// One component of u on both sides of a row of faces: the two nearest cells on either side.
 struct AcrossFaces {
     const double *far_low, *low, *high, *far_high;
 };
 
-/// carried = flux u_f for both components; two_by_k: 2/k.
+/// carried = flux u_f for both components; two_by_k: 2/k of the limiter.
 void convective_flux(int count, double two_by_k, const double* flux, const AcrossFaces& u,
                      const AcrossFaces& v, double* carried_u, double* carried_v);
 

@@ -27,7 +27,7 @@ void RowReader::look_outside(const double* values) {
     std::copy_n(values, beyond * nx, edges_.begin());
     std::copy_n(values + (rows_.count() - beyond) * nx, beyond * nx, edges_.begin() + beyond * nx);
     rows_.exchange(edges_.data(), outside_.data());
-    // Rows of both arrays, upwards: first, second, last but one, last; -2, -1, n, n + 1.
+    // Rows in edges: first, second, last but one, last; in outside: -2, -1, n, n + 1.
     if (!rows_.open_below()) {
         mirror(0, 1, plane_.y.lower);
         mirror(1, 0, plane_.y.lower);
@@ -38,7 +38,7 @@ void RowReader::look_outside(const double* values) {
     }
 }
 
-/// A row of edges into a row of outside.
+/// Fills row `to` of outside with the mirror image of row `from` of edges.
 void RowReader::mirror(int from, int to, End end) {
     const std::size_t nx = plane_.x.cells;
     const double factor = mirrored(end);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// A rank's rows of a field one after the other, with two values beyond each end and two rows beyond
-// the first and the last, so that no stencil knows about sides or ranks. Beyond a side half a cell
-// away lies the mirror image of the inside (separable_operator.hpp); elsewhere what box_rows.hpp
-// says.
+// Reads the rows of a rank's field in order, each extended by two values at both ends, with two
+// more rows below the first and above the last, so that stencils need not know about sides or
+// ranks. Beyond a side lies the mirror image of the inside (the side is half a cell from the
+// centres, separable_operator.hpp); elsewhere, what box_rows.hpp says.
 //
-// Rows are copies: the caller may change the field behind the reader. Valid C++17.
+// Rows are copies: the caller may overwrite the field behind the reader. Valid C++17.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ class RowReader {
     /// `rows` must outlive it.
     RowReader(const PlaneOperator& plane, BoxRows& rows);
 
-    /// From the first row again; `values`: the rank's rows of x.cells values, one after the other.
-    /// Every rank calls it.
+    /// Restarts at the first row. `values`: the rank's rows of x.cells values, contiguous. Called
+    /// by every rank.
     void begin(const double* values);
 
-    /// Row j, -beyond <= j < rows + beyond: values [-beyond, x.cells + beyond). Rows are asked
-    /// for in ascending order; the last `kept` remain valid.
+    /// Row j, -beyond <= j < rows + beyond: values [-beyond, x.cells + beyond). Rows must be
+    /// requested in ascending order; the last `kept` rows remain valid.
     const double* row(int j);
 
-    /// Fills the values beyond the ends of a row.
+    /// Fills the values beyond both ends of a row.
     void extend(double* row) const;
 
     static constexpr int kept = 4;
@@ -44,12 +44,12 @@ class RowReader {
     PlaneOperator plane_;
     BoxRows& rows_;
     const double* values_ = nullptr;
-    int loaded_ = 0;                       // the last row
+    int loaded_ = 0;                       // index of the last row read
     std::vector<double> edges_, outside_;  // as in box_rows.hpp
     std::vector<double> slots_;
 };
 
-/// 1 or -1: what a mirror image beyond this end is multiplied with.
+/// Factor of the mirror image beyond this end: 1 or -1.
 double mirrored(End end);
 
 }  // namespace turbidite

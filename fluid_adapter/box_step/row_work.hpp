@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The inner loops of box_step.cpp: one row each, no sides, no branches, so that the compiler can
-// use the vector unit. Compiled for AVX2 as well; the machine chooses when the program starts, by
-// what it can do: a name of a processor would be compared as a name, and all others would get the
-// plain code. Without fused operations both give the same bits. Face i of a row lies between cells
-// i - 1 and i. Valid C++17.
+// The inner loops of box_step.cpp: one row each, without sides or branches, so that the compiler
+// can vectorise them. They are also compiled for AVX2, and the version is selected at program start
+// by the features of the processor; selecting by processor name would leave unknown models with the
+// plain code. Without fused operations both versions give the same bits. Face i of a row lies
+// between cells i - 1 and i. Valid C++17.
 #pragma once
 
 namespace turbidite {
@@ -23,7 +23,7 @@ void mean_flux(int count, const double* low, const double* high, double kept, co
 void divergence_row(int count, double x, const double* left, const double* right, double y,
                     const double* below, const double* above, double* out);
 
-/// out[i] = in[i] - step (high[i] - low[i]); out may be in
+/// out[i] = in[i] - step (high[i] - low[i]); out may alias in
 void correct(int count, double step, const double* low, const double* high, const double* in,
              double* out);
 

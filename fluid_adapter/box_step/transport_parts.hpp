@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// How many steps transport is cut into. Forward Euler with a limiter of at most 1 keeps u within
+// The number of sub-steps of transport. Forward Euler with a limiter of at most 1 keeps u within
 // its bounds up to a Courant number of 2/3, and jets between grains are several times as fast as
 // the grains themselves. Valid C++17.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace turbidite {
 
-/// At least one, also for a Courant number that is no number: that is refused elsewhere.
+/// At least one, also for a Courant number that is NaN, which is refused elsewhere.
 inline int transport_parts(double courant) {
     constexpr double limit = 2.0 / 3.0, most = 1000.0;
     return std::isfinite(courant)

@@ -38,7 +38,7 @@ void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
     scale_ = per_r / (problem.beta * normalisation);
     std::vector<double> shift;
     for (const double mu : mu_) shift.push_back((problem.alpha / problem.beta + mu) * per_r);
-    if (singular_) shift[0] = 1.0;  // what comes of it is replaced
+    if (singular_) shift[0] = 1.0;  // any regular value: mode 0 is replaced later
     const int last = open_length() - 1;
     e_.compute(shift, along_.diagonal(0) * per_r, along_.diagonal(1) * per_r,
                along_.diagonal(last) * per_r, open_length());
@@ -47,7 +47,7 @@ void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
     close_the_ring(shift);
 }
 
-/// w, by the recurrences with 1 at both ends, and what closes the ring.
+/// w = T^-1 (e_first + e_last) by the same recurrences, and the divisor for the last unknown.
 void ColumnSolve::close_the_ring(const std::vector<double>& diagonal) {
     const int last = open_length() - 1;
     for (int j = 0; j <= last; ++j)
@@ -81,7 +81,7 @@ void ColumnSolve::up(int j, double* values) {
     });
 }
 
-/// x_j = z_j + e_j x_{j+1}.
+/// Back substitution: x_j = z_j + e_j x_{j+1}.
 void ColumnSolve::substitute(int j, double* values) const {
     double* row = values + at(j);
     const double* above = values + at(j + 1);
@@ -95,7 +95,7 @@ double ColumnSolve::turn(double* values) {
     return singular_ ? solve_constants() : 0.0;
 }
 
-/// The last unknown of the ring needs the whole of z.
+/// x_{n-1} of a periodic axis, which needs all of z.
 void ColumnSolve::close_last(double* values) {
     const int n = along_.cells;
     for (int j = n - 3; j >= 0; --j) substitute(j, values);
@@ -119,8 +119,8 @@ void ColumnSolve::down(int j, double* values) {
     if (j == 0) values[0] = constants_[0];
 }
 
-/// D_j = x_{j+1} - x_j = D_{j-1} - s f_j, summed twice from one end; no D_{-1} beyond a neumann
-/// end, and around a ring the D sum to zero.
+/// The mode of constants, with D_j = x_{j+1} - x_j = D_{j-1} - s f_j summed twice from one end.
+/// There is no D_{-1} beyond a neumann end; on a periodic axis the D sum to zero.
 double ColumnSolve::solve_constants() {
     const int n = along_.cells;
     double mean = 0.0;
@@ -140,7 +140,7 @@ double ColumnSolve::solve_constants() {
         x = next;
     }
     for (double& value : constants_) value -= sum / n;
-    return mean / normalisation_;  // mode 0 of a row is its mean times this
+    return mean / normalisation_;  // mode 0 of a row is its mean times the normalisation
 }
 
 }  // namespace turbidite

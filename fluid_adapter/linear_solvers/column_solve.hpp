@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// For each mode k of x, the tridiagonal system that remains along y,
+// For each mode k of x, the tridiagonal system along y that remains,
 //
 //     (alpha + beta (mu_k + L)) x = f / normalisation       mu_k, L: separable_operator.hpp
 //
-// solved by elimination, all modes side by side, so that the inner loop runs over contiguous
-// modes. Over r = beta/h2 the matrix has off-diagonals -1 and the recurrences are
+// solved by elimination for all modes at once, so that the inner loop runs over contiguous modes. A
+// row is the values of one y. Divided by r = beta/h2 the matrix has off-diagonals -1, and the
+// recurrences are
 //
-//     e_j = 1/(d_j - e_{j-1})             d_j  diagonal over r, > 2 or nearly so: no pivoting
-//     z_j = (s f_j + z_{j-1}) e_j         s = 1/(r normalisation)
-//     x_j = z_j + e_j x_{j+1}
+//     e_j = 1/(d_j - e_{j-1})             d_j: diagonal over r, d >= 2 but for rounding: no
+//     pivoting z_j = (s f_j + z_{j-1}) e_j         s = 1/(r normalisation) x_j = z_j + e_j x_{j+1}
 //
-// e is a property of the mode after a few rows (elimination_factors.hpp), so that a sweep moves one
-// value per cell and little else. Rows are eliminated one by one, upwards and then downwards, with
-// `turn` in between: the caller can fill, transform and empty a row while it is in cache.
+// After a few rows e no longer depends on the row (elimination_factors.hpp), so that a sweep over a
+// row moves little more than one value per cell. Rows are eliminated one by one, upwards and then
+// downwards, with `turn` in between: the caller can fill, transform and read out a row while it is
+// in cache.
 //
-// A periodic axis is closed by its last unknown: the others obey
-// T x' = f' + (e_first + e_last) x_{n-1}, so with w = T^-1 (e_first + e_last), stored,
+// On a periodic axis the last unknown is eliminated first. The others satisfy T x' = f' + (e_first
+// + e_last) x_{n-1}, so with w = T^-1 (e_first + e_last), stored,
 //
 //     x_{n-1} = (s f_{n-1} + z_0 + z_{n-2})/(d_{n-1} - w_0 - w_{n-2}),  x' = z + w x_{n-1}
 //
 // The mode of constants (mu_k = 0, alpha = 0, L singular) has a solution only if its f sums to
-// zero: the mean is taken off f and handed back, and x gets zero mean. It is solved apart, in
-// `turn`.
+// zero: the mean is subtracted from f and returned, and x gets zero mean. This mode is solved
+// separately, in `turn`.
 //
-// Measured against a second transform along y with a diagonal in between: 2 times as fast at
+// Measured against a second transform along y with a diagonal solve in between: 2 times as fast at
+// 100 x 200 cells, 5 times at 320 x 960, since columns are never read with a stride. Valid C++17.
 // 100 x 200 cells, 5 times at 320 x 960, since columns are never read with a stride. Valid C++17.
 #pragma once
 
@@ -42,7 +44,7 @@ struct Helmholtz {
     double beta = 1.0;
 };
 
-/// Modes [first, first + count) of the axis that was transformed.
+/// Modes [first, first + count) of the transformed axis.
 struct ModeRange {
     int first = 0;
     int count = 0;
@@ -52,20 +54,22 @@ class ColumnSolve {
  public:
     ColumnSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes);
 
-    /// Computes e and w. `normalisation`: of the transform of the other axis.
+    /// Computes e and w. `normalisation`: that of the transform along the other axis.
     void factorise(const Helmholtz& problem, double normalisation);
 
-    // `values` holds, for every y, the modes side by side, and is solved in place.
+    // `values` holds, for every y, the modes contiguously; it is solved in place.
 
-    void up(int j, double* values);  ///< for j = 0, 1, ..., cells - 1
+    void up(int j, double* values);  ///< called for j = 0, 1, ..., cells - 1
 
-    /// Returns what was taken off the mode of constants [unit of f]; zero where it is not singular.
+    /// Returns the mean subtracted from the mode of constants [unit of f]; zero if it is not
+    /// singular.
     double turn(double* values);
 
-    /// For j = cells - 1, ..., 0. Completes row j + 1, which is not read again, and at last row 0.
+    /// Called for j = cells - 1, ..., 0. Completes row j + 1, which is not read again, and finally
+    /// row 0.
     void down(int j, double* values);
 
-    /// All of it; returns what `turn` does.
+    /// The whole solve; returns what `turn` returns.
     double solve(double* values);
 
  private:
@@ -79,14 +83,14 @@ class ColumnSolve {
 
     AxisOperator across_, along_;
     ModeRange modes_;
-    bool singular_ = false;  // and then in mode 0, which is this rank's
+    bool singular_ = false;  // only in mode 0, and only on the rank that holds it
     double scale_ = 1.0;     // s
     double normalisation_ = 1.0;
     std::vector<double> mu_, w_;
     EliminationFactors e_;
     std::vector<double> closing_;    // 1/(d_{n-1} - w_0 - w_{n-2})
     std::vector<double> closed_;     // x_{n-1}
-    std::vector<double> constants_;  // f, then x of the mode of constants
+    std::vector<double> constants_;  // f, then x, of the mode of constants
 };
 
 }  // namespace turbidite

@@ -7,9 +7,10 @@
 
 namespace turbidite {
 
-/// Within the rounding of the recurrence: an error of a factor is multiplied by e2 from row to row,
-/// so they add up to 1/(1 - e2) times a rounding or two, or to one per row where that is fewer: a
-/// mode with d = 2 goes to e = 1 as 1/j does and, from a dirichlet end, never settles.
+/// Whether a factor is e within the rounding of the recurrence. The error of a factor is multiplied
+/// by e^2 from row to row, so errors add up to about 1/(1 - e^2) roundings, or to one per row where
+/// that is fewer: a mode with d = 2 approaches e = 1 as 1/j and, from a dirichlet end, never
+/// settles.
 bool EliminationFactors::is_settled(double factor, int mode, int row) const {
     const double e = settled_[mode];
     const double per_rounding = std::max(1.0 - e * e, 1.0 / (row + 1));
@@ -29,13 +30,14 @@ void EliminationFactors::compute(const std::vector<double>& shift, double first,
     stored_.clear();
     settled_.resize(shift.size());
     for (int k = 0; k < modes_; ++k) {
-        const double excess = std::max(shift[k] + (inner - 2.0), 0.0);  // d - 2, no cancellation
+        // d - 2 without cancellation
+        const double excess = std::max(shift[k] + (inner - 2.0), 0.0);
         settled_[k] = 2.0 / (2.0 + excess + std::sqrt(excess * (excess + 4.0)));
     }
     const int stiffest =
         static_cast<int>(std::max_element(shift.begin(), shift.end()) - shift.begin());
     std::vector<double> factors(shift.size());
-    int begin = stiffest, end = stiffest;  // settled so far, which stay so
+    int begin = stiffest, end = stiffest;  // modes that have settled, and remain so
     for (int j = 0; j < rows; ++j) {
         const double diagonal = j == 0 ? first : j == rows - 1 ? last : inner;
         const bool within = j > 0 && j < rows - 1;

@@ -4,11 +4,11 @@
 //
 //     e_0 = 1/d_first,   e_j = 1/(d - e_{j-1}),   e_last = 1/(d_last - e_{last-1})
 //
-// one per mode and row. With j they go to the fixed point e = (d - sqrt(d2 - 4))/2 as e^2j does:
-// for all but the smoothest modes within a few rows; one with d = 2 goes to 1 as 1/j does and may
-// never settle. Only what has not settled is stored; a settled
-// row costs no memory traffic. Modes settle from the one of largest d outwards, which is the last
-// mode, or the middle one of a periodic axis. Valid C++17.
+// one per mode and row (a row is the values of one y). They converge to the fixed point e = (d -
+// sqrt(d^2 - 4))/2 as e^(2j): within a few rows for all but the smoothest modes; one with d = 2
+// goes to 1 as 1/j and may never settle. Only factors that have not settled are stored, so that a
+// settled row costs no memory traffic. Modes settle in order from the one of largest d outwards,
+// which is the last mode, or the middle one of a periodic axis. Valid C++17.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ namespace turbidite {
 
 class EliminationFactors {
  public:
-    /// Diagonals over r: of the first row, of rows within and of the last row are
-    /// shift[k] + first, inner, last.
+    /// Factors for diagonals (over r) of shift[k] + first in the first row, + inner in rows within,
+    /// and + last in the last row.
     void compute(const std::vector<double>& shift, double first, double inner, double last,
                  int rows);
 
-    /// Calls range(begin, end, factors) for neighbouring ranges of modes that together are all:
-    /// factors[k - begin] belongs to mode k.
+    /// Calls range(begin, end, factors) for consecutive ranges that together cover all modes of row
+    /// j; factors[k - begin] belongs to mode k.
     template <class Range>
     void for_row(int j, Range range) const {
         const Row& row = rows_[j];
@@ -39,7 +39,7 @@ class EliminationFactors {
  private:
     struct Row {
         int begin, end;      // settled modes
-        std::size_t stored;  // where the others begin
+        std::size_t stored;  // where the other modes begin in stored_
     };
 
     void store(const std::vector<double>& factors, int begin, int end);

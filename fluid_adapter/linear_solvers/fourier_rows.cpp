@@ -22,7 +22,8 @@ struct Complex {
     double re, im;
 };
 
-/// FFTW's complex transforms of one length, between two arrays that are filled and read by others.
+/// FFTW's complex transforms of one length, out of place, between two arrays that the caller fills
+/// and reads.
 class ComplexPlans {
  public:
     explicit ComplexPlans(int length) : in(allocated(length)), out(allocated(length)) {
@@ -64,7 +65,7 @@ std::vector<Complex> turns(int count, double first, double step) {
     return result;
 }
 
-/// R2HC, HC2R.
+/// Periodic ends: R2HC, HC2R.
 class Periodic final : public RowTransform::Kind {
  public:
     explicit Periodic(int n) : n_(n), plans_(n) {}
@@ -79,7 +80,7 @@ class Periodic final : public RowTransform::Kind {
             const Complex p = Z[k], q = Z[n_ - k];
             a[n_ - k] = 0.5 * (p.im - q.im);
             b[n_ - k] = 0.5 * (q.re - p.re);
-            a[k] = 0.5 * (p.re + q.re);  // after: where k = n - k there is only a real part
+            a[k] = 0.5 * (p.re + q.re);  // last: where k = n - k there is only a real part
             b[k] = 0.5 * (p.im + q.im);
         }
     }
@@ -104,7 +105,7 @@ class Periodic final : public RowTransform::Kind {
     ComplexPlans plans_;
 };
 
-/// REDFT10, REDFT01; with `odd` RODFT10, RODFT01.
+/// Equal ends: REDFT10, REDFT01; with `odd` RODFT10, RODFT01.
 template <bool odd>
 class SameEnds final : public RowTransform::Kind {
  public:
@@ -143,7 +144,7 @@ class SameEnds final : public RowTransform::Kind {
     /// Where mode k of the cosine transform is stored.
     int mode(int k) const { return odd ? n_ - 1 - k : k; }
 
-    /// conj(w) (X_k - i X_{n-k}).
+    /// Undoes the factor w: conj(w) (X_k - i X_{n-k}).
     Complex unturned(const double* x, int k, Complex w) const {
         const double even_part = x[mode(k)], odd_part = x[mode(n_ - k)];
         return {w.re * even_part - w.im * odd_part, -w.im * even_part - w.re * odd_part};
@@ -173,7 +174,7 @@ class SameEnds final : public RowTransform::Kind {
     std::vector<Complex> turns_;
 };
 
-/// REDFT11; with `odd` RODFT11. n even.
+/// Mixed ends: REDFT11; with `odd` RODFT11. n must be even.
 template <bool odd>
 class MixedEnds final : public RowTransform::Kind {
  public:
@@ -184,7 +185,7 @@ class MixedEnds final : public RowTransform::Kind {
         one_row(a);
         one_row(b);
     }
-    void backward(double* a, double* b) override { forward(a, b); }  // their own inverses
+    void backward(double* a, double* b) override { forward(a, b); }  // its own inverse
 
  private:
     static Complex product(Complex x, Complex y) {
@@ -201,7 +202,7 @@ class MixedEnds final : public RowTransform::Kind {
         for (int k = 0; k < n_ / 2; ++k) {
             const Complex y = product(plans_.out[k], turns_[k]);
             x[2 * k] = 2.0 * y.re;
-            x[n_ - 1 - 2 * k] = odd ? 2.0 * y.im : -2.0 * y.im;  // an odd mode
+            x[n_ - 1 - 2 * k] = odd ? 2.0 * y.im : -2.0 * y.im;  // the sign of odd modes
         }
     }
 
@@ -210,7 +211,7 @@ class MixedEnds final : public RowTransform::Kind {
     std::vector<Complex> turns_;
 };
 
-/// FFTW's real plan, its own inverse.
+/// FFTW's own real plan, which is its own inverse.
 class RealRow final : public RowTransform::Kind {
  public:
     RealRow(int n, fftw_r2r_kind kind) : row_(n) {

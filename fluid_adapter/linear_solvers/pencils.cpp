@@ -13,7 +13,7 @@ void ReleaseAligned::operator()(double* values) const {
 }
 
 AlignedValues aligned_values(std::size_t count) {
-    // A rank may have no row; what FFTW gives for zero bytes may be null.
+    // A rank may have no row, and FFTW may return null for zero bytes.
     AlignedValues values(fftw_alloc_real(std::max<std::size_t>(count, 1)));
     if (!values) throw std::bad_alloc();
     std::fill_n(values.get(), count, 0.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Where a separable solve finds its values. Transforms need complete rows (all x of some y), the
-// solves across them complete columns (all y of some modes of x). On several ranks these are two
+// Where a separable solve keeps its values. Transforms need complete rows (all x of some y), the
+// tridiagonal solves complete columns (all y of some modes of x). On several ranks these are two
 // distributions with a transpose between them; on one rank they are the same array. Valid C++17.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace turbidite {
 
-/// Zeros, aligned as FFTW likes them.
+/// Zero-initialised arrays with the alignment FFTW prefers.
 struct ReleaseAligned {
     void operator()(double* values) const;
 };
@@ -21,24 +21,24 @@ class Pencils {
  public:
     virtual ~Pencils() = default;
 
-    virtual int row_count() const = 0;  ///< complete rows of this rank
-    virtual double* rows() = 0;         ///< they, one after the other
+    virtual int row_count() const = 0;  ///< number of complete rows on this rank
+    virtual double* rows() = 0;         ///< these rows, contiguous
 
     virtual int first_mode() const = 0;
-    virtual int mode_count() const = 0;  ///< complete columns of this rank
-    virtual double* columns() = 0;       ///< for every y, the values of these modes side by side
+    virtual int mode_count() const = 0;  ///< number of complete columns on this rank
+    virtual double* columns() = 0;       ///< for every y, the values of these modes, contiguous
 
     virtual void to_columns() = 0;
     virtual void to_rows() = 0;
 
-    /// The value given on the rank that holds mode 0, on every rank.
+    /// Broadcasts a value from the rank that holds mode 0.
     virtual double from_mode_zero(double value) const = 0;
 
-    /// Rows and columns are one array and nothing moves.
+    /// Whether rows and columns are the same array, so that no transpose is needed.
     virtual bool in_place() const { return false; }
 };
 
-/// The whole grid on one rank: rows and columns are one array and nothing moves.
+/// The whole grid on one rank: rows and columns are the same array.
 class WholeGrid final : public Pencils {
  public:
     WholeGrid(int columns, int rows);

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// What the mirror image beyond an end adds to the diagonal, in units of 1/h2.
+/// Contribution of the mirror image beyond an end to the diagonal, in units of 1/h2.
 double end_share(End end) {
     return end == End::neumann ? -1.0 : end == End::dirichlet ? 1.0 : 0.0;
 }
 
-/// Phase of mode k over a whole turn of the doubled (mirrored) or single (periodic) axis.
+/// Phase of mode k over the doubled (mirrored) or single (periodic) axis.
 double phase(const AxisOperator& axis, int k) {
     if (axis.periodic()) return pi * k / axis.cells;
     const double shift =

@@ -34,7 +34,7 @@ void SeparableSolve::factorise(const Helmholtz& problem) {
     free_constants_ = zero_mode_ && problem.alpha == 0.0;
 }
 
-/// Fills and transforms rows in pairs; done(j) follows the transform of row j.
+/// Fills and transforms rows in pairs; calls done(j) after the transform of row j.
 template <class Done>
 void SeparableSolve::forward(const RowWork& fill, Done done) {
     const int rows = pencils_->row_count();
@@ -48,7 +48,8 @@ void SeparableSolve::forward(const RowWork& fill, Done done) {
     }
 }
 
-/// The way back, from the last row down; ready(j) makes the modes of rows j and above complete.
+/// Transforms back in pairs, from the last row down; ready(j) must complete the modes of rows j and
+/// above.
 template <class Ready>
 void SeparableSolve::backward(Ready ready, const RowWork& take) {
     for (int j = pencils_->row_count() - 1; j >= 0; j -= 2) {
@@ -78,7 +79,7 @@ double SeparableSolve::solve(const RowWork& fill, const RowWork& take) {
     double* values = pencils_->columns();
     forward(fill, [&](int j) { columns_.up(j, values); });
     const double taken = columns_.turn(values);
-    int next = pencils_->row_count() - 1;  // to go down
+    int next = pencils_->row_count() - 1;  // next row on the way down
     const auto complete = [&](int j) {
         for (; next >= std::max(j - 1, 0); --next) columns_.down(next, values);
     };

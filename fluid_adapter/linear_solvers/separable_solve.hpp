@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// (alpha - beta laplacian) x = f on a uniform grid of nx x ny cells, exactly: f is transformed
-// along x, each mode solved along y, and transformed back. The work is 2 transforms of nx values
-// and one elimination per row, whatever alpha and beta are.
+// Solves (alpha - beta laplacian) x = f on a uniform grid of nx x ny cells directly: f is
+// transformed along x, each mode is solved along y, and the result is transformed back. The work is
+// two transforms of nx values and one elimination per row (the nx values of one y), whatever alpha
+// and beta are.
 //
-// The Laplacian is separable_operator.hpp's along both axes, per unit volume. Where no end is
-// dirichlet and alpha = 0, constants are free: the mean of f is taken off, and x has zero mean.
-// Valid C++17.
+// The Laplacian is that of separable_operator.hpp along both axes, per unit volume. If no end is
+// dirichlet and alpha = 0, x is determined up to a constant: the mean of f is subtracted, and x has
+// zero mean. Valid C++17.
 #pragma once
 
 #include <cstddef>
@@ -31,18 +32,18 @@ class SeparableSolve {
     /// On the ranks that share the pencils.
     SeparableSolve(const PlaneOperator& plane, std::unique_ptr<Pencils> pencils);
 
-    /// To be called before the first solve and when alpha or beta change.
+    /// To be called before the first solve, and whenever alpha or beta change.
     void factorise(const Helmholtz& problem);
 
     /// f before a solve and x after it: this rank's complete rows of nx values.
     double* values() { return pencils_->rows(); }
 
-    /// Returns the mean that was taken off f, zero where constants are not free; on every rank.
+    /// Returns the mean subtracted from f, zero where x is unique; the same on every rank.
     double solve();
 
-    /// The same for a caller that makes f and uses x row by row: `fill(j)` is called before row j
-    /// is read, upwards; `take(j)` once it is complete, downwards. On one rank a row is filled,
-    /// transformed and eliminated while it is in cache.
+    /// The same for a caller that produces f and consumes x row by row: `fill(j)` is called before
+    /// row j is read, in ascending order; `take(j)` once it is complete, in descending order. On
+    /// one rank a row is filled, transformed and eliminated while it is in cache.
     using RowWork = std::function<void(int)>;
     double solve(const RowWork& fill, const RowWork& take);
 
@@ -58,7 +59,7 @@ class SeparableSolve {
     RowTransform transform_;
     ColumnSolve columns_;
     bool zero_mode_;               // no end is dirichlet
-    bool free_constants_ = false;  // and alpha = 0
+    bool free_constants_ = false;  // also alpha = 0
 };
 
 }  // namespace turbidite

@@ -14,8 +14,8 @@ RowTransform::RowTransform(const AxisOperator& axis)
 
 RowTransform::~RowTransform() = default;
 
-// Zero before each call: transforms are not normalised, and what one row leaves of rounding in the
-// other would grow from solve to solve.
+// Set to zero before each call. Transforms are not normalised, and the rounding that one row of a
+// pair leaves in the other would grow from solve to solve.
 double* RowTransform::absent_row() {
     std::fill(absent_.begin(), absent_.end(), 0.0);
     return absent_.data();

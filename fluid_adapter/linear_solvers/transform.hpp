@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The transform that turns the second difference of an axis (separable_operator.hpp) into its
-// eigenvalues, along complete rows of values, in place. What comes out is, in FFTW's names:
+// The transform that diagonalises the second difference of an axis (separable_operator.hpp), along
+// complete rows of values, in place. In FFTW's names:
 //
-//     ends                  there       back        mirror images at the two end faces
+//     ends                  forward     backward    mirror images at the two end faces
 //     neumann-neumann       REDFT10     REDFT01     even, even    (DCT-II, DCT-III)
 //     dirichlet-dirichlet   RODFT10     RODFT01     odd,  odd     (DST-II, DST-III)
 //     neumann-dirichlet     REDFT11     REDFT11     even, odd     (DCT-IV)
 //     dirichlet-neumann     RODFT11     RODFT11     odd,  even    (DST-IV)
 //     periodic              R2HC        HC2R
 //
-// R2HC stores frequency k at k and at n - k; sin2(pi k/n) is the same at both.
-// Nothing is normalised: there and back multiplies by `normalisation`, 2n or, periodic, n.
+// R2HC stores frequency k at k and at n - k; sin2(pi k/n) is the same at both. Nothing is
+// normalised: a forward and a backward transform multiply by `normalisation`, which is 2n, or n if
+// periodic.
 //
-// FFTW's own plans for these use scalar code. Complex transforms use the vector unit, and one of
+// FFTW's own plans for these kinds are scalar code. Complex transforms are vectorised, and one of
 // them carries two rows, as real and imaginary part (fourier_rows.cpp): 3 to 4 times as fast. Plans
-// are made once, by FFTW_ESTIMATE: FFTW_MEASURE chooses by its clock, and two runs of one case
-// would differ in their last bits. Valid C++17.
+// are made once, by FFTW_ESTIMATE: FFTW_MEASURE decides by timing, and two runs of one case would
+// differ in their last bits. Valid C++17.
 #pragma once
 
 #include <memory>
@@ -34,13 +35,13 @@ class RowTransform {
     RowTransform(const RowTransform&) = delete;
     RowTransform& operator=(const RowTransform&) = delete;
 
-    /// Two rows at once; `second` may be null.
+    /// Transforms two rows at once; `second` may be null.
     void forward(double* first, double* second);
     void backward(double* first, double* second);
 
     double normalisation() const { return normalisation_; }
 
-    /// What a kind of ends needs.
+    /// Interface of the transform for one pair of ends.
     class Kind {
      public:
         virtual ~Kind() = default;
@@ -52,7 +53,7 @@ class RowTransform {
     double* absent_row();
 
     std::unique_ptr<Kind> kind_;
-    std::vector<double> absent_;  // the second row where there is none
+    std::vector<double> absent_;  // stands in for a missing second row
     double normalisation_;
 };
 
