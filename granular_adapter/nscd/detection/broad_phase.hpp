@@ -2,9 +2,9 @@
 //
 // Candidate pairs by cell lists.
 //
-// Bodies are sorted into levels by size, a factor of two per level, and every level has its own
-// grid whose cells are as large as the level's largest pair distance. A body looks in its own level
-// and in those of larger bodies, so that a few boulders do not make the cells of sand grow.
+// Bodies are sorted into levels by size, a factor of two per level. Every level has its own grid,
+// whose cells are as large as the level's largest pair distance. A body searches its own level and
+// those of larger bodies, so that a few boulders do not enlarge the cells of the sand.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ struct Pair {
     std::int32_t b = 0;
 };
 
-/// All pairs whose bounding spheres are closer than `alert`, nearest images taken. The order
-/// depends on the input only.
+/// All pairs whose bounding spheres are closer than `alert`, by the minimum image. The order
+/// depends only on the input.
 std::vector<Pair> candidate_pairs(const std::vector<Vec3>& positions,
                                   const std::vector<double>& radii, double alert,
                                   const PeriodicBox& box);
 
-/// Throws std::invalid_argument when an axis repeats so soon that two bodies could touch on both
-/// sides: the minimum image sees one contact only.
+/// Throws std::invalid_argument if the period of an axis is so short that two bodies could touch on
+/// both sides: the minimum image sees only one contact.
 void check_periods(const std::vector<double>& radii, const PeriodicBox& box);
 
 }  // namespace turbidite::nscd

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The order in which Gauss-Seidel visits contacts: from the top down, which carries weight and
-// needs a third fewer sweeps than the order of detection.
+// The order in which Gauss-Seidel visits the contacts: from the top down, the direction in which
+// weight is transmitted; this needs a third fewer sweeps than the order of detection.
 //
-// Contacts of one height (rows of a lattice) are taken colour by colour, so that no two neighbours
-// follow each other: in a row from left to right each would wait for the one before, and groups of
-// four (contact_schedule.hpp) stay two thirds empty.
+// Contacts at one height (layers of a lattice) are taken colour by colour, so that no two
+// neighbours follow each other. From left to right each would depend on the one before, and groups
+// of four (contact_schedule.hpp) would stay two thirds empty.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@
 
 namespace turbidite::nscd {
 
-/// Sorts along gravity; without gravity contacts stay as they are. Heights within `band` of each
-/// other [m] count as one. The result depends on the input only.
+/// Sorts along gravity; without gravity the order stays as it is. Heights that differ by less than
+/// `band` [m] count as equal. The result depends only on the input.
 void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, const Vec3& gravity,
                     double band);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Contact points of a configuration: pairs that are near by cells (broad_phase.hpp), then gaps and
+// Contact points of a configuration: candidate pairs by cell lists (broad_phase.hpp), then gaps and
 // normals by shape (narrow_phase.hpp), in the order in which solvers visit them
 // (contact_order.hpp).
 #pragma once
@@ -15,21 +15,21 @@ namespace turbidite::nscd {
 
 class Detection {
  public:
-    /// Throws std::invalid_argument naming shapes without contacts.
+    /// Throws std::invalid_argument naming the shapes for which there is no contact detection.
     Detection(const ShapeTable& shapes, const PeriodicBox& box) : narrow_(shapes), box_(box) {}
 
     bool has_corners() const { return narrow_.has_corners(); }
     const PolygonShapes& polygons() const { return narrow_.polygons(); }
 
-    /// Points whose gap is below `reach` plus `share` of both radii (of the diameter at a wall),
-    /// without those between fixed bodies. Ordered along gravity.
+    /// Contact points with a gap below `reach` plus `share` of the sum of both radii (of the
+    /// diameter at a wall), except those between fixed bodies. Ordered along gravity.
     std::vector<ContactPoint> points(const Bodies& bodies, const std::vector<Wall>& walls,
                                      const Vec3& gravity, double reach, double share) const;
 
-    /// Deepest overlap of any pair, >= 0 [m].
+    /// Largest overlap of all pairs, >= 0 [m].
     double deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const;
 
-    /// The same of the pairs that these points belong to, wherever the bodies are by now.
+    /// The same for the pairs of the given points only, at the present positions of the bodies.
     double deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls,
                            const std::vector<ContactPoint>& of) const;
 

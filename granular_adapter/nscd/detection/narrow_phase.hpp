@@ -14,7 +14,7 @@ namespace turbidite::nscd {
 using PairDetector = void (*)(const PairView&, std::vector<ContactPoint>&);
 using WallDetector = void (*)(const WallView&, std::vector<ContactPoint>&);
 
-/// Every pair of shapes that can touch, by names of shapes/shape_list, first <= second.
+/// Every supported pair of shapes, by names of shapes/shape_list, first <= second.
 struct PairDetectorEntry {
     std::string first;
     std::string second;
@@ -28,12 +28,12 @@ struct WallDetectorEntry {
 };
 const std::vector<WallDetectorEntry>& wall_detector_list();
 
-/// The detectors for one run's shapes. Throws std::invalid_argument naming a pair that has none.
+/// The detectors for the shapes of a run. Throws std::invalid_argument naming a pair that has none.
 class NarrowPhase {
  public:
     explicit NarrowPhase(const ShapeTable& shapes);
 
-    /// Corners at their places, once per configuration; what views of it are given.
+    /// Corners in world axes, once per configuration; views refer to the result.
     PlacedPolygons place(const Bodies& bodies) const { return {polygons_, bodies}; }
     bool has_corners() const { return polygons_.any(); }
     const PolygonShapes& polygons() const { return polygons_; }
@@ -44,7 +44,7 @@ class NarrowPhase {
  private:
     struct PairChoice {
         PairDetector detect;
-        bool swapped;  ///< the detector wants b first
+        bool swapped;  ///< the detector takes b first
     };
     PolygonShapes polygons_;
     std::vector<std::string> kinds_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How far surfaces may approach each other while bodies and walls move with given velocities.
+// How far two surfaces can approach each other while bodies and walls move with given velocities.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace turbidite::nscd {
 
-/// An upper bound for any two bodies, and any body and wall, over a step [m]. Circles do not come
-/// closer by turning; `corners` says that some bodies are none.
+/// An upper bound over all pairs of bodies, and of bodies and walls, for one step [m]. Rotation
+/// does not bring discs closer; `corners` tells that some bodies are not discs.
 double approach_bound(const Bodies& bodies, const std::vector<Wall>& walls,
                       const std::vector<Twist>& twists, bool corners, double step);
 

@@ -5,19 +5,19 @@
 //     detect     contact points at q that may close within the step
 //     pose       the contact problem: free velocities, gaps, laws
 //     solve      impulses and velocities that satisfy it
-//     hand out   to the bodies, and to what the next step starts from
+//     hand out   to the bodies, and to the initial guess of the next step
 //     move       q <- q + dt U
 //
-// Moving is a call of its own: in a coupled run the fluid corrects the velocities first, and the
-// case says which velocities the positions follow.
+// Moving is a separate call: in a coupled run the fluid corrects the velocities first, and the case
+// selects the velocities that positions follow.
 //
 //     Engine engine(settings, shapes, walls);
 //     engine.bodies().add(...);
 //     engine.step(dt);                 // velocities of bodies() are now U_contact
 //     engine.move(dt);                 // q <- q + dt U
 //
-// Hosts may overwrite bodies() freely between two calls. Results depend on the bodies and their
-// order only, bit for bit.
+// Hosts may overwrite bodies() freely between two calls. Results are bitwise reproducible and
+// depend only on the bodies and their order.
 #pragma once
 
 #include <memory>
@@ -37,34 +37,35 @@
 namespace turbidite::nscd {
 
 struct EngineSettings {
-    Vec3 gravity{};                          ///< [m/s2]
-    double theta = 0.5;                      ///< of the theta-scheme, [1/2, 1]
-    double friction = 0.3;                   ///< mu of the only material, where `surfaces` is empty
-    std::vector<Surface> surfaces;           ///< by Bodies::material and Wall::material
-    std::vector<SurfacePair> surface_pairs;  ///< where the pair rule of surface.hpp does not hold
+    Vec3 gravity{};                 ///< [m/s2]
+    double theta = 0.5;             ///< of the theta-scheme, in [1/2, 1]
+    double friction = 0.3;          ///< mu of the only material, if `surfaces` is empty
+    std::vector<Surface> surfaces;  ///< by Bodies::material and Wall::material
+    /// pairs that do not follow the pair rule of surface.hpp
+    std::vector<SurfacePair> surface_pairs;
     LawChoice law;
     LawSettings law_settings;
     std::string solver = "nlgs";
-    LawList laws = law_list();           ///< what names of laws are looked up in
-    SolverList solvers = solver_list();  ///< and those of solvers
+    LawList laws = law_list();           ///< table in which names of laws are looked up
+    SolverList solvers = solver_list();  ///< table in which names of solvers are looked up
     SolverSettings solver_settings;
     PeriodicBox box;
 };
 
 struct StepReport {
-    std::int64_t candidates = 0;  ///< contacts within the alert distance
-    std::int64_t contacts = 0;    ///< those with an impulse
-    std::int64_t iterations = 0;  ///< sweeps
+    std::int64_t candidates = 0;  ///< contact points within the alert distance
+    std::int64_t contacts = 0;    ///< contacts with an impulse
+    std::int64_t iterations = 0;  ///< sweeps of the solver
     double residual = 0.0;        ///< scaled natural map
     ChangeMeasures change;        ///< quad and max
     bool converged = true;
-    double max_penetration = 0.0;  ///< deepest overlap that the step began with, >= 0 [m]
+    double max_penetration = 0.0;  ///< largest overlap at the start of the step, >= 0 [m]
 };
 
 class Engine {
  public:
-    /// Throws std::invalid_argument on unknown names, on parameters that are missing or out of
-    /// range, and on shapes without contacts or without the law.
+    /// Throws std::invalid_argument for unknown names, for parameters that are missing or out of
+    /// range, and for shapes without contact detection or without the chosen law.
     Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls);
 
     Bodies& bodies() { return bodies_; }
@@ -74,58 +75,59 @@ class Engine {
     std::vector<Wall>& walls() { return walls_; }
     const EngineSettings& settings() const { return settings_; }
 
-    /// Surfaces of a host that knows its materials late; same laws, what contacts remember is kept.
-    /// Throws as the constructor does and then changes nothing.
+    /// Replaces the surfaces, for a host that knows its materials late; laws and contact memory are
+    /// kept. Throws as the constructor does, and then changes nothing.
     void set_surfaces(std::vector<Surface> surfaces, std::vector<SurfacePair> pairs = {});
     const SurfaceTable& surfaces() const { return laws_.surfaces(); }
 
-    /// Solves contacts at the present configuration; positions stay. Starts from free fall.
+    /// Solves the contacts at the present configuration, from the free motion under gravity and
+    /// loads. Positions stay.
     StepReport step(double dt);
 
-    /// The same from free velocities that somebody else computed.
+    /// The same from free velocities computed by the caller [m/s, rad/s], one per body.
     StepReport step_from(const std::vector<Twist>& free, double dt);
 
-    /// The same with mobilities that somebody else knows, taken as they are: masses, moments and
-    /// flags of the bodies do not enter. May be repeated before the move; each time the solver
-    /// starts from the last impulses, and laws from what they remembered at the last move.
+    /// The same with mobilities from the caller, used as given: masses, moments of inertia and
+    /// flags of the bodies are ignored. May be repeated before the move; each time the solver
+    /// starts from the last impulses, and laws from their state at the last move.
     StepReport step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
                          double dt);
 
-    /// Moves with the bodies' present velocities, walls with their own, and accepts the step: what
-    /// laws found in it is what they remember in the next.
+    /// Moves bodies with their present velocities and walls with their own, and accepts the step:
+    /// the states that laws found in it become their memory.
     void move(double dt);
 
-    /// Moves with given ones; the bodies keep theirs.
+    /// Moves with the given velocities; those of the bodies stay.
     void move(double dt, const std::vector<Twist>& velocities);
 
-    /// Deepest overlap at the present configuration, >= 0 [m].
+    /// Largest overlap at the present configuration, >= 0 [m].
     double max_penetration() const;
 
-    /// The same right after move(), from the pairs that the last step looked at where that is
-    /// enough. Bodies and walls must be where move() and keep() left them.
+    /// The same right after move(), from the pairs detected by the last step if these suffice.
+    /// Bodies and walls must be where move() and keep() left them.
     double max_penetration_after_move() const;
 
-    /// Contact points of the last step and the impulses that bodies felt there. With a law that
-    /// pulls, a normal impulse may be negative.
+    /// Contact points of the last step, and the impulses on the bodies there. With an attractive
+    /// law a normal impulse may be negative.
     const std::vector<ContactPoint>& points() const { return points_; }
     const Impulses& impulses() const { return impulses_; }
 
-    /// The problem of the last step and its solution, r~ of law.hpp: the impulses, but for what a
-    /// law pulls, which is in the problem's free velocities.
+    /// The problem of the last step and its solution r~ of law.hpp: the impulses without the
+    /// attraction of a law, which is included in the problem's free velocities.
     const ContactProblem& problem() const { return problem_; }
     const Impulses& solution() const { return solution_; }
 
-    /// What the last step's solver started from.
+    /// The initial guess of the last solve.
     const Impulses& guess() const { return guess_; }
 
-    /// Drops bodies whose entry is zero, and with them the last step's contact points.
+    /// Removes bodies whose entry is zero, and with them the last step's contact points.
     void keep(const std::vector<std::uint8_t>& mask);
 
-    /// Bodies, walls and contact memory; restore() expects an engine with the same settings.
+    /// Bodies, walls and contact memory; restore() requires an engine with the same settings.
     std::vector<char> save() const;
     void restore(const std::vector<char>& state);
 
-    /// Walls and contact memory alone, for hosts that store bodies themselves.
+    /// Walls and contact memory only, for hosts that store the bodies themselves.
     ContactMemory& memory() { return memory_; }
     const ContactMemory& memory() const { return memory_; }
     std::vector<char> save_memory() const;
@@ -150,8 +152,8 @@ class Engine {
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;
     ContactMemory memory_;
-    double reach_ = 0.0;  ///< gaps up to which the last step looked [m]
-    double moved_ = 0.0;  ///< upper bound of what gaps lost since [m]
+    double reach_ = 0.0;  ///< largest gap the last step detected [m]
+    double moved_ = 0.0;  ///< upper bound of the decrease of any gap since [m]
     std::vector<ContactPoint> points_;
     std::vector<ContactKey> keys_;  ///< of the points
     ContactProblem problem_;

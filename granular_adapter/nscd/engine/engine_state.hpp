@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Bodies, walls and contact memory as bytes and back. The tags name the format: bytes of another
+// Serialisation of bodies, walls and contact memory. Tags identify the format: bytes of another
 // kind or version are refused.
 #pragma once
 
@@ -14,10 +14,10 @@ namespace turbidite::nscd {
 
 void write_bodies(ByteWriter& out, const Bodies& bodies);
 
-/// Throws std::invalid_argument on anything but what write_bodies wrote.
+/// Throws std::invalid_argument for anything not written by write_bodies.
 Bodies read_bodies(ByteReader& in);
 
-/// What one step leaves to the next one, bodies apart.
+/// The state that one step passes to the next, apart from the bodies.
 struct SavedMemory {
     std::vector<RememberedContact> contacts;
     ContactStates::Saved states;
@@ -25,11 +25,11 @@ struct SavedMemory {
 };
 void write_memory(ByteWriter& out, const SavedMemory& memory);
 
-/// Places and motions of walls are read, the rest of them is that of `walls`. Throws
-/// std::invalid_argument on anything but what write_memory wrote with as many walls.
+/// Positions and motions of the walls are read, their other properties taken from `walls`. Throws
+/// std::invalid_argument for anything not written by write_memory with the same number of walls.
 SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls);
 
-/// Throws std::invalid_argument when bytes are left.
+/// Throws std::invalid_argument if bytes are left.
 void demand_end(const ByteReader& in);
 
 }  // namespace turbidite::nscd

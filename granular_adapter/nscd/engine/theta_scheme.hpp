@@ -4,16 +4,15 @@
 //
 //     M (U^{k+1} - U^k) = dt (theta F^{k+1} + (1 - theta) F^k) + J      Eq. 16, J: contact impulse
 //     x^{k+1} = x^k + dt (theta U^{k+1} + (1 - theta) U^k)              Eq. 17
-//     q^k = x^k + dt (1 - theta) U^k                                    detection configuration,
-//     Eq. 18
+//     q^k = x^k + dt (1 - theta) U^k                                    Eq. 18, detection
 //
-// Eliminating x leaves q^{k+1} = q^k + dt U^{k+1}, exactly: the position variable everywhere is q,
-// and x is computed only where somebody asks for it. Contacts are posed at q with the full step:
-// u_n + g(q)/dt >= 0. Loads are constant over a step, so F^k = F^{k+1} and theta drops out of
-// U_free.
+// Eliminating x gives q^{k+1} = q^k + dt U^{k+1} exactly. The position variable everywhere is q,
+// the detection configuration; x is computed only on request. Contacts are written at q for the
+// full step: u_n + g(q)/dt >= 0. Loads are constant over a step, so F^k = F^{k+1}, and theta drops
+// out of U_free.
 //
-// theta = 1/2 takes or gives no energy of its own. With restitution e an impact can feed energy in
-// unless theta <= 1/(1 + e) (Acary 2014).
+// theta = 1/2 neither dissipates nor adds energy by itself. With restitution e an impact can add
+// energy unless theta <= 1/(1 + e) (Acary 2014).
 #pragma once
 
 #include <vector>
@@ -29,14 +28,14 @@ void check_theta(double theta, double restitution);
 /// U_free = U + dt M^-1 (weight + loads), spin alike. Fixed bodies keep their velocity.
 std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, double step);
 
-/// q <- q + dt U, orientation <- rotation by dt omega; wrapped on the axes that repeat.
+/// q <- q + dt U, orientation <- rotation by dt omega; wrapped on periodic axes.
 void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
           const PeriodicBox& box);
 
-/// x of Eq. 17 from the detection configuration.
+/// x of Eq. 17 from the detection configuration q.
 Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta);
 
-/// `orientation` turned by the rotation vector `angle` (world axes) [rad].
+/// `orientation` rotated by the rotation vector `angle` (world axes) [rad].
 Quaternion rotated(const Quaternion& orientation, const Vec3& angle);
 
 }  // namespace turbidite::nscd

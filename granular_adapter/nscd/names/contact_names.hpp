@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The names of contact laws and solvers with a line on each, for those who offer the choice and do
-// not compute: no numerics are behind this, the engine need not be linked.
+// The names of contact laws and solvers with a one-line description of each, for programs that
+// offer the choice but do not compute: this needs no numerics, and the engine need not be linked.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace turbidite::nscd {
 
-/// What the parts of a law decide, in the order in which they do.
+/// The slots of a contact law, in the order in which their parts are applied.
 enum class LawSlot { gap, friction, adhesion, impact, rolling };
 inline constexpr std::size_t law_slots = 5;
 
@@ -22,10 +22,10 @@ struct NamedChoice {
     std::string description;
 };
 
-/// Of one slot, in the order of law_table.def.
+/// Choices of one slot, in the order of law_table.def.
 std::vector<NamedChoice> law_choices(LawSlot slot);
 
-/// In the order of solver_table.def.
+/// Choices of solver, in the order of solver_table.def.
 std::vector<NamedChoice> solver_choices();
 
 }  // namespace turbidite::nscd

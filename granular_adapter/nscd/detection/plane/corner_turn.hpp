@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What contacts of turning polygons miss. A step keeps g + dt u_n >= 0 with normals and arms as
-// they are at its start; while bodies turn by dt omega, the gap at its end is
+// The error in the gaps of rotating polygons. A step keeps g + dt u_n >= 0 with the normals and
+// arms at its start. Bodies rotate by dt omega meanwhile, and the gap at the end of the step is
 //
 //     g' = n' . D' ,   n' = R_O n ,   D' = g n + dt (v_I - v_O) + (R_I - 1) s_I - (R_O - 1) s_O
 //
-// where O is the body (or wall) on whose side the normal stands, I the other, s their arms to the
-// contact's two surface points and R rotations by dt omega. The shortfall g + dt u_n - g' is of
-// second order in the turn. Solved again with the gaps taken smaller by it, the step ends without
-// the overlap that it would have made. Discs have none: theirs is never positive.
+// where O is the body (or wall) to whose side the normal is fixed, I the other, s their arms to the
+// two surface points of the contact, and R rotations by dt omega. The shortfall g + dt u_n - g' is
+// of second order in the angle. If the step is solved again with the gaps reduced by it, it ends
+// without the overlap it would have caused. Discs need no correction: their shortfall is never
+// positive.
 #pragma once
 
 #include <vector>
@@ -19,17 +20,17 @@
 
 namespace turbidite::nscd {
 
-/// One step, as it was solved.
+/// One step and its solution.
 struct SolvedStep {
     const std::vector<ContactPoint>& points;
     const std::vector<Contact>& contacts;  ///< of the same points
     const Bodies& bodies;                  ///< at the start of the step
     const std::vector<Wall>& walls;
-    const std::vector<Twist>& velocities;  ///< found
+    const std::vector<Twist>& velocities;  ///< the solution
     double dt = 0.0;
 };
 
-/// g + dt u_n - g' of every contact; zero where no side turns with the normal [m].
+/// g + dt u_n - g' of every contact; zero where the normal is fixed to no side [m].
 std::vector<double> gap_shortfalls(const SolvedStep& step, const PolygonShapes& shapes);
 
 }  // namespace turbidite::nscd

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Corners and normals of all polygons in world axes, turned and scaled once per detection, not once
-// per pair. A polygon's numbers lie side by side; corners are arms from the centre of mass, so that
-// nothing is lost far from the origin and periodic images need no copy.
+// Corners and normals of all polygons in world axes, rotated and scaled once per detection instead
+// of once per pair. The values of a polygon are contiguous. Corners are relative to the centre of
+// mass, so that no precision is lost far from the origin and periodic images need no copy.
 #pragma once
 
 #include <cstddef>
@@ -13,30 +13,30 @@
 
 namespace turbidite::nscd {
 
-/// A convex polygon, counter-clockwise. Side k leads from corner k to the next and has the outward
-/// unit normal k; support[k] = normal[k] . corner[k] [m]. A plate is two corners and one side.
+/// A convex polygon, counter-clockwise. Side k goes from corner k to the next and has the outward
+/// unit normal k; support[k] = normal[k] . corner[k] [m]. A plate has two corners and one side.
 struct PolygonView {
-    const double* x = nullptr;  ///< corners, from the centre [m]
+    const double* x = nullptr;  ///< corners, relative to the centre [m]
     const double* y = nullptr;
     const double* nx = nullptr;
     const double* ny = nullptr;
     const double* support = nullptr;
     int corners = 0;
     int sides = 0;
-    double radius = 0.0;     ///< circumscribed [m]
-    double in_radius = 0.0;  ///< smallest support: no point of the outline is nearer to the centre
+    double radius = 0.0;     ///< circumscribed radius [m]
+    double in_radius = 0.0;  ///< smallest support: no point of the outline is closer to the centre
 
     int after(int corner) const { return corner + 1 < corners ? corner + 1 : 0; }
     int before(int corner) const { return corner > 0 ? corner - 1 : corners - 1; }
 };
 
-/// Outlines of one run's shapes, by shape index; empty for round ones.
+/// Outlines of the shapes of a run, by shape index; empty for round shapes.
 class PolygonShapes {
  public:
     explicit PolygonShapes(const ShapeTable& shapes);
 
     struct UnitPolygon {
-        std::vector<double> numbers;  ///< x, y, nx, ny, support: a row of each
+        std::vector<double> numbers;  ///< x, y, nx, ny, support: five arrays, one after the other
         int corners = 0;
         double in_radius = 0.0;
     };
@@ -50,12 +50,12 @@ class PolygonShapes {
     bool any_ = false;
 };
 
-/// All bodies of a configuration. Keeps references to shapes and radii.
+/// The polygons of all bodies of a configuration. Keeps references to shapes and radii.
 class PlacedPolygons {
  public:
     PlacedPolygons(const PolygonShapes& shapes, const Bodies& bodies);
 
-    /// Of a body with corners.
+    /// The polygon of a body; it must have corners.
     PolygonView operator[](std::int32_t body) const {
         const auto i = static_cast<std::size_t>(body);
         const PolygonShapes::UnitPolygon& unit = shapes_[bodies_.shape[i]];
@@ -72,7 +72,7 @@ class PlacedPolygons {
 
     const PolygonShapes& shapes_;
     const Bodies& bodies_;
-    std::vector<std::size_t> first_;  ///< of each body in `numbers_`
+    std::vector<std::size_t> first_;  ///< where the values of each body begin in `numbers_`
     std::vector<double> numbers_;
 };
 
