@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What every law that pulls demands of its parameters.
+// Parameter checks shared by all attractive laws.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace turbidite::nscd {
 /// Throws std::invalid_argument naming the law and the parameter unless the value is positive.
 void demand_positive(const std::string& law, const std::string& parameter, double value);
 
-/// Range and reference diameter positive, and at least one pair of surfaces that adheres.
+/// Requires a positive range and reference diameter, and at least one adhesive pair of surfaces.
 void demand_adhesion(const std::string& law, const LawSettings& settings,
                      const SurfaceTable& surfaces);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The law of a run: one part per slot, chosen by name, asked in the order of the slots.
+// The contact law of a run: one part per slot, chosen by name, applied in the order of the slots.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace turbidite::nscd {
 
-/// Names of law_list, one per slot.
+/// One name per slot, from law_list.
 struct LawChoice {
     std::string gap = "signorini";
     std::string friction = "coulomb";
@@ -21,12 +21,12 @@ struct LawChoice {
     std::string rolling = "resistance";
 };
 
-/// What the parts remember of a contact, by slot; all zero: nothing.
+/// The state of a contact's parts, by slot; all zero means no state.
 using ContactState = std::array<double, law_slots>;
 
 class ContactLaw {
  public:
-    /// Names are looked up in `laws`. Throws std::invalid_argument on unknown ones and on
+    /// Looks the names up in `laws`. Throws std::invalid_argument for unknown names and for
     /// parameters that are missing or out of range.
     ContactLaw(const LawChoice& choice, const LawSettings& settings, const SurfaceTable& surfaces,
                LawList laws = law_list());

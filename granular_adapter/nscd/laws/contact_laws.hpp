@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// From contact points to the contact problem: the law of every contact with its surfaces and its
-// past, and after the solve what it remembers.
+// From contact points to the contact problem: applies the law to every contact with its surfaces
+// and state, and updates the states after the solve.
 //
-// Attraction (law.hpp): the solver finds r~, the bodies feel r = r~ - dt c n. The second part is
-// known, so it goes into the problem's free velocities.
+// Attraction (law.hpp): the solver finds r~, the bodies feel r = r~ - dt c n. The second term is
+// known and is included in the problem's free velocities.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace turbidite::nscd {
 
-/// Contact points with the names under which they are remembered.
+/// Contact points, with the keys under which their states are kept.
 struct DetectedContacts {
     const std::vector<ContactPoint>& points;
     const std::vector<ContactKey>& keys;
@@ -25,26 +25,26 @@ struct DetectedContacts {
 
 class ContactLaws {
  public:
-    /// Throws std::invalid_argument on unknown names, on parameters that are missing or out of
-    /// range, and on rolling resistance of shapes with corners.
+    /// Throws std::invalid_argument for unknown names, for parameters that are missing or out of
+    /// range, and for rolling resistance of shapes with corners.
     ContactLaws(const LawChoice& choice, const LawSettings& settings, SurfaceTable surfaces,
                 const ShapeTable& shapes, LawList laws = law_list());
 
     const ContactLaw& law() const { return law_; }
     const SurfaceTable& surfaces() const { return surfaces_; }
 
-    /// The same laws and what contacts remember, with other surfaces. Throws as the constructor.
+    /// The same laws and states with other surfaces. Throws as the constructor does.
     ContactLaws with(SurfaceTable surfaces) const;
 
-    /// The problem of a step from free velocities without contacts. Throws std::invalid_argument
-    /// naming a body or wall whose material is not in the table.
+    /// The contact problem of a step, from free velocities without contacts. Throws
+    /// std::invalid_argument naming a body or wall whose material is not in the table.
     ContactProblem pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
                         std::vector<BodyMobility> mobilities, double step);
 
-    /// What the bodies feel, from the solution of the problem posed last [N s].
+    /// r = r~ - dt c n: the impulses on the bodies, from the solution r~ of the last problem [N s].
     Impulses felt(const Impulses& solution) const;
 
-    /// Takes in the solution of the problem posed last.
+    /// Determines the next states from the solution of the last problem.
     void find_states(const DetectedContacts& contacts, const Impulses& solution);
 
     ContactStates& states() { return states_; }
@@ -64,11 +64,11 @@ class ContactLaws {
     LawList list_;
     LawSettings settings_;
     SurfaceTable surfaces_;
-    std::vector<std::uint8_t> round_;  ///< by shape: a disc
+    std::vector<std::uint8_t> round_;  ///< by shape: whether it is a disc
     ContactLaw law_;
     ContactStates states_;
-    std::vector<ContactSituation> situations_;  ///< of the last problem, where the law remembers
-    std::vector<LawTerms> terms_;               ///< alike
+    std::vector<ContactSituation> situations_;  ///< of the last problem, if the law has states
+    std::vector<LawTerms> terms_;               ///< of the last problem, if the law has states
     std::vector<double> attraction_;            ///< dt c of the last problem [N s]
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What laws remember of contacts from step to step: bonds, bridges, sticking. Kept apart from the
-// impulses, since most laws remember nothing and some states outlive the impulse.
+// The states of contact laws, kept from step to step: bonds, liquid bridges, sticking. Stored apart
+// from the impulses, since most laws have no state and some states outlive the impulse.
 //
-// A step finds the next states; they count once the step is accepted (Engine::move). A step that is
-// repeated before that starts from the same states again.
+// A step determines the next states; they take effect when the step is accepted (Engine::move). A
+// step that is repeated before that starts from the same states again.
 #pragma once
 
 #include <vector>
@@ -21,18 +21,18 @@ struct RememberedState {
 
 class ContactStates {
  public:
-    /// Of the last accepted step; zeros for a contact nobody remembers.
+    /// State at the last accepted step; zeros for an unknown contact.
     ContactState of(const ContactKey& key) const;
 
-    /// True until a step was accepted: then bonds are made.
+    /// True until the first step is accepted: in that step bonds are formed.
     bool initial() const { return !started_; }
 
-    /// What the step found; states of zeros are left out.
+    /// Stores the states found by a step; states of zeros are dropped.
     void find(std::vector<RememberedState> next);
 
     void accept();
 
-    /// Everything, for restart.
+    /// The complete memory, for restart.
     struct Saved {
         bool started = false;
         std::vector<RememberedState> accepted;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// When a contact takes an impact in a step, and how restitution enters its bias.
+// Whether a contact undergoes an impact in a step, and how restitution enters its bias.
 //
-// A body that would meet another within the step bounces at once, up to |u| dt before they touch:
-// then nothing overlaps, and the velocities are those of the impact law whatever the gap was.
+// A body that would meet another within the step rebounds at once, up to |u| dt before they touch.
+// So nothing overlaps, and the velocities are those of the impact law whatever the gap was.
 #pragma once
 
 #include "granular_adapter/nscd/laws/law.hpp"
 
 namespace turbidite::nscd {
 
-/// Approaches faster than `threshold` and is closed, or closes within the step.
+/// The approach is faster than `threshold`, and the contact is closed or closes within the step.
 bool in_impact(const ContactSituation& situation, double threshold);
 
-/// u_n >= -e u_n^-, and never less than the terms ask for already.
+/// Imposes u_n >= -e u_n^-, unless the terms already require more.
 void demand_rebound(const ContactSituation& situation, double restitution, LawTerms& terms);
 
-/// True where no pair of surfaces has a restitution.
+/// True if no pair of surfaces has a restitution coefficient above zero.
 bool never_bounces(const SurfaceTable& surfaces);
 
 /// LawSettings::restitution_speed; throws std::invalid_argument unless it is >= 0.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every part of a contact law there is, by slot and name: the lines of names/law_table.def.
+// Every part of a contact law, by slot and name: the lines of names/law_table.def.
 #pragma once
 
 #include <memory>
@@ -24,16 +24,16 @@ struct LawEntry {
     std::string description;
     MakeLaw* make;
 
-    /// The name means that nothing is added: make() gives null.
+    /// True for the name that stands for no part; make() then returns null.
     bool adds_nothing() const { return make == make_nothing; }
 };
 
-/// What a name is looked up in; whoever brings laws of its own hands over a longer one.
+/// The table in which names are looked up; a caller with laws of its own passes a longer one.
 using LawList = std::span<const LawEntry>;
 LawList law_list();
 
-/// Null where the name stands for nothing. Throws std::invalid_argument that lists the known names
-/// of the slot, or names the parameter that is missing or out of range.
+/// Null if the name stands for no part. Throws std::invalid_argument listing the known names of the
+/// slot, or naming the parameter that is missing or out of range.
 std::unique_ptr<const LawPart> make_law_part(LawSlot slot, const std::string& name,
                                              const LawSettings& settings,
                                              const SurfaceTable& surfaces,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// State of all bodies as arrays, one entry per body in each.
+// State of all bodies, as one array per quantity with one entry per body:
 //
 //     position      q, the detection configuration of the theta-scheme [m]
-//     mass          inertia that the contact problem sees: M when dry, c M when immersed [kg]
+//     mass          inertia in the contact problem: M when dry, c M when immersed [kg]
 //     inertia       moment about z, dry or immersed alike [kg m2]
 //     weight_mass   weight over g: M when dry, M - rho_f V when immersed [kg]
-//     force,torque  loads beside weight and contacts, constant over a step [N, N m]
+//     force,torque  loads other than weight and contacts, constant over a step [N, N m]
 //
 // In two dimensions z components of vectors are zero and only the z component of spin is used.
 #pragma once
@@ -25,7 +25,7 @@ struct Twist {
     Vec3 spin{};      ///< [rad/s]
 };
 
-/// One body, as it is added.
+/// One body, for Bodies::add.
 struct Body {
     GrainId id = 0;
     std::int32_t shape = 0;     ///< index into the ShapeTable
@@ -38,8 +38,8 @@ struct Body {
     Vec3 position{};
     Quaternion orientation{1.0, 0.0, 0.0, 0.0};
     Twist twist;
-    bool fixed = false;             ///< takes part in contacts, never accelerates
-    bool rotation_blocked = false;  ///< translates only
+    bool fixed = false;             ///< takes part in contacts, but never accelerates
+    bool rotation_blocked = false;  ///< translates only, never rotates
 };
 
 /// Plain arrays: hosts may overwrite any value between two steps.
@@ -59,12 +59,12 @@ struct Bodies {
     std::vector<Vec3> torque;
     std::vector<std::uint8_t> fixed;
     std::vector<std::uint8_t> rotation_blocked;
-    std::vector<Vec3> contact_impulse;          ///< of the last step, summed [N s]
-    std::vector<Vec3> contact_angular_impulse;  ///< about the centre [N m s]
+    std::vector<Vec3> contact_impulse;          ///< sum over the contacts of the last step [N s]
+    std::vector<Vec3> contact_angular_impulse;  ///< the same about the centre [N m s]
 
     std::size_t size() const { return id.size(); }
 
-    /// Zero for fixed bodies, which no impulse moves [1/kg, 1/(kg m2)].
+    /// Zero for fixed bodies [1/kg, 1/(kg m2)].
     double inverse_mass(std::size_t i) const { return fixed[i] ? 0.0 : 1.0 / mass[i]; }
     double inverse_inertia(std::size_t i) const {
         return fixed[i] || rotation_blocked[i] ? 0.0 : 1.0 / inertia[i];
@@ -72,11 +72,11 @@ struct Bodies {
 
     void add(const Body& body);
 
-    /// Drops every body whose entry is zero; the others keep their order.
+    /// Removes every body whose entry is zero; the order of the others stays.
     void keep(const std::vector<std::uint8_t>& mask);
 
-    /// Calls visit(array) for every array, always in the same order: adding a state variable is one
-    /// more line here, and removal and restart know it.
+    /// Calls visit(array) for every array, always in the same order: a new state variable is one
+    /// more line here, and is then included in removal and restart.
     template <class Self, class Visit>
     static void for_each_array(Self& self, Visit&& visit) {
         visit(self.id), visit(self.shape), visit(self.material), visit(self.radius),

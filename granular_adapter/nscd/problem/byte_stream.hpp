@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// State as bytes and back, bit for bit, for checkpoints read on the same kind of machine.
+// Serialisation to bytes and back, bit for bit, for checkpoints read on the same kind of machine.
 #pragma once
 
 #include <cstdint>

@@ -6,9 +6,9 @@
 //     t, s   along the two tangents, s = n x t                                [m/s] [N s]
 //     roll   about s: spin of b relative to a, moment impulse on b     [rad/s] [N m s]
 //
-// In the plane s = e_z: nothing moves along it and every spin is about it. In space a second
-// rolling component, about t, will stand beside `roll`; whoever writes in_plane() has no use for
-// either.
+// In the plane s = e_z: there is no motion along it, and every spin is about it. In space a second
+// rolling component, about t, is to be added beside `roll`; code that calls in_plane() needs
+// neither.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct ContactVector {
     bool operator==(const ContactVector&) const = default;
 };
 
-/// With s = 0.
+/// A vector of the plane: s = 0.
 constexpr ContactVector in_plane(double n, double t, double roll = 0.0) {
     return {n, t, 0.0, roll};
 }
@@ -43,17 +43,17 @@ inline ContactVector operator*(double factor, const ContactVector& a) {
     return {factor * a.n, factor * a.t, factor * a.s, factor * a.roll};
 }
 
-/// r . u: the work of an impulse.
+/// r . u, the work of an impulse.
 inline double dot(const ContactVector& a, const ContactVector& b) {
     return a.n * b.n + a.t * b.t + a.s * b.s + a.roll * b.roll;
 }
 
-/// |u_t|: of the tangential part, whatever its direction.
+/// u_t|, the magnitude of the tangential part.
 inline double tangential(const ContactVector& u) {
     return std::hypot(u.t, u.s);
 }
 
-/// Of the part along the normal and the tangents, without rolling.
+/// Magnitude of the normal and tangential part, without rolling.
 inline double norm(const ContactVector& u) {
     return std::sqrt(u.n * u.n + u.t * u.t + u.s * u.s);
 }

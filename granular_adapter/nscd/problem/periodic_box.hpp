@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Which axes repeat, and the minimum image on them.
+// Periodic axes, and the minimum image on them.
 #pragma once
 
 #include <cmath>
@@ -11,18 +11,18 @@ namespace turbidite::nscd {
 
 struct PeriodicBox {
     Vec3 lower{};   ///< [m]
-    Vec3 length{};  ///< [m]; zero: the axis does not repeat
+    Vec3 length{};  ///< [m]; zero for an axis that is not periodic
 
     bool repeats(int axis) const { return length[axis] > 0.0; }
 
-    /// The shortest of all images of a distance vector.
+    /// The shortest periodic image of a distance vector.
     Vec3 minimum_image(Vec3 d) const {
         for (int axis = 0; axis < 3; ++axis)
             if (repeats(axis)) d[axis] -= length[axis] * std::nearbyint(d[axis] / length[axis]);
         return d;
     }
 
-    /// The image of a point that lies in [lower, lower + length).
+    /// The periodic image of a point that lies in [lower, lower + length).
     Vec3 wrap(Vec3 x) const {
         for (int axis = 0; axis < 3; ++axis)
             if (repeats(axis))

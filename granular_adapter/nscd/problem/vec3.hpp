@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Vector algebra on the plain `Vec3` of the records, so that no aligned type crosses the engine's
-// border.
+// Vector algebra on the plain `Vec3` of the records, so that no type with alignment requirements
+// appears in the engine's interface.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// (a x b)_z: in the plane, the moment of b at the end of an arm a.
+/// (a x b)_z: in the plane, the moment of b at the end of the arm a.
 inline double cross_z(const Vec3& a, const Vec3& b) {
     return a[0] * b[1] - a[1] * b[0];
 }

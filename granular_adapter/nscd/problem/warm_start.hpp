@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The impulses of the last step, kept for the next one. A contact is recognised by the ids of its
-// bodies (or body and wall key) and its feature, so that it survives re-ordering and removal of
-// bodies. What is kept is the force J/dt: with a step of another length the guess is still right.
+// The impulses of the last step, as the initial guess of the next. A contact is identified by the
+// ids of its bodies (or of body and wall key) and its feature, and so survives reordering and
+// removal of bodies. Stored is the force J/dt, so that the guess remains right if the length of the
+// step changes.
 #pragma once
 
 #include <compare>
@@ -17,7 +18,7 @@ namespace turbidite::nscd {
 struct ContactKey {
     GrainId first = 0;      ///< smaller body id, or the wall's key
     GrainId second = 0;     ///< larger body id, or the body at the wall
-    std::int32_t wall = 0;  ///< 1: `first` is a wall
+    std::int32_t wall = 0;  ///< 1 if `first` is a wall
     std::int32_t feature = 0;
 
     auto operator<=>(const ContactKey&) const = default;
@@ -30,11 +31,12 @@ struct RememberedContact {
 
 class ContactMemory {
  public:
-    /// Forgets all and takes these; `keys` must be distinct. Contacts without impulse are left out.
+    /// Replaces the memory by these contacts; `keys` must be distinct. Contacts without impulse are
+    /// left out.
     void remember(const std::vector<ContactKey>& keys, const std::vector<ContactVector>& impulses,
                   double step);
 
-    /// The remembered force times the step, zero for a new contact.
+    /// The stored force times the step, zero for a new contact.
     ContactVector guess(const ContactKey& key, double step) const;
 
     void forget() { replace({}); }
@@ -43,7 +45,7 @@ class ContactMemory {
 
  private:
     std::vector<RememberedContact> contacts_;  ///< sorted by key
-    std::vector<std::int32_t> places_;  ///< open hash table of indices of contacts_; -1: empty
+    std::vector<std::int32_t> places_;  ///< open hash table of indices into contacts_; -1: empty
 };
 
 }  // namespace turbidite::nscd

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19): contact impulses to the change of contact
-// velocity that they cause, u = H^T v_free + b + W r. [1/kg]
+// Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19): maps contact impulses to the change of
+// contact velocity they cause, u = H^T v_free + b + W r. [1/kg]
 //
-// Differs from the paper: r is an impulse, not a force, so W carries no dt. W is applied, never
+// Unlike in the paper r is an impulse, not a force, so W does not contain dt. W is applied, never
 // assembled; only its diagonal blocks are stored, in (n, t, roll). For discs the arms are parallel
-// to n, hence W_nt = 0 in every block, unless a body's mobility prefers a direction or couples it
-// to spin.
+// to n, hence W_nt = 0 in every block, unless the mobility of a body is anisotropic or couples
+// translation to spin.
 #pragma once
 
 #include <vector>
@@ -18,19 +18,20 @@ namespace turbidite::nscd {
 
 class Delassus {
  public:
-    /// Keeps a reference: the problem must live as long.
+    /// Keeps a reference to the problem, which must outlive it.
     explicit Delassus(const ContactProblem& problem);
 
     const Block& block(std::size_t contact) const { return blocks_[contact]; }
 
-    /// W r: u_n, u_t and w of every contact.
+    /// W r: the changes of u_n, u_t and w of every contact.
     Impulses apply(const Impulses& r) const;
 
-    /// True when arms are along the normals, no block couples and every mobility is isotropic.
+    /// True if all arms are along the normals, no block couples n and t, and every mobility is
+    /// isotropic.
     bool diagonal() const { return diagonal_; }
 
-    /// True when some contact resists rolling. Blocks have a third row only where one does, and a
-    /// zero one where neither body can turn: then no moment acts.
+    /// True if some contact has rolling resistance. Only the blocks of such contacts have a
+    /// non-zero third row, and not even these if neither body can rotate: then there is no moment.
     bool rolling() const { return rolling_; }
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19) assembled: one 2x2 block (n, t) for
-// every pair of contacts that share a body which moves, in block compressed rows. [1/kg]
+// The Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19), assembled in block compressed row
+// storage: one 2x2 block (n, t) for every pair of contacts that share a movable body. [1/kg]
 //
-// Symmetric to the last bit. Knows normal and tangent only, not rolling.
+// Bitwise symmetric. Covers normal and tangent only, not rolling.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace turbidite::nscd {
 
-/// W_kj by columns: what a unit impulse along n, then along t, at contact j does to (u_n, u_t) at
-/// k.
+/// Block W_kj by columns: the change of (u_n, u_t) at k caused by a unit impulse along n, then
+/// along t, at contact j.
 struct Coupling {
     Plane by_n{};
     Plane by_t{};
@@ -24,8 +24,8 @@ struct Coupling {
 
 struct DelassusMatrix {
     std::vector<Block> diagonal;          ///< W_kk
-    std::vector<std::int64_t> row_start;  ///< of contact k in the arrays below; one more entry
-    std::vector<std::int32_t> column;     ///< j != k, ascending within a row
+    std::vector<std::int64_t> row_start;  ///< of block row k in the arrays below; one more entry
+    std::vector<std::int32_t> column;     ///< block column j != k, ascending within a row
     std::vector<Coupling> coupling;       ///< W_kj
 
     explicit DelassusMatrix(const ContactProblem& problem);
@@ -36,7 +36,7 @@ struct DelassusMatrix {
 /// u = H^T v_free + b of every contact, (n, t) [m/s].
 std::vector<Plane> free_contact_velocities(const ContactProblem& problem);
 
-/// Whether any contact resists rolling, which (n, t) problems cannot express.
+/// Whether any contact has rolling resistance, which (n, t) problems cannot express.
 bool has_rolling(const ContactProblem& problem);
 
 }  // namespace turbidite::nscd

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How a body in the plane answers an impulse: (U, omega) changes by M^-1 (J, K), where M^-1 is any
-// symmetric matrix over (x, y, spin). A body on its own has diag(1/m, 1/m, 1/I); one that drags
-// fluid along has a full one. In space it will be the same over six components.
+// The mobility of a body in the plane: an impulse changes (U, omega) by M^-1 (J, K), where M^-1 is
+// any symmetric matrix over (x, y, spin). A dry body has diag(1/m, 1/m, 1/I); one with tied fluid
+// has a full matrix. In space it will be the same over six components.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,15 @@ struct PlanarTensor {
     /// diag(linear, linear, angular).
     PlanarTensor(double linear, double angular) : xx(linear), yy(linear), ss(angular) {}
 
-    /// diag(a, a, b): the same in all directions, spin apart.
+    /// diag(a, a, b): the same in all directions, and uncoupled from the spin.
     bool isotropic() const { return xx == yy && uncoupled(); }
     bool uncoupled() const { return xy == 0.0 && xs == 0.0 && ys == 0.0; }
 };
 
-/// M^-1; zero: the body does not move [1/kg, 1/(kg m), 1/(kg m2)].
+/// M^-1; zero for an immovable body [1/kg, 1/(kg m), 1/(kg m2)].
 using BodyMobility = PlanarTensor;
 
-/// (x, y, spin) of an impulse with its moment, or of a change of velocity with spin.
+/// (x, y, spin): an impulse with its moment, or a change of velocity with the change of spin.
 struct PlanarVector {
     double x = 0.0, y = 0.0, spin = 0.0;
 };
@@ -40,7 +40,7 @@ inline double dot(const PlanarVector& a, const PlanarVector& b) {
     return a.x * b.x + a.y * b.y + a.spin * b.spin;
 }
 
-/// Empty unless the tensor is positive definite; isotropic ones stay isotropic.
+/// Empty unless the tensor is positive definite; isotropic tensors stay isotropic.
 std::optional<PlanarTensor> inverse(const PlanarTensor& tensor);
 
 }  // namespace turbidite::nscd

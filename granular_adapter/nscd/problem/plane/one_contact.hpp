@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Signorini-Coulomb for one contact in the plane, exactly, for any symmetric positive definite W:
-// given b (velocity without this contact's impulse), find r with u = W r + b,
+// The exact solution of Signorini-Coulomb for one contact in the plane, for any symmetric positive
+// definite W: given b (the velocity without this contact's impulse), find r with u = W r + b and
 //
 //     0 <= u_n perp r_n >= 0,   |r_t| <= mu r_n,   r_t = -mu r_n u_t/|u_t| unless u_t = 0.
 //
@@ -10,13 +10,13 @@
 //     slide, s = sign of the      r_n = -b_n / (W_nn + s mu W_nt),   r_t = s mu r_n
 //     trial's r_t
 //
-// With c = b_t - W_nt b_n/W_nn and A = W_tt - W_nt^2/W_nn the trial is r_t = -c/A; when it is
-// rejected the function |r_t(a)| - mu r_n(a), r_t(a) = -c/(A + a), changes sign over a in
-// (0, infinity), so a sliding solution in the direction of the trial exists, and there
-// W_nn + s mu W_nt > 0. The sign of the trial's r_n must not be asked: with strong W_nt it may be
-// negative although the contact closes.
+// With c = b_t - W_nt b_n/W_nn and A = W_tt - W_nt^2/W_nn the trial is r_t = -c/A. If it is
+// rejected, the function |r_t(a)| - mu r_n(a), r_t(a) = -c/(A + a), changes sign over a in (0,
+// infinity), so a sliding solution in the direction of the trial exists, with W_nn + s mu W_nt > 0.
+// The sign of the trial's r_n must not be tested: with strong W_nt it may be negative although the
+// contact closes.
 //
-// If b_n >= 0 and W_nn + s mu W_nt < 0 (Painleve) a second solution exists; we take r = 0.
+// If b_n >= 0 and W_nn + s mu W_nt < 0 (Painleve) a second solution exists; r = 0 is chosen.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@
 
 namespace turbidite::nscd {
 
-/// Diagonal block of W [1/kg]. Its third row belongs to moments and spins (rolling_contact.hpp) and
-/// is zero where nothing resists rolling [1/(kg m), 1/(kg m2)].
+/// Diagonal block of W [1/kg]. The third row is for moments and spins (rolling_contact.hpp), and
+/// zero without rolling resistance [1/(kg m), 1/(kg m2)].
 struct Block {
     double nn = 0.0;
     double nt = 0.0;
@@ -49,16 +49,18 @@ inline Plane solve_contact(const Block& w, const Plane& b, double friction) {
     return {slide, s * friction * slide};
 }
 
-/// Nearest point of the cone |t| <= mu n.
+/// The point of the cone |t| <= mu n closest to x.
 inline Plane project_on_cone(const Plane& x, double friction) {
     const double n = x[0], t = std::abs(x[1]);
-    if (n >= 0.0 && t <= friction * n) return x;  // mu = 0: the second alone holds for any n
+    // for mu = 0 the second condition alone holds for any n
+    if (n >= 0.0 && t <= friction * n) return x;
     if (friction * t <= -n) return {0.0, 0.0};
     const double on_edge = (n + friction * t) / (1.0 + friction * friction);
     return {on_edge, std::copysign(friction * on_edge, x[1])};
 }
 
-/// r - P_K(r - rho (u + (mu |u_t|, 0))): zero exactly at a solution [N s].
+/// r - P_K(r - rho (u + (mu |u_t|, 0))), P_K the projection on the friction cone K: zero exactly at
+/// a solution [N s].
 inline Plane natural_map(const Plane& r, const Plane& u, double friction, double rho) {
     const Plane target = {r[0] - rho * (u[0] + friction * std::abs(u[1])), r[1] - rho * u[1]};
     const Plane nearest = project_on_cone(target, friction);

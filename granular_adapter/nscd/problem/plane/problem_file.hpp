@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A contact problem as the text that Siconos reads (frictionContact_new_from_filename): find r, u
+// A contact problem in the text format of Siconos (frictionContact_new_from_filename): find r, u
 // with
 //
 //     u = W r + q,   q = H^T v_free + b,   Signorini-Coulomb between u and r
 //
-// two components (n, t) per contact, contacts in the order of the problem. W by 2x2 blocks (storage
-// type 1, NM_SPARSE_BLOCK), every number with 17 digits, so that reading gives the same bits. W in
-// 1/kg, q in m/s, or in whatever units the problem has.
+// two components (n, t) per contact, contacts in the order of the problem. W is given by 2x2 blocks
+// (storage type 1, NM_SPARSE_BLOCK), every number with 17 digits, so that it is read back bit for
+// bit. W is in 1/kg and q in m/s, or in the units of the problem.
 //
 //     2                              dimension
 //     N                              contacts
@@ -26,8 +26,8 @@
 
 namespace turbidite::nscd {
 
-/// Throws std::invalid_argument when there is no contact or one that resists rolling: the format
-/// has no word for either.
+/// Throws std::invalid_argument if there is no contact, or one with rolling resistance: the format
+/// cannot express either.
 void write_problem(std::ostream& out, const ContactProblem& problem);
 
 }  // namespace turbidite::nscd
