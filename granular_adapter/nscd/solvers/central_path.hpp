@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Follows the curves of a PathSystem to a solution, in three stages:
+// Path following for the interior-point method: follows the curves of a PathSystem to a solution,
+// in three stages:
 //
-//     z: 1 -> 1e-2    associated, hence convex: a central path without turns
-//     s: 1 -> 0       to Coulomb's law, still smooth enough that turns are rare
+//     z: 1 -> 1e-2    associated, hence convex: a central path without turning points
+//     s: 1 -> 0       to Coulomb's law, still smooth enough that turning points are rare
 //     z: 1e-2 -> 0    to the exact law
 //
-// Where friction makes the problem non-monotone a curve turns back in its parameter and later
-// forward again, so its length is the parameter: relative changes of all factors count. The sign of
-// the determinant of the linear equations, which changes at every turn, says which direction leads
-// on. A step is
+// Where friction makes the problem non-monotone, a curve can turn back in its parameter and later
+// turn forward again. The curve is therefore parametrised by its length, in which the relative
+// changes of all factors count. The determinant of the linear equations changes its sign at every
+// turning point; its sign tells the direction in which to continue. A step consists of
 //
-//     second-order prediction, as long as products stay positive and near tau z;
-//     Newton corrections across the curve until they are
+//     a second-order predictor, as long as the products stay positive and near tau z;
+//     Newton corrections across the curve until they are near tau z again,
 //
-// and is taken again with less than half the length where corrections do not converge.
+// and is repeated with less than half the length if the corrections do not converge.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +26,11 @@ namespace turbidite::nscd {
 
 class CentralPath {
  public:
-    /// `size` as in PathSystem. Keeps a reference: the contacts must live as long.
+    /// `size` as in PathSystem. Keeps a reference to the contacts, which must outlive it.
     CentralPath(const ScaledContacts& contacts, double size);
 
-    /// One step, with not much more than `budget` factorisations in all. False at the end of the
-    /// way: rounding, budget, or no step that converges.
+    /// One step, with about `budget` factorisations at most. False if the path ends: by rounding,
+    /// by the budget, or because no step length converges.
     bool advance(std::int64_t budget);
 
     const PathPoint& point() const { return point_; }
@@ -48,7 +49,7 @@ class CentralPath {
     PathSystem system_;
     PathPoint point_;
     bool associated_ = true;  ///< first stage
-    double length_;           ///< of the next step, in relative changes
+    double length_;           ///< of the next step, as a relative change of the factors
     int corrections_ = 0;     ///< of the last step
     std::int64_t factorisations_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// When sweeping solvers look at the residual, and the settings that all solvers refuse.
+// When Gauss-Seidel solvers evaluate the residual, and the settings that every solver refuses.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace turbidite::nscd {
 
-/// Early sweeps are looked at often, since a warm start may be done at once.
+/// Early sweeps are checked often, since a warm start may converge at once.
 inline bool check_due(std::int64_t sweep_number, const SolverSettings& settings) {
     const bool power_of_two = (sweep_number & (sweep_number - 1)) == 0;
     return sweep_number % settings.check_interval == 0 || sweep_number >= settings.max_iterations ||

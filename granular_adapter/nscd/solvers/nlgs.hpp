@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Non-linear Gauss-Seidel in body-velocity form: contact by contact in the order given,
+// Non-linear Gauss-Seidel (NLGS) in body velocities. For each contact, in the given order,
 //
 //     u = H_k^T v + b_k,   r_k' = exact solution of the contact alone,   v += M^-1 H_k (r_k' - r_k)
 //
 // until the scaled natural map falls below the tolerance. Every few sweeps the natural map is
-// accumulated in the pass itself, where velocities are half old and half new; when that looks good
-// the published residual, of one consistent state, decides.
+// summed during the sweep itself, where part of the velocities is old and part new. If this sum is
+// small enough, the reported residual is computed from one consistent state, and decides.
 //
-// Contacts that have no impulse and do not close rest: they are in groups of their own, which
-// sweeps leave out until a measuring sweep, which asks all of them, finds one that closes.
+// A contact is inactive while it has no impulse and does not close. Inactive contacts are in groups
+// of their own, which sweeps skip; the measuring sweeps test them all and reactivate groups with a
+// closing contact.
 //
-// How it is done fast, with the same bits: contact_schedule.hpp, sweep_kernel.hpp,
+// The fast implementation, with bitwise the same result: contact_schedule.hpp, sweep_kernel.hpp,
 // sweep_pipeline.hpp.
 #pragma once
 

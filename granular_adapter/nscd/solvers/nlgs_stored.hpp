@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Non-linear Gauss-Seidel on the assembled Delassus operator: contact by contact in the order
-// given,
+// Non-linear Gauss-Seidel (NLGS) on the assembled Delassus operator. For each contact, in the given
+// order,
 //
 //     b = u_free,k + sum_{j != k} W_kj r_j,   r_k = exact solution of the contact alone
 //
-// A contact reads its neighbours' impulses instead of two bodies: twice the work and more in dense
-// packings of discs, but no body velocities that rounding could carry away over many sweeps. The
-// reference for `nlgs` and for codes that know nothing but W.
+// A contact reads the impulses of its neighbours instead of two body velocities. In dense packings
+// of discs this is more than twice the work, but there are no body velocities on which rounding
+// could accumulate over many sweeps. It is the reference for `nlgs` and for codes that know only W.
 #pragma once
 
 #include "granular_adapter/nscd/solvers/solver.hpp"
@@ -16,7 +16,7 @@ namespace turbidite::nscd {
 
 class NlgsStored final : public ContactSolver {
  public:
-    /// Throws std::invalid_argument when a contact resists rolling.
+    /// Throws std::invalid_argument if a contact has rolling resistance.
     SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                        const SolverSettings& settings) const override;
 };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The contact problem without units, for solvers with a factorisation. With M^-1 = L L^T per body
-// and v = v_free + L y, impulses and contact velocities divided so that every W_nn is one,
+// The contact problem in dimensionless form, for solvers that factorise. With M^-1 = L L^T per
+// body, v = v_free + L y, and impulses and contact velocities scaled so that every W_nn is one,
 //
 //     y = A r,      u = A^T y + q,      A^T A = W
 //
 // where A has one 3x3 block per contact and body. Spins and moments, the third components, are
-// scaled by sqrt(W_nn/W_rr) so that they count as velocities and impulses; zero where nothing
-// resists rolling.
+// scaled by sqrt(W_nn/W_rr) so that they are comparable with velocities and impulses; they are zero
+// without rolling resistance.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,12 +20,12 @@ namespace turbidite::nscd {
 
 class Delassus;
 
-/// One contact: rows n, t, roll of A^T on either side.
+/// One contact: the rows n, t, roll of A^T for both bodies.
 struct ScaledContact {
-    std::int32_t a = -1, b = -1;  ///< -1: nothing that moves
+    std::int32_t a = -1, b = -1;  ///< -1: immovable
     Eigen::Matrix3d at_a = Eigen::Matrix3d::Zero(), at_b = Eigen::Matrix3d::Zero();
     Eigen::Vector3d free = Eigen::Vector3d::Zero();  ///< q
-    double friction = 0.0, rolling = 0.0;            ///< limits of r_t and r_w over r_n
+    double friction = 0.0, rolling = 0.0;            ///< bounds of |r_t| and |r_w| over r_n
     double impulse = 1.0;                            ///< scaled over physical normal impulse
     double length = 0.0;                             ///< sqrt(W_nn/W_rr), or zero [m]
 };
@@ -41,10 +41,10 @@ class ScaledContacts {
     /// (A^T y) of contact k, without q.
     Eigen::Vector3d velocity(std::size_t k, const Eigen::VectorXd& y) const;
 
-    /// y += A r of contact k alone.
+    /// y += A r for contact k alone.
     void push(std::size_t k, const Eigen::Vector3d& r, Eigen::VectorXd& y) const;
 
-    /// In the units of the problem, moved into the cone where it is outside.
+    /// The impulse in the units of the problem, projected into the cone if outside.
     ContactVector physical(std::size_t k, const Eigen::Vector3d& r) const;
 
  private:

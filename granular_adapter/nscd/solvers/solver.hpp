@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What every contact solver offers. A solver changes nothing but its iterate; not converged is a
-// result, not an exception: the caller decides, and reports it.
+// Interface of all contact solvers. A solver changes nothing but its iterate. Failure to converge
+// is a result, not an exception: the caller decides, and reports it.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,22 @@
 namespace turbidite::nscd {
 
 struct SolverSettings {
-    /// Of the scaled natural map (residual.hpp). Usual 1e-3; 1e-2 is a preview, below 1e-4 dense
-    /// lattices need thousands of sweeps.
+    /// Of the scaled natural map (residual.hpp). Usually 1e-3; 1e-2 gives a preview; below 1e-4
+    /// dense lattices need thousands of sweeps.
     double tolerance = 1e-3;
-    /// Sweeps. Too few make rigid packings elastic, so the result says when they were not enough.
+    /// Upper limit of sweeps. With too few, rigid packings behave elastically; the result therefore
+    /// says if they were not enough.
     std::int64_t max_iterations = 2000;
-    /// Sweeps between two looks at the residual; smaller is wasted time, larger wasted sweeps.
+    /// Sweeps between two evaluations of the residual; fewer waste time on evaluations, more on
+    /// sweeps.
     std::int64_t check_interval = 8;
-    /// Of this solve; the result does not depend on it. Small problems use one (nlgs.cpp).
+    /// Threads for this solve; the result does not depend on it. Small problems use one (nlgs.cpp).
     std::int64_t threads = 1;
 };
 
 struct SolverResult {
     Impulses impulses;
-    std::vector<Twist> velocities;  ///< v_free + M^-1 H r with these impulses, to round-off
+    std::vector<Twist> velocities;  ///< v_free + M^-1 H r for these impulses, to rounding
     std::int64_t iterations = 0;
     double residual = 0.0;  ///< natural_map_residual of these impulses
     ChangeMeasures change;  ///< quad and max of these impulses (residual.hpp)
@@ -36,7 +38,7 @@ class ContactSolver {
  public:
     virtual ~ContactSolver() = default;
 
-    /// `guess` has one entry per contact.
+    /// `guess`: one entry per contact.
     virtual SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                                const SolverSettings& settings) const = 0;
 };

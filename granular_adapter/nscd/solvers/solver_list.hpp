@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every contact solver there is, by name: the lines of names/solver_table.def.
+// Every contact solver by name: the lines of names/solver_table.def.
 #pragma once
 
 #include <memory>
@@ -23,11 +23,11 @@ struct SolverEntry {
     MakeSolver* make;
 };
 
-/// What a name is looked up in; whoever brings solvers of its own hands over a longer one.
+/// The table in which names are looked up; a caller with solvers of its own passes a longer one.
 using SolverList = std::span<const SolverEntry>;
 SolverList solver_list();
 
-/// Throws std::invalid_argument that lists the known solvers.
+/// Throws std::invalid_argument listing the known solvers.
 std::unique_ptr<const ContactSolver> make_solver(const std::string& name,
                                                  SolverList solvers = solver_list());
 

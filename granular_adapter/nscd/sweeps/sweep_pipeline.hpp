@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Several sweeps at once over the same groups, as a pipeline, with the result of one after the
-// other, bit for bit.
+// Several sweeps over the same groups at once, as a pipeline, with bitwise the result of one sweep
+// after the other.
 //
-// Sweep s + 1 may do a stretch as soon as sweep s has done every
-// stretch that touches one of its bodies. As contacts come in an order of space, that is a short
-// way ahead; so sweeps follow each other closely and find in the cache what the first one fetched
-// from memory. Threads take successive sweeps. Who updates a group when changes nothing in what is
-// read and written: results do not depend on the number of threads.
+// Sweep s + 1 may process a stretch as soon as sweep s has processed every stretch that touches one
+// of its bodies. Since contacts are ordered in space, sweep s need only be a little ahead. The
+// sweeps therefore follow each other closely and find in the cache what the first one loaded from
+// memory. Threads take consecutive sweeps. Which thread updates a group, and when, does not change
+// what is read and written: results do not depend on the number of threads.
 #pragma once
 
 #include <atomic>
@@ -28,8 +28,9 @@ class SweepPipeline {
     SweepPipeline(const Sweeps<Rows>& sweeps, SweepLayout<Rows>& layout)
         : sweeps_(sweeps), layout_(layout) {}
 
-    /// Runs as many sweeps. All of them update the active groups and those that are awake; the last
-    /// one measures on its way, asks the groups at rest, and wakes those with an impulse.
+    /// Runs the given number of sweeps. All of them update the active groups and the reactivated
+    /// groups at rest (`awake`). The last one also measures, tests all groups at rest, and sets
+    /// which of them are `awake`.
     void run(std::size_t sweeps, ThreadTeam& team) {
         active_sums_ = resting_sums_ = {};
         progress_ = std::vector<Progress>(sweeps);
@@ -40,12 +41,12 @@ class SweepPipeline {
         team.run([&](int thread) { drive(share(thread), share(thread + 1)); });
     }
 
-    /// Of the last sweep; active groups, and those at rest.
+    /// Sums of the last sweep over active groups, and over groups at rest.
     const Sums& active_sums() const { return active_sums_; }
     const Sums& resting_sums() const { return resting_sums_; }
 
  private:
-    /// Stretches done by a sweep; a cache line of its own.
+    /// Number of stretches completed by a sweep, in a cache line of its own.
     struct alignas(64) Progress {
         std::atomic<std::size_t> stretches{0};
         Progress() = default;
@@ -75,7 +76,7 @@ class SweepPipeline {
         return layout_.awake[static_cast<std::size_t>(group - layout_.schedule.active)];
     }
 
-    /// The first one that is awake, or the end; most are not.
+    /// The first reactivated group of the range, or its end; most are not.
     std::int32_t next_awake(const GroupRange& range) {
         if (range.first >= range.last) return range.last;
         const std::uint8_t* const from = &awake(range.first);
@@ -101,8 +102,8 @@ class SweepPipeline {
                           resting_sums_, &awake(stretch.resting.first));
     }
 
-    /// The sweeps [first, last) by one thread: a stretch each in turn, as far as those before
-    /// allow.
+    /// Runs the sweeps [first, last) in one thread: one stretch of each in turn, as far as the
+    /// sweeps before them allow.
     void drive(std::size_t first, std::size_t last) {
         ThreadTeam::Patience patience;
         while (first < last) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A few threads that do the same piece of work side by side, again and again.
+// A few threads that repeatedly run the same function in parallel.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace turbidite::nscd {
 
 class ThreadTeam {
  public:
-    /// The caller is one of them; `size` >= 1.
+    /// The calling thread is one of them; `size` >= 1.
     explicit ThreadTeam(int size);
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam&) = delete;
@@ -21,11 +21,11 @@ class ThreadTeam {
 
     int size() const { return static_cast<int>(threads_.size()) + 1; }
 
-    /// Calls work(0) … work(size - 1), each in its thread, and returns when all are done. The work
-    /// must not throw.
+    /// Calls work(0) … work(size - 1), each in its own thread, and returns when all are done. The
+    /// work must not throw.
     void run(const std::function<void(int)>& work);
 
-    /// Waits for somebody else, first hot, then giving the processor away.
+    /// Waits for another thread, first spinning, then yielding the processor.
     class Patience {
      public:
         void wait();
@@ -39,7 +39,7 @@ class ThreadTeam {
 
     std::vector<std::thread> threads_;
     const std::function<void(int)>* work_ = nullptr;
-    std::atomic<std::int64_t> order_{0};  ///< counts runs; -1: go home
+    std::atomic<std::int64_t> order_{0};  ///< number of runs started; -1: exit
     std::atomic<int> busy_{0};
 };
 

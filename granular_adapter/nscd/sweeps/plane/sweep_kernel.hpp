@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The loops over groups of rows (sweep_rows.hpp), for the instructions that are switched on where
-// this is included: once per file, inside a namespace of that name. Values are vectors of four or
-// single doubles; each operation rounds lane by lane, so neither the width nor the instructions
-// change a bit.
+// The loops over packed groups (sweep_rows.hpp). This file is included once per instruction set,
+// inside a namespace of that name. Values are vectors of four doubles or single doubles; every
+// operation rounds lane by lane, so neither the width nor the instruction set changes a bit.
 //
 //     u = H_k^T v + b_k,   r_k' = exact solution of the contact alone,   v += M^-1 H_k (r_k' - r_k)
 
@@ -34,7 +33,7 @@ TURBIDITE_INLINE void store(Lanes<width>& lanes, const Real<width>& value) {
     __builtin_memcpy(lanes.v, &value, sizeof value);
 }
 
-// Ternaries mean std::max and std::min here: the second where the comparison fails.
+// Same semantics as std::max and std::min: the second argument if the comparison fails.
 template <class R>
 TURBIDITE_INLINE R larger(const R& a, const R& b) {
     return a > b ? a : b;
@@ -122,7 +121,7 @@ TURBIDITE_INLINE void count_loaded(PassSums<width>& sums, const R& rn) {
     store(sums.loaded, R(load(sums.loaded) + (rn > R{} ? one : R{})));
 }
 
-/// What the update of any row starts from.
+/// The state of a group before its update: velocities of its bodies, impulses, friction.
 template <class Rows>
 struct Met {
     using R = Real<Rows::width>;
@@ -164,7 +163,7 @@ TURBIDITE_INLINE R tangential_velocity(const Rows& row, const Met<Rows>& met) {
            load(row.arm_a) * met.a.spin + load(row.bias_t);
 }
 
-/// v += M^-1 H d of isotropic bodies, d along (n, t).
+/// v += M^-1 H d for bodies with isotropic mobility; d = (dn, dt) along n and t.
 template <class Rows, class R>
 TURBIDITE_INLINE void push(const Rows& row, Met<Rows>& met, const R& dn, const R& dt) {
     const R px = met.nx * dn - met.ny * dt, py = met.ny * dn + met.nx * dt;
@@ -176,7 +175,8 @@ TURBIDITE_INLINE void push(const Rows& row, Met<Rows>& met, const R& dn, const R
     met.b.spin += load(row.turn_b) * dt;
 }
 
-/// Exact: with W_nt = 0 the normal does not feel the tangent, and friction is a clamp.
+/// Exact solution: with W_nt = 0 the normal impulse does not depend on the tangential one, and
+/// friction is a clamp.
 template <bool measure, int width>
 TURBIDITE_INLINE void update(DiscRows<width>& row, PlaneBody* bodies, PassSums<width>& sums) {
     using R = Real<width>;
@@ -191,7 +191,7 @@ TURBIDITE_INLINE void update(DiscRows<width>& row, PlaneBody* bodies, PassSums<w
     met.keep(row, n, t, bodies);
 }
 
-/// The same as add_map with the moment.
+/// The same as add_map with the rolling moment.
 template <int width, class R>
 TURBIDITE_INLINE void add_rolling_map(const RollingDiscRows<width>& row, PassSums<width>& sums,
                                       const Met<RollingDiscRows<width>>& met, const R& un,
@@ -211,7 +211,7 @@ TURBIDITE_INLINE void add_rolling_map(const RollingDiscRows<width>& row, PassSum
     store(sums.size, R(load(sums.size) + (met.rn * met.rn + met.rt * met.rt + moment * moment)));
 }
 
-/// Exact: the normal first, then solve_on_box() of rolling_contact.hpp.
+/// Exact solution: the normal impulse first, then solve_on_box() of rolling_contact.hpp.
 template <bool measure, int width>
 TURBIDITE_INLINE void update(RollingDiscRows<width>& row, PlaneBody* bodies,
                              PassSums<width>& sums) {
@@ -255,7 +255,7 @@ TURBIDITE_INLINE void general_push(const Rows& row, Met<Rows>& met, const R& dn,
     met.b.spin += load(row.b_ns) * dn + load(row.b_ts) * dt;
 }
 
-/// solve_contact() of one_contact.hpp, both branches and a choice.
+/// solve_contact() of one_contact.hpp: evaluates both branches and selects.
 template <bool measure, int width>
 TURBIDITE_INLINE void update(GeneralRows<width>& row, PlaneBody* bodies, PassSums<width>& sums) {
     using R = Real<width>;
@@ -325,7 +325,7 @@ TURBIDITE_INLINE bool any(const Four& x) {
     return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0 || x[3] != 0.0;
 }
 
-/// Some contact of the group has an impulse or closes.
+/// Whether some contact of the group has an impulse or closes.
 template <class Rows>
 TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     const Met<Rows> met(row, bodies);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A contact problem laid out for sweeps: schedule, rows, and the bodies in the order in which the
-// schedule meets them, so that a sweep walks through memory.
+// A contact problem in the memory layout for sweeps: schedule, packed groups (Rows), and the bodies
+// in the order in which the schedule first uses them, so that a sweep reads memory sequentially.
 #pragma once
 
 #include <vector>
@@ -12,19 +12,19 @@
 
 namespace turbidite::nscd {
 
-/// Bodies without mobility do not count: any number of contacts may share one at a time.
+/// Bodies without mobility are ignored: any number of contacts may use one at the same time.
 std::vector<MovedPair> moved_pairs(const ContactProblem& problem);
 
-/// Places in memory of the bodies of a schedule. A moved body has one; everything else (a wall, an
-/// immovable body, the body of an empty lane) has one per contact, so that no update ever waits for
-/// another one on its account.
+/// Memory slots for the bodies of a schedule. A movable body has one. Everything else (a wall, an
+/// immovable body, the body of an empty lane) gets one per contact, so that no update has to wait
+/// for another because of it.
 class BodySlots {
  public:
     BodySlots(std::size_t bodies, const std::vector<Twist>& velocities,
               const std::vector<BodyMobility>& mobilities)
         : slot_(bodies, -1), velocities_(velocities), mobilities_(mobilities) {}
 
-    /// `body` -1: at rest.
+    /// Slot of a body in the next contact; `body` -1: at rest.
     std::int32_t meet(std::int32_t body, bool moved) {
         if (moved && slot_[static_cast<std::size_t>(body)] >= 0)
             return slot_[static_cast<std::size_t>(body)];
@@ -52,7 +52,8 @@ struct SweepLayout {
     Schedule schedule;
     std::vector<PlaneBody> bodies;
     std::vector<Rows> rows;
-    std::vector<std::uint8_t> awake;  ///< of each group at rest: 1 or 0; swept while 1
+    /// per group at rest: 1 if it is swept nevertheless, because a contact has gained an impulse
+    std::vector<std::uint8_t> awake;
 
     SweepLayout(const ContactProblem& problem, const Delassus& w,
                 const std::vector<MovedPair>& pairs, const Impulses& r,
@@ -78,7 +79,7 @@ struct SweepLayout {
         bodies = std::move(slots.bodies);
     }
 
-    /// The same state in other groups.
+    /// The same state in the groups of another schedule.
     void rearrange(Schedule next) {
         const std::vector<Rows> old = std::move(rows);
         const std::vector<std::size_t> place = places();
@@ -101,7 +102,7 @@ struct SweepLayout {
         each_contact([&](std::size_t k, const Rows& row, int lane) { r[k] = impulse(row, lane); });
     }
 
-    /// Of each contact, whether it has an impulse.
+    /// By contact, whether it has an impulse.
     std::vector<std::uint8_t> loaded(std::size_t contacts) const {
         std::vector<std::uint8_t> result(contacts);
         each_contact([&](std::size_t k, const Rows& row, int lane) {

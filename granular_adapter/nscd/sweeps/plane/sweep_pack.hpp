@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Fills one lane of a group of rows (sweep_rows.hpp) with one contact.
+// Packs one contact into a lane of a group (sweep_rows.hpp).
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace turbidite::nscd {
 
-/// A contact with what belongs to it; an immovable partner has no mobility.
+/// A contact with the data to be packed; an immovable body has zero mobility.
 struct PackedContact {
     const Contact& contact;
     const Block& w;
@@ -28,7 +28,7 @@ template <int lanes>
 void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed);
 void fill(GeneralRollingRows<1>& rows, int lane, const PackedContact& packed);
 
-/// A lane without contact.
+/// A lane without a contact.
 template <class Rows>
 void fill_empty(Rows& rows, int lane, std::int32_t slot) {
     rows.a[lane] = rows.b[lane] = slot;
@@ -36,7 +36,7 @@ void fill_empty(Rows& rows, int lane, std::int32_t slot) {
     if constexpr (requires { rows.length.v; }) rows.length.v[lane] = 1.0;
 }
 
-/// All that rows hold are lanes of doubles, and the places of the bodies.
+/// Copies a lane: all members of Rows are lanes of doubles, apart from the body slots.
 template <class Rows>
 void copy_lane(const Rows& from, int lane_from, Rows& to, int lane_to) {
     using Base = RowBase<Rows::width>;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// All that a sweep touches: four doubles per body, one flat group of rows per `width` contacts,
-// nothing indirect beside the bodies. Plain arrays; the loops over them are in sweep_kernel.hpp.
+// The data of a sweep: four doubles per body, and per group of `width` contacts one packed record
+// without indirection, apart from the bodies. In this folder "rows" (DiscRows, ...) means such a
+// record. Plain arrays; the loops over them are in sweep_kernel.hpp.
 //
-// Moment arms are (arm x d)_z for d = n, t [m]. An empty lane has no normal and a positive bias: it
-// never closes, and touches a body of its own.
+// Moment arms are (arm x d)_z for d = n, t [m]. An empty lane has a zero normal and a positive
+// bias: it never closes, and has a body slot of its own.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace turbidite::nscd {
 
 struct alignas(32) PlaneBody {
     double x = 0.0, y = 0.0, spin = 0.0;
-    double inverse_mass = 0.0;  ///< read where mobilities are isotropic
+    double inverse_mass = 0.0;  ///< used if mobilities are isotropic
 };
 
 /// One value for each contact of a group.
@@ -29,7 +30,7 @@ struct RowBase {
     static constexpr int width = lanes;
     using Values = Lanes<lanes>;
 
-    // Three cache lines for groups that are only looked at, one of them written to by the others.
+    // The three cache lines read by the test of groups at rest; updates write one of them.
     Values nx, ny;
     Values bias_n;
     std::int32_t a[lanes] = {}, b[lanes] = {};
@@ -37,41 +38,41 @@ struct RowBase {
     Values bias_t, friction;
 };
 
-/// W_nt = 0 and isotropic bodies: discs, and whatever touches with arms along the normal.
+/// W_nt = 0 and isotropic mobility: discs, and bodies with arms along the normal.
 template <int lanes>
 struct alignas(64) DiscRows : RowBase<lanes> {
     using Values = Lanes<lanes>;
-    Values arm_a, arm_b;    ///< tangential
+    Values arm_a, arm_b;    ///< of the tangent
     Values turn_a, turn_b;  ///< the same over the moment of inertia
     Values inverse_nn, inverse_tt;
 };
 
-/// The same with resistance to rolling, which friction and it share through the spins.
+/// The same with rolling resistance, which is coupled to friction through the spins.
 template <int lanes>
 struct alignas(64) RollingDiscRows : DiscRows<lanes> {
     using Values = Lanes<lanes>;
     Values rolling;                ///< lever [m]
-    Values roll;                   ///< moment impulse
+    Values roll;                   ///< moment impulse [N m s]
     Values spin_a, spin_b;         ///< 1/I
-    Values tt, tr, rr;             ///< of W
+    Values tt, tr, rr;             ///< entries of W
     Values inverse_a, inverse_rr;  ///< A = W_tt - W_tr^2/W_rr
     Values length;                 ///< rolling_length()
 };
 
-/// Any W, any mobility. What a unit impulse along n or t does to each body is known before the
-/// sweeps, so that a push is one multiplication and addition per component and direction.
+/// Any W, any mobility. The changes of velocity due to a unit impulse along n or t are precomputed
+/// for both bodies, so that a push is one multiplication and addition per component and direction.
 template <int lanes>
 struct alignas(64) GeneralRows : RowBase<lanes> {
     using Values = Lanes<lanes>;
     Values arm_an, arm_at, arm_bn, arm_bt;
     Values a_nx, a_ny, a_ns, a_tx, a_ty, a_ts;  ///< M^-1 (d, arm x d), d = n, t
     Values b_nx, b_ny, b_ns, b_tx, b_ty, b_ts;
-    Values nn, nt, tt;                         ///< of W
+    Values nn, nt, tt;                         ///< entries of W
     Values inverse_nn, inverse_a;              ///< A = W_tt - W_nt^2/W_nn
     Values inverse_forward, inverse_backward;  ///< 1/(W_nn + s mu W_nt), s = 1, -1
 };
 
-/// The same with resistance to rolling: rare, one contact at a time.
+/// The same with rolling resistance; rare, hence one contact at a time.
 template <int lanes>
 struct GeneralRollingRows : GeneralRows<lanes> {
     static_assert(lanes == 1);
@@ -83,12 +84,12 @@ struct GeneralRollingRows : GeneralRows<lanes> {
     Block w;
 };
 
-/// Sums over the contacts of a pass, lane by lane.
+/// Sums over the contacts of a sweep, lane by lane.
 template <int width>
 struct PassSums {
     Lanes<width> error;   ///< |natural map|^2
     Lanes<width> size;    ///< |r|^2
-    Lanes<width> loaded;  ///< contacts that have an impulse after their update
+    Lanes<width> loaded;  ///< number of contacts with an impulse after their update
 };
 
 template <int width>
@@ -98,9 +99,10 @@ double total(const Lanes<width>& lanes) {
     return sum;
 }
 
-/// Updates every contact of the groups [begin, end); `measured` adds the state that each contact
-/// met to the sums as well. `asked` is for groups that are expected to be at rest: those where no
-/// contact has an impulse or closes are only looked at; says which have one after it.
+/// Updates every contact of the groups [begin, end). `measured` also adds the state of each contact
+/// before its update to the sums. `asked` is for groups at rest: it updates only those in which a
+/// contact has an impulse or closes, and reports in `awake` which groups have an impulse
+/// afterwards.
 template <class Rows>
 struct Sweeps {
     using Sums = PassSums<Rows::width>;
@@ -110,14 +112,15 @@ struct Sweeps {
                   std::uint8_t* awake) = nullptr;
 };
 
-/// What the loops are compiled for. The bits are the same.
+/// Instruction set for which the loops are compiled; the results are bitwise the same.
 enum class Instructions { portable, avx2 };
 
 bool available(Instructions instructions);
 Instructions best_instructions();
 
-/// Throws std::invalid_argument when the processor lacks the instructions. For the four kinds of
-/// rows at four lanes (general rolling rows: one) and, as the reference in tests, at one.
+/// Throws std::invalid_argument if the processor lacks the instructions. Instantiated for the four
+/// kinds of Rows with four lanes (GeneralRollingRows: one lane) and, as the reference in tests,
+/// with one.
 template <class Rows>
 Sweeps<Rows> sweeps(Instructions instructions);
 
