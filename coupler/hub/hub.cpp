@@ -9,7 +9,6 @@
 
 #include "coupler/hub/handshake.hpp"
 #include "coupler/hub/schemes/exchanges.hpp"
-#include "coupler/protocol/domain.hpp"
 
 namespace turbidite {
 namespace {
@@ -48,31 +47,26 @@ std::vector<Hello> hellos(const std::vector<ParticipantLink*>& links) {
     return all;
 }
 
-double routing_margin(const Settings& settings) {
-    return stencil_cells * settings.real("run.diameter") /
-           settings.real("fluid.cells_per_diameter");
-}
-
 }  // namespace
 
 Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
          const SchemeEntry& scheme)
     : case_(std::move(the_case)),
+      settings_(hub_settings(case_.settings)),
       files_(std::move(files)),
-      progress_(files_.log, on_terminal(), case_.settings.integer("run.windows")),
+      progress_(files_.log, on_terminal(), settings_.run),
       grains_(Role::grains, grains),
       fluid_(fluid ? std::optional<ParticipantLink>(std::in_place, Role::fluid, *fluid)
                    : std::nullopt),
       links_(fluid_ ? std::vector<ParticipantLink*>{&*fluid_, &grains_}
                     : std::vector<ParticipantLink*>{&grains_}),
-      watch_(links_, case_.settings.real("limits.stall_soft"),
-             case_.settings.real("limits.stall_hard"),
+      watch_(links_, settings_.stall_soft, settings_.stall_hard,
              [this](const std::string& text) { progress_.say(text); }),
-      kick_rule_(case_.settings, case_.shapes),
+      kick_rule_(settings_.run, case_.shapes),
       order_(scheme),
       scheme_(scheme.make(case_.settings)),
-      ledger_(case_.settings, case_.population.size()),
-      output_(files_.history, files_.series, case_.settings, case_.shapes) {}
+      ledger_(settings_, case_.population.size()),
+      output_(files_.history, files_.series, settings_.run, case_.shapes) {}
 
 Hub::~Hub() = default;
 
@@ -90,12 +84,12 @@ void Hub::play(const Window& window) {
 // A run that is asked to stop plays one more window and writes it, so that history, grains and
 // fields end together.
 void Hub::play_windows() {
-    const std::int64_t windows = case_.settings.integer("run.windows");
+    const std::int64_t windows = settings_.run.windows;
     for (std::int64_t index = 0; index < windows; ++index) {
         const std::optional<ExitCode> stop = requested_stop();
         const Window now = window(index, stop || index + 1 == windows);
         play(now);
-        progress_.show(output_.row(), case_.settings, now.write_output);
+        progress_.show(output_.row(), now.write_output);
         if (stop && index + 1 < windows)
             throw Failure(*stop, fmt::format("stopped on request after window {}, which is written",
                                              index + 1));
@@ -105,9 +99,9 @@ void Hub::play_windows() {
 Window Hub::window(std::int64_t index, bool last) const {
     Window window;
     window.index = index;
-    window.step = case_.settings.real("run.step");
+    window.step = settings_.run.step;
     window.time = static_cast<double>(index) * window.step;
-    window.write_output = last || (index + 1) % case_.settings.integer("run.output_every") == 0;
+    window.write_output = last || (index + 1) % settings_.run.output_every == 0;
     return window;
 }
 
@@ -129,7 +123,7 @@ RunStatus Hub::run() {
     }
     status_.wall_seconds = since(begin);
     status_.statistics = output_.statistics();
-    for (const std::string& sentence : unconverged_sentences(status_.statistics, case_.settings))
+    for (const std::string& sentence : unconverged_sentences(status_.statistics, settings_.solves))
         progress_.say("turbidite: " + sentence);
     end_and_record();
     return status_;
@@ -165,7 +159,7 @@ void Hub::start() {
         watch_.wait_for(*fluid_, Kind::domain);
         boxes = fluid_->take<Box>(Kind::domain);
     }
-    plan_.emplace(std::move(boxes), routing_margin(case_.settings), domain_periods(case_.settings));
+    plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
     Cast everybody = cast();
     Motion state = receive_grains(Kind::state, -1, everybody);
     ledger_.check_start(state);

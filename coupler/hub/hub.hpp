@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "coupler/hub/hub_settings.hpp"
 #include "coupler/hub/ledger.hpp"
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/output/progress.hpp"
@@ -55,6 +56,7 @@ class Hub {
     std::optional<ExitCode> requested_stop() const;
 
     HubCase case_;
+    HubSettings settings_;
     HubFiles files_;
     Progress progress_;
     ParticipantLink grains_;

@@ -44,8 +44,8 @@ struct Balance {
 
 }  // namespace
 
-KickRule::KickRule(const Settings& settings, const ShapeTable& shapes)
-    : bodies_(settings, shapes), gravity_(settings.real("run.gravity")) {}
+KickRule::KickRule(const RunValues& run, const ShapeTable& shapes)
+    : bodies_(run, shapes), gravity_(run.gravity) {}
 
 void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) {
     before_.follow(before.grains);

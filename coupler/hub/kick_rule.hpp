@@ -18,7 +18,7 @@ namespace turbidite {
 
 class KickRule {
  public:
-    KickRule(const Settings& settings, const ShapeTable& shapes);
+    KickRule(const RunValues& run, const ShapeTable& shapes);
 
     /// Fills force and torque. `before` is the state at t^n. Throws PhysicsRefused for a kick of a
     /// grain that was not there.

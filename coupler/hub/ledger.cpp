@@ -22,21 +22,15 @@ std::string against_overlap(const std::string& adapter) {
     return "Use a smaller time.step, or more contact.iterations.";
 }
 
-std::string multiplier_limits(const Settings& settings) {
-    return fmt::format("fluid.multiplier_iterations = {}, fluid.multiplier_tolerance = {} u_c",
-                       settings.text("fluid.multiplier_iterations"),
-                       settings.text("fluid.multiplier_tolerance"));
+std::string text(const SolveLimit& limit) {
+    return fmt::format("fluid.multiplier_iterations = {}, fluid.multiplier_tolerance = {:g} u_c",
+                       limit.iterations, limit.tolerance);
 }
 
 }  // namespace
 
-Ledger::Ledger(const Settings& settings, std::size_t population)
-    : population_(population),
-      diameter_(settings.real("run.diameter")),
-      velocity_(settings.real("run.velocity_scale")),
-      penetration_limit_(settings.real("limits.penetration")),
-      against_overlap_(against_overlap(settings.text("grains.adapter"))),
-      multiplier_limits_(settings.flag("fluid.enabled") ? multiplier_limits(settings) : "") {}
+Ledger::Ledger(const HubSettings& settings, std::size_t population)
+    : population_(population), settings_(settings) {}
 
 void Ledger::check_start(const Motion& state) const {
     check_count(state);
@@ -59,15 +53,15 @@ void Ledger::check_count(const Motion& state) const {
 }
 
 void Ledger::check_overlap(const Motion& state) const {
-    const double overlap = state.report.max_penetration / diameter_;
-    if (overlap <= penetration_limit_) return;
+    const double overlap = state.report.max_penetration / settings_.run.diameter;
+    if (overlap <= settings_.penetration) return;
     throw PhysicsRefused(
         fmt::format("grains overlap by {:.3g} D, limits.penetration = {:.3g} D. {}", overlap,
-                    penetration_limit_, against_overlap_));
+                    settings_.penetration, against_overlap(settings_.grains_adapter)));
 }
 
 void Ledger::check_divergence(const FluidReport& report) {
-    const double divergence = report.divergence * diameter_ / velocity_;
+    const double divergence = report.divergence * settings_.run.diameter / settings_.run.velocity;
     const bool good = divergence <= divergence_limit;  // false for NaN
     divergent_windows_ = good ? 0 : divergent_windows_ + 1;
     if (divergent_windows_ < windows_until_refused) return;
@@ -84,7 +78,8 @@ void Ledger::check_multipliers(const FluidReport& report) {
         "the multiplier problem stops at its iteration limit in {} windows running, at a rms slip "
         "of {:.1e} u_c: {}. Allow more iterations or a larger tolerance, or use a smaller "
         "time.step or fluid.hydrodynamic_radius.",
-        stopped_windows_, report.multiplier_residual / velocity_, multiplier_limits_));
+        stopped_windows_, report.multiplier_residual / settings_.run.velocity,
+        text(settings_.solves.multipliers)));
 }
 
 }  // namespace turbidite

@@ -5,14 +5,14 @@
 // 6. That numbers are finite is checked where they arrive (schemes/exchanges.hpp).
 #pragma once
 
+#include "coupler/hub/hub_settings.hpp"
 #include "coupler/output/window_result.hpp"
-#include "coupler/protocol/settings.hpp"
 
 namespace turbidite {
 
 class Ledger {
  public:
-    Ledger(const Settings& settings, std::size_t population);
+    Ledger(const HubSettings& settings, std::size_t population);
 
     /// Throws PhysicsRefused.
     void check_start(const Motion& state) const;
@@ -26,13 +26,9 @@ class Ledger {
 
     std::size_t population_;
     std::size_t removed_ = 0;
-    double diameter_;
-    double velocity_;                ///< u_c [m/s]
-    double penetration_limit_;       ///< [D]
-    std::string against_overlap_;    ///< advice in the terms of the adapter
-    std::string multiplier_limits_;  ///< the keys and their values
-    int divergent_windows_ = 0;      ///< running
-    int stopped_windows_ = 0;        ///< whose multiplier problem stopped at its limit, running
+    HubSettings settings_;
+    int divergent_windows_ = 0;  ///< running
+    int stopped_windows_ = 0;    ///< whose multiplier problem stopped at its limit, running
 };
 
 }  // namespace turbidite

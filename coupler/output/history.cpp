@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "coupler/output/pore_volume.hpp"
-#include "coupler/protocol/domain.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
@@ -33,17 +32,8 @@ Averages averages(const Motion& state, const ImmersedBodies& bodies) {
     return mean;
 }
 
-History::History(const std::filesystem::path& file, const Settings& settings,
-                 const ShapeTable& shapes)
-    : file_(file),
-      out_(file, std::ios::trunc),
-      bodies_(settings, shapes),
-      diameter_(settings.real("run.diameter")),
-      velocity_(settings.real("run.velocity_scale")),
-      time_(settings.real("run.time_scale")),
-      gravity_(settings.real("run.gravity")),
-      step_(settings.real("run.step")),
-      period_(domain_periods(settings)) {
+History::History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes)
+    : file_(file), out_(file, std::ios::trunc), bodies_(run, shapes), run_(run) {
     out_ << history_header() << std::endl;
     if (!out_) throw Failure(ExitCode::participant_failed, "cannot write " + file.string());
 }
@@ -54,16 +44,10 @@ RowValues History::values(const Row& row) const {
     for (const GrainState& grain : state.grains)
         solids.push_back(
             {grain.position[0], grain.position[1], bodies_(grain).mass / grain.density});
-    RowValues values{row,
-                     averages(state, bodies_),
-                     pore_volume(solids, diameter_, period_),
-                     {},
-                     diameter_,
-                     velocity_,
-                     time_,
-                     gravity_};
+    RowValues values{
+        row, averages(state, bodies_), pore_volume(solids, run_.diameter, run_.period), {}, run_};
     if (state.contacts)
-        values.network = contact_network(*state.contacts, state.grains.size(), step_);
+        values.network = contact_network(*state.contacts, state.grains.size(), run_.step);
     return values;
 }
 

@@ -45,7 +45,7 @@ struct RowValues {
     Averages mean;
     double pores;                           ///< pore_volume [m2]
     std::optional<ContactNetwork> network;  ///< empty unless contacts were sent
-    double diameter, velocity, time, gravity;
+    const RunValues& run;
 };
 
 /// The header line, for tests and readers.
@@ -57,7 +57,7 @@ std::string history_line(const RowValues& values);
 class History {
  public:
     /// Creates the file with its header. Throws Failure when it cannot be written.
-    History(const std::filesystem::path& file, const Settings& settings, const ShapeTable& shapes);
+    History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes);
 
     /// Throws Failure when the disk is full.
     void append(const Row& row);
@@ -68,9 +68,7 @@ class History {
     std::filesystem::path file_;
     std::ofstream out_;
     ImmersedBodies bodies_;
-    double diameter_, velocity_, time_, gravity_;
-    double step_;  ///< of a window
-    Vec3 period_;
+    RunValues run_;
 };
 
 }  // namespace turbidite

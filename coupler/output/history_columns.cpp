@@ -49,7 +49,7 @@ std::string fabric(Cell c, double Fabric::*value) {
 
 /// The weight of a layer of solid, one grain high: rho_s g D.
 double pressure_unit(Cell c) {
-    return c.mean.mass / c.mean.solid * c.gravity * c.diameter;
+    return c.mean.mass / c.mean.solid * c.run.gravity * c.run.diameter;
 }
 /// Of the packing: the grains and the pores between them.
 std::string stress(Cell c, double PlaneTensor::*part) {
@@ -64,26 +64,26 @@ struct Column {
 
 const std::vector<Column> columns = {
     {"step", [](Cell c) { return std::to_string(c.row.step); }},
-    {"time", [](Cell c) { return number(c.row.time / c.time); }},
-    {"mean_velocity_x", [](Cell c) { return mean(c, c.mean.velocity[0] / c.velocity); }},
-    {"mean_velocity_y", [](Cell c) { return mean(c, c.mean.velocity[1] / c.velocity); }},
+    {"time", [](Cell c) { return number(c.row.time / c.run.time); }},
+    {"mean_velocity_x", [](Cell c) { return mean(c, c.mean.velocity[0] / c.run.velocity); }},
+    {"mean_velocity_y", [](Cell c) { return mean(c, c.mean.velocity[1] / c.run.velocity); }},
     {"mean_velocity_norm",
      [](Cell c) {
          const Vec3& u = c.mean.velocity;
-         return mean(c, std::hypot(u[0], u[1], u[2]) / c.velocity);
+         return mean(c, std::hypot(u[0], u[1], u[2]) / c.run.velocity);
      }},
-    {"mean_speed", [](Cell c) { return mean(c, c.mean.speed / c.velocity); }},
-    {"mean_position_x", [](Cell c) { return mean(c, c.mean.position[0] / c.diameter); }},
-    {"mean_position_y", [](Cell c) { return mean(c, c.mean.position[1] / c.diameter); }},
-    {"front_x", [](Cell c) { return mean(c, c.mean.front / c.diameter); }},
+    {"mean_speed", [](Cell c) { return mean(c, c.mean.speed / c.run.velocity); }},
+    {"mean_position_x", [](Cell c) { return mean(c, c.mean.position[0] / c.run.diameter); }},
+    {"mean_position_y", [](Cell c) { return mean(c, c.mean.position[1] / c.run.diameter); }},
+    {"front_x", [](Cell c) { return mean(c, c.mean.front / c.run.diameter); }},
     {"kinetic_energy",
      [](Cell c) {
-         return mean(c, c.mean.kinetic_energy / (c.mean.mass * c.velocity * c.velocity));
+         return mean(c, c.mean.kinetic_energy / (c.mean.mass * c.run.velocity * c.run.velocity));
      }},
     {"grains", [](Cell c) { return std::to_string(c.row.state->grains.size()); }},
     {"contacts", [](Cell c) { return contact(c, &ContactReport::contacts); }},
     {"max_penetration",
-     [](Cell c) { return number(c.row.state->report.max_penetration / c.diameter); }},
+     [](Cell c) { return number(c.row.state->report.max_penetration / c.run.diameter); }},
     {"contact_iterations", [](Cell c) { return contact(c, &ContactReport::iterations); }},
     {"contact_residual", [](Cell c) { return contact(c, &ContactReport::residual); }},
     {"multiplier_iterations",
@@ -92,13 +92,14 @@ const std::vector<Column> columns = {
      }},
     {"multiplier_residual",
      [](Cell c) {
-         return fluid(c, [](Cell r) { return r.row.fluid->multiplier_residual / r.velocity; });
+         return fluid(c, [](Cell r) { return r.row.fluid->multiplier_residual / r.run.velocity; });
      }},
     {"divergence",
      [](Cell c) {
-         return fluid(c, [](Cell r) { return r.row.fluid->divergence * r.diameter / r.velocity; });
+         return fluid(
+             c, [](Cell r) { return r.row.fluid->divergence * r.run.diameter / r.run.velocity; });
      }},
-    {"pore_volume", [](Cell c) { return mean(c, c.pores / (c.diameter * c.diameter)); }},
+    {"pore_volume", [](Cell c) { return mean(c, c.pores / (c.run.diameter * c.run.diameter)); }},
     {"wall_step", [](Cell c) { return wall(c, &WallTimes::step); }},
     {"wall_fluid", [](Cell c) { return c.row.fluid ? wall(c, &WallTimes::fluid) : std::string(); }},
     {"wall_grains", [](Cell c) { return wall(c, &WallTimes::grains); }},
@@ -108,7 +109,7 @@ const std::vector<Column> columns = {
      [](Cell c) { return fluid(c, [](Cell r) { return r.row.fluid->momentum_defect; }); }},
     {"joint_rounds", [](Cell c) { return c.row.joint ? std::to_string(c.row.joint->rounds) : ""; }},
     {"joint_mismatch",
-     [](Cell c) { return c.row.joint ? number(c.row.joint->mismatch / c.velocity) : ""; }},
+     [](Cell c) { return c.row.joint ? number(c.row.joint->mismatch / c.run.velocity) : ""; }},
     {"contact_quad", [](Cell c) { return contact(c, &ContactReport::quad); }},
     {"contact_max", [](Cell c) { return contact(c, &ContactReport::max); }},
     {"unconverged",
@@ -123,7 +124,7 @@ const std::vector<Column> columns = {
     {"mean_normal_force",
      [](Cell c) {
          if (!c.network || !c.network->normal_force) return std::string();
-         return number(*c.network->normal_force / (pressure_unit(c) * c.diameter));
+         return number(*c.network->normal_force / (pressure_unit(c) * c.run.diameter));
      }},
     {"sliding_share", [](Cell c) { return network(c, &ContactNetwork::sliding_share); }},
 };

@@ -29,29 +29,29 @@ std::string contact_text(const ContactReport& report) {
                        report.converged ? "" : not_converged);
 }
 
-std::string fluid_text(const FluidReport& report, double velocity, double length) {
+std::string fluid_text(const FluidReport& report, const RunValues& run) {
     std::string text =
         fmt::format("  multipliers {} its, {:.0e}{}  Courant {:.2f}", report.multiplier_iterations,
-                    report.multiplier_residual / velocity,
+                    report.multiplier_residual / run.velocity,
                     report.multipliers_converged ? "" : not_converged, report.courant);
     if (report.final_divergence > 0.0)  // looked at in windows with output
         text += fmt::format("  divergence after step 5 {:.0e} u_c/D",
-                            report.final_divergence * length / velocity);
+                            report.final_divergence * run.diameter / run.velocity);
     return text;
 }
 
-std::string joint_text(const JointReport& report, double velocity) {
+std::string joint_text(const JointReport& report, const RunValues& run) {
     std::string text = fmt::format("  rounds {}", report.rounds);
     if (!report.converged)
-        text += fmt::format("{}: {:.0e} u_c", not_converged, report.mismatch / velocity);
+        text += fmt::format("{}: {:.0e} u_c", not_converged, report.mismatch / run.velocity);
     return text;
 }
 
-std::string solves(const Row& row, double velocity, double length) {
+std::string solves(const Row& row, const RunValues& run) {
     std::string text;
     if (row.contact) text += contact_text(*row.contact);
-    if (row.fluid) text += fluid_text(*row.fluid, velocity, length);
-    if (row.joint) text += joint_text(*row.joint, velocity);
+    if (row.fluid) text += fluid_text(*row.fluid, run);
+    if (row.joint) text += joint_text(*row.joint, run);
     return text;
 }
 
@@ -63,8 +63,8 @@ std::string clock_text(double seconds) {
     return fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
-Progress::Progress(const std::filesystem::path& log, bool terminal, std::int64_t windows)
-    : terminal_(terminal), windows_(windows) {
+Progress::Progress(const std::filesystem::path& log, bool terminal, const RunValues& run)
+    : terminal_(terminal), run_(run) {
     std::filesystem::create_directories(log.parent_path());
     log_.open(log, std::ios::app);
 }
@@ -81,22 +81,19 @@ void Progress::say(const std::string& text) {
     log_ << text << std::endl;
 }
 
-void Progress::show(const Row& row, const Settings& settings, bool due) {
-    const double time_scale = settings.real("run.time_scale");
-    const double velocity = settings.real("run.velocity_scale");
-    const double length = settings.real("run.diameter");
+void Progress::show(const Row& row, bool due) {
     if (!due && !(terminal_ && Clock::now() - last_shown_ > refresh)) return;
     last_shown_ = Clock::now();
     const double per_window = seconds_since(start_) / static_cast<double>(row.step);
     const std::string line = fmt::format(
         "window {}/{}  t/t_c {:.3f}  fall {:.4f} u_c  overlap {:.0e} D{}  {:.3f} s/window  left {}",
-        row.step, windows_, row.time / time_scale, mean_fall(*row.state) / velocity,
-        row.state->report.max_penetration / length, solves(row, velocity, length), per_window,
-        clock_text(per_window * static_cast<double>(windows_ - row.step)));
+        row.step, run_.windows, row.time / run_.time, mean_fall(*row.state) / run_.velocity,
+        row.state->report.max_penetration / run_.diameter, solves(row, run_), per_window,
+        clock_text(per_window * static_cast<double>(run_.windows - row.step)));
     if (due) log_ << line << std::endl;
     if (terminal_) {
         std::fputs(("\r\033[K" + line).c_str(), stdout);
-        line_open_ = row.step < windows_;
+        line_open_ = row.step < run_.windows;
         if (!line_open_) std::fputs("\n", stdout);
     } else {
         std::fputs((line + "\n").c_str(), stdout);

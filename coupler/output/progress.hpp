@@ -16,13 +16,13 @@ namespace turbidite {
 class Progress {
  public:
     /// `terminal`: standard output ends at a person (TURBIDITE_PROGRESS=terminal).
-    Progress(const std::filesystem::path& log, bool terminal, std::int64_t windows);
+    Progress(const std::filesystem::path& log, bool terminal, const RunValues& run);
 
     /// A line of its own, on screen and in the log.
     void say(const std::string& text);
 
     /// The state of the run after a window. `due`: an output interval ended here.
-    void show(const Row& row, const Settings& settings, bool due);
+    void show(const Row& row, bool due);
 
  private:
     using Clock = std::chrono::steady_clock;
@@ -31,7 +31,7 @@ class Progress {
     std::ofstream log_;
     bool terminal_;
     bool line_open_ = false;
-    std::int64_t windows_;
+    RunValues run_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_shown_{};
 };

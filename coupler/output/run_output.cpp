@@ -7,12 +7,12 @@
 namespace turbidite {
 
 RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
-                     const Settings& settings, const ShapeTable& shapes)
-    : wet_(settings.flag("fluid.enabled")),
-      history_(history, settings, shapes),
+                     const RunValues& run, const ShapeTable& shapes)
+    : wet_(run.wet),
+      history_(history, run, shapes),
       grains_(series, shapes),
       contacts_(series),
-      statistics_(settings) {}
+      statistics_(run) {}
 
 void RunOutput::begin(Motion state) {
     last_.state = std::move(state);

@@ -16,7 +16,7 @@ class RunOutput {
  public:
     /// `history`: the file; `series`: the folder of grains.pvd.
     RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
-              const Settings& settings, const ShapeTable& shapes);
+              const RunValues& run, const ShapeTable& shapes);
 
     /// Writes the state at t = 0.
     void begin(Motion state);

@@ -1,44 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/output/run_statistics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
-namespace {
-
-std::string contact_sentence(const RunStatistics& s, const Settings& settings) {
-    return fmt::format(
-        "in {} of {} windows the contact solver used up its {} sweeps (contact.iterations) before "
-        "contact.tolerance = {}; residual up to {:.1e}. Allow more sweeps.",
-        s.maxima.unconverged_windows, s.windows_done, settings.text("contact.iterations"),
-        settings.text("contact.tolerance"), s.contact_residuals.largest());
-}
-
-std::string multiplier_sentence(const RunStatistics& s, const Settings& settings) {
-    return fmt::format(
-        "in {} of {} windows the multiplier problem used up its {} iterations "
-        "(fluid.multiplier_iterations); rms slip up to {:.1e} u_c, {} demanded. Allow more "
-        "iterations, or a larger fluid.multiplier_tolerance.",
-        s.maxima.fluid->unconverged_windows, s.windows_done,
-        settings.text("fluid.multiplier_iterations"), s.maxima.fluid->slip,
-        settings.text("run.slip_tolerance"));
-}
-
-std::string joint_sentence(const RunStatistics& s, const Settings& settings) {
-    return fmt::format(
-        "in {} of {} windows contacts and fluid differ by more than coupling.tolerance = {} u_c "
-        "after coupling.iterations = {} rounds, at most by {:.1e} u_c. Allow more rounds.",
-        s.maxima.joint->unconverged_windows, s.windows_done, settings.text("coupling.tolerance"),
-        settings.text("coupling.iterations"), s.maxima.joint->mismatch);
-}
-
-}  // namespace
-
 void SinceRow::take_in(const WallTimes& spent, bool converged) {
     ++windows;
     unconverged += converged ? 0 : 1;
@@ -68,9 +36,9 @@ double ContactResiduals::quantile(double share) const {
     return *at;
 }
 
-RunStatistics::RunStatistics(const Settings& settings)
-    : diameter_(settings.real("run.diameter")), velocity_(settings.real("run.velocity_scale")) {
-    if (settings.flag("fluid.enabled")) maxima.fluid.emplace();
+RunStatistics::RunStatistics(const RunValues& run)
+    : diameter_(run.diameter), velocity_(run.velocity) {
+    if (run.wet) maxima.fluid.emplace();
 }
 
 void RunStatistics::take_in(const WindowResult& result) {
@@ -101,18 +69,6 @@ void RunStatistics::take_in(const JointReport& report) {
     joint.rounds = std::max(joint.rounds, report.rounds);
     joint.mismatch = largest(joint.mismatch, report.mismatch / velocity_);
     joint.unconverged_windows += report.converged ? 0 : 1;
-}
-
-std::vector<std::string> unconverged_sentences(const RunStatistics& statistics,
-                                               const Settings& settings) {
-    const RunMaxima& maxima = statistics.maxima;
-    std::vector<std::string> sentences;
-    if (maxima.unconverged_windows > 0) sentences.push_back(contact_sentence(statistics, settings));
-    if (maxima.fluid && maxima.fluid->unconverged_windows > 0)
-        sentences.push_back(multiplier_sentence(statistics, settings));
-    if (maxima.joint && maxima.joint->unconverged_windows > 0)
-        sentences.push_back(joint_sentence(statistics, settings));
-    return sentences;
 }
 
 }  // namespace turbidite

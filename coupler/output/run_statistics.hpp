@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "coupler/output/window_result.hpp"
-#include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/run_values.hpp"
 
 namespace turbidite {
 
@@ -71,8 +71,7 @@ class RunStatistics {
  public:
     RunStatistics() = default;
 
-    /// Reads run.diameter and run.velocity_scale.
-    explicit RunStatistics(const Settings& settings);
+    explicit RunStatistics(const RunValues& run);
 
     void take_in(const WindowResult& result);
 
@@ -86,10 +85,5 @@ class RunStatistics {
 
     double diameter_ = 1.0, velocity_ = 1.0;  ///< D [m], u_c [m/s]
 };
-
-/// What a user must know of solves that ended by their limits, a sentence each with the keys to
-/// change; empty when all converged.
-std::vector<std::string> unconverged_sentences(const RunStatistics& statistics,
-                                               const Settings& settings);
 
 }  // namespace turbidite

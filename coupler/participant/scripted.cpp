@@ -46,8 +46,9 @@ Hello ScriptedGrains::describe() const {
 Motion ScriptedGrains::initialise(const Settings& settings, const ShapeTable& shapes,
                                   const std::vector<GrainState>& grains) {
     reach("initialise", -1);
-    bodies_ = ImmersedBodies(settings, shapes);
-    gravity_ = settings.real("run.gravity");
+    const RunValues run = run_values(settings);
+    bodies_ = ImmersedBodies(run, shapes);
+    gravity_ = run.gravity;
     motion_.grains = grains;
     return motion_;
 }
@@ -145,9 +146,10 @@ Hello ScriptedFluid::describe() const {
 
 Box ScriptedFluid::initialise(const Settings& settings, const ShapeTable& shapes) {
     reach("initialise", -1);
-    bodies_ = ImmersedBodies(settings, shapes);
-    gravity_ = settings.real("run.gravity");
-    const double slice = settings.real("run.size_x") / ranks_;
+    const RunValues run = run_values(settings);
+    bodies_ = ImmersedBodies(run, shapes);
+    gravity_ = run.gravity;
+    const double slice = run.size[0] / ranks_;
     box_ = {{rank_ * slice, -everywhere, -everywhere},
             {(rank_ + 1) * slice, everywhere, everywhere}};
     if (rank_ == 0) box_.lower[0] = -everywhere;

@@ -3,9 +3,8 @@
 
 namespace turbidite {
 
-ImmersedBodies::ImmersedBodies(const Settings& settings, const ShapeTable& shapes)
-    : fluid_density_(settings.flag("fluid.enabled") ? settings.real("run.fluid_density") : 0.0),
-      hydrodynamic_radius_(settings.real("fluid.hydrodynamic_radius")) {
+ImmersedBodies::ImmersedBodies(const RunValues& run, const ShapeTable& shapes)
+    : fluid_density_(run.fluid_density), hydrodynamic_radius_(run.hydrodynamic_radius) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The bodies of a case: shapes by their index, in the fluid that the settings name. Valid C++17.
+// The bodies of a case: shapes by their index, in the fluid of its run. Valid C++17.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "coupler/shapes/immersed_body.hpp"
 
 namespace turbidite {
@@ -15,8 +15,7 @@ class ImmersedBodies {
  public:
     ImmersedBodies() = default;
 
-    /// Reads fluid.enabled, run.fluid_density and fluid.hydrodynamic_radius.
-    ImmersedBodies(const Settings& settings, const ShapeTable& shapes);
+    ImmersedBodies(const RunValues& run, const ShapeTable& shapes);
 
     /// M, I and their wet parts. Throws std::out_of_range for a shape that is not in the table.
     ImmersedBody operator()(const GrainState& grain) const;

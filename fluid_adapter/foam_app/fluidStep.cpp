@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/foam_app/boxFluidStep.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/operatorStep.hpp"
@@ -48,9 +49,8 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
                                          const BoxCells& box) {
     check_solver(fields.p, box, "fluid.pressure_solver", "GAMG, PCG");
     check_solver(fields.U, box, "fluid.viscous_solver", "PCG");
-    const double goal =
-        divergence_goal * settings.real("run.velocity_scale") / settings.real("run.diameter");
-    return std::make_unique<OperatorStep>(fields, goal);
+    const RunValues run = run_values(settings);
+    return std::make_unique<OperatorStep>(fields, divergence_goal * run.velocity / run.diameter);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
 
 namespace turbidite {
@@ -30,9 +31,8 @@ void write(const std::filesystem::path& directory, const std::string& location,
         throw Failure(ExitCode::participant_failed, "cannot write " + (folder / name).string());
 }
 
-std::string control_dict(const Settings& settings) {
-    const double step = settings.real("run.step");
-    const double end = step * static_cast<double>(settings.integer("run.windows"));
+std::string control_dict(const RunValues& run) {
+    const double end = run.step * static_cast<double>(run.windows);
     // Fields are written when the coupler says so; OpenFOAM's own interval is out of reach.
     return fmt::format(
         "application     turbidite-fluid;\n"
@@ -50,7 +50,7 @@ std::string control_dict(const Settings& settings) {
         "timeFormat      general;\n"
         "timePrecision   10;\n"
         "runTimeModifiable no;\n",
-        end, step);
+        end, run.step);
 }
 
 std::string schemes(const Settings& settings) {
@@ -170,23 +170,23 @@ std::string initial_pressure(const FluidDomain& domain) {
            boundary_field(domain, "type zeroGradient;", "type fixedValue; value uniform 0;");
 }
 
-std::string transport_properties(const Settings& settings) {
+std::string transport_properties(const RunValues& run) {
     return fmt::format(
         "transportModel Newtonian;\nnu  [0 2 -1 0 0 0 0] {:.17g};\nrho [1 -3 0 0 0 0 0] {:.17g};\n",
-        settings.real("run.viscosity"), settings.real("run.fluid_density"));
+        run.viscosity, run.fluid_density);
 }
 
 }  // namespace
 
 void write_fluid_case(const Settings& settings, const std::filesystem::path& directory) {
     const FluidDomain domain = fluid_domain(settings);
-    write(directory, "system", "controlDict", "dictionary", control_dict(settings));
+    const RunValues run = run_values(settings);
+    write(directory, "system", "controlDict", "dictionary", control_dict(run));
     write(directory, "system", "fvSchemes", "dictionary", schemes(settings));
     write(directory, "system", "fvSolution", "dictionary", solution(settings));
     write(directory, "system", "blockMeshDict", "dictionary", block_mesh(domain));
     write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings));
-    write(directory, "constant", "transportProperties", "dictionary",
-          transport_properties(settings));
+    write(directory, "constant", "transportProperties", "dictionary", transport_properties(run));
     write(directory, "0", "U", "volVectorField", initial_velocity(domain));
     write(directory, "0", "p", "volScalarField", initial_pressure(domain));
     // ParaView's reader opens a case through an empty file of this name.

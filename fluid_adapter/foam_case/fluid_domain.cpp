@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/run_values.hpp"
 
 namespace turbidite {
 namespace {
@@ -13,9 +14,7 @@ namespace {
 /// Three layers let the widest stencil stand beside a wall.
 constexpr int least_cells = 4;
 
-int cell_count(const Settings& settings, const std::string& key, double size) {
-    const double per_length =
-        settings.real("fluid.cells_per_diameter") / settings.real("run.diameter");
+int cell_count(const char* key, double size, double per_length) {
     const double cells = std::round(size * per_length);
     if (!(cells >= least_cells && cells < 1e6))
         throw Failure(ExitCode::bad_input,
@@ -46,9 +45,11 @@ void check_pair(const FluidDomain& domain, int first, int second) {
 
 FluidDomain fluid_domain(const Settings& settings) {
     FluidDomain domain;
-    domain.size = {settings.real("run.size_x"), settings.real("run.size_y")};
-    domain.cells = {cell_count(settings, "run.size_x", domain.size[0]),
-                    cell_count(settings, "run.size_y", domain.size[1])};
+    const RunValues run = run_values(settings);
+    const double per_length = settings.real("fluid.cells_per_diameter") / run.diameter;
+    domain.size = run.size;
+    domain.cells = {cell_count("run.size_x", run.size[0], per_length),
+                    cell_count("run.size_y", run.size[1], per_length)};
     domain.thickness = domain.size[0] / domain.cells[0];
     for (int i = 0; i < 4; ++i) domain.sides[i] = side(settings, side_names[i]);
     check_pair(domain, 0, 1);

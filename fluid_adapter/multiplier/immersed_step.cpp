@@ -17,11 +17,11 @@ Eigen::Matrix3d rotation_of(const Quaternion& q) {
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
-MultiplierSettings multiplier_settings(const Settings& settings) {
+MultiplierSettings multiplier_settings(const Settings& settings, const RunValues& run) {
     MultiplierSettings result;
     result.tolerance = settings.real("run.slip_tolerance");
     result.iterations = static_cast<int>(settings.integer("fluid.multiplier_iterations"));
-    result.velocity_scale = settings.real("run.velocity_scale");
+    result.velocity_scale = run.velocity;
     return result;
 }
 
@@ -57,10 +57,9 @@ std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
 
 ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes)
     : field_(field),
-      bodies_(settings, shapes),
-      hydrodynamic_radius_(settings.real("fluid.hydrodynamic_radius")),
-      gravity_(settings.real("run.gravity")),
-      settings_(multiplier_settings(settings)),
+      run_(run_values(settings)),
+      bodies_(run_, shapes),
+      settings_(multiplier_settings(settings, run_)),
       placement_(point_rules(settings)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
@@ -71,7 +70,7 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     ImmersedGrain grain;
     grain.id = state.id;
     grain.shape = &shape;
-    grain.radius = hydrodynamic_radius_ * state.radius;
+    grain.radius = run_.hydrodynamic_radius * state.radius;
     grain.position = {state.position[0], state.position[1], state.position[2]};
     grain.orientation = rotation_of(state.orientation);
     grain.effective_mass = body.effective_mass;
@@ -97,7 +96,7 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, double step)
     for (std::size_t g = 0; g < states.size(); ++g) {
         const ImmersedBody body = bodies_(states[g]);
         grains_[g].contact_motion.y() -=
-            body.submerged_mass / body.effective_mass * gravity_ * step;
+            body.submerged_mass / body.effective_mass * run_.gravity * step;
     }
 }
 

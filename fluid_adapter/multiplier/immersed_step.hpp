@@ -16,7 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
 #include "fluid_adapter/multiplier/uzawa_cg.hpp"
 
@@ -64,8 +64,8 @@ class ImmersedStep {
 
     FluidField& field_;
     std::vector<std::shared_ptr<const Shape>> shapes_;
+    RunValues run_;
     ImmersedBodies bodies_;
-    double hydrodynamic_radius_, gravity_;
     MultiplierSettings settings_;
     double slip_goal_ = 0.0;  // rms slip to reach, set by the window's first solve [m/s]
 

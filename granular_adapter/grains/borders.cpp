@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite {
@@ -46,7 +47,7 @@ void check_pairs(const std::vector<Border>& borders) {
 }  // namespace
 
 std::vector<Border> lay_borders(const Settings& settings) {
-    const double width = settings.real("run.size_x"), height = settings.real("run.size_y");
+    const auto [width, height] = run_values(settings).size;
     std::vector<Border> borders;
     const auto lay = [&](const std::string& name, const Vec3& point, const Vec3& normal) {
         const std::string key = "domain." + name;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/grains/case_bodies.hpp"
 
-#include <memory>
 #include <stdexcept>
 #include <unordered_set>
 
-#include "coupler/shapes/immersed_body.hpp"
+#include "coupler/shapes/immersed_bodies.hpp"
 #include "granular_adapter/grains/by_grain.hpp"
 
 namespace turbidite {
@@ -21,10 +20,7 @@ nscd::Twist twist_of(const Kick& kick) {
 }
 
 /// What step 4 moves: effective inertia, submerged weight.
-nscd::Body immersed(const GrainState& grain, const Shape& shape, double fluid_density,
-                    double hydrodynamic_radius) {
-    const ImmersedBody inertia =
-        immersed_body(shape, grain.radius, grain.density, fluid_density, hydrodynamic_radius);
+nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
     nscd::Body body;
     body.id = grain.id;
     body.shape = grain.shape;
@@ -52,18 +48,13 @@ void check_grain(const GrainState& state, const ShapeTable& shapes,
 
 }  // namespace
 
-void add_grains(nscd::Bodies& bodies, const Settings& settings, const ShapeTable& shapes,
+void add_grains(nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
                 const std::vector<GrainState>& grains) {
-    const bool fluid = settings.flag("fluid.enabled");
-    const double fluid_density = fluid ? settings.real("run.fluid_density") : 0.0;
-    const double wet_radius = fluid ? settings.real("fluid.hydrodynamic_radius") : 1.0;
-    std::vector<std::shared_ptr<const Shape>> made;
-    for (const ShapeRecord& record : shapes) made.push_back(make_shape(record));
+    const ImmersedBodies inertia(run, shapes);
     std::unordered_set<GrainId> seen;
     for (const GrainState& state : grains) {
         check_grain(state, shapes, seen);
-        const Shape& shape = *made[static_cast<std::size_t>(state.shape)];
-        bodies.add(immersed(state, shape, fluid_density, wet_radius));
+        bodies.add(immersed(state, inertia(state)));
     }
 }
 

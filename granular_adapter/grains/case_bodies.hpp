@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
-#include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
 
 namespace turbidite {
 
-/// Reads fluid.enabled, fluid.hydrodynamic_radius, run.fluid_density. Throws std::runtime_error
-/// naming a grain that is there twice or whose shape is not in the table.
-void add_grains(nscd::Bodies& bodies, const Settings& settings, const ShapeTable& shapes,
+/// Throws std::runtime_error naming a grain that is there twice or whose shape is not in the table.
+void add_grains(nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
                 const std::vector<GrainState>& grains);
 
 /// Every body with its last window's contact impulses; nothing announced.

@@ -80,15 +80,13 @@ Hello MdAdapter::describe() const {
 Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
                              const std::vector<GrainState>& grains) {
     const auto start = Clock::now();
-    fluid_ = settings.flag("fluid.enabled");
+    run_ = run_values(settings);
     hold_ = settings.flag("coupling.md_hold");
-    gravity_ = settings.real("run.gravity");
-    step_ = settings.real("run.step");
     substep_count_ = settings.integer("run.md_substeps");
     borders_ = lay_borders(settings);
     refuse_cyclic(borders_);
     refuse_other_shapes(shapes);
-    add_grains(bodies_, settings, shapes, grains);
+    add_grains(bodies_, run_, shapes, grains);
     nscd::move(bodies_, bodies_.twist, -lead(), {});
     check_inside(bodies_, borders_, "at the start");
     held_.assign(bodies_.size(), {});
@@ -101,7 +99,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
 
 /// What the protocol's positions are ahead of the host's, in time.
 double MdAdapter::lead() const {
-    return 0.5 * (step_ - step_ / static_cast<double>(substep_count_));
+    return 0.5 * (run_.step - run_.step / static_cast<double>(substep_count_));
 }
 
 Substeps MdAdapter::substeps(const Window& window) const {
@@ -111,7 +109,7 @@ Substeps MdAdapter::substeps(const Window& window) const {
 
 /// The host's gravity moves every body alike; the difference to its own weight is a load.
 Load MdAdapter::load(std::size_t i, double dt) const {
-    const Vec3 buoyant{0.0, (bodies_.mass[i] - bodies_.weight_mass[i]) * gravity_, 0.0};
+    const Vec3 buoyant{0.0, (bodies_.mass[i] - bodies_.weight_mass[i]) * run_.gravity, 0.0};
     return {(1.0 / dt) * held_[i].impulse + buoyant, (1.0 / dt) * held_[i].angular_impulse};
 }
 
@@ -148,7 +146,7 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
 void MdAdapter::book_contacts(const nscd::Bodies& before, const SubstepReport& run, double dt) {
     touched_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const Vec3 weight{0.0, -bodies_.weight_mass[i] * gravity_ * dt, 0.0};
+        const Vec3 weight{0.0, -bodies_.weight_mass[i] * run_.gravity * dt, 0.0};
         const Vec3 gained =
             bodies_.mass[i] * (bodies_.twist[i].velocity - before.twist[i].velocity);
         const Vec3 turned = bodies_.inertia[i] * (bodies_.twist[i].spin - before.twist[i].spin);
@@ -172,7 +170,7 @@ Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kick
     if (!advanced_)
         throw std::logic_error("apply_kick needs an advance of the same window before it");
     advanced_ = false;
-    if (fluid_ || !kicks.empty()) take_kicks(window, kicks);
+    if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
     check_inside(bodies_, borders_, in_window(window) + " after the kick");
     remove_leavers();
     report_.wall_seconds = seconds_since(start);

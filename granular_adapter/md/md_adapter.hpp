@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "coupler/participant/adapter.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/md/md_host.hpp"
 
@@ -78,10 +79,8 @@ class MdAdapter final : public GrainsAdapter {
 
     std::string adapter_name_;
     MdHost& host_;
-    bool fluid_ = true;
+    RunValues run_;
     bool hold_ = true;
-    double gravity_ = 0.0;
-    double step_ = 0.0;               ///< dt [s]
     std::int64_t substep_count_ = 1;  ///< k
     std::vector<Border> borders_;
     nscd::Bodies bodies_;  ///< at the host's positions

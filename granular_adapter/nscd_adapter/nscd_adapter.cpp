@@ -77,7 +77,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
                                const std::vector<GrainState>& grains) {
     const StopWatch watch;
     dumps_ = ProblemDumps(settings, run_folder_);
-    fluid_ = settings.flag("fluid.enabled");
+    run_ = run_values(settings);
     positions_ = parse_positions(settings.text("coupling.positions"));
     borders_ = lay_borders(settings);
     moved_walls_ = moved_walls(settings);
@@ -85,7 +85,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
         walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
-    add_grains(bodies(), settings, shapes, grains);
+    add_grains(bodies(), run_, shapes, grains);
     nscd::check_periods(bodies().radius, engine().settings().box);
     check_inside(bodies(), borders_, "at the start");
     report_ = {};
@@ -129,7 +129,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     if (contact_twists_.size() != bodies().size())
         throw std::logic_error("apply_kick needs an advance of the same window before it");
     dumps_.after(window, engine().problem());
-    if (fluid_ || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
+    if (run_.wet || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
     check_velocities(bodies(), in_window(window) + " after the kick");
     std::optional<std::vector<ContactRecord>> contacts;
     if (window.write_output) contacts = contact_records(engine());
@@ -176,9 +176,8 @@ NscdAdapter::Positions NscdAdapter::parse_positions(const std::string& text) {
 
 nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) const {
     nscd::EngineSettings result = contact_settings(settings);
-    result.gravity = {0.0, -settings.real("run.gravity"), 0.0};
-    if (borders_[0].side == BorderKind::cyclic) result.box.length[0] = settings.real("run.size_x");
-    if (borders_[2].side == BorderKind::cyclic) result.box.length[1] = settings.real("run.size_y");
+    result.gravity = {0.0, -run_.gravity, 0.0};
+    result.box.length = run_.period;
     return result;
 }
 

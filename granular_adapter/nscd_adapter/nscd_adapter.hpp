@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "coupler/participant/adapter.hpp"
+#include "coupler/protocol/run_values.hpp"
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/grains/wall_motions.hpp"
 #include "granular_adapter/nscd/engine/engine.hpp"
@@ -86,7 +87,7 @@ class NscdAdapter final : public GrainsAdapter {
     std::string host_code_;
     std::filesystem::path run_folder_ = ".";
     ProblemDumps dumps_;
-    bool fluid_ = true;
+    RunValues run_;
     bool answered_ = false;  ///< by the fluid, in this window
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;

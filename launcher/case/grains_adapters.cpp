@@ -4,9 +4,7 @@
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
-namespace {
 
-/// What every host of the contact engine can do.
 GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host,
                              const char* file) {
     return {.name = name,
@@ -22,27 +20,6 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .moving_sides = true,
             .materials = true,
             .prescribed_grains = true};
-}
-
-}  // namespace
-
-const std::vector<GrainsAdapter>& grains_adapters() {
-    static const std::vector<GrainsAdapter> table = {
-        contact_engine("yade-nscd", "contact engine hosted by YADE", GrainsHost::yade,
-                       "turbidite_yade_nscd.py"),
-        contact_engine("standalone-nscd", "the same engine without YADE", GrainsHost::none,
-                       "turbidite-grains"),
-        {.name = "yade-md",
-         .help = "YADE's own molecular dynamics, in sub-steps",
-         .family = "md",
-         .host = GrainsHost::yade,
-         .file = "turbidite_yade_md.py",
-         .shapes = {"disc"},
-         .schemes = {"split"},
-         .laws = {"coulomb"}},
-        {.name = "lammps-md", .help = "LAMMPS granular", .family = "md"},
-    };
-    return table;
 }
 
 const GrainsAdapter& grains_adapter(const Settings& settings) {

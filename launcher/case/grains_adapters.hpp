@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The programs that move the grains, and what each can do: the one table that the keys, the rules
-// and the launch line read. A new one is a line here, and its own program or script.
+// and the launch line read. A new one is its own program or script, and an entry of
+// grains_adapter_table.def.
 #pragma once
 
 #include <string>
@@ -35,6 +36,10 @@ struct GrainsAdapter {
     int most_ranks = 1;
 };
 
+/// What every host of the contact engine can do.
+GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host, const char* file);
+
+/// The entries of grains_adapter_table.def.
 const std::vector<GrainsAdapter>& grains_adapters();
 
 /// That of grains.adapter. Throws Failure (bad input) for a name that is not there or has no

@@ -7,6 +7,7 @@
 
 #include "coupler/shapes/disc.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "tests/run_settings.hpp"
 
 namespace turbidite {
 namespace {
@@ -19,10 +20,7 @@ std::filesystem::path prepared(const std::filesystem::path& folder, const Couple
 }
 
 void set_run_values(Settings& settings, const CoupledSetup& setup) {
-    settings.set("run.diameter", 1.0);
-    settings.set("run.velocity_scale", 1.0);
-    settings.set("run.time_scale", 1.0);
-    settings.set("run.fluid_density", 1.0);
+    set_run_keys(settings);
     settings.set("run.gravity", setup.gravity);
     settings.set("run.viscosity", 1.0 / setup.reynolds);
     settings.set("run.step", setup.step);
@@ -30,8 +28,6 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("run.output_every", std::int64_t{setup.windows});
     settings.set("run.size_x", setup.width);
     settings.set("run.size_y", setup.height);
-    settings.set("run.size_z", 0.0);
-    settings.set("dimension", std::int64_t{2});
     settings.set("domain.left", setup.left);
     settings.set("domain.right", setup.right);
     settings.set("domain.bottom", setup.bottom);
@@ -39,7 +35,6 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
 }
 
 void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
-    settings.set("fluid.enabled", true);
     settings.set("fluid.cells_per_diameter", std::int64_t{setup.cells_per_diameter});
     settings.set("fluid.ranks", std::int64_t{1});
     settings.set("fluid.decomposition", std::string("rows"));

@@ -16,6 +16,7 @@
 //     grains   window { → contact_input → motion } → kick → state
 #include "coupler/hub/schemes/exchanges.hpp"
 #include "coupler/protocol/largest.hpp"
+#include "coupler/protocol/run_values.hpp"
 
 namespace turbidite {
 namespace {
@@ -31,7 +32,7 @@ double largest_mismatch(const Responses& responses) {
 class Joint final : public Scheme {
  public:
     explicit Joint(const Settings& settings)
-        : tolerance_(settings.real("coupling.tolerance") * settings.real("run.velocity_scale")),
+        : tolerance_(settings.real("coupling.tolerance") * run_values(settings).velocity),
           most_rounds_(settings.integer("coupling.iterations")) {}
 
     WindowResult play(const Window& window, const Motion& before, Cast cast) override {

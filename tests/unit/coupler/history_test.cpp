@@ -44,7 +44,8 @@ TEST(History, MeansAreNumberMeans) {
     state.grains[0].velocity = {3, 4, 0};
     state.grains[1].velocity = {-3, 4, 0};
     state.grains[2].velocity = {0, 4, 0};
-    const Averages mean = averages(state, ImmersedBodies(test_settings(), {{"disc", {}}}));
+    const Averages mean =
+        averages(state, ImmersedBodies(run_values(test_settings()), {{"disc", {}}}));
     EXPECT_NEAR(mean.velocity[0], 0.0, 1e-15);
     EXPECT_NEAR(mean.velocity[1], 4.0, 1e-15);
     EXPECT_NEAR(mean.speed, 14.0 / 3.0, 1e-14);
@@ -57,7 +58,8 @@ TEST(History, SpinCountsAsKineticEnergy) {
     Motion state;
     state.grains = {test_population()[0]};
     state.grains[0].angular_velocity = {0, 0, 2};
-    const Averages mean = averages(state, ImmersedBodies(test_settings(), {{"disc", {}}}));
+    const Averages mean =
+        averages(state, ImmersedBodies(run_values(test_settings()), {{"disc", {}}}));
     EXPECT_NEAR(mean.kinetic_energy / mean.mass, 0.25, 1e-15);
 }
 
@@ -74,7 +76,7 @@ std::map<std::string, std::string> last_row(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> written(const Row& row, const Settings& settings) {
     const TestFolder folder("history-row");
-    History history(folder.path() / "history.csv", settings, {{"disc", {}}});
+    History history(folder.path() / "history.csv", run_values(settings), {{"disc", {}}});
     history.append(row);
     return last_row(folder.path() / "history.csv");
 }
@@ -152,8 +154,7 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
 }
 
 TEST(History, AFullDiskIsAnError) {
-    EXPECT_THROW(History("/dev/full", test_settings(), {{"disc", {}}}),
-                 Failure);
+    EXPECT_THROW(History("/dev/full", run_values(test_settings()), {{"disc", {}}}), Failure);
 }
 
 }  // namespace

@@ -10,9 +10,10 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double step = 0.01;
 
-// One disc, R = 0.5, rho_s = 1.5, rho_f = 1: M = 1.5 pi/4, m_f = pi/4, M_eff = M_sub = pi/8, I_f = pi/32.
+// One disc, R = 0.5, rho_s = 1.5, rho_f = 1: M = 1.5 pi/4, m_f = pi/4, M_eff = M_sub = pi/8, I_f =
+// pi/32.
 struct OneDisc {
-    KickRule rule{test_settings(), {{"disc", {}}}};
+    KickRule rule{run_values(test_settings()), {{"disc", {}}}};
     Motion before, contact;
     std::vector<Kick> kicks = std::vector<Kick>(1);
 

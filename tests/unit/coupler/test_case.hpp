@@ -8,17 +8,16 @@
 #include <filesystem>
 
 #include "coupler/hub/hub.hpp"
+#include "tests/run_settings.hpp"
 
 namespace turbidite {
 
 inline Settings test_settings(const std::string& scheme = "split", bool fluid = true) {
-    Settings s;
-    s.set("dimension", std::int64_t{2});
+    Settings s = run_settings();
     s.set("grains.adapter", std::string("scripted"));
     s.set("grains.ranks", std::int64_t{1});
     s.set("fluid.ranks", std::int64_t{1});
     s.set("fluid.enabled", fluid);
-    s.set("fluid.hydrodynamic_radius", 1.0);
     s.set("fluid.cells_per_diameter", 8.0);
     s.set("coupling.scheme", scheme);
     s.set("run.scheme", fluid ? scheme : std::string("dry"));
@@ -30,13 +29,6 @@ inline Settings test_settings(const std::string& scheme = "split", bool fluid = 
     s.set("limits.stall_soft", 5.0);
     s.set("limits.stall_hard", 20.0);
     s.set("limits.penetration", 0.2);
-    for (const char* side : {"left", "right", "bottom", "top"})
-        s.set(std::string("domain.") + side, std::string("wall"));
-    s.set("run.diameter", 1.0), s.set("run.velocity_scale", 1.0), s.set("run.time_scale", 1.0);
-    s.set("run.gravity", 1.0), s.set("run.fluid_density", 1.0), s.set("run.viscosity", 0.1);
-    s.set("run.step", 0.01), s.set("run.windows", std::int64_t{6});
-    s.set("run.output_every", std::int64_t{2});
-    s.set("run.size_x", 10.0), s.set("run.size_y", 10.0), s.set("run.size_z", 0.0);
     s.set("run.hash", std::string("0123456789abcdef"));
     return s;
 }
@@ -54,7 +46,7 @@ inline std::vector<GrainState> test_population() {
 
 /// A folder of its own for each test, removed afterwards.
 class TestFolder {
-   public:
+ public:
     explicit TestFolder(const std::string& name)
         : path_(std::filesystem::temp_directory_path() /
                 ("turbidite-" + name + "-" + std::to_string(getpid()))) {
@@ -68,7 +60,7 @@ class TestFolder {
                 path_ / "STOP"};
     }
 
-   private:
+ private:
     std::filesystem::path path_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "coupler/protocol/run_values.hpp"
 #include "granular_adapter/md/md_host.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
@@ -19,7 +20,7 @@ class LeapFrogHost final : public MdHost {
 
     std::string code() const override { return "leap-frog"; }
     void create(const Settings& settings, const nscd::Bodies& bodies) override {
-        gravity_ = settings.real("run.gravity");
+        gravity_ = run_values(settings).gravity;
         bodies_ = bodies;
     }
     void read(nscd::Bodies& bodies) const override {

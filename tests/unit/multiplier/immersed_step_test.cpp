@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "tests/run_settings.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 
 namespace turbidite {
@@ -14,16 +15,11 @@ constexpr double step = 0.01;
 constexpr double tolerance = 1e-5;  // of the mismatch
 
 Settings settings(double slip_tolerance = 0.1 * tolerance) {
-    Settings result;
+    Settings result = run_settings();
     result.set("run.slip_tolerance", slip_tolerance);
     result.set("fluid.points", std::string("interior+boundary"));
     result.set("fluid.point_spacing", 1.5);
     result.set("fluid.multiplier_iterations", std::int64_t{200});
-    result.set("fluid.hydrodynamic_radius", 1.0);
-    result.set("fluid.enabled", true);
-    result.set("run.velocity_scale", 1.0);
-    result.set("run.fluid_density", 1.0);
-    result.set("run.gravity", 1.0);
     return result;
 }
 

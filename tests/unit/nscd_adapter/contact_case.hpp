@@ -9,6 +9,7 @@
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "tests/run_settings.hpp"
 
 namespace turbidite {
 
@@ -24,17 +25,9 @@ inline void set_contact_keys(Settings& settings) {
 
 /// Box of 10 x 20 with walls all round, g = 1, rho_f = 1, u_c = 1; scheme split.
 inline Settings box_settings() {
-    Settings settings;
-    for (const char* side : {"left", "right", "bottom", "top"})
-        settings.set(std::string("domain.") + side, std::string("wall"));
+    Settings settings = run_settings();
     settings.set("coupling.positions", std::string("corrected"));
-    settings.set("fluid.enabled", true);
-    settings.set("fluid.hydrodynamic_radius", 1.0);
     set_contact_keys(settings);
-    settings.set("run.gravity", 1.0);
-    settings.set("run.fluid_density", 1.0);
-    settings.set("run.velocity_scale", 1.0);
-    settings.set("run.size_x", 10.0);
     settings.set("run.size_y", 20.0);
     return settings;
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/hub_settings.hpp"
+
+namespace turbidite {
+
+HubSettings hub_settings(const Settings& settings) {
+    HubSettings result;
+    result.run = run_values(settings);
+    result.solves = solve_limits(settings);
+    result.stall_soft = settings.real("limits.stall_soft");
+    result.stall_hard = settings.real("limits.stall_hard");
+    result.penetration = settings.real("limits.penetration");
+    if (result.run.wet)
+        result.cell = result.run.diameter / settings.real("fluid.cells_per_diameter");
+    result.grains_adapter = settings.text("grains.adapter");
+    return result;
+}
+
+}  // namespace turbidite

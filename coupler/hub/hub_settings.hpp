@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the coupler reads of a case, read once when its hub is made.
+#pragma once
+
+#include "coupler/output/solve_limits.hpp"
+#include "coupler/protocol/run_values.hpp"
+
+namespace turbidite {
+
+struct HubSettings {
+    RunValues run;
+    SolveLimits solves;
+    double stall_soft = 0.0;   ///< limits.stall_soft: a silent participant is named [s]
+    double stall_hard = 0.0;   ///< limits.stall_hard: it ends the run [s]
+    double penetration = 0.0;  ///< limits.penetration [D]
+    double cell = 0.0;         ///< edge of a fluid cell; 0 when dry [m]
+    std::string grains_adapter;
+};
+
+/// Throws std::out_of_range or std::invalid_argument naming a key that is missing or of another
+/// type.
+HubSettings hub_settings(const Settings& settings);
+
+}  // namespace turbidite

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The values of a run that several programs need, read from its settings once by each: units,
+// physics, windows, periods. Keys that only one program knows are read by that program.
+//
+// Valid C++17.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "coupler/protocol/records.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+struct RunValues {
+    double diameter = 1.0;  ///< D [m]
+    double velocity = 1.0;  ///< u_c [m/s]
+    double time = 1.0;      ///< t_c = D/u_c [s]
+
+    double gravity = 0.0;       ///< g, along -y [m/s2]
+    double grain_weight = 0.0;  ///< m g of a disc of diameter D in air, per unit length [N/m]
+
+    bool wet = false;                  ///< is there a fluid?
+    double fluid_density = 0.0;        ///< rho_f; 0 when dry [kg/m3]
+    double viscosity = 0.0;            ///< nu; 0 when dry [m2/s]
+    double hydrodynamic_radius = 1.0;  ///< R_h/R; 1 when dry
+
+    double step = 0.0;              ///< dt, the length of a window [s]
+    std::int64_t windows = 0;       ///< of the whole run
+    std::int64_t output_every = 1;  ///< windows from one output to the next
+
+    std::array<double, 2> size{};  ///< of the domain, [0, size[0]] x [0, size[1]] [m]
+    Vec3 period{};  ///< per axis the length after which the domain repeats; 0: none [m]
+};
+
+/// Reads run.*, fluid.enabled, fluid.hydrodynamic_radius, domain.left and domain.bottom. Throws
+/// std::out_of_range or std::invalid_argument naming a key that is missing or of another type.
+RunValues run_values(const Settings& settings);
+
+}  // namespace turbidite

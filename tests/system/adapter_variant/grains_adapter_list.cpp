@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The table of grains adapters with one entry more, for programs that link this file in place of
+// the case library's own.
+#include "launcher/case/grains_adapters.hpp"
+
+namespace turbidite {
+
+const std::vector<GrainsAdapter>& grains_adapters() {
+    static const std::vector<GrainsAdapter> table = {
+#include "launcher/case/grains_adapter_table.def"
+        {.name = "falling",
+         .help = "grains that touch nothing",
+         .family = "",
+         .file = "turbidite-falling-grains",
+         .shapes = {"disc"},
+         .schemes = {"split"}},
+    };
+    return table;
+}
+
+}  // namespace turbidite
