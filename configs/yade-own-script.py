@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A YADE script of your own with the contact engine of Turbidite: grains in a rotating drum.
+"""A stand-alone YADE script with the contact engine of Turbidite: grains in a rotating drum.
 
-    ./turbidite yade configs/yade-own-script.py            # 12 s of the drum, then 3 s from the saved scene
-    ./turbidite yade configs/yade-own-script.py 2 40       # other end of time [s] and number of grains
+    ./turbidite yade configs/yade-own-script.py            # 12 s of rotation, then 3 s from the saved scene
+    ./turbidite yade configs/yade-own-script.py 2 40       # end time [s] and number of grains
 
-Discs, triangles and squares of different sizes, two materials, a drum of facets that RotationEngine drives.
-Everything else is YADE's: plot.addData, VTKRecorder, O.save and O.load. Results go to runs/yade-drum/.
+Discs, triangles and squares of different sizes, two materials, and a drum of facets driven by RotationEngine.
+Everything else is plain YADE: plot.addData, VTKRecorder, O.save and O.load. Results go to runs/yade-drum/.
 """
 import math
 import os
@@ -22,7 +22,7 @@ folder = 'runs/yade-drum'
 os.makedirs(folder, exist_ok=True)
 draw = random.Random(1)
 
-# ---- materials: a contact has the smaller friction of its two ----
+# ---- materials: a contact has the smaller friction of the two bodies ----
 O.materials.append(FrictMat(density=2500, frictionAngle=math.atan(0.4), label='grains'))
 O.materials.append(FrictMat(density=2500, frictionAngle=math.atan(0.8), label='drum'))
 
@@ -34,7 +34,7 @@ drum = [O.bodies.append(utils.facet([(*a, 0), (*b, 0), (0.5 * (a[0] + b[0]), 0.5
         for a, b in zip(rim, rim[1:])]
 
 
-# ---- a loose cloud of grains on a grid of places inside the drum ----
+# ---- a loose cloud of grains on a grid of positions inside the drum ----
 def grain(x, y):
     radius = 0.009 * draw.uniform(0.6, 1.0)
     corners = draw.choice((0, 3, 4))
@@ -50,7 +50,7 @@ places = [(0.0195 * i, 0.0195 * j) for j in range(-12, 13) for i in range(-12, 1
 inside = [place for place in places if math.hypot(*place) < drum_radius - 0.012]
 grains = [O.bodies.append(grain(*place)) for place in inside[:count]]
 
-# ---- two lines attach the engine; the drum's motion goes in front of it, recorders behind ----
+# ---- two lines attach the engine; the drum's motion goes before it, recorders after it ----
 O.dt = 5e-4
 engines = turbidite_contact.engines(gravity=(0, -9.81, 0), restitution=0.1, show=200)
 drive = RotationEngine(ids=drum, rotationAxis=(0, 0, 1), angularVelocity=2 * math.pi * turns_per_second,
@@ -66,7 +66,7 @@ def add_data():
     weight = sum(O.bodies[i].state.mass for i in grains) * 9.81
     plot.addData(t=O.time, kinetic_energy=utils.kineticEnergy(), contacts=report['contacts'],
                  sweeps=report['iterations'], residual=report['residual'],
-                 # What the drum carries, in weights of the grains: 1 in the mean.
+                 # Vertical force on the drum, in units of the grains' weight: 1 on average.
                  carried=-sum(O.forces.f(i, True)[1] for i in drum) / weight,
                  torque=sum((O.bodies[i].state.pos.cross(O.forces.f(i, True)) + O.forces.t(i))[2] for i in drum))
 
@@ -77,7 +77,7 @@ O.run(round(end_time / O.dt), True)
 O.save(folder + '/scene.yade.gz')
 print('saved at t = %.2f s:' % O.time, turbidite_contact.report(), flush=True)
 
-# The scene goes on from the file as if nothing had happened, here or in another process.
+# The loaded scene continues as if uninterrupted, in this process or another one.
 O.load(folder + '/scene.yade.gz')
 O.run(round(0.25 * end_time / O.dt), True)
 plot.saveDataTxt(folder + '/drum.txt')
