@@ -10,7 +10,7 @@
 namespace turbidite::nscd {
 namespace {
 
-/// Cells of one axis that a search interval touches: `count` cells from `first` on, modulo n.
+/// The cells of one axis touched by a search interval: `count` cells from `first` on, modulo n.
 struct CellRange {
     std::int64_t first = 0;
     std::int64_t count = 0;
@@ -31,7 +31,8 @@ struct Axis {
         return repeats ? ((i % n) + n) % n : std::clamp<std::int64_t>(i, 0, n - 1);
     }
 
-    /// Of a cell at most one period beyond the last. Divisions cost more than all else in near().
+    /// Index of a cell at most one period beyond the last. Avoids a division, the most expensive
+    /// operation in near().
     std::int64_t wrapped(std::int64_t i) const { return i < n ? i : i - n; }
 
     CellRange range(double low, double high) const {
@@ -46,7 +47,7 @@ struct Axis {
     }
 };
 
-/// Splits [low, high] into cells of at least `cell`; a repeating axis into equal ones.
+/// Splits [low, high] into cells no smaller than `cell`; equal cells on a periodic axis.
 Axis make_axis(double low, double high, double cell, bool repeats) {
     Axis axis{low, cell, 1, repeats};
     const double ratio = std::floor((high - low) / cell);
@@ -85,7 +86,8 @@ class Level {
 Level::Level(std::vector<std::int32_t> members, const std::vector<Vec3>& x, double cell,
              const PeriodicBox& box)
     : members_(std::move(members)) {
-    // Widely scattered bodies would ask for more cells than bodies: coarser cells stay correct.
+    // Widely scattered bodies would need more cells than there are bodies; coarser cells are still
+    // correct.
     const auto limit = static_cast<std::int64_t>(4 * members_.size() + 64);
     lay_axes(x, cell, box);
     while (axes_[0].n * axes_[1].n * axes_[2].n > limit) lay_axes(x, cell *= 1.5, box);
@@ -139,7 +141,7 @@ struct SizedLevel {
     Level grid;
 };
 
-/// From the largest bodies to the smallest.
+/// From the level of the largest bodies to that of the smallest.
 std::map<int, SizedLevel> build_levels(const std::vector<Vec3>& x, const std::vector<double>& radii,
                                        double alert, const PeriodicBox& box) {
     const double largest = *std::max_element(radii.begin(), radii.end());
@@ -166,7 +168,7 @@ std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(x.size()); ++i) {
         const int own = level_of(radii[i], largest);
         for (const auto& [level, sized] : levels) {
-            if (level > own) break;  // smaller bodies look for us
+            if (level > own) break;  // smaller bodies search for this one
             sized.grid.near(x[i], radii[i] + sized.largest + alert, [&](std::int32_t j) {
                 if (level == own && j <= i) return;
                 const Vec3 d = box.minimum_image(x[j] - x[i]);

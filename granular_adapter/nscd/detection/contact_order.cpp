@@ -12,8 +12,8 @@ namespace turbidite::nscd {
 namespace {
 
 struct Place {
-    double layer;        ///< whole number, growing downwards
-    std::int32_t point;  ///< in the order of detection
+    double layer;        ///< an integer, increasing downwards
+    std::int32_t point;  ///< index in the order of detection
     std::int32_t colour = 0;
 };
 
@@ -34,7 +34,8 @@ std::vector<Place> layers(const std::vector<ContactPoint>& points, const Bodies&
     return places;
 }
 
-/// Greedy: the first colour that neither body has in this layer; beyond 63 they share the last.
+/// Greedy colouring: the first colour that neither body has in this layer; beyond 63, one shared
+/// colour.
 void colour(std::vector<Place>& places, const std::vector<ContactPoint>& points,
             std::size_t bodies) {
     struct Used {

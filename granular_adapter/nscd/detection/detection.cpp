@@ -9,8 +9,8 @@
 namespace turbidite::nscd {
 namespace {
 
-// Contacts whose heights differ by less than this share of the smallest radius count as side by
-// side. Larger ones mix rows, which costs sweeps.
+// Contacts whose heights differ by less than this fraction of the smallest radius count as side by
+// side. Larger values mix layers, which costs sweeps.
 constexpr double one_height = 0.01;
 
 double deepest(const std::vector<ContactPoint>& points) {

@@ -15,7 +15,7 @@ void disc_disc(const PairView& view, std::vector<ContactPoint>& points) {
     const double distance = norm(view.offset);
     const double gap = distance - radius_a - radius_b;
     if (!(gap < view.alert)) return;
-    // Concentric discs have no normal: any direction parts them.
+    // Concentric discs have no normal; any direction separates them.
     const Vec3 normal = distance > 0.0 ? (1.0 / distance) * view.offset : Vec3{1.0, 0.0, 0.0};
     const Vec3 arm_a = (radius_a + 0.5 * gap) * normal;
     const Vec3 arm_b = (-radius_b - 0.5 * gap) * normal;
@@ -39,7 +39,7 @@ void disc_wall(const WallView& view, std::vector<ContactPoint>& points) {
     const double radius = view.bodies.radius[view.body];
     const double place = along(view.wall, centre), end = view.wall.half_length;
     if (std::abs(place) > end) return disc_corner(view, std::copysign(end, place), points);
-    // A half-plane is solid behind; a segment holds grains on both of its sides.
+    // A half-plane is solid behind its normal; a segment holds grains on both sides.
     const double height = signed_distance(view.wall, centre);
     const double side = std::isfinite(end) && height < 0.0 ? -1.0 : 1.0;
     const double distance = side * height;
@@ -49,7 +49,7 @@ void disc_wall(const WallView& view, std::vector<ContactPoint>& points) {
         {-1, view.body, view.wall_index, 0, distance - radius, normal, Vec3{}, -radius * normal});
 }
 
-/// The same contact seen from the other body.
+/// The same contact with a and b exchanged.
 void swap_bodies(ContactPoint& point) {
     std::swap(point.a, point.b);
     std::swap(point.arm_a, point.arm_b);

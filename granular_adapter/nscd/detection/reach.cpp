@@ -9,8 +9,8 @@
 namespace turbidite::nscd {
 namespace {
 
-/// Upper bound of |u_rel| between any two bodies or a body and a wall: the diagonal of the box that
-/// holds all velocities and zero.
+/// Upper bound of |u_rel| between any two bodies, or a body and a wall: the diagonal of the
+/// bounding box of all velocities and zero.
 double speed_range(const std::vector<Twist>& twists) {
     Vec3 low{}, high{};
     for (const Twist& twist : twists)
@@ -21,7 +21,7 @@ double speed_range(const std::vector<Twist>& twists) {
     return norm(high - low);
 }
 
-/// Fastest that a corner moves about its own centre.
+/// Largest speed of a corner about its own centre.
 double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
     double fastest = 0.0;
     for (std::size_t i = 0; i < twists.size(); ++i)
@@ -29,7 +29,7 @@ double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
     return fastest;
 }
 
-/// Fastest that a wall moves where a body is.
+/// Largest speed of a wall at the position of a body.
 double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
     double fastest = 0.0;
     for (const Wall& wall : walls) {

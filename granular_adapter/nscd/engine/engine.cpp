@@ -15,11 +15,12 @@
 namespace turbidite::nscd {
 namespace {
 
-// Contacts within this share of both radii are always in the problem, so that a contact which opens
-// by rounding does not flicker. Larger only costs time.
+// Contacts with a gap below this fraction of both radii are always in the problem, so that a
+// contact that opens by rounding does not appear and disappear. Larger values only cost time.
 constexpr double alert_share = 0.02;
 
-// A step is solved again while turning polygons would overlap by more than this share of a radius.
+// A step is solved again while rotating polygons would overlap by more than this fraction of a
+// radius.
 constexpr double turn_share = 1e-5;
 constexpr int turn_rounds = 2;
 
@@ -83,7 +84,7 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
     return hand_out(std::move(result), dt);
 }
 
-/// Every point that may close within the step.
+/// Finds every contact point that may close within the step.
 void Engine::detect(const std::vector<Twist>& free, double dt) {
     const bool corners = detection_.has_corners();
     reach_ = std::max({approach_bound(bodies_, walls_, free, corners, dt),
@@ -95,15 +96,15 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
     for (const ContactPoint& point : points_) keys_.push_back(key(point));
 }
 
-/// The problem of these points under the laws, and what the last step's impulses say about it.
+/// Sets up the contact problem of these points under the laws, and the initial guess.
 void Engine::pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt) {
     problem_ = laws_.pose({points_, keys_, bodies_, walls_}, free, std::move(mobilities), dt);
     guess_.clear();
     for (const ContactKey& key : keys_) guess_.push_back(memory_.guess(key, dt));
 }
 
-/// Where polygons turn fast, again with the gaps that the turn leaves (corner_turn.hpp); sweeps are
-/// those of all solves.
+/// Solves the problem; if polygons rotate fast, again with gaps reduced by the shortfall
+/// (corner_turn.hpp). The iterations are summed over all solves.
 SolverResult Engine::solve(double dt) {
     SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
     if (!detection_.has_corners()) return result;
@@ -117,8 +118,8 @@ SolverResult Engine::solve(double dt) {
     return result;
 }
 
-/// Moves the biases to the shortfalls of these velocities. Returns the largest change that matters,
-/// over the body's radius: of contacts that would end with an overlap.
+/// Updates the biases for the shortfalls at these velocities. Returns the largest change over the
+/// body's radius, among contacts that would end with an overlap.
 double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                           double dt) {
     const std::vector<double> found = gap_shortfalls(
@@ -154,7 +155,8 @@ double Engine::max_penetration() const {
 }
 
 double Engine::max_penetration_after_move() const {
-    // Farther than the last step looked, or bodies are gone: anybody may have met anybody.
+    // Bodies moved farther than the last step detected, or some were removed: all pairs must be
+    // tested.
     if (!(moved_ <= reach_)) return max_penetration();
     return detection_.deepest_overlap(bodies_, walls_, points_);
 }
@@ -215,7 +217,8 @@ ContactKey Engine::key(const ContactPoint& point) const {
     return {bodies_.id[point.a], bodies_.id[point.b], 0, point.feature};
 }
 
-/// To the bodies their velocities and impulses, to memory and laws what the next step starts from.
+/// Gives velocities and impulses to the bodies, the initial guess of the next step to the memory,
+/// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
     memory_.remember(keys_, result.impulses, dt);
     laws_.find_states({points_, keys_, bodies_, walls_}, result.impulses);
@@ -234,7 +237,7 @@ StepReport Engine::hand_out(SolverResult result, double dt) {
             deepest};
 }
 
-/// Per body, of contact impulses and of their moments.
+/// Sums contact impulses and their moments by body.
 void Engine::sum_impulses() {
     std::fill(bodies_.contact_impulse.begin(), bodies_.contact_impulse.end(), Vec3{});
     std::fill(bodies_.contact_angular_impulse.begin(), bodies_.contact_angular_impulse.end(),

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint64_t bodies_format = 0x334445534354ULL;
 constexpr std::uint64_t memory_format = 0x344d454d4354ULL;
 
-/// Where a wall is and how it moves; the rest comes from the settings.
+/// Position and motion of a wall; everything else comes from the settings.
 template <class Visit, class AnyWall>
 void for_each_state(AnyWall& wall, Visit&& visit) {
     visit(wall.point), visit(wall.normal), visit(wall.velocity), visit(wall.spin);

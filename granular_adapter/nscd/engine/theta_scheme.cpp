@@ -21,7 +21,7 @@ void check_theta(double theta, double restitution) {
     if (!(theta >= 0.5 && theta <= 1.0))
         throw std::invalid_argument("theta = " + std::to_string(theta) +
                                     " must lie in [0.5, 1]: below, the scheme is unstable");
-    // 1/2 is meant to pass with e = 1 however the division rounds.
+    // With e = 1, theta = 1/2 must pass however the division rounds.
     const double most = 1.0 / (1.0 + restitution);
     if (theta > most * (1.0 + 1e-12))
         throw std::invalid_argument(

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Liquid bridges (after Richefeu et al. 2006): form on contact, break at the rupture distance
-// adhesion_range, and pull with
+// adhesion_range, and attract with
 //
-//     c(g) = kappa sqrt(R1 R2) exp(-g/lambda),   c(0) where the bodies overlap
+//     c(g) = kappa sqrt(R1 R2) exp(-g/lambda),   c(0) for overlapping bodies
 //
-// lambda = adhesion_length. At a wall 2 R stands for sqrt(R1 R2), as Derjaguin's approximation has
-// it for a plane. kappa is Surface::adhesion over the reference radius. Points of a pair share the
-// force; the R of a polygon is that of its circumscribed circle.
+// lambda = adhesion_length. At a wall sqrt(R1 R2) is replaced by 2 R, Derjaguin's approximation for
+// a plane. kappa is Surface::adhesion over the reference radius. The points of a pair share the
+// force; R of a polygon is its circumscribed radius.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ namespace {
 
 class Capillary final : public LawPart {
  public:
-    /// Throws std::invalid_argument when adhesion, range or length is missing.
+    /// Throws std::invalid_argument if adhesion, range or length is missing.
     Capillary(const LawSettings& settings, const SurfaceTable& surfaces);
     void add(const ContactSituation& situation, LawTerms& terms) const override;
     double remember(const ContactSituation& situation,
@@ -32,7 +32,7 @@ class Capillary final : public LawPart {
 
     double range_;
     double length_;
-    double radius_;  ///< of reference
+    double radius_;  ///< reference radius [m]
 };
 
 constexpr double none = 0.0, bridge = 1.0;

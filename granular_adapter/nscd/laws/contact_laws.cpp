@@ -23,8 +23,8 @@ Contact bare_contact(const ContactPoint& p) {
     return contact;
 }
 
-/// `approach`: u^-; `drive`: velocity of the wall, which is no body of the problem. Both in the
-/// contact's frame.
+/// Writes the terms of the law into a contact. `approach`: u^-; `drive`: the velocity of the wall,
+/// which is not a body of the problem. Both are in the contact's frame.
 void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& approach,
                 const ContactVector& drive) {
     ContactVector bias{terms.normal_bias, 0.0, 0.0, 0.0};
@@ -84,7 +84,7 @@ bool ContactLaws::is_round(const Bodies& bodies, std::int32_t body) const {
     return body >= 0 && round_[static_cast<std::size_t>(bodies.shape[body])] != 0;
 }
 
-/// One over the points that a pair has within the range of the law; 1 where it makes no difference.
+/// One over the number of a pair's points within the range of the law; 1 where this is not used.
 std::vector<double> ContactLaws::shares(const std::vector<ContactPoint>& points) const {
     if (law_.range() == 0.0 || all_round()) return std::vector<double>(points.size(), 1.0);
     const auto pair_of = [](const ContactPoint& p) { return std::array{p.a, p.wall, p.b}; };
@@ -170,7 +170,7 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
     return problem;
 }
 
-// What holds a pair at rest may cancel with the pull to the last digit.
+// What holds a pair at rest may cancel the attraction to the last digit.
 void ContactLaws::pull(ContactProblem& problem) const {
     std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(attraction_.size())));
     for (std::size_t i = 0; i < pulled.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Dry friction with one coefficient.
+// Coulomb friction with one coefficient.
 #include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {

@@ -4,8 +4,8 @@
 //
 //     u_a = (u^+ + e u^-)/(1 + e),   so   b_n = min(b_n, e u_n^-),   b_t = e u_t^-
 //
-// in impacts. Where all impacts of a step have the same e the energy cannot grow, with any friction
-// and any number of contacts: r . u_a <= 0 and W positive give r . (u^+ + u^-) <= 0.
+// in impacts only. If all impacts of a step have the same e, the energy cannot increase, with any
+// friction and any number of contacts: r . u_a <= 0 and W positive give r . (u^+ + u^-) <= 0.
 #include <stdexcept>
 
 #include "granular_adapter/nscd/laws/impact.hpp"
@@ -16,8 +16,8 @@ namespace {
 
 class Moreau final : public LawPart {
  public:
-    /// Throws std::invalid_argument unless the threshold is >= 0, or when a surface has a
-    /// tangential restitution of its own.
+    /// Throws std::invalid_argument unless the threshold is >= 0, and if a surface has a tangential
+    /// restitution of its own.
     Moreau(const LawSettings& settings, const SurfaceTable& surfaces);
     void add(const ContactSituation& situation, LawTerms& terms) const override;
     bool reads_velocities() const override { return true; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Newton's impact law: u_n^+ = -e u_n^- where the contact acts, u_t^+ = -e_t u_t^- where it does
-// not slide; in impacts only. As a change of variables
+// Newton's impact law: u_n^+ = -e u_n^- for a loaded contact, u_t^+ = -e_t u_t^- if it does not
+// slide; in impacts only. As a change of variables
 //
 //     b_n = min(b_n, e u_n^-),   b_t = e_t u_t^-
 //

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Rolling resistance of discs: a moment up to mu_r R* r_n against the relative spin, R* the reduced
-// radius of the pair (R at a wall). A disc on a plane that does not slide stays at rest iff the
-// slope is at most mu_r.
+// Rolling resistance of discs: a moment of at most mu_r R* r_n opposing the relative spin, R* the
+// reduced radius of the pair (R at a wall). A disc on an incline that does not slide stays at rest
+// iff the slope is at most mu_r.
 #include <algorithm>
 
 #include "granular_adapter/nscd/laws/law_list.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Signorini on gaps and velocities at once, without restitution.
+// The Signorini condition on gaps and velocities at once, without restitution.
 //
 //     g >= 0:  b_n = g/dt                                   contact at the end of the step at most
-//     g <  0:  b_n = max(fraction g/dt, -recovery speed)    overlap is taken back, but slowly: the
-//                                                           full g/dt would be a kick
+//     g <  0:  b_n = max(fraction g/dt, -recovery speed)    overlap is removed, but slowly: the
+//                                                           full g/dt would act like an impact
 #include <algorithm>
 #include <stdexcept>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Dry friction with two coefficients: the static one for a contact that stuck in the last step, or
-// that is new and does not move along the tangent; the sliding one for all others.
+// Coulomb friction with two coefficients: the static one for a contact that stuck in the last step,
+// or a new one without tangential motion; the sliding one for all others.
 //
-// The step in which a stuck contact gives way still has the static coefficient.
+// The step in which a sticking contact begins to slide still has the static coefficient.
 #include <stdexcept>
 #include <string>
 
@@ -14,7 +14,7 @@ namespace {
 
 class StaticDynamic final : public LawPart {
  public:
-    /// Throws std::invalid_argument where static friction is missing or below that of sliding.
+    /// Throws std::invalid_argument if static friction is missing or below sliding friction.
     StaticDynamic(const LawSettings& settings, const SurfaceTable& surfaces);
     void add(const ContactSituation& situation, LawTerms& terms) const override;
     double remember(const ContactSituation& situation,

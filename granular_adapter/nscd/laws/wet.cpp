@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A constant pull c = Surface::adhesion within a distance, g < adhesion_range, shared by the points
-// of a pair.
+// A constant attraction c = Surface::adhesion within a distance, g < adhesion_range, shared by the
+// points of a pair.
 //
-//     wet                whenever the gap is smaller
+//     wet                at any gap below the distance
 //     wet-irreversible   contacts within the distance in the first step, until they leave it
 #include "granular_adapter/nscd/laws/adhesion_settings.hpp"
 #include "granular_adapter/nscd/laws/law_list.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 class Wet final : public LawPart {
  public:
-    /// Throws std::invalid_argument when adhesion or range is missing.
+    /// Throws std::invalid_argument if adhesion or range is missing.
     Wet(const LawSettings& settings, const SurfaceTable& surfaces);
     void add(const ContactSituation& situation, LawTerms& terms) const override;
     double range() const override { return range_; }
@@ -24,7 +24,7 @@ class Wet final : public LawPart {
 
 class WetOnce final : public LawPart {
  public:
-    /// Throws std::invalid_argument when adhesion or range is missing.
+    /// Throws std::invalid_argument if adhesion or range is missing.
     WetOnce(const LawSettings& settings, const SurfaceTable& surfaces);
     void add(const ContactSituation& situation, LawTerms& terms) const override;
     double remember(const ContactSituation& situation,

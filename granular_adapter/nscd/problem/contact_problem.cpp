@@ -6,7 +6,7 @@
 namespace turbidite::nscd {
 namespace {
 
-/// Impulse p at the end of `arm` and moment impulse m.
+/// Adds the change of velocity by an impulse p at the end of `arm` and a moment impulse m.
 void push(Twist& twist, const BodyMobility& body, const Vec3& arm, const Vec3& p, double m) {
     const PlanarVector change = body * PlanarVector{p[0], p[1], cross_z(arm, p) + m};
     twist.velocity[0] += change.x;

@@ -11,7 +11,8 @@ namespace turbidite::nscd {
 namespace {
 
 // Relative error of a contact velocity that counts as rounding. A sum over a dozen contacts loses a
-// few hundred times 1e-16; ten times more than needed hides impulses of 1e-12 of the momentum.
+// few hundred times 1e-16. Ten times the necessary value would hide impulses of 1e-12 of the
+// momentum.
 constexpr double rounding = 1e-12;
 
 double squared(const Plane& x) {
@@ -22,7 +23,7 @@ ContactVector biased_velocity(const Contact& contact, const std::vector<Twist>& 
     return contact_velocity(contact, v) + contact.bias;
 }
 
-/// One contact's |natural map|^2 and |r|^2.
+/// natural map|^2 and |r|^2 of one contact.
 struct Terms {
     double error, size;
 };
@@ -50,7 +51,7 @@ ContactVector times(const Block& w, const ContactVector& r) {
                     w.nr * r.n + w.tr * r.t + w.rr * r.roll);
 }
 
-/// |u|^2 with spins as velocities.
+/// u|^2, with spins scaled to velocities.
 double squared(const Block& w, const ContactVector& u) {
     const double rolling = w.rr > 0.0 ? u.roll * u.roll * (w.nn / w.rr) : 0.0;
     return u.n * u.n + u.t * u.t + rolling;

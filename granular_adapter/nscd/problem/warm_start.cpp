@@ -11,8 +11,8 @@ bool by_key(const RememberedContact& a, const RememberedContact& b) {
     return a.key < b.key;
 }
 
-// Keys are looked up in the order of a step's contacts, which has nothing to do with theirs: a
-// binary search would miss the cache a dozen times for each.
+// Keys are looked up in the order of a step's contacts, which is unrelated to the order of the
+// keys: a binary search would miss the cache a dozen times per contact.
 std::size_t scrambled(const ContactKey& key) {
     std::uint64_t h = static_cast<std::uint64_t>(key.first) * 0x9e3779b97f4a7c15u;
     h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(key.second)) * 0x9e3779b97f4a7c15u;

@@ -12,7 +12,7 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// Relative error of a trial up to which refinement converges fast.
+// Relative error of a trial solution up to which refinement converges fast.
 constexpr double refinable = 0.1;
 
 Matrix body_graph(const ScaledContacts& contacts) {
@@ -35,8 +35,8 @@ void subtract_product(Eigen::Matrix3d& c, const Eigen::Matrix3d& a, const Eigen:
     c.noalias() -= a.lazyProduct(b);
 }
 
-/// The four blocks of A D A^T that contact c adds, as take(index, row, column, block) with bodies
-/// as rows and columns; one block where nothing but b moves.
+/// The blocks that contact c adds to A D A^T, as take(index, row, column, block) with bodies as
+/// rows and columns: four, or one if only b can move.
 template <class Take>
 void each_block(const ScaledContact& c, const Eigen::Matrix3d& d, const Take& take) {
     using Block = Eigen::Matrix3d;
@@ -72,7 +72,8 @@ void BodyFactors::order_bodies() {
         position_[order.indices()[static_cast<Eigen::Index>(i)]] = static_cast<std::int32_t>(i);
 }
 
-/// Rows of each column of L: its own and those of the columns whose first row it is.
+/// Symbolic factorisation: the rows of each column of L are its own and those of the columns whose
+/// first row it is.
 void BodyFactors::find_fill() {
     const std::size_t n = contacts_.bodies();
     std::vector<std::vector<std::int32_t>> rows(n), children(n);
@@ -100,7 +101,7 @@ void BodyFactors::find_updates() {
                 target_.push_back(place(row_[e], row_[f]));
 }
 
-/// Of a block, by positions, in `blocks_`.
+/// Index in `blocks_` of the block at two elimination positions.
 std::int32_t BodyFactors::place(std::int32_t row, std::int32_t column) const {
     if (row == column) return row;
     const auto [low, high] = std::minmax(row, column);
@@ -172,7 +173,7 @@ Vector BodyFactors::product(const ContactBlocks& d, const Vector& y) const {
     return result;
 }
 
-/// One refinement of a trial changes little.
+/// Whether one refinement changes a trial solution only little.
 bool BodyFactors::accurate(const ContactBlocks& d) const {
     Vector right = Vector::Zero(3 * static_cast<Eigen::Index>(contacts_.bodies()));
     for (std::size_t k = 0; k < contacts_.size(); ++k)

@@ -7,28 +7,29 @@
 namespace turbidite::nscd {
 namespace {
 
-constexpr double predicted = 0.9;    ///< deviation that a prediction may have
-constexpr double corrected = 0.3;    ///< that a step may end with
-constexpr double least_left = 0.02;  ///< of a factor after a prediction
-constexpr double least_z = 1e-3;     ///< of z
+constexpr double predicted = 0.9;    ///< deviation allowed after a prediction
+constexpr double corrected = 0.3;    ///< deviation allowed at the end of a step
+constexpr double least_left = 0.02;  ///< fraction of a factor that a prediction must leave
+constexpr double least_z = 1e-3;     ///< the same for z
 constexpr int most_corrections = 4;
-constexpr double stalling = 0.9;  ///< reduction of the deviation that is none
+constexpr double stalling = 0.9;  ///< reduction of the deviation that counts as none
 constexpr int shortenings = 40, trials = 14;
-// Where the convex stage ends. Later, what s has to change is no longer smooth, and curves in s
-// turn; earlier, more of the way is left to the last stage (docs/decisions.md).
+// End of the convex stage. With a smaller value, the changes with s are no longer smooth, and
+// curves in s have turning points; with a larger one, more is left to the last stage
+// (docs/decisions.md).
 constexpr double convex_z = 1e-2;
-// |s| that one correction takes to zero.
+// s| that one correction can reduce to zero.
 constexpr double nearly_coulomb = 0.02;
 constexpr double first_length = 0.1;
-// Below this, products in units of the problem, velocities are rounding.
+// Below this product, in the units of PathSystem::product, velocities are rounding.
 constexpr double least_product = 5e-15;
 
 }  // namespace
 
-/// Around the base, lengths in relative changes.
+/// About the base point; lengths are relative changes.
 struct CentralPath::Prediction {
-    PathChange tangent;     ///< per ln z or s
-    PathChange correction;  ///< onto the curve, across the tangent
+    PathChange tangent;     ///< per change of ln z or s
+    PathChange correction;  ///< towards the curve, across the tangent
     PathChange first, second;
 };
 
@@ -101,8 +102,8 @@ void CentralPath::enter_next_stage(std::int64_t budget) {
     }
 }
 
-/// Corrects onto the curve with s = 0 and goes on in z. False when that does not converge: nothing
-/// has changed then.
+/// Corrects onto the curve with s = 0 and continues in z. False if that does not converge; then
+/// nothing has changed.
 bool CentralPath::reach_coulomb(std::int64_t budget) {
     const PathPoint base = point_;
     point_.association = 0.0;
@@ -131,7 +132,7 @@ bool CentralPath::advance(std::int64_t budget) {
             return true;
         }
         if (!ready && trial > 0) break;
-        // The base is near the curve: without the correction a short enough step is, too.
+        // The base is near the curve; without the correction, so is the end of a short enough step.
         p.correction = p.first;
         add(p.correction, -1.0, p.first);
         length_ = ready ? 0.4 * length_ : length;

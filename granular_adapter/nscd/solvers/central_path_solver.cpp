@@ -13,17 +13,18 @@
 namespace turbidite::nscd {
 namespace {
 
-// As long as a path of fifty factorisations, in large packings.
+// In large packings as expensive as a path of fifty factorisations.
 constexpr std::int64_t sweeps_per_turn = 8000;
-// Sizes that paths start from (path_system.hpp), in turn, and how many factorisations the first may
-// take; each time all sizes have been tried, twice as many.
+// Initial sizes of the paths (path_system.hpp), used in turn, and the factorisations allowed for
+// the first; the limit is raised by `growth` each time all sizes have been tried.
 constexpr std::array<double, 4> sizes = {30.0, 10.0, 100.0, 300.0};
 constexpr std::int64_t first_budget = 1000, growth = 2, most_growths = 6;
-// Sweeps finish what is below `finishing`, or are tried again at less than `retry` of it.
+// Sweeps are tried when the residual is below `finishing`, and again below `retry` of its last
+// value.
 constexpr double finishing = 1e-5, retry = 0.3;
 constexpr std::int64_t finishing_sweeps = 200;
 
-/// One solve: the best impulses so far, and what was spent.
+/// One solve: the best impulses so far, and the iterations used.
 class Search {
  public:
     Search(const ContactProblem& problem, const Impulses& guess, const SolverSettings& settings)
@@ -107,7 +108,8 @@ class Search {
     double floor_;
     SolverResult best_, latest_;
     bool looked_ = false;
-    bool on_path_ = false;  ///< `best_` is a point of a path: quad and max are not measured yet
+    /// `best_` is a point of a path; its quad and max have not been computed
+    bool on_path_ = false;
     std::int64_t used_ = 0;
 };
 

@@ -15,18 +15,18 @@
 namespace turbidite::nscd {
 namespace {
 
-// What a layout costs, in updates of a group for each of its groups. A new one is due when the
-// updates that it would have spared since the last one come to that.
+// Cost of a new layout per group, in updates of a group. A new layout is made when the updates it
+// would have saved since the last one add up to its cost.
 constexpr double layout_cost = 12.0;
 
-// Fewer contacts than this are swept faster by one thread (docs/performance.md).
+// With fewer contacts than this, one thread is faster (docs/performance.md).
 constexpr std::size_t threaded_contacts = 6000;
 
 int useful_threads(const SolverSettings& settings, std::size_t contacts) {
     return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);
 }
 
-/// What solve() is asked.
+/// Arguments of solve().
 struct Call {
     const ContactProblem& problem;
     const Delassus& w;
@@ -80,7 +80,7 @@ class Iteration {
         return make_schedule(pairs_, active, problem_.bodies.size(), shape);
     }
 
-    /// Has an impulse, or closes with the velocities of the first guess.
+    /// The contact has an impulse, or closes at the velocities of the initial guess.
     bool is_active(std::size_t k) const {
         if (result_.impulses[k].n > 0.0) return true;
         const Contact& c = problem_.contacts[k];
@@ -101,7 +101,7 @@ class Iteration {
         return error <= settings_.tolerance * settings_.tolerance * (size + floor_);
     }
 
-    /// The published residual, of one consistent state.
+    /// The reported residual, computed from one consistent state.
     void look() {
         layout_->collect(result_.impulses);
         result_.velocities = body_velocities(problem_, result_.impulses);
@@ -111,7 +111,8 @@ class Iteration {
         result_.converged = result_.residual <= settings_.tolerance;
     }
 
-    /// Rent or buy: a new layout once the updates of groups without impulse have cost as much.
+    /// Makes a new layout once the updates spent on groups without impulse have cost as much: in
+    /// total at most twice the cost of knowing the future (the ski-rental rule).
     void adapt(std::int64_t sweeps) {
         const double loaded =
             total(pipeline_->active_sums().loaded) + total(pipeline_->resting_sums().loaded);
@@ -133,7 +134,7 @@ class Iteration {
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
     std::optional<SweepPipeline<Rows>> pipeline_;
-    double wasted_ = 0.0;  ///< updates of groups since the last layout
+    double wasted_ = 0.0;  ///< updates of groups without impulse since the last layout
 };
 
 template <class Rows>

@@ -15,7 +15,7 @@ struct Sweeper {
     const std::vector<Plane> free;
     std::vector<double> friction;
     std::vector<Plane> r;
-    double error = 0.0, size = 0.0;  ///< sum |natural map|^2 and sum |r|^2 of a measured pass
+    double error = 0.0, size = 0.0;  ///< sum |natural map|^2 and sum |r|^2 of a measuring sweep
 
     Sweeper(const ContactProblem& problem, const Impulses& guess)
         : w(problem), free(free_contact_velocities(problem)) {
@@ -23,7 +23,7 @@ struct Sweeper {
         for (const ContactVector& impulse : guess) r.push_back({impulse.n, impulse.t});
     }
 
-    /// u of contact k without its own impulse.
+    /// b = u_free,k + sum_{j != k} W_kj r_j: the velocity of contact k without its own impulse.
     Plane others(std::size_t k) const {
         double n = free[k][0], t = free[k][1];
         const std::int64_t end = w.row_start[k + 1];

@@ -11,15 +11,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector = Eigen::VectorXd;
 
-// A proximal term: Theta + firmness 1 instead of Theta. Contacts that neither open nor slide have
-// Theta -> 0, and where 1/Theta is above 1/firmness, the motions that are free would be lost in the
-// rounding of those that are not. The term vanishes at the solution, where impulses do not change
-// any more. In units of W_nn.
+// A proximal term, in units of W_nn: Theta + firmness 1 replaces Theta. Contacts that neither open
+// nor slide have Theta -> 0, and where 1/Theta exceeds 1/firmness the free motions would be lost in
+// the rounding of the constrained ones. The term vanishes at the solution, where the impulses no
+// longer change.
 constexpr double firmness = 1e-7;
 
 constexpr int most_refinements = 10;
-constexpr double refined = 1e-11;  ///< relative change that is small enough
-constexpr double halting = 0.9;    ///< reduction per refinement that is not worth another
+constexpr double refined = 1e-11;  ///< relative change at which refinement stops
+constexpr double halting = 0.9;    ///< reduction per refinement that is not worth another one
 
 /// A r.
 Vector bodies_of(const ScaledContacts& contacts, const std::vector<Vector3d>& r) {
@@ -87,7 +87,7 @@ Pairs PathSystem::impulse_sides(std::size_t k, const Vector3& r) const {
     return a;
 }
 
-/// How fast the contact would open at s = 1: mu (p + m), and the same for rolling.
+/// Opening velocity added by dilation at s = 1: mu (p + m), and the same for rolling.
 double PathSystem::dilation(std::size_t k, const Pairs& b) const {
     return limit(k, 1) * (b[1] + b[2]) + limit(k, 3) * (b[3] + b[4]);
 }
@@ -98,7 +98,7 @@ PathSystem::Vector3 PathSystem::velocity_of(std::size_t k, const Pairs& b,
     return {b[0] + association * dilation(k, b), b[1] - b[2], b[3] - b[4]};
 }
 
-/// u + z e - E b, zero in directions that nothing resists.
+/// u + z e - E b; zero in directions without resistance.
 PathSystem::Vector3 PathSystem::defect(std::size_t k) const {
     Vector3 d = contacts_.velocity(k, y_) + contacts_[k].free + at_.z * offset_[k] -
                 velocity_of(k, at_.b[k], at_.association);
@@ -107,14 +107,14 @@ PathSystem::Vector3 PathSystem::defect(std::size_t k) const {
     return d;
 }
 
-/// Theta + firmness, with l = mu or the rolling limit, p = b/a of a pair's first and m of its
-/// second side:
+/// Theta + firmness. With l = mu or the rolling bound, and p = b/a and m = b/a of the first and
+/// second factors of a pair of directions:
 ///
 ///     Theta_nn = b_n/a_n + sum s l^2 (p + m)      Theta_nd = s l (p - m)
 ///     Theta_dn = l (p - m)                        Theta_dd = p + m
 ///
-/// Rows of directions that nothing resists are zero. The pivot is written without the difference
-/// (p + m) - (p - m)^2 / (p + m), which would cancel where a contact slides.
+/// Rows of directions without resistance are zero. The pivot is written without the difference (p +
+/// m) - (p - m)^2 / (p + m), which would cancel where a contact slides.
 PathSystem::Stiffness PathSystem::stiffness(std::size_t k) const {
     const Pairs &a = at_.a[k], &b = at_.b[k];
     Stiffness result;
@@ -134,7 +134,7 @@ PathSystem::Stiffness PathSystem::stiffness(std::size_t k) const {
     return result;
 }
 
-/// Theta^-1 right, zero in directions that nothing resists.
+/// Theta^-1 right; zero in directions without resistance.
 PathSystem::Vector3 PathSystem::flexible(std::size_t k, const Vector3& right) const {
     const Matrix3d& theta = stiffness_[k].theta;
     Vector3 x(right[0], 0.0, 0.0);
@@ -156,8 +156,8 @@ bool PathSystem::linearise(const PathPoint& at) {
     return factors_.factorise(inverse_);
 }
 
-/// dr with Theta dr + A^T dy = right, dy = A dr, refined in both so that persistent contacts, whose
-/// impulses are velocities times 1/Theta, lose no digits.
+/// Solves Theta dr + A^T dy = right, dy = A dr. Both are refined, so that persistent contacts,
+/// whose impulses are velocities times 1/Theta, lose no digits.
 std::vector<Vector3d> PathSystem::solve(const std::vector<Vector3>& right) const {
     const std::size_t n = right.size();
     std::vector<Vector3> r(n, Vector3::Zero()), rest = right, step(n);
@@ -186,7 +186,7 @@ std::vector<Vector3d> PathSystem::solve(const std::vector<Vector3>& right) const
     return r;
 }
 
-/// With products that change by target(k, pair) and velocity sides that take up row(k).
+/// The change for which products change by target(k, pair) and E db = A^T A dr + row(k).
 template <class Target, class Row>
 PathChange PathSystem::change(const Target& target, const Row& row) const {
     const std::size_t n = contacts_.size();

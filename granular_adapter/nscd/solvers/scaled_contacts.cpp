@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Lower triangular L, L L^T = M^-1; a direction that nothing moves has a column of zeros.
+/// Lower triangular L with L L^T = M^-1; the column of an immovable direction is zero.
 Matrix3d root(const BodyMobility& m) {
     const auto over = [](double value, double pivot) { return pivot > 0.0 ? value / pivot : 0.0; };
     Matrix3d l = Matrix3d::Zero();
@@ -27,7 +27,7 @@ Matrix3d root(const BodyMobility& m) {
     return l;
 }
 
-/// H^T L of one side, scaled.
+/// H^T L of one body, scaled: rows n, t, roll.
 Matrix3d rows(const Contact& contact, const Vec3& arm, const BodyMobility& body,
               const ScaledContact& scales) {
     Matrix3d h;

@@ -7,7 +7,7 @@
 namespace turbidite::nscd {
 namespace {
 
-/// The groups that still take contacts: 64 at most, one bit each.
+/// The open groups, which still accept contacts: at most 64, one bit each.
 class Placement {
  public:
     Placement(std::size_t bodies, const ScheduleSettings& settings)
@@ -52,14 +52,14 @@ class Placement {
     }
 
     ScheduleSettings settings_;
-    std::vector<std::int32_t> ready_;  ///< of each body: its next contact's first group
+    std::vector<std::int32_t> ready_;  ///< by body: first group that its next contact may enter
     std::vector<std::int32_t> lanes_;
     std::vector<std::uint8_t> count_;  ///< contacts in each group
     std::int32_t first_ = 0;           ///< oldest open group
     std::uint64_t open_ = ~std::uint64_t{0};
 };
 
-/// For each body the number of stretches up to the last one that touches it.
+/// By body, the number of stretches up to the last one that touches it.
 class LastStretches {
  public:
     LastStretches(const Schedule& schedule, const std::vector<MovedPair>& pairs, std::size_t bodies,
@@ -70,7 +70,7 @@ class LastStretches {
                       [&](std::size_t body) { last_[body] = static_cast<std::int32_t>(s) + 1; });
     }
 
-    /// At least the stretch itself.
+    /// Stretch::after of stretch s; at least s + 1, the stretch itself.
     std::int32_t of(std::size_t s) const {
         auto last = static_cast<std::int32_t>(s) + 1;
         each_body(schedule_.stretches[s],
@@ -97,7 +97,7 @@ class LastStretches {
     std::vector<std::int32_t> last_;
 };
 
-/// The groups at rest come behind the active ones in memory.
+/// Places the groups at rest after the active ones in memory.
 void append(Schedule& schedule, std::vector<std::int32_t> resting) {
     schedule.lanes.insert(schedule.lanes.end(), resting.begin(), resting.end());
     for (Stretch& stretch : schedule.stretches)

@@ -4,8 +4,8 @@
 namespace turbidite::nscd {
 namespace {
 
-// About 20 microseconds, what a few blocks of a sweep take. A thread that waits longer has lost its
-// processor or its partner has.
+// About 20 microseconds, the time of a few stretches of a sweep. A thread that waits longer has
+// lost its processor, or its partner has.
 constexpr int hot_turns = 500;
 
 void pause_briefly() {

@@ -6,9 +6,9 @@
 namespace turbidite::nscd {
 namespace {
 
-/// A body's way over the step.
+/// Displacement of a body over the step.
 struct Turn {
-    Vec3 shift{};  ///< of its centre [m]
+    Vec3 shift{};  ///< displacement of its centre [m]
     double cosine = 1.0, sine = 0.0;
 
     Vec3 operator()(const Vec3& arm) const {
@@ -21,13 +21,13 @@ Turn turn_of(const Twist& twist, double dt) {
     return {dt * twist.velocity, std::cos(angle), std::sin(angle)};
 }
 
-/// A wall turns about its pivot: seen from the contact's place, a shift and a turn.
+/// A wall rotates about its pivot, which is its centre here.
 Turn turn_of(const Wall& wall, double dt) {
     const double angle = dt * wall.spin;
     return {dt * wall.velocity, std::cos(angle), std::sin(angle)};
 }
 
-/// One of the two bodies of a contact: its way, and its arm to its own surface point.
+/// One of the two bodies of a contact: its displacement, and the arm to its own surface point.
 struct Partner {
     Turn turn;
     Vec3 arm{};
@@ -47,14 +47,14 @@ class Shortfall {
         const Vec3 normal = on_a ? p.normal : -1.0 * p.normal, turned = owner.turn(normal);
         Vec3 apart = p.gap * normal + other.turn.shift - owner.turn.shift -
                      (owner.turn(owner.arm) - owner.arm);
-        // A disc's surface point is always the one that faces the side.
+        // The surface point of a disc is always the one that faces the side.
         apart = apart + (other.round ? norm(other.arm) * (normal - turned)
                                      : other.turn(other.arm) - other.arm);
         return foreseen(k) - dot(turned, apart);
     }
 
  private:
-    /// g + dt u_n, walls at their own speed.
+    /// g + dt u_n, with walls moving at their own velocity.
     double foreseen(std::size_t k) const {
         const ContactPoint& p = step_.points[k];
         const Contact& contact = step_.contacts[k];
@@ -72,7 +72,7 @@ class Shortfall {
         return shapes_[step_.bodies.shape[static_cast<std::size_t>(body)]].corners == 0;
     }
 
-    // Points lie half-way across the gap; at walls on the body's surface.
+    // Contact points lie half-way across the gap; at walls on the surface of the body.
     Partner partner_a(const ContactPoint& p) const {
         if (p.wall >= 0) {
             const Vec3 place = step_.bodies.position[p.b] + p.arm_b - p.gap * p.normal;

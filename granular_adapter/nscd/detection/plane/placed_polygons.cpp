@@ -50,7 +50,7 @@ PlacedPolygons::PlacedPolygons(const PolygonShapes& shapes, const Bodies& bodies
     for (std::size_t i = 0; i < bodies.size(); ++i) place(i);
 }
 
-// In the plane (w, 0, 0, z) turns by the angle whose cosine is w^2 - z^2 and whose sine is 2 w z.
+// A quaternion (w, 0, 0, z) rotates by the angle of cosine w^2 - z^2 and sine 2 w z.
 void PlacedPolygons::place(std::size_t body) {
     const PolygonShapes::UnitPolygon& unit = shapes_[bodies_.shape[body]];
     const Quaternion& q = bodies_.orientation[body];

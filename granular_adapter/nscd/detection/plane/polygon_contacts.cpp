@@ -15,7 +15,7 @@ std::int32_t feature_of(std::int32_t corner, bool of_larger_id) {
     return 2 * corner + (of_larger_id ? 1 : 0);
 }
 
-/// Side over which a point is highest, and how high.
+/// The side over which a point is highest, and its height.
 struct Nearest {
     int side = 0;
     double height = -infinite;
@@ -30,7 +30,7 @@ Nearest nearest_side(const PolygonView& polygon, double x, double y) {
     return nearest;
 }
 
-/// Normal from the polygon to a point outside or inside of it, distance (negative inside), feature.
+/// Normal from the polygon to a point, distance (negative inside), feature.
 struct Approach {
     Vec3 normal{};
     double distance = 0.0;
@@ -52,7 +52,7 @@ Approach approach(const PolygonView& polygon, const Nearest& nearest, double x, 
     return {(1.0 / distance) * line, distance, 2 * corner + 1};
 }
 
-/// The corners of a segment as seen from the side on which a body is.
+/// The corners of a segment as seen from the side of the body.
 struct Plate {
     double x[2], y[2], nx[1], ny[1], support[1] = {0.0};
 
@@ -80,7 +80,7 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
         const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
         const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
         const Vec3 arm = middle + 0.5 * p.gap * normal - offset;
-        // Seen from behind, the plate's corners change places.
+        // Seen from behind, the corners of the plate are exchanged.
         const int corner = !p.of_second && sign < 0.0 ? 1 - p.corner : p.corner;
         points.push_back({-1, view.body, view.wall_index, feature_of(corner, p.of_second), p.gap,
                           normal, Vec3{}, arm, p.length, p.turns_with});

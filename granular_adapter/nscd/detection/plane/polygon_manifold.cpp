@@ -8,23 +8,24 @@
 namespace turbidite::nscd {
 namespace {
 
-// Separations this close, as a share of both radii, are the same: above rounding, far below what
-// matters to a contact.
+// Separations this close, as a fraction of both radii, count as equal: above rounding, and far
+// below anything that matters to a contact.
 constexpr double same_share = 1e-9;
 
-// Two corners this close along a side, as a share of the smaller radius, are one place with one
-// name. Exact alignment is where equal grains settle, so the name must not change there; it changes
-// at an offset that is nothing special.
+// Two corners this close along a side, as a fraction of the smaller radius, are one place with one
+// name. Equal grains settle exactly aligned, so the name must not change there; with this margin it
+// changes at an offset where grains do not settle.
 constexpr double near_share = 0.01;
 
-/// A side and the lowest corner of the other polygon over it.
+/// A side, and the lowest corner of the other polygon above it.
 struct Axis {
     double separation = -std::numeric_limits<double>::infinity();
     int side = 0;
     int lowest = 0;
 };
 
-/// Lowest corner of `other`, seen from a side's normal; `base` is the height of its centre.
+/// Lowest corner of `other` in the direction of a side's normal; `base` is the height of its
+/// centre.
 template <int other_corners>
 Axis over_side(const PolygonView& other, int side, double nx, double ny, double base) {
     const int n = other_corners > 0 ? other_corners : other.corners;
@@ -37,9 +38,9 @@ Axis over_side(const PolygonView& other, int side, double nx, double ny, double 
     return {base + least, side, lowest};
 }
 
-/// Raises `best` to the side of `mine` with the largest separation; false as soon as one is not
-/// below `alert`. Begins with the side that looks at the other's centre, which parts most pairs at
-/// once.
+/// Raises `best` to the side of `mine` with the largest separation; false as soon as a separation
+/// is not below `alert`. Starts with the side that faces the other's centre, which rejects most
+/// pairs at once.
 template <int my_sides, int other_corners>
 bool find_axis(const PolygonView& mine, const PolygonView& other, double ox, double oy,
                double alert, double same, Axis& best) {
@@ -52,7 +53,7 @@ bool find_axis(const PolygonView& mine, const PolygonView& other, double ox, dou
     }
     for (int step = 0, k = front; step < n; ++step, k = k + 1 < n ? k + 1 : 0) {
         const double base = mine.nx[k] * ox + mine.ny[k] * oy - mine.support[k];
-        // The lowest corner lies at least the inscribed radius below the centre.
+        // The lowest corner is at least the inscribed radius below the centre.
         if (base - other.in_radius <= best.separation) continue;
         const Axis axis = over_side<other_corners>(other, k, mine.nx[k], mine.ny[k], base);
         if (!(axis.separation < alert)) return false;
@@ -61,20 +62,20 @@ bool find_axis(const PolygonView& mine, const PolygonView& other, double ox, dou
     return true;
 }
 
-/// A corner in the frame of the reference side.
+/// A corner in the frame of the reference side [m].
 struct Place {
-    double t = 0.0;  ///< along
-    double h = 0.0;  ///< above
+    double t = 0.0;  ///< along the side
+    double h = 0.0;  ///< height above it
     int corner = 0;
 };
 
-/// The reference side and the incident one in its frame; `flip` tells that the reference is the
-/// second polygon.
+/// The reference side, and the incident polygon in its frame; `flip`: the reference is the second
+/// polygon.
 struct Facing {
     const PolygonView& reference;
     const PolygonView& incident;
     int side;
-    double ox, oy;  ///< incident's centre minus the reference's
+    double ox, oy;  ///< centre of the incident polygon minus that of the reference
     bool flip;
     double nx, ny;
     double length;
@@ -123,8 +124,9 @@ struct Facing {
 
     int end_corner(bool far) const { return far ? reference.after(side) : side; }
 
-    /// The incident corner at `place`, over the reference or beyond its end, as a point at (t, h):
-    /// named by the one of the two corners there that lies inside the other polygon's side.
+    /// The end of the overlap at (t, h) as a contact point; `place` is the incident corner, over
+    /// the reference or beyond its end. Of the corners there, it is named by the one that lies
+    /// inside the other polygon's side.
     ManifoldPoint end_point(double t, double h, const Place& place, bool clipped) const {
         const bool far = place.t > 0.5 * length;
         const double near = near_share * std::min(reference.radius, incident.radius);
@@ -134,14 +136,15 @@ struct Facing {
     }
 };
 
-/// Share of the way from a to b at which the incident side is nearest to an end of the reference.
+/// Fraction of the way from a to b at which the incident side is nearest to an end of the
+/// reference.
 double nearest_share(const Place& a, const Place& b, double end) {
     const double t = b.t - a.t, h = b.h - a.h;
     return std::clamp(((end - a.t) * t - a.h * h) / (t * t + h * h), 0.0, 1.0);
 }
 
-/// Beyond the end of the reference, apart: the line from there to (t, h) is the normal. Named by
-/// the first polygon's corner.
+/// A point beyond the end of the reference, with the polygons apart: the normal is along the line
+/// from that end to (t, h). Named by the first polygon's corner.
 ManifoldPoint beyond_end(const Facing& f, double end, double t, double h, int end_corner,
                          int incident_corner) {
     const double along = t - end, distance = std::sqrt(along * along + h * h);
@@ -154,17 +157,18 @@ ManifoldPoint beyond_end(const Facing& f, double end, double t, double h, int en
     return p;
 }
 
-/// Height of the incident side above t.
+/// Height of the incident side at t.
 double height_at(const Place& a, const Place& b, double t) {
     return a.h + (b.h - a.h) * (t - a.t) / (b.t - a.t);
 }
 
-/// The lowest corner p with the side to q, over the reference from 0 to its length.
+/// Overlap of the incident side, from the lowest corner p to q, with the reference side [0,
+/// length].
 struct Overlap {
-    double start = 0.0;    ///< where the common part begins, at p or at the reference's end
-    bool outside = false;  ///< p lies before or beyond the reference
+    double start = 0.0;    ///< where the overlap begins: at p or at an end of the reference
+    bool outside = false;  ///< p lies beyond an end of the reference
     bool beyond = false;
-    bool shared = false;  ///< there is a common part
+    bool shared = false;  ///< the overlap is not empty
 };
 
 Overlap overlap(const Place& p, const Place& q, double length, double same) {
@@ -178,7 +182,7 @@ ManifoldPoint first_point(const Facing& f, const Place& p, const Place& q, const
     if (!o.outside) return f.end_point(p.t, p.h, p, false);
     const int end_corner = f.end_corner(o.beyond);
     const double share = p.h > 0.0 ? nearest_share(p, q, o.start) : 0.5;
-    // Sides that lie flat on each other within rounding: the end of the common part counts.
+    // Sides that lie flat on each other to rounding: the end of the overlap is the contact point.
     if (o.shared && share > 0.0 && share < 1.0)
         return f.end_point(o.start, height_at(p, q, o.start), p, true);
     if (!(p.h > 0.0)) return f.end_point(o.start, p.h, p, false);
@@ -186,7 +190,7 @@ ManifoldPoint first_point(const Facing& f, const Place& p, const Place& q, const
                       share < 1.0 ? p.corner : q.corner);
 }
 
-/// The other end of the common part.
+/// The other end of the overlap.
 ManifoldPoint second_point(const Facing& f, const Place& p, const Place& q) {
     const bool ahead = q.t > p.t;
     const double end = ahead ? f.length : 0.0;
@@ -198,8 +202,8 @@ double common_length(const Facing& f, const Place& q, const Overlap& o) {
     return std::abs(std::clamp(q.t, 0.0, f.length) - o.start);
 }
 
-/// Both ends of a common part shorter than the share above lie at one corner of the reference: the
-/// lowest corner of the incident side then names its point itself.
+/// If the overlap is shorter than near_share, both ends lie at one corner of the reference and
+/// would get one name: the first point is then named by the lowest incident corner.
 void name_apart(const Facing& f, const Place& p, Manifold& manifold) {
     ManifoldPoint& one = manifold.points[0];
     const ManifoldPoint& other = manifold.points[1];
@@ -232,7 +236,7 @@ Manifold detect(const PolygonView& first, const PolygonView& second, double ox, 
     Axis mine;
     if (!find_axis<n, n>(first, second, ox, oy, alert, same, mine)) return {};
     Axis theirs;
-    // Sides of the second that cannot rise above the first's best by `same` are not looked at.
+    // Sides of the second polygon that cannot exceed the first's best by `same` are skipped.
     theirs.separation = mine.separation;
     if (!find_axis<n, n>(second, first, -ox, -oy, alert, same, theirs)) return {};
     if (theirs.separation > mine.separation)

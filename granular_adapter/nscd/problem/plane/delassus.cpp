@@ -8,8 +8,9 @@
 namespace turbidite::nscd {
 namespace {
 
-/// One body's share of W_kk: (d_i, arm x d_i) . M^-1 (d_j, arm x d_j) for d = n, t. Isotropic
-/// bodies need no product of directions, which would not be exactly orthonormal.
+/// Contribution of one body to W_kk: (d_i, arm x d_i) . M^-1 (d_j, arm x d_j) for d = n, t. For
+/// isotropic mobility n . n = t . t = 1 and n . t = 0 are used, which rounded directions would not
+/// satisfy exactly.
 void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
     const double n = cross_z(arm, contact.normal), t = cross_z(arm, contact.tangent);
     if (body.isotropic()) {
@@ -36,13 +37,13 @@ void add_rolling_share(Block& w, const Contact& contact, const Vec3& arm,
     w.rr += answer.spin;
 }
 
-/// n and t rounded leave about 1e-17 of an exact zero.
+/// Rounding of n and t leaves about 1e-17 in place of an exact zero.
 void drop_rounding(Block& w) {
     if (std::abs(w.nt) < 1e-14 * std::min(w.nn, w.tt)) w.nt = 0.0;
     if (w.nr * w.nr < 1e-28 * w.nn * w.rr) w.nr = 0.0;
 }
 
-/// To rounding: then a spin, whatever drives it, moves nothing along n.
+/// Whether the arm is along the normal to rounding: then no spin causes a velocity along n.
 bool is_along_normal(const Contact& contact, const Vec3& arm) {
     return std::abs(cross_z(arm, contact.normal)) <= 1e-14 * norm(arm);
 }
@@ -61,8 +62,8 @@ Block block_of(const ContactProblem& problem, const Contact& contact) {
 
 }  // namespace
 
-// Blocks alone do not tell whether W is diagonal: shares of two bodies may cancel, and a driven
-// body has none.
+// The blocks alone do not tell whether W is diagonal: contributions of two bodies may cancel, and a
+// driven body has none.
 Delassus::Delassus(const ContactProblem& problem)
     : problem_(problem),
       diagonal_(std::all_of(problem.bodies.begin(), problem.bodies.end(),

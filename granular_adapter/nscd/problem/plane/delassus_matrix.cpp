@@ -9,8 +9,8 @@
 namespace turbidite::nscd {
 namespace {
 
-/// One end of a contact: directions n and t as (x, y, spin) of the body there, with the sign of the
-/// impulse that it receives.
+/// One end of a contact: directions n and t as (x, y, spin) of the body, with the sign of the
+/// impulse on it.
 struct End {
     std::int32_t contact;
     std::array<PlanarVector, 2> direction;
@@ -27,7 +27,7 @@ End end_of(const Contact& contact, std::int32_t index, bool at_b) {
     return end;
 }
 
-/// The contacts at every body that moves, in order.
+/// The contacts of every movable body, in order.
 std::vector<std::vector<End>> ends_by_body(const ContactProblem& problem) {
     std::vector<std::vector<End>> ends(problem.bodies.size());
     const auto add = [&](std::int32_t body, std::int32_t k, bool at_b) {
@@ -61,8 +61,8 @@ struct RowEntry {
     bool operator<(const RowEntry& other) const { return column < other.column; }
 };
 
-/// Shares of one body in row k. Always computed as W_ij with i < j, so that both halves of W round
-/// alike.
+/// Contributions of one body to block row k. Always computed as W_ij with i < j, so that both
+/// halves of W round alike.
 void collect(std::vector<RowEntry>& row, const BodyMobility& body, const std::vector<End>& ends,
              std::int32_t k) {
     const auto own =
@@ -97,7 +97,7 @@ DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
         std::stable_sort(row.begin(), row.end());
         for (const RowEntry& entry : row) {
             const bool same = std::int64_t(column.size()) > row_start.back() &&
-                              column.back() == entry.column;  // both bodies shared
+                              column.back() == entry.column;  // the contacts share both bodies
             if (!same) column.push_back(entry.column), coupling.emplace_back();
             for (int d = 0; d < 2; ++d) {
                 coupling.back().by_n[d] += entry.share.by_n[d];

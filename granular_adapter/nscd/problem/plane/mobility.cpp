@@ -3,7 +3,7 @@
 
 namespace turbidite::nscd {
 
-// Sylvester's criterion, then cofactors; comparisons are false for NaN.
+// Sylvester's criterion, then cofactors. The comparisons are false for NaN.
 std::optional<PlanarTensor> inverse(const PlanarTensor& m) {
     PlanarTensor result;
     result.xx = m.yy * m.ss - m.ys * m.ys;

@@ -22,7 +22,8 @@ void write_block(std::ostream& out, std::int64_t number, const Coupling& w) {
         out << digits(value) << '\n';
 }
 
-/// Calls use(column, W_kj) for every block of row k, columns ascending, the diagonal in its place.
+/// Calls use(column, W_kj) for every block of block row k, columns ascending, the diagonal in its
+/// place.
 template <class Use>
 void for_row(const DelassusMatrix& w, std::size_t k, Use&& use) {
     const Block& d = w.diagonal[k];

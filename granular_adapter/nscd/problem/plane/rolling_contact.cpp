@@ -17,11 +17,11 @@ struct Piece {
     double t_limit, m_limit;
     bool t_free, m_free;
 
-    /// Not finite or not positive in n where the piece has no solution.
+    /// Not finite, or not positive in n, if the piece has no solution.
     ContactVector solution(const Block& w, const ContactVector& b) const {
-        // Per unit of n, with t and m at their limits or zero.
+        // Velocity per unit of n, with t and m at their limits or zero.
         const ContactVector edge = velocity(w, {}, in_plane(1.0, t_limit, m_limit));
-        // What t and m do while free, as an affine function of n: (t, m) = base + slope n.
+        // Free t and m as affine functions of n: (t, m) = base + slope n.
         Plane base{}, slope{t_limit, m_limit};
         if (t_free && m_free) {
             const double det = w.tt * w.rr - w.tr * w.tr;
@@ -55,7 +55,7 @@ ContactVector best_of_nine(const Block& w, const ContactVector& b, double mu, do
     return best;
 }
 
-/// A free component may pass its limit by rounding; friction never exceeds it.
+/// A free component may exceed its limit by rounding; friction must not.
 ContactVector within_limits(const ContactVector& r, double mu, double rho) {
     return in_plane(r.n, std::clamp(r.t, -mu * r.n, mu * r.n),
                     std::clamp(r.roll, -rho * r.n, rho * r.n));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The sweeps for AVX2. Only what sweep_kernel.hpp defines is compiled for it: everything included
-// before stays portable, as inline functions may end up in any other part of a program.
+// The sweeps for AVX2. Only the code of sweep_kernel.hpp is compiled for it; everything included
+// before stays portable, since its inline functions may be used in any other part of a program.
 #include <stdexcept>
 
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"

@@ -106,10 +106,11 @@ template <int width, class R>
 TURBIDITE_INLINE void add_map(PassSums<width>& sums, const R& rn, const R& rt, const R& un,
                               const R& ut, const R& mu, const R& rho) {
     const R one = R{} + 1.0;
+    // r - rho (u + (mu |u_t|, 0))
     const R n = rn - rho * (un + mu * magnitude(ut)), t = rt - rho * ut;
-    const R slid = (n + mu * magnitude(t)) / (one + mu * mu);
+    const R slid = (n + mu * magnitude(t)) / (one + mu * mu);  // projection on the edge of the cone
     const R on = larger(larger(n, slid), R{});
-    const R fn = rn - on, ft = rt - clamped(t, R(mu * on));
+    const R fn = rn - on, ft = rt - clamped(t, R(mu * on));  // r - P_K(...)
     store(sums.error, R(load(sums.error) + (fn * fn + ft * ft)));
     store(sums.size, R(load(sums.size) + (rn * rn + rt * rt)));
 }
@@ -184,7 +185,9 @@ TURBIDITE_INLINE void update(DiscRows<width>& row, PlaneBody* bodies, PassSums<w
     const R un = normal_velocity(row, met);
     const R ut = tangential_velocity<DiscRows<width>, R>(row, met);
     if constexpr (measure) add_map(sums, met.rn, met.rt, un, ut, met.mu, load(row.inverse_nn));
+    // r_n' = max(r_n - u_n/W_nn, 0)
     const R n = larger(R(met.rn - un * load(row.inverse_nn)), R{});
+    // r_t' = clamp(r_t - u_t/W_tt, mu r_n')
     const R t = clamped(R(met.rt - ut * load(row.inverse_tt)), R(met.mu * n));
     if constexpr (measure) count_loaded(sums, n);
     push(row, met, R(n - met.rn), R(t - met.rt));
@@ -223,11 +226,12 @@ TURBIDITE_INLINE void update(RollingDiscRows<width>& row, PlaneBody* bodies,
     if constexpr (measure) add_rolling_map(row, sums, met, un, ut, w);
     const R n = larger(R(met.rn - un * load(row.inverse_nn)), R{});
     const R tr = load(row.tr), limit_m = load(row.rolling) * n;
-    const R bt = ut - load(row.tt) * met.rt - tr * roll;
+    const R bt = ut - load(row.tt) * met.rt - tr * roll;  // b = u - W r
     const R br = w - tr * met.rt - load(row.rr) * roll;
     const R held = magnitude(tr) * limit_m, inverse_tt = load(row.inverse_tt);
     const R low = -(bt + held) * inverse_tt, high = -(bt - held) * inverse_tt;
-    const R free = -(bt - tr * br * load(row.inverse_rr)) * load(row.inverse_a);
+    const R free = -(bt - tr * br * load(row.inverse_rr)) * load(row.inverse_a);  // zero of g_0
+    // r_t': zero of max(g_-, min(g_+, g_0)), clamped
     const R t = clamped(smaller(larger(free, low), high), R(met.mu * n));
     const R m = clamped(R(-(br + tr * t) * load(row.inverse_rr)), limit_m);
     if constexpr (measure) count_loaded(sums, n);
@@ -263,14 +267,14 @@ TURBIDITE_INLINE void update(GeneralRows<width>& row, PlaneBody* bodies, PassSum
     const R un = normal_velocity(row, met), ut = general_tangential_velocity(row, met);
     const R nt = load(row.nt), inverse_nn = load(row.inverse_nn);
     if constexpr (measure) add_map(sums, met.rn, met.rt, un, ut, met.mu, inverse_nn);
-    const R bn = un - load(row.nn) * met.rn - nt * met.rt;
+    const R bn = un - load(row.nn) * met.rn - nt * met.rt;  // b = u - W r
     const R bt = ut - nt * met.rn - load(row.tt) * met.rt;
-    const R trial = -(bt - nt * bn * inverse_nn) * load(row.inverse_a);
-    const R held = -(bn + nt * trial) * inverse_nn;
+    const R trial = -(bt - nt * bn * inverse_nn) * load(row.inverse_a);  // r_t = -c/A
+    const R held = -(bn + nt * trial) * inverse_nn;                      // r_n of the stick trial
     const R zero{}, minus = -met.mu;
     const R inverse = trial < zero ? load(row.inverse_backward) : load(row.inverse_forward);
     const R side = trial < zero ? minus : met.mu;
-    const R slid = -bn * inverse;
+    const R slid = -bn * inverse;  // -b_n/(W_nn + s mu W_nt)
     const auto sticks = magnitude(trial) <= met.mu * held;
     const R closed_n = sticks ? held : slid, closed_t = sticks ? trial : R(side * slid);
     const R n = bn < zero ? closed_n : zero, t = bn < zero ? closed_t : zero;

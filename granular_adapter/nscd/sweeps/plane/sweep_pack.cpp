@@ -21,12 +21,12 @@ void fill_base(RowBase<lanes>& rows, int lane, const PackedContact& packed) {
     rows.rt.v[lane] = packed.r.t;
 }
 
-/// M^-1 (d, arm x d).
+/// M^-1 (d, arm x d): change of velocity by a unit impulse along d.
 PlanarVector answer(const BodyMobility& body, double x, double y, double arm) {
     return body * PlanarVector{x, y, arm};
 }
 
-/// What the third row of W allows: a lever without spins to act on does nothing.
+/// The lever of rolling resistance; zero if neither body can rotate (W_rr = 0).
 double lever(const PackedContact& packed) {
     return packed.w.rr > 0.0 ? packed.contact.rolling : 0.0;
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The sweeps for any processor, and the choice at run time.
+// The sweeps for any processor, and the selection of the instruction set at run time.
 #include <stdexcept>
 
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
-// Vectors of four doubles travel in two registers here; no function hands them to another library.
+// Vectors of four doubles are passed in two registers here; no function passes them to another
+// library.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
