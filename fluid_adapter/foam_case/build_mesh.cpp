@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// blockMesh and decomposePar as child processes. OpenFOAM finds its own settings through
-// WM_PROJECT_DIR, which Debian does not set: /usr/share/openfoam unless the user has another.
+// Runs blockMesh and decomposePar as child processes. OpenFOAM finds its own settings through
+// WM_PROJECT_DIR, which Debian does not set: /usr/share/openfoam unless the user sets another.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>

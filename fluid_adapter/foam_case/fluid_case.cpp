@@ -33,7 +33,8 @@ void write(const std::filesystem::path& directory, const std::string& location,
 
 std::string control_dict(const RunValues& run) {
     const double end = run.step * static_cast<double>(run.windows);
-    // Fields are written when the coupler says so; OpenFOAM's own interval is out of reach.
+    // The coupler decides when fields are written; OpenFOAM's own write interval is set beyond the
+    // end.
     return fmt::format(
         "application     turbidite-fluid;\n"
         "startFrom       startTime;\n"
@@ -64,24 +65,26 @@ std::string schemes(const Settings& settings) {
         settings.text("fluid.transport_scheme"));
 }
 
-/// One value of fluid.pressure_solver or fluid.viscous_solver, and its entry without a tolerance.
+/// One value of fluid.pressure_solver or fluid.viscous_solver, and its dictionary entry without
+/// tolerance.
 struct SolverEntry {
     const char* name;
     const char* entry;
 };
 
-/// Direct: one solve leaves rounding, whatever the first guess was worth.
+/// Direct: one solve is exact to rounding, whatever the first guess.
 constexpr SolverEntry fft = {"FFT", "solver FFT; minIter 1;"};
 constexpr SolverEntry pcg = {"PCG", "solver PCG; preconditioner DIC;"};
 constexpr SolverEntry gamg = {"GAMG",
                               "solver GAMG; smoother GaussSeidel; nPreSweeps 1; nPostSweeps 2; "
                               "nCellsInCoarsestLevel 20;"};
 
-/// The tolerance of FFT is what rounding stays below; those of the case are for iterative solvers.
+/// Tolerance for FFT, above its rounding error; the tolerances of the case are for iterative
+/// solvers.
 constexpr double direct_tolerance = 1e-9;
 
-/// Tolerances are OpenFOAM's normalised residuals, thus relative to the problem's own size; a
-/// relTol would be relative to the quality of the first guess instead.
+/// Tolerances are OpenFOAM's normalised residuals, and so relative to the size of the problem; a
+/// relTol would be relative to the error of the first guess instead.
 std::string solver(const Settings& settings, const std::string& problem,
                    std::initializer_list<SolverEntry> list, int most_iterations) {
     const std::string key = "fluid." + problem + "_solver", name = settings.text(key);
@@ -98,8 +101,8 @@ std::string solver(const Settings& settings, const std::string& problem,
                   fmt::format("{} = \"{}\"; allowed are {}", key, name, names));
 }
 
-/// FFT is in turbidite-fluid; OpenFOAM's own programs find it with `libs ("libturbiditeFFT.so");`
-/// in controlDict.
+/// FFT is linked into turbidite-fluid; OpenFOAM's own programs find it with `libs
+/// ("libturbiditeFFT.so");` in controlDict.
 std::string solution(const Settings& settings) {
     return fmt::format("solvers\n{{\n    p {{ {} }}\n    U {{ {} }}\n}}\n",
                        solver(settings, "pressure", {fft, gamg, pcg}, 2000),
@@ -133,8 +136,8 @@ std::string block_mesh(const FluidDomain& domain) {
         vertices, domain.cells[0], domain.cells[1], patches);
 }
 
-/// `simple` sorts the cells by a place that is turned by `delta`, by default so far that rows of
-/// more than a thousand cells would be torn; it must only not be zero.
+/// `simple` sorts the cells by coordinates rotated by `delta`. The default is so large that rows of
+/// more than a thousand cells would be split; it must only be non-zero.
 std::string decomposition(const Settings& settings) {
     const std::int64_t ranks = settings.integer("fluid.ranks");
     const std::string& kind = settings.text("fluid.decomposition");
@@ -189,7 +192,7 @@ void write_fluid_case(const Settings& settings, const std::filesystem::path& dir
     write(directory, "constant", "transportProperties", "dictionary", transport_properties(run));
     write(directory, "0", "U", "volVectorField", initial_velocity(domain));
     write(directory, "0", "p", "volScalarField", initial_pressure(domain));
-    // ParaView's reader opens a case through an empty file of this name.
+    // ParaView's reader opens a case by an empty file of this name.
     std::ofstream(directory / "fluid.foam");
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The fluid's part of a run folder: a legal OpenFOAM case, written from the resolved case. Two
-// dimensions are one layer of cells between `empty` patches. p is kinematic (over rho_f) and
-// reduced (without its hydrostatic part). Valid C++17.
+// The fluid's part of a run folder: a valid OpenFOAM case, written from the resolved case. A
+// two-dimensional case is one layer of cells between `empty` patches. p is kinematic (over rho_f)
+// and reduced (without its hydrostatic part). Valid C++17.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 namespace turbidite {
 
 /// Writes system/, constant/ and 0/ below `directory`. Throws Failure for settings that no OpenFOAM
-/// case can hold and for files that cannot be written.
+/// case can express, and for files that cannot be written.
 void write_fluid_case(const Settings& settings, const std::filesystem::path& directory);
 
-/// Runs blockMesh on the case, its output in `log`. Returns 0; throws Failure with blockMesh's own
-/// words when it is missing or fails.
+/// Runs blockMesh on the case, with its output in `log`. Returns 0; throws Failure with blockMesh's
+/// own message if it is missing or fails.
 int build_fluid_mesh(const std::filesystem::path& directory, const std::filesystem::path& log);
 
 /// Runs decomposePar on a case with a mesh: one processor folder per rank of fluid.ranks. Errors as

@@ -11,7 +11,7 @@
 namespace turbidite {
 namespace {
 
-/// Three layers let the widest stencil stand beside a wall.
+/// Room for the widest stencil, three layers, beside a wall.
 constexpr int least_cells = 4;
 
 int cell_count(const char* key, double size, double per_length) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The fluid's box and its uniform grid, from the resolved case: counts = size / D x cells per
-// diameter, rounded, so a cell is as near to square as the box allows. Valid C++17.
+// diameter, rounded, so that cells are as nearly square as the box allows. Valid C++17.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace turbidite {
 struct FluidDomain {
     std::array<double, 2> size{};  ///< [m]
     std::array<int, 2> cells{};
-    double thickness = 0.0;  ///< of the one layer of cells [m]; results are per unit length
+    double thickness = 0.0;  ///< of the single layer of cells [m]; results are per unit length
     /// wall, free or cyclic: left, right, bottom, top.
     std::array<std::string, 4> sides{};
 };

@@ -15,13 +15,13 @@ bool joins_ranks(const Foam::lduInterface& interface) {
     return Foam::isA<Foam::processorLduInterface>(interface);
 }
 
-/// Cyclic patches, also those that a decomposition has cut.
+/// Cyclic patches, including those split by a decomposition.
 bool closes_box(const Foam::lduInterface& interface) {
     return Foam::isA<Foam::cyclicLduInterface>(interface) ||
            Foam::isA<Foam::processorCyclicFvPatch>(interface);
 }
 
-/// By patch and face: the value of the cell on the far side, of one value per cell.
+/// By patch and face: the value of the cell on the far side, given one value per cell.
 std::vector<std::vector<int>> beyond_patches(const Foam::lduMesh& mesh,
                                              const Foam::labelList& values) {
     constexpr auto way = Foam::Pstream::commsTypes::nonBlocking;
@@ -44,7 +44,7 @@ std::vector<std::vector<int>> beyond_patches(const Foam::lduMesh& mesh,
     return beyond;
 }
 
-/// This rank's cells get the numbers after those of the ranks before it.
+/// Consecutive numbers for this rank's cells, after those of the ranks before it.
 Foam::labelList numbers_over_ranks(const Foam::lduMesh& mesh, const RankGroup& ranks) {
     const std::vector<int> counts = ranks.everywhere(mesh.lduAddr().size());
     int first = 0;
@@ -54,8 +54,8 @@ Foam::labelList numbers_over_ranks(const Foam::lduMesh& mesh, const RankGroup& r
     return numbers;
 }
 
-/// Both cells of every face between cells that this rank has, and of the faces it shares with
-/// another rank where its cell has the smaller number.
+/// Both cells of every face between two cells of this rank, and of the faces shared with another
+/// rank if this rank's cell has the smaller number.
 std::vector<int> face_pairs(const Foam::lduMesh& mesh, const Foam::labelList& numbers) {
     std::vector<int> pairs;
     const Foam::labelUList& lower = mesh.lduAddr().lowerAddr();
@@ -73,8 +73,8 @@ std::vector<int> face_pairs(const Foam::lduMesh& mesh, const Foam::labelList& nu
     return pairs;
 }
 
-/// Of the faces of all ranks: to each rank columns, rows and the places of its cells, or a zero and
-/// the letters of what does not fit.
+/// Numbers the box from the faces of all ranks. Sends each rank the columns, the rows and the
+/// places of its cells; or a zero and the text of what does not fit.
 ByRank<int> numbered(const ByRank<int>& pairs_of_rank, const std::vector<int>& counts) {
     ByRank<int> answers(counts.size());
     try {
@@ -103,8 +103,8 @@ ByRank<int> numbered(const ByRank<int>& pairs_of_rank, const std::vector<int>& c
 
 }  // namespace
 
-/// OpenFOAM's world is what MPI_COMM_WORLD is under the names MPI_*, which another communicator may
-/// answer (coupler/transport/world_isolation.hpp); a RankGroup calls PMPI_*.
+/// For OpenFOAM the world is MPI_COMM_WORLD as seen through the names MPI_*, which may stand for
+/// another communicator (coupler/transport/world_isolation.hpp); a RankGroup calls PMPI_*.
 RankGroup openfoam_ranks() {
     if (!Foam::Pstream::parRun()) return {};
     MPI_Group everyone = MPI_GROUP_NULL;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where the cells of this rank lie in a box of all ranks' cells, and along which axis each
-// coefficient of a matrix on them points: what is needed to read the matrix (boxOperator.hpp).
-// Every function here is called by all ranks, and all come to the same verdict.
+// The places of this rank's cells in a box formed by the cells of all ranks, and the axis of each
+// coefficient of a matrix on them: what is needed to read the matrix (boxOperator.hpp). A row is
+// all cells with the same y. Every function here is called by all ranks, and gives all the same
+// verdict.
 #pragma once
 
 #include <lduMesh.H>
@@ -18,26 +19,27 @@ namespace turbidite {
 
 struct BoxCells {
     RankGroup ranks;
-    std::array<int, 2> cells{};            ///< columns and rows, of all ranks
-    std::vector<int> place;                ///< of each cell of this rank: i + nx j
-    std::vector<unsigned char> axis;       ///< that each coefficient of the matrix lies along
+    std::array<int, 2> cells{};  ///< columns and rows of the box, over all ranks
+    std::vector<int> place;      ///< i + nx j, by cell of this rank
+    /// by coefficient of the matrix: the axis along which it couples
+    std::vector<unsigned char> axis;
     std::vector<std::vector<int>> beyond;  ///< by patch and face: place of the cell on the far side
 
     int row(int place) const { return place / cells[0]; }
     int column(int place) const { return place % cells[0]; }
 };
 
-/// The ranks that OpenFOAM runs on; one, without MPI, where it does not run in parallel.
+/// The ranks that OpenFOAM runs on; a single rank without MPI if it does not run in parallel.
 RankGroup openfoam_ranks();
 
-/// With the places found from the faces between cells (boxNumbering.hpp). Throws DoesNotFit.
+/// With places derived from the faces between cells (boxNumbering.hpp). Throws DoesNotFit.
 BoxCells number_cells(const Foam::lduMesh& mesh, const RankGroup& ranks);
 
-/// With places that are known.
+/// With given places. Throws DoesNotFit.
 BoxCells box_cells(const Foam::lduMesh& mesh, const RankGroup& ranks,
                    const std::array<int, 2>& cells, const std::vector<int>& place);
 
-/// Throws DoesNotFit on every rank when one of them has found a fault; with the first one's text.
+/// Throws DoesNotFit on every rank if any rank has found a fault, with the text of the first.
 void demand(const RankGroup& ranks, const std::string& fault);
 
 }  // namespace turbidite

@@ -25,7 +25,7 @@ void BoxInverse::set(const BoxOperator& to) {
     operator_ = to;
 }
 
-/// Of the reference, on the rank whose rows have it; null on the others.
+/// The value at the reference cell, on the rank whose rows contain it; null on the others.
 double* BoxInverse::reference_value() const {
     const Span& rows = rows_.rows_of_rank()[box_.ranks.rank()];
     const int place = operator_.reference - rows.first * box_.cells[0];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// x = A^-1 r of a separable operator, with its transforms and factorisation kept between calls.
+// x = A^-1 r for a separable operator; its transforms and factorisation are kept between calls.
 //
-// A reference makes A = L + delta e e^T, e the unit vector of its cell and L with constants in its
-// kernel. Summing the rows gives delta x_ref = sum r, and then L x = r - (sum r) e has a solution
-// that this value at the reference makes unique. Without a reference and constants free, the mean
-// of r is taken off and x has zero mean.
+// With a reference, A = L + delta e e^T, where e is the unit vector of its cell and L has constants
+// in its kernel. Summing all equations gives delta x_ref = sum r, and then L x = r - (sum r) e has
+// a solution, made unique by this value at the reference. If constants are free and there is no
+// reference, the mean of r is subtracted and x has zero mean.
 #pragma once
 
 #include <scalarField.H>
@@ -19,13 +19,14 @@ namespace turbidite {
 
 class BoxInverse {
  public:
-    /// Both are kept by reference.
+    /// Keeps references to both.
     BoxInverse(const BoxCells& box, CellRows& rows) : box_(box), rows_(rows) {}
 
-    /// Makes anew what differs from the operator before. Called by all ranks, like `apply`.
+    /// Recomputes what depends on the parts of the operator that have changed. Called by all ranks,
+    /// as is `apply`.
     void set(const BoxOperator& to);
 
-    /// r and x in the mesh's order of cells; they may be the same field.
+    /// r and x are in the mesh's order of cells, and may be the same field.
     void apply(const Foam::solveScalarField& r, Foam::solveScalarField& x);
 
  private:

@@ -8,7 +8,7 @@
 namespace turbidite {
 namespace {
 
-/// The neighbours of each cell, smaller numbers first.
+/// The neighbours of each cell, in ascending order.
 using Neighbours = std::vector<std::vector<int>>;
 
 std::string cell_name(int cell) {
@@ -30,7 +30,7 @@ Neighbours neighbours_of(const CellFaces& faces) {
     return of;
 }
 
-/// Along the boundary from the first corner to the next.
+/// The first row: along the boundary from the first corner to the next.
 std::vector<int> first_row(const Neighbours& of) {
     const auto corner =
         std::find_if(of.begin(), of.end(), [](const auto& list) { return list.size() == 2; });
@@ -48,8 +48,8 @@ std::vector<int> first_row(const Neighbours& of) {
     return row;
 }
 
-/// The cells across a row: of each of its cells the one neighbour without a place. Empty behind the
-/// last row.
+/// The next row: for each cell of a row, its only neighbour without a place. Empty after the last
+/// row.
 std::vector<int> row_across(const std::vector<int>& row, const Neighbours& of,
                             const std::vector<int>& place) {
     std::vector<int> across;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Column i and row j of every cell of a mesh, found from which cells share a face, for any
-// numbering of the cells: a corner is a cell with two neighbours, the first row follows the
-// boundary from there, and every further row is what lies across the one before. The corner and the
-// way are the ones with the smallest cell numbers, so that x is blockMesh's x. Faces that cyclic
-// patches close are not part of it.
+// Column i and row j of every cell of a mesh, from the information which cells share a face, for
+// any numbering of the cells. A corner is a cell with two neighbours. The first row follows the
+// boundary from a corner, and every further row consists of the neighbours of the row before. The
+// corner and the direction are those with the smallest cell numbers, so that x is blockMesh's x.
+// Faces of cyclic patches are not included.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace turbidite {
 
-/// Says what of the mesh or of the matrix does not fit.
+/// Explains what in the mesh or the matrix does not fit.
 struct DoesNotFit : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -26,13 +26,13 @@ struct CellFaces {
 
 struct BoxNumbering {
     std::array<int, 2> cells{};  ///< columns and rows
-    std::vector<int> place;      ///< of each cell: i + nx j
+    std::vector<int> place;      ///< i + nx j, by cell
 
     int row(int cell) const { return place[cell] / cells[0]; }
     int column(int cell) const { return place[cell] % cells[0]; }
 };
 
-/// Throws DoesNotFit unless the cells form one box of 3 x 3 cells or more.
+/// Throws DoesNotFit unless the cells form one box of at least 3 x 3 cells.
 BoxNumbering number_box(const CellFaces& faces);
 
 }  // namespace turbidite

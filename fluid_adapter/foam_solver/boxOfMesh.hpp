@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is kept with a mesh between solves: where its cells lie in the box and, for each field that
-// is solved for, the inverse of the operator it met last. OpenFOAM deletes it when the mesh changes
-// its topology.
+// Data kept with a mesh between solves: the places of its cells in the box and, for each field
+// solved for, the inverse of its last operator. OpenFOAM deletes it when the topology of the mesh
+// changes.
 #pragma once
 
 #include <MeshObject.H>
@@ -18,13 +18,14 @@ namespace turbidite {
 class BoxOfMesh final
     : public Foam::MeshObject<Foam::lduMesh, Foam::TopologicalMeshObject, BoxOfMesh> {
  public:
-    using word = Foam::word;  // TypeName means it
+    using word = Foam::word;  // used by the macro TypeName
     TypeName("turbiditeBoxOfMesh");
 
     /// Throws DoesNotFit.
     explicit BoxOfMesh(const Foam::lduMesh& mesh);
 
-    /// That of the matrix's mesh, made at the first call, which all ranks make. Throws DoesNotFit.
+    /// The box of the matrix's mesh, created at the first call, which all ranks must make. Throws
+    /// DoesNotFit.
     static const BoxOfMesh& of(const Foam::lduMatrix& matrix);
 
     const BoxCells& cells() const { return cells_; }

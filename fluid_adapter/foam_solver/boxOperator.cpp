@@ -14,21 +14,21 @@ namespace {
 
 constexpr const char* axis_names[] = {"x", "y"};
 
-/// Sums of a row's coefficients round to this share of its diagonal.
+/// The sum of a cell's coefficients is exact to this fraction of the diagonal.
 constexpr double rounding = 1e-13;
 
-/// What the matrix says about itself, multiplied by its sign.
+/// Properties of the matrix, times its sign.
 struct Reading {
     double sign = 1.0;
-    std::array<double, 2> mean{};  // c of each axis
-    std::array<bool, 2> cyclic{};  // axis closed
-    std::vector<double> excess;    // of the diagonal, by cell of this rank
-    double noise = 0.0;            // of the excess
+    std::array<double, 2> mean{};  // mean c of each axis
+    std::array<bool, 2> cyclic{};  // whether the axis is closed
+    std::vector<double> excess;    // of the diagonal over the neighbours, by cell of this rank
+    double noise = 0.0;            // rounding error of the excess
     int reference = -1;            // place
     double stiffening = 0.0;
-    double inside = 0.0;              // mean excess of the cells at no side
-    std::array<double, 4> at_side{};  // and of those at left, right, bottom, top, without corners
-    double everywhere = 0.0;          // and of all
+    double inside = 0.0;              // mean excess of the cells not at a side
+    std::array<double, 4> at_side{};  // of those at left, right, bottom, top, without corners
+    double everywhere = 0.0;          // of all cells
 };
 
 std::string number(double value) {
@@ -46,16 +46,16 @@ std::string cell_name(const BoxCells& box, int cell) {
            std::to_string(box.row(place)) + ")";
 }
 
-/// A coefficient of a patch that couples cells: of the row of a cell of this rank.
+/// A coefficient of a patch that couples cells, in the equation of a cell of this rank.
 struct PatchCoefficient {
     int cell;
     int beyond;  // place of the other cell
     double value;
     int axis;
-    bool closes;  // the other cell is at the other end of the box, not the next one
+    bool closes;  // the other cell is at the opposite end of the box, not the next one
 };
 
-/// What keeps the patch's coefficients from being read; empty if nothing does.
+/// The reason why the patch's coefficients cannot be read; empty if they can.
 std::string fault_of(const Foam::lduInterfaceField& field) {
     if (!Foam::isA<Foam::cyclicLduInterface>(field.interface()) &&
         !Foam::isA<Foam::processorLduInterface>(field.interface()))
@@ -66,7 +66,7 @@ std::string fault_of(const Foam::lduInterfaceField& field) {
     return {};
 }
 
-/// False where the two cells are neither neighbours nor opposite each other.
+/// False if the two cells are neither neighbours nor opposite each other.
 bool find_axis(const BoxCells& box, PatchCoefficient& found) {
     const int place = box.place[found.cell];
     const int columns = std::abs(box.column(place) - box.column(found.beyond));
@@ -107,12 +107,12 @@ void for_each_inner(const SolverMatrix& system, const BoxCells& box, Visit visit
     forAll(upper, face) visit(box.axis[face], low[face], high[face], upper[face]);
 }
 
-/// Of an axis, over all ranks.
+/// Sums over the coefficients of an axis, over all ranks.
 struct AxisSum {
     double inner = 0.0, inner_faces = 0.0, closing_faces = 0.0;
 };
 
-/// A face between two ranks is half of each.
+/// A face between two ranks counts half on each.
 std::array<AxisSum, 2> sum_axes(const SolverMatrix& system, const BoxCells& box,
                                 const std::vector<PatchCoefficient>& patches) {
     std::array<AxisSum, 2> sums{};
@@ -168,7 +168,7 @@ void read_excess(const SolverMatrix& system, const BoxCells& box,
     reading.noise = rounding * largest;
 }
 
-/// The one cell with an excess, where all others have none.
+/// The only cell with an excess, if all others have none.
 void take_reference(const BoxCells& box, Reading& reading) {
     double with_excess = 0.0, last[] = {-1.0, 0.0};  // place and excess
     std::size_t cell = 0;
@@ -188,7 +188,7 @@ void take_reference(const BoxCells& box, Reading& reading) {
     if (here) reading.excess[cell] = 0.0;
 }
 
-/// Corners belong to two sides and count for none.
+/// Corners belong to two sides and are ignored.
 void read_sides(const BoxCells& box, Reading& reading) {
     const int nx = box.cells[0], ny = box.cells[1];
     double sums[6] = {};  // four sides, inside, all
@@ -305,8 +305,8 @@ BoxOperator nearest_operator(const SolverMatrix& system, const BoxCells& box) {
     const Reading reading = read(system, box);
     BoxOperator found = operator_of(reading, box);
     found.problem.alpha = std::max(found.problem.alpha, 0.0);
-    // A few faces may hold a value where their side as a whole does not. Then constants are not
-    // free in A and must not be here: 1.A1 is kept instead.
+    // A few faces may hold a value although their side as a whole does not. Then constants are not
+    // in the kernel of A, and must not be in that of this operator: 1.A1 is preserved instead.
     if (found.floating() && found.reference < 0 && reading.everywhere > reading.noise)
         found.problem.alpha = reading.everywhere;
     return found;

@@ -4,13 +4,14 @@
 //
 //     (A x)_a = s (d_a x_a - sum_b c_ab x_b)        s  its sign; -1 for OpenFOAM's Laplacian
 //
-// and what the diagonal has beyond its neighbours,
+// and the excess of the diagonal over the neighbours,
 //
 //     d_a - sum_b c_ab = alpha + 2 c (per side that holds a value) + delta (one cell)
 //
-// tells the rest: alpha of a time derivative or a sink, which sides hold a value, and the cell that
-// fvMatrix::setReference made regular. Separable means that c is one number per axis and that the
-// right-hand side is all there is. Both functions are called by all ranks and give all the same.
+// determines the rest: alpha of a time derivative or a sink, which sides hold a value, and the cell
+// at which fvMatrix::setReference made the matrix regular. Separable means that c is one number per
+// axis, and that nothing acts apart from the matrix but the right-hand side. Both functions are
+// called by all ranks and give the same result on all.
 #pragma once
 
 #include <lduMatrix.H>
@@ -20,7 +21,7 @@
 
 namespace turbidite {
 
-/// The matrix as its solver sees it: the boundary's share of the diagonal is in the diagonal.
+/// The matrix as its solver sees it: the boundary's contribution to the diagonal is included.
 struct SolverMatrix {
     const Foam::lduMatrix& matrix;
     const Foam::FieldField<Foam::Field, Foam::scalar>& boundary;
@@ -31,25 +32,25 @@ struct BoxOperator {
     double sign = 1.0;      ///< s
     PlaneOperator plane;    ///< spacing 1 along x and sqrt(c_x/c_y) along y
     Helmholtz problem;      ///< alpha, and beta = c_x
-    int reference = -1;     ///< place of the cell with a delta, or none
+    int reference = -1;     ///< place of the cell with delta; -1: none
     double stiffening = 0;  ///< delta
 
-    /// Constants are in the kernel of what is left without the reference.
+    /// Constants are in the kernel of the operator without the reference.
     bool floating() const {
         return problem.alpha == 0.0 && plane.x.has_zero_mode() && plane.y.has_zero_mode();
     }
 };
 
-/// Coefficients may differ from their axis's by this share; mesh points are written with 10 digits.
-/// The solver corrects what this leaves.
+/// Relative deviation allowed between the coefficients of an axis; mesh points are written with 10
+/// digits. The solver corrects the resulting error.
 constexpr double coefficient_tolerance = 1e-5;
 
 /// Throws DoesNotFit, with the coefficient and the cell, unless the matrix is separable.
 BoxOperator exact_operator(const SolverMatrix& system, const BoxCells& box);
 
-/// The separable operator with the matrix's mean coefficients. Positive definite where s A is.
-/// Throws DoesNotFit where cyclic patches do not close the box, and where the coefficients have no
-/// common sign.
+/// The separable operator with the mean coefficients of the matrix; positive definite if s A is.
+/// Throws DoesNotFit if cyclic patches do not close the box, or if the coefficients have no common
+/// sign.
 BoxOperator nearest_operator(const SolverMatrix& system, const BoxCells& box);
 
 }  // namespace turbidite

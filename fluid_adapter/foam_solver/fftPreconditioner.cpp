@@ -10,7 +10,7 @@ namespace {
 const Foam::lduMatrix::preconditioner::addsymMatrixConstructorToTable<FftPreconditioner>
     add_fft_preconditioner;
 
-/// With the inverse of the nearest operator set; ends the program where the mesh is no box.
+/// The box with the inverse of the nearest operator; ends the program if the mesh is not a box.
 const BoxOfMesh& box_for(const Foam::lduMatrix::solver& solver) {
     try {
         const BoxOfMesh& box = BoxOfMesh::of(solver.matrix());

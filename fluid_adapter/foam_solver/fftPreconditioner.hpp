@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // `preconditioner FFT;` of PCG: the inverse of the nearest separable operator, for matrices on a
-// box whose coefficients vary. With coefficients between m and M times their axis's mean, the
-// condition number of what PCG iterates on is M/m, and the error falls at least by
-// (sqrt(M/m) - 1)/(sqrt(M/m) + 1) per iteration, at any number of cells.
+// box with variable coefficients. With coefficients between m and M times the mean of their axis,
+// the preconditioned matrix has the condition number M/m, and the error decreases at least by the
+// factor (sqrt(M/m) - 1)/(sqrt(M/m) + 1) per iteration, for any number of cells.
 #pragma once
 
 #include <lduMatrix.H>
@@ -14,7 +14,7 @@ namespace turbidite {
 
 class FftPreconditioner final : public Foam::lduMatrix::preconditioner {
  public:
-    using word = Foam::word;  // TypeName means it
+    using word = Foam::word;  // used by the macro TypeName
     TypeName("FFT");
 
     FftPreconditioner(const Foam::lduMatrix::solver& solver, const Foam::dictionary& controls);

@@ -18,7 +18,7 @@ FftSolver::FftSolver(const Foam::word& field, const Foam::lduMatrix& matrix,
                      const Foam::dictionary& controls)
     : solver(field, matrix, boundary_coeffs, internal_coeffs, interfaces, controls) {}
 
-/// With the matrix's inverse set; ends the program where there is none.
+/// The box with the inverse of the matrix; ends the program if there is none.
 const BoxOfMesh& FftSolver::checked_box() const {
     try {
         const BoxOfMesh& box = BoxOfMesh::of(matrix_);
@@ -35,7 +35,7 @@ const BoxOfMesh& FftSolver::checked_box() const {
     }
 }
 
-/// residual = source - A psi; returns the sum of its magnitudes.
+/// residual = source - A psi; returns the sum of its absolute values.
 Foam::scalar FftSolver::residual_sum(Foam::solveScalarField& residual,
                                      const Foam::solveScalarField& psi,
                                      const Foam::solveScalarField& source,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// `solver FFT;` in an OpenFOAM case's fvSolution: a symmetric matrix that is separable, solved
-// directly. Every call reads the coefficients and refuses those that do not fit.
+// `solver FFT;` in an OpenFOAM case's fvSolution: a direct solver for a symmetric separable matrix.
+// Every call reads the coefficients and refuses those that do not fit.
 //
-// An iteration is a correction of psi by A^-1 of its residual. One does, except where coefficients
-// that differ by coefficient_tolerance or rounding leave more than the tolerance; the last one is
-// the one that the tolerance asked for, or that no longer halved the residual.
+// An iteration corrects psi by A^-1 of its residual. One is enough, unless rounding or coefficients
+// that differ by up to coefficient_tolerance leave more than the tolerance; iteration ends when the
+// tolerance is met or the residual is no longer halved.
 #pragma once
 
 #include <lduMatrix.H>
@@ -16,7 +16,7 @@ namespace turbidite {
 
 class FftSolver final : public Foam::lduMatrix::solver {
  public:
-    using word = Foam::word;  // TypeName means it
+    using word = Foam::word;  // used by the macro TypeName
     TypeName("FFT");
 
     FftSolver(const Foam::word& field, const Foam::lduMatrix& matrix,

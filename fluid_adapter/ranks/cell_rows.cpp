@@ -44,7 +44,7 @@ double CellRows::first(const double* rows) const {
     return group_.from(root, group_.rank() == root ? rows[0] : 0.0);
 }
 
-/// The rows that the ranks have anyway, if they have whole ones; else even spans.
+/// Uses the complete rows that the ranks already have, if they do; else even spans.
 void CellRows::choose_rows(int rows, const std::vector<int>& cells) {
     int lowest = rows, highest = -1;
     for (const int cell : cells) {
@@ -59,7 +59,7 @@ void CellRows::choose_rows(int rows, const std::vector<int>& cells) {
     if (!group_.all(whole)) return;
     std::vector<Span> slabs(group_.size());
     for (int rank = 0; rank < group_.size(); ++rank) slabs[rank] = {firsts[rank], counts[rank]};
-    // Otherwise cells are missing or doubled, and the check below says so.
+    // Otherwise cells are missing or duplicated, which the check below reports.
     if (are_all_once(slabs, rows)) rows_of_rank_ = slabs;
 }
 
@@ -123,7 +123,7 @@ void CellRows::begin_exchange(const std::vector<Part>& out, double* out_values,
 }
 
 void CellRows::end_exchange() {
-    if (requests_.empty()) return;  // one rank may be without MPI
+    if (requests_.empty()) return;  // a single rank may have no MPI
     PMPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 

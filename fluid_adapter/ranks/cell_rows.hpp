@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Between the cells that a rank has, by whatever decomposition, and the complete rows that a
-// separable solve wants of it. Where every rank has complete neighbouring rows already, as `simple
-// (1 n 1)` cuts them, these are the rows of the solve and nothing travels; otherwise rows are dealt
-// out evenly and cells of other ranks' rows travel, each once per direction. Valid C++17.
+// Redistribution between the cells of a rank, from any decomposition, and the complete rows that a
+// separable solve needs. A row is all cells with the same y. If every rank already has complete,
+// contiguous rows, as with `simple (1 n 1)`, these are used and nothing is communicated. Otherwise
+// rows are distributed evenly, and each cell in another rank's row is sent once per direction.
+// Valid C++17.
 #pragma once
 
 #include <memory>
@@ -17,16 +18,16 @@ namespace turbidite {
 class CellRows {
  public:
     /// `cells`: the number i + columns j of each of this rank's cells, in the rank's order. Throws
-    /// std::invalid_argument, on every rank, unless the ranks have every cell once.
+    /// std::invalid_argument, on every rank, unless every cell belongs to exactly one rank.
     CellRows(const RankGroup& group, int columns, int rows, const std::vector<int>& cells);
 
-    /// Arrays for a solve on these rows.
+    /// Arrays for a separable solve on these rows.
     std::unique_ptr<Pencils> pencils() const;
 
     /// Spans of y, one per rank.
     const std::vector<Span>& rows_of_rank() const { return rows_of_rank_; }
 
-    /// rows[...] = value_of(c) for every cell c of this rank's order, wherever its row is.
+    /// rows[...] = value_of(c) for every cell c of this rank, on whichever rank its row is.
     template <class ValueOf>
     void gather(ValueOf value_of, double* rows);
 
@@ -37,11 +38,11 @@ class CellRows {
     /// The value of cell (0, 0), on every rank.
     double first(const double* rows) const;
 
-    /// No value travels between ranks.
+    /// Whether no value has to be sent to another rank.
     bool stays() const { return away_.empty() && guests_.empty(); }
 
  private:
-    struct Part {  // of a buffer, shared with one rank
+    struct Part {  // section of a buffer, for one other rank
         int rank, begin, end;
     };
 
@@ -56,11 +57,12 @@ class CellRows {
     RankGroup group_;
     int columns_;
     std::vector<Span> rows_of_rank_;
-    bool straight_ = false;                    // all cells stay, in the order of the rows
-    std::vector<int> own_cells_, own_places_;  // cells that stay, and where in the rows they go
-    std::vector<Part> away_, guests_;          // of the two lists below
-    std::vector<int> away_cells_;              // cells whose rows are another rank's
-    std::vector<int> guest_places_;            // where in the rows other ranks' cells go
+    // all cells stay, and are already in the order of the rows
+    bool straight_ = false;
+    std::vector<int> own_cells_, own_places_;  // cells that stay, and their places in the rows
+    std::vector<Part> away_, guests_;          // sections of the next two lists
+    std::vector<int> away_cells_;              // cells whose rows are on another rank
+    std::vector<int> guest_places_;            // places in the rows of cells from other ranks
     std::vector<double> away_values_, guest_values_;
     std::vector<MPI_Request> requests_;
 };

@@ -11,8 +11,8 @@ namespace {
 constexpr int import_tag = 4, export_tag = 5;
 constexpr int nobody = -1;
 
-/// Who owns each of the wanted cells. Every rank keeps the register of one stretch of numbers, so
-/// nobody holds the whole grid.
+/// The owner of each wanted cell. Every rank keeps the register for a range of cell numbers, so
+/// that no rank holds the whole grid.
 std::vector<int> owners_of(const RankGroup& group, int cells, const std::vector<int>& own,
                            const std::vector<int>& wanted) {
     const int ranks = group.size(), stretch = (cells + ranks - 1) / ranks;

@@ -40,7 +40,7 @@ void LocalBlock::enclose(const std::vector<int>& own, int layers) {
     }
 }
 
-/// The cells around it, corners included, are this rank's as well.
+/// Whether the cells around it, corners included, also belong to this rank.
 bool LocalBlock::is_inside(int cell) const {
     const int i = cell % grid_.counts[0], j = cell / grid_.counts[0];
     for (int dj = -1; dj <= 1; ++dj)

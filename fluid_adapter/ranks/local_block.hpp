@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Which local index a rank has for cell (i, j): its own cells first, in its own order, then a halo
-// of all cells within some layers of them (corners count as neighbours). One number per cell of the
-// smallest block of the grid around both. A cyclic side has the other end's cells beyond it.
-// Valid C++17.
+// The local index of cell (i, j) on a rank: its own cells first, in its own order, then a halo of
+// all cells within a number of layers of them (diagonally as well). One number is stored per cell
+// of the smallest block of the grid that contains both. Beyond a cyclic side follow the cells of
+// the opposite side. Valid C++17.
 #pragma once
 
 #include <array>
@@ -16,19 +16,20 @@ namespace turbidite {
 
 class LocalBlock {
  public:
-    /// `own`: the number i + nx j of each of this rank's cells. Finds the halo, unnumbered so far.
+    /// `own`: the number i + nx j of each of this rank's cells. Determines the halo, without
+    /// numbering it.
     LocalBlock(const CellGrid& grid, const std::vector<int>& own, int layers);
 
     /// Numbers of the halo's cells, ascending.
     const std::vector<int>& halo() const { return halo_; }
 
-    /// Gives the halo's cells the local indices after the own ones, in this order.
+    /// Gives the halo cells the local indices after the own ones, in this order.
     void number_halo(const std::vector<int>& order);
 
-    /// Local index of a cell of the grid, -1 where this rank knows nothing of it.
+    /// Local index of a cell of the grid; -1 if this rank does not know the cell.
     int at(int i, int j) const { return table().at(i, j); }
 
-    /// Valid as long as the block stays where it is.
+    /// Valid while this object is neither moved nor changed.
     CellTable table() const { return {index_.data(), first_, width_, turn_}; }
 
  private:
@@ -43,7 +44,7 @@ class LocalBlock {
 
     CellGrid grid_;
     std::array<int, 2> first_{}, width_{};
-    std::array<int, 2> turn_{};  // cells around a cyclic axis, 0 for others
+    std::array<int, 2> turn_{};  // cells around a cyclic axis, 0 for other axes
     std::vector<int> index_;
     std::vector<int> halo_;
     int own_count_;

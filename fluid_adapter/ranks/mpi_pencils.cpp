@@ -57,7 +57,7 @@ double* MpiPencils::block_of_rows(int rank) {
     return columns() + static_cast<std::size_t>(rows_of_rank_[rank].first) * mode_count();
 }
 
-/// visit(part of a row with the rank's modes, its place in `block`) for every row of this rank.
+/// visit(part of a row with that rank's modes, its place in `block`) for every row of this rank.
 template <class Visit>
 void MpiPencils::for_rows_of_block(int rank, double* block, Visit visit) {
     const Span& modes = modes_of_rank_[rank];
@@ -66,7 +66,7 @@ void MpiPencils::for_rows_of_block(int rank, double* block, Visit visit) {
         visit(part, block, modes.count);
 }
 
-/// The same for all ranks, where memory is shared; the own block last is not in anybody's way.
+/// The same for all ranks, with shared memory; the own block comes last, to avoid contention.
 template <class Visit>
 void MpiPencils::for_shared_blocks(Visit visit) {
     for (int step = 1; step <= group_.size(); ++step) {
@@ -82,7 +82,7 @@ double* MpiPencils::place_of_rows(int rank) {
 
 void MpiPencils::to_columns() {
     if (!shared_) return send_to_columns();
-    shared_->fence();  // nobody reads columns any more
+    shared_->fence();  // no rank reads columns any more
     for_shared_blocks(pack);
     shared_->fence();
 }

@@ -3,14 +3,14 @@
 // Pencils (linear_solvers/pencils.hpp) shared by several ranks. Each rank holds the complete rows
 // of a span of y and, after the transpose, the complete columns of a span of modes.
 //
-// Columns are stored row by row, so what another rank's rows give is one contiguous piece of them.
-// On one node the columns are memory shared by the ranks, and every rank copies its rows' parts to
-// where they belong and back. Between nodes they are messages: packed on the way to columns, where
-// they arrive in place; on the way back they leave from where they are, and are unpacked.
+// Columns are stored row by row, so that the contribution of another rank's rows is contiguous. On
+// one node the columns are in memory shared by the ranks, and every rank copies the parts of its
+// rows to their places and back. Between nodes they are sent as messages: packed on the way to the
+// columns, where they arrive in place; on the way back they are sent in place and unpacked.
 //
-// Measured at 320 x 960 cells on two ranks of one node, with the system's own copying between
-// processes off as containers have it: the two solves of the viscous step take 9.7 ms by messages
-// and 4.7 ms by shared memory, 8.3 ms on one rank. Valid C++17.
+// Measured at 320 x 960 cells on two ranks of one node, without the kernel's copying between
+// processes (as in containers): the two solves of the viscous step take 9.7 ms with messages and
+// 4.7 ms with shared memory, 8.3 ms on one rank. Valid C++17.
 #pragma once
 
 #include <vector>
@@ -23,11 +23,12 @@ namespace turbidite {
 
 class MpiPencils final : public Pencils {
  public:
-    /// `rows_of_rank`: spans of y, one per rank, which together are all rows once; in any order.
+    /// `rows_of_rank`: spans of y, one per rank, in any order, that together contain every row
+    /// once.
     MpiPencils(const RankGroup& group, int columns, const std::vector<Span>& rows_of_rank)
         : MpiPencils(group, columns, rows_of_rank, group.one_node()) {}
 
-    /// Says whether memory is shared, for tests.
+    /// Chooses whether memory is shared; for tests.
     MpiPencils(const RankGroup& group, int columns, const std::vector<Span>& rows_of_rank,
                bool shared_memory);
 
@@ -45,10 +46,10 @@ class MpiPencils final : public Pencils {
  private:
     const Span& own_rows() const { return rows_of_rank_[group_.rank()]; }
     const Span& own_modes() const { return modes_of_rank_[group_.rank()]; }
-    std::size_t column_size() const;  // values of this rank's columns
-    int packed_size(int rank) const;  // values shared with another rank, one way
-    double* block_of_rows(int rank);  // of this rank's columns: what comes from the rank's rows
-    double* place_of_rows(int rank);  // of the rank's shared columns: what comes from our rows
+    std::size_t column_size() const;  // number of values in this rank's columns
+    int packed_size(int rank) const;  // number of values shared with another rank, per direction
+    double* block_of_rows(int rank);  // in this rank's columns: the part from that rank's rows
+    double* place_of_rows(int rank);  // in that rank's shared columns: the part from our rows
     void send_to_columns();
     void send_to_rows();
     template <class Visit>
@@ -60,10 +61,11 @@ class MpiPencils final : public Pencils {
     int columns_;
     std::vector<Span> rows_of_rank_, modes_of_rank_;
     AlignedValues row_values_;
-    std::unique_ptr<SharedValues> shared_;  // columns, on one node;
-    AlignedValues column_values_;           // else these
-    std::vector<double> packed_;            // this rank's rows, by the rank that has the modes
-    std::vector<std::size_t> starts_;       // where each rank's part of it begins
+    std::unique_ptr<SharedValues> shared_;  // columns, if on one node
+    AlignedValues column_values_;           // columns otherwise
+    // this rank's rows, grouped by the rank that holds the modes
+    std::vector<double> packed_;
+    std::vector<std::size_t> starts_;  // start of each rank's group
     std::vector<MPI_Request> requests_;
 };
 

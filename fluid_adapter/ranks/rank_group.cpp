@@ -4,7 +4,7 @@
 namespace turbidite {
 namespace {
 
-/// A group may outlive MPI: the host's objects are destroyed at the end of the program.
+/// A group may outlive MPI, since the host's objects are destroyed at the end of the program.
 void release(MPI_Comm* comm) {
     int finalized = 0;
     PMPI_Finalized(&finalized);

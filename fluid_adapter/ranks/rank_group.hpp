@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The ranks that share one fluid grid. Without a communicator there is one rank and MPI is never
-// called, so that programs without MPI can use whatever takes a group.
+// called, so that programs without MPI can use everything that takes a group.
 //
 // All calls are PMPI_* on a duplicate of the communicator: the MPI_* names belong to the host code
-// (coupler/transport/world_isolation.hpp), and its messages are never met by ours. Valid C++17.
+// (coupler/transport/world_isolation.hpp), and its messages cannot be confused with ours. Valid
+// C++17.
 #pragma once
 
 #include <mpi.h>
@@ -16,32 +17,32 @@ namespace turbidite {
 
 class RankGroup {
  public:
-    /// One rank.
+    /// A single rank, without MPI.
     RankGroup() = default;
 
-    /// The ranks of `comm`, which is duplicated: every rank of it makes its group at the same time.
+    /// The ranks of `comm`, which is duplicated. Collective.
     explicit RankGroup(MPI_Comm comm);
 
     int rank() const { return rank_; }
     int size() const { return size_; }
     bool parallel() const { return size_ > 1; }
-    /// All ranks can share memory.
+    /// Whether all ranks can share memory.
     bool one_node() const { return one_node_; }
     MPI_Comm comm() const { return comm_ ? *comm_ : MPI_COMM_NULL; }
 
-    /// Sums over the ranks, in place; the same bits everywhere.
+    /// Sums over the ranks, in place; bitwise the same on all.
     void sum(double* values, int count) const;
 
-    /// Largest value of all ranks, in place.
+    /// Maximum over the ranks, in place.
     void max(double* values, int count) const;
 
-    /// True when it is on every rank.
+    /// True if `here` is true on every rank.
     bool all(bool here) const;
 
-    /// `value` of the rank `root`, everywhere.
+    /// Broadcasts `value` from the rank `root`.
     double from(int root, double value) const;
 
-    /// One number of each rank to all, in the order of the ranks.
+    /// Gathers one number per rank on all ranks, in the order of the ranks.
     std::vector<int> everywhere(int value) const;
 
  private:
@@ -51,20 +52,22 @@ class RankGroup {
     bool one_node_ = true;
 };
 
-/// Lists of numbers for each rank, and what the ranks sent here: index by rank. Every rank talks to
-/// every other: for set-up and once per window (shared_grains.hpp), not within iterations.
+/// All-to-all exchange of lists of numbers, indexed by rank; returns what the ranks sent to this
+/// one. Every rank exchanges with every other: for set-up and once per window (shared_grains.hpp),
+/// not within iterations.
 template <class Number>
 using ByRank = std::vector<std::vector<Number>>;
 ByRank<int> all_to_all(const RankGroup& group, const ByRank<int>& lists);
 ByRank<long long> all_to_all(const RankGroup& group, const ByRank<long long>& lists);
 
-/// Indices [first, first + count) of something that ranks share.
+/// Indices [first, first + count) of a range divided among the ranks.
 struct Span {
     int first = 0;
     int count = 0;
 };
 
-/// `total` indices in spans of nearly equal length, one per rank, in order; rank 0 has the first.
+/// Divides `total` indices into spans of nearly equal length, one per rank, in order; rank 0 has
+/// the first.
 std::vector<Span> even_spans(int total, int ranks);
 
 }  // namespace turbidite

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The rows of a box (box_step/box_rows.hpp) dealt out to several ranks: spans of y, each rank
-// exchanging two rows with those below and above. Valid C++17.
+// The rows of a box (box_step/box_rows.hpp) distributed over several ranks: spans of y, where each
+// rank exchanges two rows with those below and above. Valid C++17.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace turbidite {
 
 class RankRows final : public BoxRows {
  public:
-    /// Throws std::invalid_argument, on every rank, when one has fewer than `beyond` rows.
+    /// Throws std::invalid_argument, on every rank, if a rank has fewer than `beyond` rows.
     RankRows(const RankGroup& group, const PlaneOperator& plane, const CellRows& cells);
 
     int first() const override { return own().first; }
@@ -25,7 +25,7 @@ class RankRows final : public BoxRows {
 
  private:
     const Span& own() const { return spans_[group_.rank()]; }
-    int holder(int row) const;  // -1 beyond a side
+    int holder(int row) const;  // rank that has the row; -1 beyond a side
 
     RankGroup group_;
     int columns_, rows_;

@@ -14,7 +14,7 @@ int keeper_of(GrainId id, int ranks) {
     return static_cast<int>(static_cast<std::uint64_t>(id) % ranks);
 }
 
-/// To every holder of a grain that has another: the id and the other, as pairs.
+/// Tells every holder of a shared grain about each other holder, as pairs (id, rank).
 ByRank<long long> introductions(const ByRank<long long>& held) {
     std::vector<std::pair<long long, int>> holders;
     for (std::size_t rank = 0; rank < held.size(); ++rank)

@@ -8,11 +8,11 @@ namespace turbidite {
 
 SharedValues::SharedValues(const RankGroup& group, std::size_t count)
     : group_(group), values_(group.size()) {
-    MPI_Info apart = MPI_INFO_NULL;  // every rank's array on pages of its own
+    MPI_Info apart = MPI_INFO_NULL;  // each rank's array on its own pages
     PMPI_Info_create(&apart);
     PMPI_Info_set(apart, "alloc_shared_noncontig", "true");
     double* own = nullptr;
-    // The default handler would end the job without a word.
+    // The default handler would abort the job without a message.
     MPI_Errhandler usual = MPI_ERRHANDLER_NULL;
     PMPI_Comm_get_errhandler(group_.comm(), &usual);
     PMPI_Comm_set_errhandler(group_.comm(), MPI_ERRORS_RETURN);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// An array of every rank that all ranks of a node can read and write directly: memory shared
-// through MPI, so that what one rank has for another is copied once, by whoever has it, and not
-// through messages (in a shared-memory transport without kernel help: twice, in pieces).
-// Valid C++17.
+// One array per rank that all ranks of a node can read and write directly, in shared memory
+// allocated by MPI. Data for another rank is copied once, by the rank that has it; messages copy it
+// twice and in pieces, in a shared-memory transport without kernel support. Valid C++17.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@ namespace turbidite {
 
 class SharedValues {
  public:
-    /// `count` zeros on this rank. Made and destroyed by all ranks together; they must share a node
+    /// `count` zeros on this rank. Created and destroyed collectively; the ranks must share a node
     /// (RankGroup::one_node).
     SharedValues(const RankGroup& group, std::size_t count);
     ~SharedValues();
@@ -24,7 +23,7 @@ class SharedValues {
 
     double* of(int rank) const { return values_[rank]; }
 
-    /// What any rank did to any array before is seen by all after it. By all ranks.
+    /// Writes by any rank before it are visible to all ranks after it. Collective.
     void fence() const;
 
  private:
