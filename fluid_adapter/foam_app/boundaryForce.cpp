@@ -4,7 +4,7 @@
 namespace turbidite {
 namespace {
 
-/// Sums `per_face(patch)`, a tmp<vectorField>, over the true boundary: faces shared by ranks or
+/// Sums `per_face(patch)`, a tmp<vectorField>, over the true boundary. Faces shared by ranks or
 /// joined by a cyclic side have two sides that cancel.
 template <class PerFace>
 BoundaryForce over_faces(const FluidFields& fields, PerFace per_face) {

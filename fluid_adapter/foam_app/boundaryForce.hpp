@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What crosses the boundary of the fluid, from the values at its faces: the rates at which momentum
-// over rho_f changes by pressure, convection and viscosity, per unit length out of the plane
+// What crosses the boundary of the fluid, from the values at its faces: the rates of change of
+// momentum over rho_f by pressure, convection and viscosity, per unit length out of the plane
 // [m3/s2]. Every function is called by all ranks.
 #pragma once
 

@@ -10,7 +10,7 @@
 namespace turbidite {
 namespace {
 
-/// With the spacing that the mesh has, in metres.
+/// The operator with the spacing of the mesh in metres.
 PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size) {
     plane.x.spacing = box_size.x() / plane.x.cells;
     plane.y.spacing = box_size.y() / plane.y.cells;
@@ -87,7 +87,7 @@ BoundaryForce BoxFluidStep::diffuse() {
     return on_all_ranks(step_.viscous_force());
 }
 
-/// A direct solve spreads one bad value over all rows of all ranks.
+/// Checks some cells only: a direct solve spreads one bad value over all rows of all ranks.
 bool BoxFluidStep::finite() const {
     Foam::scalar sum = 0.0;
     const Foam::label some = std::min(fields_.U.size(), 100);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields: U is copied to rows
-// of contiguous components before them and back after them, p when somebody asks. A rank works on
-// complete rows, its own where OpenFOAM's decomposition gave it such (ranks/cell_rows.hpp).
+// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields. U is copied to rows
+// of contiguous components before the steps and back after them; p is copied on request. A rank
+// works on complete rows, its own if OpenFOAM's decomposition gave it complete ones
+// (ranks/cell_rows.hpp). A row is all cells with the same y.
 #pragma once
 
 #include "fluid_adapter/foam_app/fluidStep.hpp"
@@ -13,7 +14,7 @@ namespace turbidite {
 
 class BoxFluidStep final : public FluidStep {
  public:
-    /// limiter: k of limitedLinearV. Throws DoesNotFit.
+    /// `limiter`: k of limitedLinearV. Throws DoesNotFit.
     BoxFluidStep(FluidFields& fields, double limiter, const BoxCells& box);
 
     Projection project() override;

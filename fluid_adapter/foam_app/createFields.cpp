@@ -13,7 +13,7 @@ Foam::fileName parent_of(const std::filesystem::path& directory) {
         std::filesystem::absolute(directory).lexically_normal().parent_path().string());
 }
 
-/// The case, or this rank's part of it, as OpenFOAM's own programs name it.
+/// The case, or this rank's part of it, by the names OpenFOAM's own programs use.
 Foam::fileName name_of(const std::filesystem::path& directory, const RankGroup& ranks) {
     const Foam::fileName name(
         std::filesystem::absolute(directory).lexically_normal().filename().string());

@@ -4,9 +4,9 @@
 //
 //     U       velocity u at cell centres [m/s]
 //     phi     its flux through the faces [m3/s]
-//     excess  what phi had over the interpolated u after the last projection [m3/s]
+//     excess  phi minus the flux of the interpolated u, after the last projection [m3/s]
 //     p       reduced pressure over rho_f [m2/s2]
-//     lambda  force density of the fluid on the grains, of the last window [N/m3], output only
+//     lambda  force density of the fluid on the grains in the last window [N/m3], output only
 #pragma once
 
 #include <fvMesh.H>
@@ -20,7 +20,7 @@
 namespace turbidite {
 
 struct FluidFields {
-    /// Reads the case, on several ranks this rank's processor folder; throws Foam::error.
+    /// Reads the case, on several ranks this rank's processor folder. Throws Foam::error.
     FluidFields(const std::filesystem::path& directory, const RankGroup& ranks);
 
     RankGroup ranks;
@@ -31,17 +31,18 @@ struct FluidFields {
     Foam::volVectorField lambda;
     Foam::surfaceScalarField phi;
     Foam::surfaceScalarField excess;
-    Foam::scalar nu;         ///< [m2/s]
-    Foam::scalar rho;        ///< rho_f [kg/m3]
-    Foam::scalar thickness;  ///< of the layer of cells [m]: integrals over it are per unit length
+    Foam::scalar nu;   ///< [m2/s]
+    Foam::scalar rho;  ///< rho_f [kg/m3]
+    /// of the single layer of cells [m]: integrals over it are per unit length
+    Foam::scalar thickness;
 
-    /// No window is left before the case's endTime.
+    /// Whether the case's endTime is reached.
     bool finished() const;
 
-    /// phi from U by interpolation: what a projection starts from.
+    /// phi by interpolation of U: the starting point of a projection.
     void interpolate_flux();
 
-    /// div phi, mean of every cell [1/s].
+    /// div phi, the mean over every cell [1/s].
     void divergence(Foam::scalarField& result) const;
 
     /// max |div phi| over all cells [1/s].
@@ -50,7 +51,7 @@ struct FluidFields {
     /// Largest Courant number of phi.
     Foam::scalar courant() const;
 
-    /// Momentum of all fluid [N s/m].
+    /// Momentum of the whole fluid [N s/m].
     Foam::vector momentum() const;
 };
 

@@ -14,26 +14,26 @@
 namespace turbidite {
 namespace {
 
-/// |div phi| D / u_c asked of the projection: half of what the run accepts.
+/// div phi| D / u_c required of the projection: half of what the run accepts.
 constexpr double divergence_goal = 5e-5;
 
-/// k where the case transports with `Gauss limitedLinearV k`.
+/// k of the limiter, if the case transports with `Gauss limitedLinearV k`.
 std::optional<double> limiter_of(const FluidFields& fields) {
     Foam::Istream& scheme = fields.mesh.divScheme("div(phi,U)");
     if (Foam::word(scheme) != "Gauss" || scheme.eof()) return std::nullopt;
     if (Foam::word(scheme) != "limitedLinearV" || scheme.eof()) return std::nullopt;
     const double k = Foam::readScalar(scheme);
-    if (k < 0.0 || k > 1.0) return std::nullopt;  // OpenFOAM refuses it
+    if (k < 0.0 || k > 1.0) return std::nullopt;  // refused by OpenFOAM
     return std::max(k, Foam::SMALL);
 }
 
-/// The case's fvSolution names our solver for the field.
+/// Whether the case's fvSolution names our solver for the field.
 template <class Field>
 bool solved_by_fft(const Field& field) {
     return field.mesh().solverDict(field.name()).template get<Foam::word>("solver") == "FFT";
 }
 
-/// Says at the start what the solver itself would say in the first window.
+/// Reports at the start what the solver itself would report in the first window.
 template <class Field>
 void check_solver(Field& field, const BoxCells& box, const char* key, const char* others) {
     if (!solved_by_fft(field)) return;
@@ -65,7 +65,8 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
     try {
         return std::make_unique<BoxFluidStep>(fields, *limiter, box);
     } catch (const DoesNotFit&) {
-        return operator_step(settings, fields, box);  // does with less, or says what does not fit
+        // accepts more general cases, or reports what does not fit
+        return operator_step(settings, fields, box);
     }
 }
 

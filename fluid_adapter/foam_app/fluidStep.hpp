@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 of a window behind one door. Two kinds do the same to rounding:
+// Interface of steps 1 to 3 of a window. There are two implementations, equal to rounding:
 //
-//     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; where fvSolution names
-//                    FFT for p and U, with the default transport scheme
-//     OperatorStep   OpenFOAM's operators and tables, for everything else, with the solvers that
-//                    fvSolution names
+//     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; if fvSolution names FFT
+//     for
+//                    p and U, and with the default transport scheme
+//     OperatorStep   OpenFOAM's operators and tables with the solvers that fvSolution names, for
+//                    everything else
 //
-// U holds the velocity before `project` and after `diffuse`, and nothing in between.
+// U holds the velocity before `project` and after `diffuse`; its value in between is unspecified.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@
 
 namespace turbidite {
 
-/// What crosses the boundaries: the rate at which the fluid's momentum over rho_f changes, per unit
+/// What crosses the boundaries: the rate of change of the fluid's momentum over rho_f, per unit
 /// length out of the plane [m3/s2].
 using BoundaryForce = BoxStep::Force;
 
@@ -34,30 +35,30 @@ class FluidStep {
  public:
     virtual ~FluidStep() = default;
 
-    // Each tells what crossed the boundaries.
+    // Each step returns what crossed the boundaries in it.
 
     virtual Projection project() = 0;  ///< step 1
 
-    /// Step 2, in `parts` equal steps with the same flux: one force each.
+    /// Step 2, in `parts` equal sub-steps with the same flux; one force each.
     virtual std::vector<BoundaryForce> transport(int parts) = 0;
     virtual BoundaryForce diffuse() = 0;  ///< step 3
 
-    /// After `diffuse`: no velocity is infinite or no number.
+    /// After `diffuse`: whether all velocities are finite.
     virtual bool finite() const = 0;
 
-    /// What the step keeps for itself and fields have as well: p.
+    /// Copies p into the field, if the step keeps it elsewhere.
     virtual void put_fields() {}
 
-    /// What it knows beyond u and p: the excess flux, in an order of its own, and back. The kind of
-    /// step says whose order.
+    /// State beyond u and p: the excess flux, in the step's own order; saved and restored. `kind`
+    /// identifies the implementation, and so the order.
     virtual std::int64_t kind() const = 0;
     virtual std::vector<double> memory() = 0;
     virtual void set_memory(const std::vector<double>& values) = 0;
 };
 
-/// The kind that fits the case. `cells`: the number i + nx j in the grid of each of this rank's
-/// cells. Throws Failure (bad_input), naming the key, where FFT does not fit the mesh or a boundary
-/// condition.
+/// The implementation that fits the case. `cells`: the number i + nx j in the grid of each of this
+/// rank's cells. Throws Failure (bad_input), naming the key, if FFT does not fit the mesh or a
+/// boundary condition.
 std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
                                            const CellGrid& grid, const std::vector<int>& cells);
 

@@ -47,7 +47,7 @@ Kicks FluidWindow::impose() {
     });
     check_finite(ledger_.finite(), "step 5 (multipliers)");
     if (window_.write_output) watch_.play("output", timings_.output, [&] { write_fields(); });
-    // The last window: lets function objects finish, as OpenFOAM's own loops do.
+    // In the last window, lets function objects finish, as OpenFOAM's own loops do.
     if (fields_.finished())
         with_foam_errors("ending function objects", [&] { fields_.time.run(); });
     report_.wall_seconds = timings_.together();
@@ -84,7 +84,7 @@ void FluidWindow::diffuse() {
     ledger_.add(step_->diffuse());
 }
 
-/// Takes the grains of this window and solves for the multipliers that hold them.
+/// Takes the grains of this window and solves for their multipliers.
 template <class Take>
 void FluidWindow::answer(const char* name, Take take) {
     watch_.play(name, timings_.points, take);
@@ -95,7 +95,7 @@ void FluidWindow::answer(const char* name, Take take) {
     grains_taken_ = true;
 }
 
-/// A window's solves together.
+/// Accumulates the results of all solves of a window.
 void FluidWindow::note(const MultiplierResult& result) {
     report_.multiplier_iterations += result.iterations;
     report_.multiplier_residual = result.residual;
