@@ -14,20 +14,20 @@ namespace turbidite {
 
 class ExchangePlan {
  public:
-    /// `margin` [m]: how far beyond its surface a grain is felt by the fluid (stencils of its
+    /// `margin` [m]: how far beyond a grain's surface the fluid still needs it (stencils of its
     /// points). `period` [m] per axis: 0 where the domain is not cyclic.
     ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period);
 
-    /// One list from what the grains ranks sent; remembers who owns what. Contacts are in the order
-    /// of contact_before, however many ranks there are. Throws PhysicsRefused when an id or a
-    /// contact comes twice, a contact names a grain that nobody sent, or only some ranks tell
-    /// contacts.
+    /// Merges what the grains ranks sent into one list and remembers which rank owns which grain.
+    /// Contacts are in the order of contact_before, whatever the number of ranks. Throws
+    /// PhysicsRefused when an id or a contact occurs twice, a contact names an unknown grain, or
+    /// only some ranks report contacts.
     Motion gather(const std::vector<Motion>& shares);
 
-    /// For every fluid rank the grains that touch its box.
+    /// For every fluid rank, the grains that touch its box.
     std::vector<Motion> by_place(const Motion& motion) const;
 
-    /// For every grains rank what belongs to its grains (as of the last `gather`). Throws
+    /// For every grains rank, the records of its grains (as of the last `gather`). Throws
     /// PhysicsRefused unless every grain gets exactly one record.
     template <class Record>
     std::vector<std::vector<Record>> by_owner(const std::vector<Record>& records) const;
@@ -44,8 +44,8 @@ class ExchangePlan {
     std::size_t owners_ = 0;
 };
 
-/// The population split into `ranks` shares of nearly equal count, in the order of x: neighbours
-/// stay together.
+/// The population split into `ranks` shares of nearly equal count, in the order of x, so that
+/// neighbours stay together.
 std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks);
 
 }  // namespace turbidite

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Before anything else: every rank says who it is; all mismatches with the case are reported
+// The first exchange: every rank identifies itself; all mismatches with the case are reported
 // together.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace turbidite {
 
-/// What the case expects of the participant in this role.
+/// What the case requires of the participant in this role.
 Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes,
                         const SchemeEntry& scheme);
 

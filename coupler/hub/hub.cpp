@@ -15,15 +15,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long dismissed participants may take to write their last words [s]; one that is silent
-// already gets no second chance.
+// How long dismissed participants may take to write their output and leave [s]; a participant that
+// is already silent is not waited for.
 constexpr double farewell_limit = 30.0;
 constexpr double farewell_limit_after_stall = 2.0;
 
-// A fluid rank must know every grain that decides about a point or a cell of its own. A cell of its
-// own may be in the stencil of a surface point up to 1.5 cells outside its box (rule 6 of
-// multiplier/collocation_points.hpp), and whether that point is kept depends on grains that come
-// within one point spacing of it, at most 4 cells (rules 2 and 3): 5.5, and some to spare.
+// A fluid rank must know every grain that affects one of its points or cells. One of its cells may
+// be in the stencil of a surface point up to 1.5 cells outside its box (rule 6 of
+// multiplier/collocation_points.hpp), and whether that point is kept depends on grains within one
+// point spacing of it, at most 4 cells (rules 2 and 3): 5.5 cells, plus a safety margin.
 constexpr double stencil_cells = 7.0;
 
 double since(Clock::time_point start) {
@@ -35,7 +35,7 @@ bool on_terminal() {
     return wish != nullptr && std::string(wish) == "terminal";
 }
 
-/// What every rank said of itself, and who it is even if it said nothing.
+/// What every rank reported about itself; a rank that reported nothing is still identified.
 std::vector<Hello> hellos(const std::vector<ParticipantLink*>& links) {
     std::vector<Hello> all;
     for (const ParticipantLink* link : links)
@@ -81,8 +81,8 @@ void Hub::play(const Window& window) {
     if (window.write_output) output_.write();
 }
 
-// A run that is asked to stop plays one more window and writes it, so that history, grains and
-// fields end together.
+// A run that is asked to stop completes one more window and writes it, so that history, grains and
+// fields end at the same time.
 void Hub::play_windows() {
     const std::int64_t windows = settings_.run.windows;
     for (std::int64_t index = 0; index < windows; ++index) {
@@ -129,8 +129,8 @@ RunStatus Hub::run() {
     return status_;
 }
 
-// The record comes first: should a participant not leave, the verdict is known all the same. One
-// that cannot be written must not keep the participants from leaving.
+// The record is written first, so that the outcome is known even if a participant does not leave. A
+// record that cannot be written must not keep the participants from leaving.
 void Hub::end_and_record() {
     try {
         write_run_record(files_.record, status_, hellos(links_));
@@ -142,7 +142,7 @@ void Hub::end_and_record() {
         end({static_cast<int>(status_.code), status_.reason});
     } catch (const Failure& failure) {
         if (status_.code ==
-            ExitCode::done) {  // all windows are played, but the last words are lost
+            ExitCode::done) {  // all windows are done, but the farewells are missing
             status_.code = failure.code();
             status_.reason = failure.what();
             write_run_record(files_.record, status_, hellos(links_));
@@ -189,7 +189,7 @@ std::optional<ExitCode> Hub::requested_stop() const {
         if (!stop) return std::nullopt;
         stop >> code;
     }
-    std::error_code ignored;  // a request is meant once: the same line may be started again
+    std::error_code ignored;  // a request applies once: the same command line may be started again
     std::filesystem::remove(files_.stop, ignored);
     const bool terminated = code == static_cast<int>(ExitCode::terminated);
     return terminated ? ExitCode::terminated : ExitCode::interrupted;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The coupler's run: handshake, windows, end. Knows no host code and no MPI; tests give it loopback
+// The coupler's run: handshake, windows, end. Independent of host codes and MPI; tests use loopback
 // channels.
 #pragma once
 
@@ -16,26 +16,27 @@
 
 namespace turbidite {
 
-/// What the hub needs of a resolved case.
+/// What the hub needs from a resolved case.
 struct HubCase {
     Settings settings;
     ShapeTable shapes;
     std::vector<GrainState> population;
 };
 
-/// Where the hub writes; names are those of the run folder.
+/// Where the hub writes; the names are those of the run folder.
 struct HubFiles {
     std::filesystem::path history, series, log, record, stop;
 };
 
 class Hub {
  public:
-    /// `fluid` is null in dry runs. `scheme` is find_scheme(run.scheme), or one that is in no list.
+    /// `fluid` is null in dry runs. `scheme` is find_scheme(run.scheme), or one that is not in the
+    /// list.
     Hub(HubCase settings, HubFiles files, Channel& grains, Channel* fluid,
         const SchemeEntry& scheme);
     ~Hub();
 
-    /// Plays the whole run. Returns what it also wrote into the run record.
+    /// Executes the whole run. Returns what it also wrote into the run record.
     RunStatus run();
 
     /// Who works and who waits, one line per rank.
@@ -52,7 +53,7 @@ class Hub {
     void end_and_record();
     void end(const Verdict& verdict);
     void await_all(bool (ParticipantLink::*condition)(), double limit);
-    /// The code to end with when files_.stop is there, which is then removed.
+    /// The exit code to end with if files_.stop exists, which is then removed.
     std::optional<ExitCode> requested_stop() const;
 
     HubCase case_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the coupler reads of a case, read once when its hub is made.
+// The settings that the hub uses, read once when it is created.
 #pragma once
 
 #include "coupler/output/solve_limits.hpp"

@@ -27,7 +27,7 @@ Eigen::Matrix3d in_space(const Eigen::Matrix3d& inertia, const Quaternion& q) {
     return rotation * inertia * rotation.transpose();
 }
 
-// The largest of the terms of a balance and what is left of it.
+// The largest term of a balance, and its residual.
 struct Balance {
     double largest = 0.0;
     double rest = 0.0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The hydrodynamic force on a grain, defined here and nowhere else:
+// The hydrodynamic force on a grain, defined only here:
 //
 //     F_h = ∫λ + ρ_f V(R_h) dU/dt          T_h = ∫r×λ + I_f(R_h) dω/dt
 //
-// with dU/dt = (U^{n+1} - U^n)/Δt. Buoyancy is not part of it. Then, every window,
+// with dU/dt = (U^{n+1} - U^n)/Δt. Buoyancy is not included. Then, in every window,
 //
 //     M dU/dt = (M - m_f) g + F_c + F_h
 //
@@ -20,12 +20,12 @@ class KickRule {
  public:
     KickRule(const RunValues& run, const ShapeTable& shapes);
 
-    /// Fills force and torque. `before` is the state at t^n. Throws PhysicsRefused for a kick of a
-    /// grain that was not there.
+    /// Fills force and torque. `before` is the state at t^n. Throws PhysicsRefused for a kick of an
+    /// unknown grain.
     void complete(std::vector<Kick>& kicks, const Motion& before, double step);
 
-    /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and the angular twin over R) over all grains,
-    /// relative to the largest term that occurs. Empty windows give zero.
+    /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and its angular counterpart divided by R) over
+    /// all grains, relative to the largest term. Zero without grains.
     double defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
                   double step);
 

@@ -11,10 +11,11 @@ namespace {
 // A projection that leaves more than this [u_c/D] has failed.
 constexpr double divergence_limit = 1e-4;
 
-// What may go wrong once, in a window that grains enter violently, has failed when it goes on.
+// A single failure, in a window with violent motion, is tolerated; this many in succession are not.
 constexpr int windows_until_refused = 3;
 
-/// What lessens overlaps: springs are as stiff as their own keys say, and sub-steps follow.
+/// Advice on reducing overlaps; for springs, their own keys set the stiffness and with it the
+/// sub-steps.
 std::string against_overlap(const std::string& adapter) {
     if (adapter == "yade-md")
         return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness where it is "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a window must hold to: no grain lost, no overlap beyond tolerance, a fluid that stays
-// divergence-free, multiplier problems that are solved. Each violation ends the run with exit code
-// 6. That numbers are finite is checked where they arrive (schemes/exchanges.hpp).
+// The conditions on every window: no grain lost, no overlap beyond the limit, a divergence-free
+// fluid, converged multiplier problems. A violation ends the run with exit code 6. Numbers are
+// checked to be finite where they arrive (schemes/exchanges.hpp).
 #pragma once
 
 #include "coupler/hub/hub_settings.hpp"
@@ -27,8 +27,8 @@ class Ledger {
     std::size_t population_;
     std::size_t removed_ = 0;
     HubSettings settings_;
-    int divergent_windows_ = 0;  ///< running
-    int stopped_windows_ = 0;    ///< whose multiplier problem stopped at its limit, running
+    int divergent_windows_ = 0;  ///< in succession
+    int stopped_windows_ = 0;    ///< in succession, whose multiplier problem stopped at its limit
 };
 
 }  // namespace turbidite

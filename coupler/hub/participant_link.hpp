@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// One participant as the coupler sees it: its ranks, what each of them is due to say, since when.
+// One participant as the coupler sees it: its ranks, the message each of them is due to send, and
+// since when.
 #pragma once
 
 #include <deque>
@@ -22,10 +23,10 @@ class ParticipantLink {
     int ranks() const { return static_cast<int>(ranks_.size()); }
     std::string rank_name(int rank) const;
 
-    /// What the rank said of itself; empty before its hello.
+    /// What the rank reported about itself; empty before its hello.
     const Hello& hello(int rank) const { return ranks_[rank].hello; }
     void set_hello(int rank, Hello hello) { ranks_[rank].hello = std::move(hello); }
-    /// Which messages make a window; before the start is over.
+    /// Sets the messages of a window; to be called before the start is over.
     void set_window_order(const Order& order);
 
     void send(int rank, Kind kind, Bytes payload);
@@ -38,8 +39,8 @@ class ParticipantLink {
         for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, encode(records[rank]));
     }
 
-    /// Takes in what has arrived, checked against the call order. Throws Failure when a rank
-    /// reports one. Returns whether anything arrived.
+    /// Accepts the messages that have arrived, checked against the call order. Throws Failure when
+    /// a rank reports one. Returns whether anything arrived.
     bool pump();
 
     /// Rounds begun in the present window, as the coupler's order counts them.
@@ -59,11 +60,11 @@ class ParticipantLink {
     /// "grains rank 0 (host h, pid 12) works towards "motion", window 4, since 3 s".
     std::string state_of(int rank) const;
 
-    /// The run is over: tells the ranks; whatever they still send is thrown away until `gone`.
+    /// The run is over: dismisses the ranks; whatever they still send is discarded until `gone`.
     void dismiss(const Verdict& verdict);
     bool gone();
 
-    /// Everybody is gone: the ranks may leave.
+    /// All ranks have said farewell: they may leave.
     void release();
     bool flushed() { return channel_.flushed(); }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Waiting for participants with eyes open: failures of any of them surface at once, a soft limit
-// prints who waits for whom, a hard limit ends the run.
+// Waiting for participants: a failure of any of them is reported at once, a soft limit prints who
+// waits for whom, a hard limit ends the run.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@ class Watch {
     /// Limits in seconds.
     Watch(std::vector<ParticipantLink*> links, double soft, double hard, Print print);
 
-    /// Returns when every rank of `link` has delivered `kind`. Throws Failure: a participant's own,
-    /// or `stalled` naming who is silent.
+    /// Returns when every rank of `link` has delivered `kind`. Throws Failure: one reported by a
+    /// participant, or `stalled`, which names the silent ranks.
     void wait_for(ParticipantLink& link, Kind kind);
 
     /// One line per rank: who works, who waits, since when.
@@ -36,7 +36,7 @@ class Watch {
     double soft_, hard_;
     Print print_;
     double waited_ = 0.0;
-    /// Seconds, as it was the last time, by kind and round.
+    /// Duration of the last wait [s], by kind and round.
     std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;
 };
 

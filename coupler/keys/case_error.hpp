@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What is wrong with a case, in words a user can act on: where, which key, which value, what is
-// allowed, what to do. Problems are collected and shown together; nothing starts while there is
-// one.
+// A problem with a case, in a form a user can act on: place, key, value, allowed values, remedy.
+// Problems are collected and shown together; nothing starts while there is one.
 #pragma once
 
 #include <string>
@@ -22,7 +21,7 @@ struct CaseProblem {
     std::string remedy;   ///< a sentence
 };
 
-/// A problem of a place rather than of a key.
+/// A problem with a place in a file rather than with a key.
 CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
                        const std::string& allowed, const std::string& remedy);
 

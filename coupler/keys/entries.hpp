@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What somebody wrote for keys, with the place it came from: lines of a case file, arguments of
-// --set, options of a script. Knows nothing of which keys exist.
+// The values given for keys, with their origin: lines of a case file, arguments of --set, options
+// of a script. Independent of which keys exist.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@
 namespace turbidite {
 namespace {
 
-/// The value in its normal form, or nothing when it is refused (the problem is filled in).
+/// The value in its normal form, or nothing if it is refused (`problem` is then filled in).
 using Checked = std::optional<std::string>;
 
 CaseProblem problem_of(const CaseEntry& entry, const KeySpec& key) {

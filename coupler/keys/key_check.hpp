@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Entries against a table of keys: known? of the right type? in range? available? The values that
-// pass go into Settings, with defaults for the keys not given; the others become problems.
+// Checks entries against a table of keys: known, of the right type, in range, available. Valid
+// values go into Settings, with defaults for the keys not given; the others become problems.
 #pragma once
 
 #include "coupler/keys/entries.hpp"

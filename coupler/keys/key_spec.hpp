@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A key of a case file: type, unit, range or choices, default, help. Tables of them stand beside
-// the rules that several keys must satisfy together (rule.hpp).
+// A key of a case file: type, unit, range or choices, default, help. Tables of keys are in the same
+// files as the rules that several keys must satisfy together (rule.hpp).
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace turbidite {
 
 enum class KeyType { text, choice, real, integer, flag, real_list };
 
-/// A value of a choice. Those that later versions will have are known, and refused as such.
+/// A value of a choice. Values planned for later versions are known, and refused as such.
 struct Choice {
     std::string name;
     std::string help;
@@ -30,10 +30,11 @@ struct Range {
     bool contains(double value) const;
 };
 
-/// When a key must be given; `fallback` keys have a default, `optional` ones may be left out.
+/// When a key must be given: `fallback` keys have a default, `optional` ones may be omitted.
 enum class Need { fallback, required, optional, conditional };
 
-/// A part of a name in capitals stands for a word of the user's: "contact.materials.NAME.friction".
+/// A part of a name in capitals is a placeholder for a user-defined word:
+/// "contact.materials.NAME.friction".
 struct KeySpec {
     std::string name;  ///< "contact.friction"
     KeyType type = KeyType::real;
@@ -43,26 +44,26 @@ struct KeySpec {
     Range range = {};           ///< of numbers, and of every entry of a list
     std::vector<Choice> choices = {};
     std::string help = {};     ///< what it means
-    std::string allowed = {};  ///< one sentence, shown when the value is refused; made up if empty
+    std::string allowed = {};  ///< one sentence, shown with a refusal; generated if empty
     std::string remedy = {};   ///< one sentence: what to do
     int entries = 2;           ///< of a list; 0: any number
-    std::string when = {};     ///< conditional: in words, when it is required
-    bool (*required)(const Settings&) = nullptr;  ///< conditional: the same as a test
-    bool available = true;                        ///< false: known, of a later version
-    std::string family = {};  ///< of grains adapters, "nscd" or "md", that alone know it; "": all
-    /// Why it has no effect in a case whose other keys are valid ("without a fluid"); empty when it
-    /// has.
+    std::string when = {};     ///< conditional: when it is required, in words
+    bool (*required)(const Settings&) = nullptr;  ///< conditional: the same, as a test
+    bool available = true;                        ///< false: planned for a later version
+    std::string family = {};  ///< of grains adapters that know it, "nscd" or "md"; "": all
+    /// Why it has no effect in a case whose other keys are valid ("without a fluid"); empty if it
+    /// has one.
     std::string (*idle)(const Settings&) = nullptr;
 };
 using KeyTable = std::vector<KeySpec>;
 
-/// The key that a name means, nullptr when there is none.
+/// The key with this name, nullptr if there is none.
 const KeySpec* find_key(const KeyTable& table, const std::string& name);
 
-/// Its name has parts in capitals.
+/// True if its name has parts in capitals.
 bool has_words(const KeySpec& key);
 
-/// "A number above 0.", "One of split." : what the key accepts, as a sentence.
+/// What the key accepts, as a sentence: "A number above 0.", "One of split."
 std::string allowed_values(const KeySpec& key);
 
 /// "a number", "a whole number", …
@@ -71,7 +72,7 @@ std::string type_name(KeyType type);
 /// "contact" of "contact.friction"; empty for keys outside any group.
 std::string group_of(const std::string& key);
 
-/// The key has this value.
+/// True if the key has this value.
 bool is(const Settings& settings, const char* key, const char* value);
 
 inline constexpr Range positive{.lower = 0.0, .lower_open = true};

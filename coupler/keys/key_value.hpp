@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Text of a case file to values and back. Nothing is guessed: `1,5` or `60 grains` is no number.
+// Converts text of a case file to values and back. Nothing is guessed: `1,5` and `60 grains` are
+// not numbers.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace turbidite {
 
-/// Also yields nan and inf (written `.nan`, `.inf` in YAML); the caller says what it accepts.
+/// Also returns nan and inf (written `.nan`, `.inf` in YAML); the caller decides what it accepts.
 std::optional<double> parse_real(const std::string& text);
 std::optional<std::int64_t> parse_integer(const std::string& text);
 std::optional<bool> parse_flag(const std::string& text);
@@ -18,7 +19,7 @@ std::optional<bool> parse_flag(const std::string& text);
 /// Shortest text that reads back as the same number.
 std::string real_text(double value);
 
-/// "[25, 50]", the text of a list of numbers in the resolved case.
+/// Text of a list of numbers in the resolved case: "[25, 50]".
 std::string list_text(const std::vector<double>& values);
 
 /// The inverse; throws std::invalid_argument naming the key.

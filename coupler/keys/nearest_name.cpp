@@ -11,7 +11,7 @@ std::string last_part(const std::string& name) {
     return name.substr(name.rfind('.') + 1);
 }
 
-// A name without its group is compared with the last parts, at the price of one edit.
+// A name without its group is compared with the last parts; this counts as one edit.
 std::size_t distance(const std::string& name, const std::string& known) {
     const std::size_t whole = edit_distance(name, known);
     if (name.find('.') != std::string::npos) return whole;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A rule over several keys of a case. It stands beside the keys that it is about, in a group of
-// them.
+// A rule over several keys of a case, defined in the same file as the group of these keys.
 #pragma once
 
 #include <optional>
@@ -20,7 +19,7 @@ struct Objection {
 using Ruling = std::optional<Objection>;
 
 struct Rule {
-    const char* key;                 ///< the one that is blamed
+    const char* key;                 ///< the key named in the error
     std::vector<const char*> reads;  ///< the others
     Ruling (*check)(const Settings&);
 };

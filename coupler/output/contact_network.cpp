@@ -15,7 +15,7 @@ bool same_pair(const ContactRecord& x, const ContactRecord& y) {
     return x.b == y.b && x.wall == y.wall && (x.wall >= 0 || x.a == y.a);
 }
 
-/// Sums that one link after the other goes into.
+/// Sums over the links.
 class Sums {
  public:
     explicit Sums(double step) : step_(step) {}

@@ -27,7 +27,7 @@ GrainId first_id(const ContactRecord& contact) {
     return contact.wall < 0 ? contact.a : -1 - contact.wall;
 }
 
-/// Two per contact: from a to b.
+/// Two points per contact, from a to b.
 std::vector<Vec3> line_ends(const Motion& state) {
     const GrainIndex index(state.grains);
     std::vector<Vec3> ends;

@@ -16,9 +16,9 @@ struct GridPoint {
     std::int32_t y = 0;
 };
 
-/// The cells whose circumscribed circle holds no other point: indices of their vertices
-/// counterclockwise, three, or more where points lie on one circle. Of points that coincide one
-/// takes part. Fewer than three points, or all on a line, have none.
+/// The cells whose circumscribed circle holds no other point: indices of their vertices,
+/// counter-clockwise; three, or more where points lie on one circle. Only one of several coincident
+/// points is used. Fewer than three points, or points on a line, have no cells.
 std::vector<std::vector<std::size_t>> delaunay_cells(const std::vector<GridPoint>& points);
 
 }  // namespace turbidite

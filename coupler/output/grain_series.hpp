@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The grains as a ParaView series: grains/grains.pvd over one VTK PolyData file per output with a
-// point per grain. Apply a glyph (sphere, scaled by `radius` with factor 2) to see discs. When a
-// shape has corners, a second part of the same series, outlines_<step>.vtp, holds the grains that
-// have it as polygons.
+// The grains as a ParaView series: grains/grains.pvd and one VTK PolyData file per output with a
+// point per grain. Apply a glyph (sphere, scaled by `radius` with factor 2) to see discs. If shapes
+// have corners, a second part of the same series, outlines_<step>.vtp, contains these grains as
+// polygons.
 #pragma once
 
 #include <array>

@@ -56,7 +56,7 @@ void History::append(const Row& row) {
     out_ << history_line(values(row)) << std::endl;
     if (out_) return;
     out_.close();
-    std::error_code ignored;  // half a row would spoil the file for its readers
+    std::error_code ignored;  // half a row would make the file unreadable
     std::filesystem::resize_file(file_, static_cast<std::uintmax_t>(whole), ignored);
     throw Failure(ExitCode::participant_failed,
                   "cannot write " + file_.string() + ": is the disk full?");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // history.csv: one row per output interval, dimensionless with D, u_c, t_c. The columns are one
-// table (history_columns.cpp); their names and order are a contract with outside tools. Quantities
-// that do not apply are empty.
+// table (history_columns.cpp); other tools rely on their names and order. Quantities that do not
+// apply are empty.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace turbidite {
 
-/// Everything a row is made of.
+/// The data of a row.
 struct Row {
     std::int64_t step = 0;  ///< number of windows done
     double time = 0.0;      ///< t^{n+1} [s]
@@ -32,14 +32,14 @@ struct Averages {
     Vec3 velocity{};
     Vec3 position{};
     double speed = 0.0;
-    double front = 0.0;           ///< max (x + R), of the grains that are still there
+    double front = 0.0;           ///< max (x + R) of the grains still in the box
     double kinetic_energy = 0.0;  ///< sum of (m U^2 + I w^2)/2 [J]
     double mass = 0.0;            ///< sum of m [kg]
     double solid = 0.0;           ///< sum of V [m2]
 };
 Averages averages(const Motion& state, const ImmersedBodies& bodies);
 
-/// A row with what is worked out for it.
+/// A row and the quantities derived for it.
 struct RowValues {
     const Row& row;
     Averages mean;
@@ -48,10 +48,10 @@ struct RowValues {
     const RunValues& run;
 };
 
-/// The header line, for tests and readers.
+/// The header line.
 std::string history_header();
 
-/// The line of a row, without its end.
+/// The line of a row, without the newline.
 std::string history_line(const RowValues& values);
 
 class History {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The table of columns. New ones go to the end. Contact forces are in rho_s g D^2, stresses in
+// The table of columns. New columns are appended. Contact forces are in rho_s g D^2, stresses in
 // rho_s g D, rho_s the mean density of the grains.
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::string number(const std::optional<double>& value) {
     return value ? number(*value) : "";
 }
 
-// Empty unless there are grains, was a window with contacts, with a fluid, with a clock.
+// Empty unless there are grains, or a window with contacts, a fluid, or timings.
 std::string mean(Cell c, double value) {
     return c.row.state->grains.empty() ? "" : number(value);
 }
@@ -47,11 +47,11 @@ std::string fabric(Cell c, double Fabric::*value) {
     return c.network && c.network->fabric ? number((*c.network->fabric).*value) : "";
 }
 
-/// The weight of a layer of solid, one grain high: rho_s g D.
+/// Weight per area of a layer of solid one diameter high: rho_s g D.
 double pressure_unit(Cell c) {
     return c.mean.mass / c.mean.solid * c.run.gravity * c.run.diameter;
 }
-/// Of the packing: the grains and the pores between them.
+/// Area of the packing: the grains and the pores between them.
 std::string stress(Cell c, double PlaneTensor::*part) {
     if (!c.network || c.row.state->grains.empty()) return "";
     return number(c.network->virial.*part / (c.mean.solid + c.pores) / pressure_unit(c));

@@ -11,9 +11,9 @@
 namespace turbidite {
 namespace {
 
-// A circumradius of D exactly (the loosest lattice) must not be decided by rounding.
+// Rounding must not decide about a circumradius of exactly D (the loosest lattice).
 constexpr double slack = 1.0 + 1e-9;
-// Half the width of the grid on which points are put.
+// Half the width of the integer grid for the points.
 constexpr double grid_reach = 1 << 30;
 
 using Corners = std::array<const SolidGrain*, 3>;
@@ -25,8 +25,8 @@ struct Site {
     bool real = true;
 };
 
-/// Puts lengths on the grid. A period becomes a whole number of steps, so that an image keeps its
-/// place among the others exactly.
+/// Maps lengths to the grid. A period becomes a whole number of steps, so that the position of an
+/// image relative to the others is exact.
 class Grid {
  public:
     Grid(const std::vector<SolidGrain>& grains, double margin, const Vec3& period) {
@@ -79,7 +79,7 @@ void add_images(std::vector<Site>& sites, const Grid& grid, int axis, double per
 
 std::vector<Site> all_sites(const std::vector<SolidGrain>& grains, double diameter,
                             const Vec3& period) {
-    const double margin = 2.0 * slack * diameter;  // the widest circle that counts
+    const double margin = 2.0 * slack * diameter;  // the widest circle included
     const Grid grid(grains, margin, period);
     std::vector<Site> sites;
     for (const SolidGrain& grain : grains) sites.push_back({grain, grid.place(grain), true});
@@ -98,7 +98,7 @@ double distance(const SolidGrain& a, const SolidGrain& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-/// What the solid leaves of a triangle; zero for one that is too wide.
+/// Pore area of a triangle; zero if it is too wide.
 double pore(const Corners& corner, double diameter) {
     const auto& [a, b, c] = corner;
     const double area =
@@ -127,7 +127,8 @@ double pore_volume(const std::vector<SolidGrain>& grains, double diameter, const
         for (std::size_t k = 2; k < cell.size(); ++k)
             pores += pore({&sites[cell[0]].grain, &sites[cell[k - 1]].grain, &sites[cell[k]].grain},
                           diameter);
-        // Each image of a cell across a border has other real vertices: together they count once.
+        // Each image of a cell across a border has a different number of real vertices: together
+        // they count once.
         total += pores * static_cast<double>(real) / static_cast<double>(cell.size());
     }
     return total;

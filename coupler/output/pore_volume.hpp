@@ -6,10 +6,10 @@
 //
 //     pores = sum over triangles ( area - sum over vertices V_i angle_i / (2 pi) )
 //
-// For equal discs that do not overlap the share by angle is exact: a sector of radius D/2 stays
-// inside its triangle, whose heights are bc/(2R) >= D/2. For other shapes and sizes it gives the
-// grain to the triangles around it by angle, exact in sum wherever they surround it. Cyclic sides
-// are respected.
+// For equal discs without overlap the share by angle is exact: a sector of radius D/2 stays inside
+// its triangle, whose heights are bc/(2R) >= D/2. For other shapes and sizes the grain is divided
+// among the triangles around it by angle, which is exact in sum wherever they surround it. Cyclic
+// sides are taken into account.
 #pragma once
 
 #include <vector>

@@ -34,7 +34,7 @@ std::string fluid_text(const FluidReport& report, const RunValues& run) {
         fmt::format("  multipliers {} its, {:.0e}{}  Courant {:.2f}", report.multiplier_iterations,
                     report.multiplier_residual / run.velocity,
                     report.multipliers_converged ? "" : not_converged, report.courant);
-    if (report.final_divergence > 0.0)  // looked at in windows with output
+    if (report.final_divergence > 0.0)  // computed in windows with output
         text += fmt::format("  divergence after step 5 {:.0e} u_c/D",
                             report.final_divergence * run.diameter / run.velocity);
     return text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the user sees while a run goes on: one line, rewritten in place on a terminal, printed at
-// every output interval otherwise. Everything also goes to logs/coupler.log.
+// The progress display of a run: one line, rewritten in place on a terminal, otherwise printed at
+// every output interval. Everything also goes to logs/coupler.log.
 #pragma once
 
 #include <chrono>
@@ -15,13 +15,13 @@ namespace turbidite {
 
 class Progress {
  public:
-    /// `terminal`: standard output ends at a person (TURBIDITE_PROGRESS=terminal).
+    /// `terminal`: standard output is a terminal (TURBIDITE_PROGRESS=terminal).
     Progress(const std::filesystem::path& log, bool terminal, const RunValues& run);
 
     /// A line of its own, on screen and in the log.
     void say(const std::string& text);
 
-    /// The state of the run after a window. `due`: an output interval ended here.
+    /// Shows the state of the run after a window. `due`: an output interval ended here.
     void show(const Row& row, bool due);
 
  private:

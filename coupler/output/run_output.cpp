@@ -21,7 +21,7 @@ void RunOutput::begin(Motion state) {
     lap();
 }
 
-/// Seconds since the last one: windows follow each other, so these add up to the run.
+/// Seconds since the end of the previous window, so that the windows add up to the run.
 double RunOutput::lap() {
     const Clock::time_point before = std::exchange(lap_, Clock::now());
     return std::chrono::duration<double>(lap_ - before).count();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// All that a run writes of its windows: one row of history.csv and one piece of each series per
-// output, and what the windows amount to.
+// The output of a run: one row of history.csv and one piece of each series per output, and
+// statistics over the windows.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,8 @@ class RunOutput {
     /// Writes the state at t = 0.
     void begin(Motion state);
 
-    /// Takes in a window that holds, `waited` [s] of whose time went into waiting for participants.
+    /// Records a window that passed the checks; `waited` [s] is the time spent waiting for
+    /// participants.
     void record(const Window& window, WindowResult result, double waited);
 
     /// Writes the last window: its row, grains and contacts.
@@ -30,7 +31,7 @@ class RunOutput {
     /// The state where the last window ended.
     const Motion& state() const { return last_.state; }
 
-    /// What the last window has to say of itself; before the first, of the start.
+    /// Report on the last window; before the first, on the start.
     Row row() const;
 
     const RunStatistics& statistics() const { return statistics_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The coupler's part of run.json: who took part, how far the run got, how it ended. What `turbidite
-// run` wrote before is kept.
+// run` has written is kept.
 #pragma once
 
 #include <filesystem>
@@ -20,12 +20,12 @@ struct RunStatus {
     RunStatistics statistics;
 };
 
-/// Replaces run.json in one step. `ranks` say who they are; empty when the start failed. Throws
+/// Replaces run.json atomically. `ranks` identify themselves; empty if the start failed. Throws
 /// Failure when the disk is full.
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
                       const std::vector<Hello>& ranks);
 
-/// True when the record says how the run ended.
+/// True if the record states how the run ended.
 bool has_verdict(const std::filesystem::path& file);
 
 }  // namespace turbidite

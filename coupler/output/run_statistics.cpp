@@ -18,7 +18,7 @@ void SinceRow::take_in(const WallTimes& spent, bool converged) {
 
 void ContactResiduals::take_in(const ContactReport& report) {
     if (!report.residual) return;
-    const bool worst = std::isnan(*report.residual);  // which has no place in an order
+    const bool worst = std::isnan(*report.residual);  // NaN cannot be sorted
     values_.push_back(worst ? INFINITY : *report.residual);
 }
 

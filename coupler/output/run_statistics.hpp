@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the windows of a run amount to: largest values, windows whose solves did not converge, wall
+// Statistics over the windows of a run: largest values, windows whose solves did not converge, wall
 // times.
 #pragma once
 
@@ -19,7 +19,7 @@ struct WallTimes {
     double coupling = 0.0;  ///< in the coupler: routing, checks, output
 };
 
-/// What is summed over the windows since the last row.
+/// Sums over the windows since the last row.
 struct SinceRow {
     std::int64_t windows = 0;
     std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance
@@ -28,12 +28,12 @@ struct SinceRow {
     void take_in(const WallTimes& spent, bool converged);
 };
 
-/// Scaled natural map of every window's contact solve, of adapters that have one.
+/// Scaled natural map of every window's contact solve, for adapters that have one.
 class ContactResiduals {
  public:
     void take_in(const ContactReport& report);
     bool empty() const { return values_.empty(); }
-    /// 0 without windows, infinite when one was not a number.
+    /// 0 without windows, infinite if one was NaN.
     double largest() const;
     /// The smallest value that `share` of the windows do not exceed, 0 < share <= 1.
     double quantile(double share) const;
@@ -48,15 +48,15 @@ struct FluidMaxima {
     double final_divergence = 0.0;  ///< after step 5, of windows with output [u_c/D]
     double courant = 0.0;
     double balance = 0.0;                  ///< FluidReport::momentum_defect
-    double slip = 0.0;                     ///< rms at the points where a solve ended [u_c]
-    std::int64_t unconverged_windows = 0;  ///< ended by fluid.multiplier_iterations
+    double slip = 0.0;                     ///< rms over the points at the end of a solve [u_c]
+    std::int64_t unconverged_windows = 0;  ///< stopped at fluid.multiplier_iterations
 };
 
 /// Over the windows of a run whose scheme solves contacts in rounds.
 struct JointMaxima {
     std::int64_t rounds = 0;
-    double mismatch = 0.0;                 ///< where a window ended [u_c]
-    std::int64_t unconverged_windows = 0;  ///< ended by coupling.iterations
+    double mismatch = 0.0;                 ///< at the end of a window [u_c]
+    std::int64_t unconverged_windows = 0;  ///< stopped at coupling.iterations
 };
 
 struct RunMaxima {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where the solves of a window stop, and what a user is told when they stop there.
+// Limits of the solves of a window, and warnings about solves that stopped at them.
 #pragma once
 
 #include <string>
@@ -26,8 +26,8 @@ struct SolveLimits {
 /// Limits whose keys the case does not have stay 0: their solves do not occur in it.
 SolveLimits solve_limits(const Settings& settings);
 
-/// What a user must know of solves that ended by their limits, a sentence each with the keys to
-/// change; empty when all converged.
+/// Warnings about solves that stopped at their limits, one sentence each with the keys to change;
+/// empty if all converged.
 std::vector<std::string> unconverged_sentences(const RunStatistics& statistics,
                                                const SolveLimits& limits);
 

@@ -58,7 +58,7 @@ Collection::Collection(std::filesystem::path file) : file_(std::move(file)) {
             "version=\"0.1\">\n<Collection>\n";
 }
 
-// The end tags are overwritten by the next entry and its end tags, in one write.
+// The next entry and its end tags overwrite the present end tags in one write.
 void Collection::add(double time, const std::vector<std::string>& parts) {
     constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
     std::string text;

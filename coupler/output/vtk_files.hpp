@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Files of ParaView's series: VTK PolyData with ascii arrays, and the collection (.pvd) that puts
-// them on a time axis. A reader may come at any moment: no file is ever half there.
+// them on a time axis. Files may be read at any time: no file is ever incomplete.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 
 namespace turbidite::vtk {
 
-/// How many of each a PolyData piece has.
+/// Numbers of points and cells of a PolyData piece.
 struct PieceSize {
     std::size_t points = 0;
     std::size_t vertices = 0;
@@ -25,8 +25,8 @@ struct PieceSize {
     std::size_t polygons = 0;
 };
 
-/// Writes a file of one piece; `content` writes what stands inside <Piece>. Throws Failure when the
-/// disk is full; a file that was there before stays.
+/// Writes a file of one piece; `content` writes the inside of <Piece>. Throws Failure when the disk
+/// is full; an existing file is then kept.
 void write_poly_data(const std::filesystem::path& file, const PieceSize& size,
                      const std::function<void(std::ostream&)>& content);
 
@@ -34,7 +34,7 @@ void write_poly_data(const std::filesystem::path& file, const PieceSize& size,
 std::string triple(const Vec3& v);
 std::string scalar(double value);
 
-/// One <DataArray>; `head` holds its attributes but the format, `text` makes each entry.
+/// One <DataArray>; `head` holds its attributes except the format, `text` formats each entry.
 template <class Range, class Text>
 void data_array(std::ostream& out, const char* head, const Range& range, Text text) {
     out << "<DataArray " << head << " format=\"ascii\">\n";
@@ -66,11 +66,11 @@ void consecutive_cells(std::ostream& out, const std::vector<std::size_t>& sizes)
 /// The series file: complete after every call.
 class Collection {
  public:
-    /// Starts an empty one.
+    /// Starts an empty series.
     explicit Collection(std::filesystem::path file);
 
-    /// One instant of one or more files (parts), named relative to the series file. Throws Failure
-    /// when the disk is full.
+    /// Adds one time with one or more files (parts), named relative to the series file. Throws
+    /// Failure when the disk is full.
     void add(double time, const std::vector<std::string>& parts);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a window leaves behind, for those who write it down.
+// The result of a window, for output.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace turbidite {
 
-/// How contacts and fluid came to agree, under schemes that solve contacts in rounds.
+/// Convergence between contacts and fluid, for schemes that solve contacts in rounds.
 struct JointReport {
     std::int64_t rounds = 0;  ///< contact solves
     double mismatch = 0.0;    ///< largest FreeResponse::mismatch after the last one [m/s]

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The functions that plug a code into the job. The participant library calls them as the coupler's
-// messages come in, each message one function, in the order that the coupler tells at the start. An
-// adapter never sees a message, a rank of another program, MPI, or the name of a scheme: what a
-// call means follows from the calls before it in the same window.
+// The functions that couple a code to the job. The participant library calls them as the coupler's
+// messages arrive, one function per message, in the order that the coupler sends at the start. An
+// adapter never sees a message, a rank of another program, MPI, or the name of a scheme: the
+// meaning of a call follows from the calls before it in the same window.
 //
 //     grains   window { motion due: advance } { contact_input: advance } kick: apply_kick
 //     fluid    window: advance { bodies: let_fall } { constraint: correct } accept: impose
 //              and respond wherever `response` is due
 //
 //
-// Errors: throw PhysicsRefused (exit code 6) when the physics cannot go on, any other exception for
-// a failure of the program (exit code 4). The text reaches the user with role, rank, host and log.
+// Errors: throw PhysicsRefused (exit code 6) when the state is unphysical, any other exception for
+// a failure of the program (exit code 4). The user sees the text with role, rank, host and log.
 //
 // Valid C++17.
 #pragma once
@@ -26,7 +26,7 @@
 
 namespace turbidite {
 
-/// A participant's state as bytes, opaque to everybody else.
+/// A participant's state as bytes, opaque to all others.
 using SavedState = std::vector<char>;
 
 class GrainsAdapter {
@@ -36,23 +36,24 @@ class GrainsAdapter {
     /// Adapter, host code, capabilities. Role, rank and place are filled in by the library.
     virtual Hello describe() const = 0;
 
-    /// Takes its share of the grains at t = 0; returns them with their largest overlap.
+    /// Receives its share of the grains at t = 0; returns them with their largest overlap.
     virtual Motion initialise(const Settings& settings, const ShapeTable& shapes,
                               const std::vector<GrainState>& grains) = 0;
 
     /// Step 4, the contact problem (Topin 2011, Eqs. 16-19). Returns configuration q^n, velocities
     /// after the contacts and their impulses.
     ///
-    /// Without responses (`split`, `dry`) grains move freely by themselves, with inertia cM and
-    /// weight cMg: velocities are U^{n+4/5}. With one response per grain (`joint`) free velocities
-    /// and inertia are the fluid's. Called again before the kick, always with responses, it starts
-    /// from t^n again.
+    /// Without responses (`split`, `dry`) grains have inertia cM and weight cMg: velocities are
+    /// U^{n+4/5}. With one response per grain (`joint`) free velocities and inertia are those given
+    /// by the fluid. If it is called again before the kick, always with responses, it starts from
+    /// t^n again.
     virtual Motion advance(const Window& window, const std::vector<FreeResponse>& responses) = 0;
 
     /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. U are the corrected
-    /// velocities, or the contact ones where coupling.positions or responses in this window ask for
-    /// it. Returns the state at t^{n+1}, in windows with output with the contacts of this window.
-    /// Ends the window. In a dry run there are no kicks: contact velocities are final.
+    /// velocities, or the contact velocities if coupling.positions says so or responses were given
+    /// in this window. Returns the state at t^{n+1}, including the contacts of this window if
+    /// output is due. Ends the window. In a dry run there are no kicks: contact velocities are
+    /// final.
     virtual Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) = 0;
 
     virtual SavedState save() const = 0;
@@ -68,30 +69,30 @@ class FluidAdapter {
     /// Reads the fluid case; returns the box of this rank.
     virtual Box initialise(const Settings& settings, const ShapeTable& shapes) = 0;
 
-    /// Steps 1-3: degenerated Stokes, transport, viscosity. Begins the window; under `split` it
-    /// runs while the grains do step 4.
+    /// Steps 1-3: degenerate Stokes problem, transport, viscosity. Begins the window; under `split`
+    /// it runs while the grains do step 4.
     virtual void advance(const Window& window) = 0;
 
-    /// Begins step 5 with grains that feel no contacts (`joint`): given at t^n, they fall from U^n
+    /// Begins step 5 with grains that feel no contacts (`joint`): given at t^n, they move from U^n
     /// over the window together with the fluid.
     virtual void let_fall(const Window& window, const std::vector<GrainState>& grains) = 0;
 
     /// Step 5, Eqs. 9-10, for every grain that touches this rank's box, with the velocities and
     /// contact impulses of a contact solve.
     ///
-    /// First in its window (`split`) it takes the grains with the velocities they bring,
-    /// U^{n+4/5}, in which their contact impulses are contained. After let_fall, or after another
-    /// correct, grains keep the velocities they have, and what their contact impulses have changed
-    /// by acts on them and the fluid together, so that momentum stays exact.
+    /// As the first call of its window (`split`) it takes the grains with the given velocities
+    /// U^{n+4/5}, which contain their contact impulses. After let_fall, or after another correct,
+    /// grains keep their velocities, and the change of their contact impulses acts on grains and
+    /// fluid together, so that momentum is conserved exactly.
     virtual void correct(const Window& window, const std::vector<GrainState>& grains) = 0;
 
-    /// How the grains respond to contact impulses, and by how much the last correct disagreed with
-    /// its contact solve (records.hpp). Of the grains whose centre this rank owns. Not called under
-    /// `split`.
+    /// The response of the grains to contact impulses, and the mismatch between the last correct
+    /// and its contact solve (records.hpp), for the grains whose centre this rank owns. Not called
+    /// under `split`.
     virtual std::vector<FreeResponse> respond() = 0;
 
-    /// Ends the window: writes u, and fields when the window says so. Kicks of the grains whose
-    /// centre this rank owns: the velocities that step 5 arrived at.
+    /// Ends the window: writes u, and fields if output is due. Returns the kicks of the grains
+    /// whose centre this rank owns: the velocities found by step 5.
     virtual Kicks impose(const Window& window) = 0;
 
     virtual SavedState save() const = 0;

@@ -43,7 +43,7 @@ Bytes Conversation::receive(Kind kind) {
 
 Verdict Conversation::fail(const Verdict& verdict) {
     send(Kind::failure, encode(verdict));
-    for (;;) {  // whatever was on its way is no longer of interest
+    for (;;) {  // frames still in flight are no longer needed
         const Message message = next();
         if (message.envelope.kind != Kind::dismiss) continue;
         order_.received(message.envelope, from_coupler);

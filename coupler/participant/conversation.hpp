@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// One rank's talk with the coupler: frames, call order, waiting. Adapters see sessions, not this.
+// Communication of one rank with the coupler: frames, call order, waiting. Adapters use sessions,
+// not this.
 #pragma once
 
 #include <map>
@@ -12,13 +13,13 @@
 
 namespace turbidite {
 
-/// Thrown by `receive` when the coupler ends the run instead of going on.
+/// Thrown by `receive` when the coupler ends the run.
 struct Dismissed {
     Verdict verdict;
 };
 
-/// The coupler has not spoken for longer than the limit: it is stopped or gone, and nobody is left
-/// to report to.
+/// The coupler has been silent for longer than the limit: it is stopped or gone, and there is no
+/// one to report to.
 class CouplerSilent : public Failure {
  public:
     explicit CouplerSilent(const std::string& what) : Failure(ExitCode::stalled, what) {}
@@ -28,16 +29,16 @@ class Conversation {
  public:
     Conversation(Role role, Channel& channel);
 
-    /// Which messages make a window; before the start is over.
+    /// Sets the messages of a window; to be called before the start is over.
     void set_window_order(Order order) { order_.set_window_order(std::move(order)); }
 
-    /// Has the present window's last message not passed yet?
+    /// True until the last message of the present window has passed.
     bool inside_window() const { return order_.inside_window(); }
 
-    /// Is it this side's turn to send this kind?
+    /// True if this side is to send this kind next.
     bool due_from_here(Kind kind) const { return order_.is_due(kind, to_coupler); }
 
-    /// Longest wait for the coupler [s] before waiting gives up with CouplerSilent.
+    /// Longest wait for the coupler [s]; then CouplerSilent is thrown.
     void set_limit(double seconds) { limit_ = seconds; }
 
     void send(Kind kind, Bytes payload);
@@ -46,15 +47,16 @@ class Conversation {
     /// Throws Dismissed, OrderViolation, MalformedPayload, CouplerSilent.
     Message receive();
 
-    /// The same where only this kind can come.
+    /// The same where only this kind is possible.
     Bytes receive(Kind kind);
 
-    /// Tells the coupler that this side cannot go on, and waits for its verdict on the run.
+    /// Reports to the coupler that this side cannot continue, and waits for its decision on the
+    /// run.
     Verdict fail(const Verdict& verdict);
 
-    /// The last word: everything is written. Returns when the coupler has heard it from everybody,
-    /// so that nobody is inside MPI_Finalize while somebody else still has to be waited for, or
-    /// ended.
+    /// The last message: everything is written. Returns when the coupler has received it from all
+    /// ranks, so that no rank is inside MPI_Finalize while another still has to be waited for or
+    /// aborted.
     void say_farewell();
 
  private:
@@ -63,7 +65,7 @@ class Conversation {
     Channel& channel_;
     CallOrder order_;
     double limit_ = 600.0;
-    /// Seconds, as it was the last time, by kind and round.
+    /// Duration of the last wait [s], by kind and round.
     std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;
 };
 

@@ -22,8 +22,8 @@ std::string log_path(Role role, const std::string& run_folder, int rank, int ran
            ".log";
 }
 
-// Both streams into one file, at the level of descriptors, so that the host code's output and
-// Python's follow.
+// Redirects both streams into one file, at the level of file descriptors, so that output of the
+// host code and of Python is included.
 void redirect_output(const std::string& file) {
     std::filesystem::create_directories(std::filesystem::path(file).parent_path());
     const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -93,7 +93,7 @@ int Membership::leave(const Outcome& outcome) {
     return code;
 }
 
-// An orderly exit would wait in MPI_Finalize for programs that wait for this one.
+// A normal exit would wait in MPI_Finalize for programs that wait for this one.
 void Membership::abort(const std::exception& error) {
     const auto* failure = dynamic_cast<const Failure*>(&error);
     const auto code = static_cast<int>(failure ? failure->code() : ExitCode::participant_failed);

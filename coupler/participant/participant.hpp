@@ -26,11 +26,11 @@ struct Launch {
     int* argc = nullptr;
     char*** argv = nullptr;
     std::string run_folder;
-    /// A communicator that the host code split off the world already (YADE's mpy does), as the
-    /// number mpi4py calls its handle; 0: the library makes the split.
+    /// A communicator that the host code has already split off the world (as YADE's mpy does), as
+    /// the integer that mpi4py calls its handle; 0: the library makes the split.
     std::uintptr_t communicator = 0;
-    /// Called once with the Fortran handle of the participant's own communicator, before the
-    /// adapter is: the moment to isolate a host code's world.
+    /// Called once with the Fortran handle of the participant's own communicator, before any call
+    /// of the adapter: used to isolate a host code's world.
     std::function<void(int)> joined = {};
 };
 
@@ -45,11 +45,11 @@ class Membership {
     Channel& channel();
     Identity identity() const;
 
-    /// After the farewell: writes the last words and returns the exit code of the program. MPI is
-    /// finalised with this object.
+    /// After the farewell: writes the final messages and returns the exit code of the program. MPI
+    /// is finalised with this object.
     int leave(const Outcome& outcome);
 
-    /// The coupler no longer answers: says why and ends the whole job, here and now.
+    /// The coupler no longer answers: prints the reason and aborts the whole job.
     [[noreturn]] void abort(const std::exception& error);
 
  private:

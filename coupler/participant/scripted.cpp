@@ -203,7 +203,7 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
     }
 }
 
-/// What the contact impulses have changed by, and by how much the contact solve is off.
+/// The change of the contact impulses, and the error of the contact solve.
 void ScriptedFluid::push(DraggedGrain& own, const GrainState& solved) {
     const Vec3 change = plus(solved.contact_impulse, -1.0, own.pushed);
     const Vec3 turn = plus(solved.contact_angular_impulse, -1.0, own.angular_pushed);

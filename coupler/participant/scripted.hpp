@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Partners with an exact answer, to test one side of a job without the other.
+// Participants with an exact solution, for testing one side of a job without the other.
 //
 // Scripted grains fall freely and never touch:      U^{4/5} = U^n - (M_sub/M_eff) g dt,   q += dt U
 // The scripted fluid is a linear drag, implicit:    M_eff (U^{n+1} - U^{4/5}) = -gamma dt U^{n+1}
 //
 // so that after n windows U_y = -sum over k = 1..n of a dt b^k, a = (M_sub/M_eff) g, b = 1/(1 +
-// gamma dt/M_eff). With grains that it lets fall (`joint`), drag and contact impulse J act at once:
+// gamma dt/M_eff). With grains that it lets fall (`joint`), drag and contact impulse J act
+// together:
 //
 //     M_eff (U^{n+1} - U^n) = -M_sub g dt + J - gamma dt U^{n+1}
 //
-// that is effective inertia A = M_eff + gamma dt.
+// i.e. the effective inertia is A = M_eff + gamma dt.
 #pragma once
 
 #include <functional>
@@ -29,7 +30,7 @@ class ScriptedGrains : public GrainsAdapter {
     explicit ScriptedGrains(std::string adapter_name, Fault fault = {});
 
     /// A floor without friction: no grain's lowest point may pass y = `height`. Uses the diagonal
-    /// of the inertia that the fluid tells.
+    /// of the inertia given by the fluid.
     void lay_floor(double height) { floor_ = height; }
 
     Hello describe() const override;
@@ -61,8 +62,8 @@ class ScriptedFluid : public FluidAdapter {
     /// Rank `rank` of `ranks` owns an equal slice of the domain in x. `drag` is gamma [kg/s].
     ScriptedFluid(double drag, int rank = 0, int ranks = 1, Fault fault = {});
 
-    /// The inertia that it responds with is (1 + share) times the true one; under `joint` each
-    /// round then leaves `share` of the error.
+    /// The inertia in its responses is (1 + share) times the true one; under `joint` each round
+    /// then multiplies the error by `share`.
     void misjudge_inertia(double share) { response_factor_ = 1.0 + share; }
 
     Hello describe() const override;
@@ -76,8 +77,8 @@ class ScriptedFluid : public FluidAdapter {
     void restore(const SavedState&) override;
 
  private:
-    /// A grain with drag, and its true effective inertia; `pushed` is the contact impulse that is
-    /// contained in its velocity.
+    /// A grain with drag, and its true effective inertia; `pushed` is the contact impulse contained
+    /// in its velocity.
     struct DraggedGrain {
         GrainId id = 0;
         Vec3 velocity{}, angular_velocity{};
@@ -96,7 +97,7 @@ class ScriptedFluid : public FluidAdapter {
     double drag_;
     int rank_, ranks_;
     double response_factor_ = 1.0;
-    std::vector<DraggedGrain> grains_;  ///< of this window, empty before they come
+    std::vector<DraggedGrain> grains_;  ///< of this window, empty before they arrive
     ImmersedBodies bodies_;
     double gravity_ = 0.0;
     Box box_;

@@ -84,8 +84,8 @@ Hello complete(Hello hello, Role role, const Identity& identity) {
     return hello;
 }
 
-// The coupler notices a stall first and says who; a participant gives up only if the coupler itself
-// is gone.
+// The coupler notices a stall first and reports who is silent; a participant gives up only if the
+// coupler itself is gone.
 constexpr double margin_over_coupler = 1.5;
 
 template <class Adapter>
@@ -117,7 +117,7 @@ class RoleSession : public Session {
 
     bool due(Kind kind) const { return talk_->conversation.due_from_here(kind); }
 
-    /// A message that the order has and this library does not know what to do with.
+    /// A message in the order that this library cannot handle.
     [[noreturn]] void refuse(Kind kind) const {
         throw OrderViolation(std::string("the ") + role_name(role_) +
                              " library of protocol version " + std::to_string(protocol_major) +
@@ -168,7 +168,7 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         return adapter_.advance(window_, responses);
     }
 
-    /// An order that asks for no motion (`dry`) leaves the state as the window's only report.
+    /// If the order requests no motion (`dry`), the state is the only report of the window.
     Motion move(const Kicks& kicks) {
         const double unreported = solved_ ? 0.0 : solve({}).report.wall_seconds;
         Motion state = adapter_.apply_kick(window_, kicks.kicks);
@@ -176,7 +176,7 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         return state;
     }
 
-    bool solved_ = false;  ///< contacts, in the present window
+    bool solved_ = false;  ///< contacts have been solved in the present window
 };
 
 class FluidSession final : public RoleSession<FluidAdapter> {

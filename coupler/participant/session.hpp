@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Drives an adapter through a run. A host code with a loop of its own (YADE) calls `start` once and
-// `step` once per window; programs without one use participant.hpp.
+// Drives an adapter through a run. A host code with its own loop (YADE) calls `start` once and
+// `step` once per window; other programs use participant.hpp.
 //
 // Valid C++17; includes neither MPI nor any host.
 #pragma once
@@ -35,18 +35,18 @@ class Session {
  public:
     virtual ~Session();
 
-    /// Handshake, settings, initial state. False when the run is over already (refused). Throws
-    /// when the coupler no longer answers, like `step`: the job must be aborted then.
+    /// Handshake, settings, initial state. False if the run is already over (refused). Like `step`,
+    /// throws when the coupler no longer answers: the job must then be aborted.
     bool start();
 
-    /// One window. False when the run is over; `outcome` tells why. An adapter's exception ends the
-    /// run for everybody, with its text.
+    /// One window. False when the run is over; `outcome` gives the reason. An exception from an
+    /// adapter ends the run for all participants, with its text.
     bool step();
 
     const Outcome& outcome() const;
 
-    /// `text` says what an exception is that is none of C++'s own, a host's Python error; it is
-    /// called while that is being handled.
+    /// `text` describes an exception that is not a C++ standard exception, such as a Python error
+    /// of the host; it is called while that exception is being handled.
     void explain_other_exceptions(std::function<std::string()> text);
 
  protected:

@@ -100,7 +100,7 @@ bool CallOrder::begins_round(std::size_t place) const {
            (place == 0 || order_[place - 1].times == Times::once);
 }
 
-// Behind a round its first step is due as well as what follows.
+// After a round, either its first step or the step that follows it is due.
 std::vector<std::size_t> CallOrder::due_places() const {
     const bool behind_round =
         at_ > 0 && order_[at_].times == Times::once && order_[at_ - 1].times == Times::per_round;
@@ -132,7 +132,7 @@ std::string CallOrder::due_text() const {
     return text;
 }
 
-// Bad news may come at any time; nothing follows a dismissal but the farewell.
+// A failure or dismissal may come at any time; after a dismissal only the farewell follows.
 bool CallOrder::may_interrupt(Kind kind, bool sent_by_coupler) const {
     if (kind == Kind::dismiss) return sent_by_coupler && !dismissed_;
     return kind == Kind::failure && !sent_by_coupler;
@@ -146,7 +146,7 @@ void CallOrder::demand(Kind kind, bool sent_by_coupler, const char* verb) const 
                          sender_text(due().front().from_coupler) + " is due");
 }
 
-// The message has been found due: the conversation moves behind it.
+// The message was due: advance past it.
 void CallOrder::advance(Kind kind) {
     if (kind == Kind::dismiss) dismissed_ = true;
     if (kind == Kind::farewell) said_farewell_ = true;
@@ -175,7 +175,7 @@ Envelope CallOrder::next_sent(Kind kind, bool sent_by_coupler) {
 
 void CallOrder::received(const Envelope& envelope, bool sent_by_coupler) {
     demand(envelope.kind, sent_by_coupler, "received");
-    // Bad news and last words are heard even after a message was lost.
+    // Failure, dismissal and farewell are accepted even after a message was lost.
     const bool heard = may_interrupt(envelope.kind, sent_by_coupler) || dismissed_;
     advance(envelope.kind);
     const std::int64_t sequence = counter(sent_by_coupler)++;

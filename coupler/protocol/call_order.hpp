@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The legal order of messages, as data. A window's order belongs to the scheme that plays it
-// (hub/schemes); the coupler tells it to every participant at the start, and both ends check every
-// message against it: an out-of-order call is an error with a sentence, never a deadlock. Nothing
-// here knows a scheme by name. Valid C++17.
+// The legal order of messages, as data. The order of a window is defined by its scheme
+// (hub/schemes). The coupler sends it to every participant at the start, and both ends check every
+// message against it: a call out of order is an error message, never a deadlock. Nothing here
+// depends on a particular scheme. Valid C++17.
 //
-// For everybody, at any time: dismiss → farewell → release, or failure before them.
+// For all participants, at any time: dismiss → farewell → release, or failure before them.
 #pragma once
 
 #include <stdexcept>
@@ -16,7 +16,7 @@
 
 namespace turbidite {
 
-/// How often a step is played in one window.
+/// How often a step occurs in one window.
 enum class Times { once, per_round };
 
 /// One message of an order, as one role sends or receives it.
@@ -26,10 +26,10 @@ struct Step {
     Times times = Times::once;
 };
 
-/// The messages of a window between the coupler and one rank. Neighbouring `per_round` steps are
-/// one round, which is played once or more: after each the coupler, and nobody else, decides
-/// between another round and what follows, so a participant sees which of two kinds comes. The
-/// envelope's `iteration` counts the rounds begun in the window.
+/// The messages of a window between the coupler and one rank. Consecutive `per_round` steps form a
+/// round, which occurs once or more: after each round only the coupler decides whether another one
+/// follows, so a participant must expect one of two kinds. The envelope's `iteration` counts the
+/// rounds begun in the window.
 using Order = std::vector<Step>;
 
 /// For tables of orders.
@@ -40,12 +40,12 @@ Bytes encode(const Order&);
 template <>
 Order decode(const Bytes&);
 
-/// What is said before the first window.
+/// The messages before the first window.
 Order start_order(Role role);
 
-/// Throws std::invalid_argument unless the order begins with the coupler's `window`, which comes
-/// once, consists of messages of a window, and every round begins with and is followed by a message
-/// of the coupler.
+/// Throws std::invalid_argument unless the order begins with the coupler's `window`, which occurs
+/// once, contains only messages of a window, and every round begins with and is followed by a
+/// message of the coupler.
 void check_window_order(const Order& order);
 
 class OrderViolation : public std::runtime_error {
@@ -53,31 +53,31 @@ class OrderViolation : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Follows one conversation between the coupler and one rank of a participant. Either end
-/// keeps one and passes every message through it.
+/// Tracks the messages between the coupler and one rank of a participant. Both ends keep one and
+/// pass every message through it.
 class CallOrder {
  public:
     CallOrder(Role role, std::string peer_name);
 
-    /// Before the start is over. Throws as check_window_order.
+    /// To be called before the start is over. Throws like check_window_order.
     void set_window_order(Order order);
 
     /// The envelope for the next message of this kind; throws OrderViolation when it is not due.
     Envelope next_sent(Kind kind, bool by_coupler);
 
-    /// Throws OrderViolation unless the envelope is the one that is due: kind, window, iteration,
+    /// Throws OrderViolation unless the envelope is the expected one in kind, window, iteration and
     /// sequence.
     void received(const Envelope& envelope, bool by_coupler);
 
-    /// Every message that may come next: one, or after a round two, of the same sender. The first
-    /// is the one that goes on.
+    /// The messages that may come next: one, or after a round two, from the same sender. The first
+    /// one ends the rounds.
     std::vector<Step> due() const;
     bool is_due(Kind kind, bool by_coupler) const;
 
     /// "\"motion\"", or after a round "\"accept\" or \"constraint\"".
     std::string due_text() const;
 
-    /// Has the present window's last message not passed yet?
+    /// True until the last message of the present window has passed.
     bool inside_window() const { return started_ && at_ > 0; }
 
     std::int64_t window() const { return window_; }

@@ -31,7 +31,7 @@ class Failure : public std::runtime_error {
     ExitCode code_;
 };
 
-/// NaN, a grain through a wall, a projection that fails: exit code 6.
+/// An unphysical state (NaN, a grain outside a wall, a failed projection): exit code 6.
 class PhysicsRefused : public Failure {
  public:
     explicit PhysicsRefused(const std::string& what) : Failure(ExitCode::physics_refused, what) {}

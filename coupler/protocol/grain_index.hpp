@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where a grain stands in a list of grains. Lists come every window and hardly ever change
-// their members, so an index is kept as long as it fits. Valid C++17.
+// Position of a grain in a list of grains. The lists of successive windows usually contain the same
+// grains, so an index is kept as long as it is valid. Valid C++17.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class GrainIndex {
     GrainIndex() = default;
     explicit GrainIndex(const std::vector<GrainState>& grains) { follow(grains); }
 
-    /// Returns the first id that comes twice, if there is one; the index is of no use then.
+    /// Returns the first id that occurs twice, if any; the index is then invalid.
     std::optional<GrainId> follow(const std::vector<GrainState>& grains) {
         if (fits(grains)) return std::nullopt;
         ids_.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The larger of two reports, where not-a-number counts as the largest of all: std::max would drop
-// it, and with it the news that something has failed. Valid C++17.
+// The larger of two values, where NaN counts as the largest: std::max could drop it and hide a
+// failure. Valid C++17.
 #pragma once
 
 #include <cmath>

@@ -6,7 +6,7 @@
 namespace turbidite {
 namespace {
 
-// "turbidit" read as a number: tells our frames from anybody else's on the same communicator.
+// "turbidit" read as a number: distinguishes our frames from others on the same communicator.
 constexpr std::int64_t magic = 0x7469646962727574;
 
 const std::vector<std::pair<Kind, const char*>> kinds = {

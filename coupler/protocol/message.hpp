@@ -42,7 +42,7 @@ enum class Kind : std::int32_t {
 /// "motion"; "kind 77" for a number that is not in the table.
 std::string kind_name(Kind kind);
 
-/// Where a message stands in the run; compared with what was expected before its payload is used.
+/// Position of a message in the run; compared with the expected one before its payload is used.
 struct Envelope {
     Kind kind = Kind::hello;
     std::int64_t window = -1;    ///< -1 outside the window loop
@@ -56,11 +56,11 @@ struct Message {
 };
 
 /// A whole message as one frame of bytes, and back. `unframe` throws MalformedPayload when the
-/// frame is not one of ours.
+/// frame is not one of this protocol.
 Bytes frame(const Message& message);
 Message unframe(const Bytes& bytes);
 
-/// What a `failure` or `dismiss` says.
+/// Payload of `failure` and `dismiss`.
 struct Verdict {
     std::int64_t exit_code = 0;
     std::string reason;

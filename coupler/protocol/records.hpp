@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the participants tell each other about grains, as named fields with units.
+// Grain data exchanged by the participants, as named fields with units.
 //
 // Units are the run's: SI for `scales.kind: physical`, otherwise D = u_c = rho_f = 1.
 // In two dimensions masses, forces and impulses are per unit length out of the plane, z components
@@ -26,12 +26,12 @@ using Quaternion = std::array<double, 4>;  // w, x, y, z; unit
 /// A rigid body at one instant.
 ///
 /// `position` is the detection configuration q of the theta-scheme (Topin 2011, Eq. 17 shifted by
-/// (1 - theta) dt U): everybody, fluid included, sees the grain there.
+/// (1 - theta) dt U): all participants, including the fluid, see the grain there.
 struct GrainState {
     GrainId id = 0;
     std::int32_t shape = 0;     ///< index into ShapeTable
     std::int32_t material = 0;  ///< 0: the coefficients of contact.*; 1: first of run.materials
-    bool prescribed = false;    ///< keeps its velocity and spin whatever acts on it
+    bool prescribed = false;    ///< keeps its velocity and spin whatever forces act on it
     double radius = 0.0;        ///< circumscribed radius R [m]
     double density = 0.0;       ///< rho_s [kg/m3]
     Vec3 position{};            ///< q [m]
@@ -46,7 +46,8 @@ struct GrainState {
 
 /// What step 5 does to a grain over one window (Topin 2011, Eqs. 9-10).
 ///
-/// The fluid fills velocities and multiplier impulses; the hub adds force and torque (hub/kick).
+/// The fluid fills in velocities and multiplier impulses; the hub adds force and torque
+/// (hub/kick_rule).
 struct Kick {
     GrainId id = 0;
     Vec3 velocity{};                    ///< corrected U^{n+1} [m/s]
@@ -63,13 +64,13 @@ constexpr std::size_t upper_entry(std::size_t i, std::size_t j) {
     return i * 6 - i * (i + 1) / 2 + j;
 }
 
-/// Scheme `joint`: how the fluid lets a grain respond to impulses in this window. With contact
+/// Scheme `joint`: response of a grain in the fluid to impulses in this window. With contact
 /// impulse J and angular impulse K, (U, omega) = (velocity, angular_velocity) + inertia^-1 (J, K).
 ///
-/// The first answer of a window is for free grains. Later ones follow a contact solve that found
-/// (U, omega) and (J, K): the fluid has applied the impulses to its coupled system and found
-/// (U', omega'); velocities are then (U', omega') - inertia^-1 (J, K), same inertia, so that the
-/// next contact solve is exact where (J, K) stay as they are.
+/// The first response of a window is for free grains. Later ones follow a contact solve that found
+/// (U, omega) and (J, K): the fluid has applied the impulses to its coupled system and found (U',
+/// omega'). Velocities are then (U', omega') - inertia^-1 (J, K) with the same inertia, so that the
+/// next contact solve is exact where (J, K) do not change.
 struct FreeResponse {
     GrainId id = 0;
     Vec3 velocity{};          ///< U^F [m/s]
@@ -77,8 +78,8 @@ struct FreeResponse {
     /// Effective inertia, symmetric 6 x 6 (upper_entry): translation first.
     /// [kg], [kg m], [kg m2]
     std::array<double, 21> inertia{};
-    /// By how much contacts and fluid disagree: |U' - U| + R |omega' - omega| of the last contact
-    /// solve; zero in the first answer [m/s].
+    /// Mismatch between contacts and fluid: |U' - U| + R |omega' - omega| of the last contact
+    /// solve; zero in the first response [m/s].
     double mismatch = 0.0;
 };
 
@@ -89,7 +90,7 @@ struct ShapeRecord {
 };
 using ShapeTable = std::vector<ShapeRecord>;
 
-/// The order that opens a window.
+/// The message that opens a window.
 struct Window {
     std::int64_t index = 0;         ///< 0-based
     double time = 0.0;              ///< t^n at its start [s]
@@ -98,7 +99,7 @@ struct Window {
     bool write_checkpoint = false;  ///< states are due at its end
 };
 
-/// How the contact side fared. What an adapter does not have stays empty: codes with springs know
+/// Report of the contact side. Values an adapter does not have stay empty: codes with springs have
 /// no residual.
 struct ContactReport {
     std::int64_t contacts = 0;       ///< with an impulse
@@ -108,25 +109,25 @@ struct ContactReport {
     double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
     std::int64_t removed = 0;      ///< grains that left through a free side in this window
     double wall_seconds = 0.0;     ///< time in the adapter's own work
-    /// Quad and Max, what one more update of every contact would change
-    /// (nscd/problem/residual.hpp).
+    /// Quad and Max: the change by one more update of every contact (nscd/problem/residual.hpp).
     std::optional<double> quad;
     std::optional<double> max;
 };
 
-/// Bits of ContactRecord::status; none of them: both surfaces stick.
+/// Bits of ContactRecord::status; none set: sticking.
 struct ContactStatus {
     static constexpr std::int32_t sliding = 1;  ///< friction is at its limit
     static constexpr std::int32_t rolling = 2;  ///< the rolling moment is at its limit
 };
 
-/// One contact point with an impulse, where and as it was found in the window: at q^n for adapters
-/// that solve once, in the last sub-step for others.
+/// One contact point with an impulse, as found in the window: at q^n for adapters that solve once,
+/// in the last sub-step for others.
 ///
-/// A pair that touches along an edge has several records, told apart by `feature`. With several
-/// grains ranks the one that owns b tells it. What pulls (cohesion) has impulse . normal < 0.
+/// A pair that touches along an edge has several records, distinguished by `feature`. With several
+/// grains ranks, the one that owns b reports the contact. Attraction (cohesion) has impulse .
+/// normal < 0.
 struct ContactRecord {
-    GrainId a = 0;           ///< the smaller id; without meaning at a wall
+    GrainId a = 0;           ///< the smaller id; undefined at a wall
     GrainId b = 0;           ///< the larger id, or the grain at the wall
     std::int32_t wall = -1;  ///< of a: 0 left, 1 right, 2 bottom, 3 top, others follow; -1: a grain
     std::int32_t feature = 0;  ///< which of the pair's points
@@ -137,10 +138,10 @@ struct ContactRecord {
     Vec3 normal{};             ///< unit, from a to b
     Vec3 branch{};   ///< centre of b minus that of a, nearest image; at a wall minus `point` [m]
     Vec3 impulse{};  ///< on b over the window, -impulse on a [N s]
-    Vec3 rolling_impulse{};  ///< moment on b beside that of `impulse`, its negative on a [N m s]
+    Vec3 rolling_impulse{};  ///< moment on b besides that of `impulse`, its negative on a [N m s]
 };
 
-/// The order in which contacts are kept; records that are equal in it are the same contact.
+/// The sorting order of contacts; records that are equivalent in it are the same contact.
 inline bool contact_before(const ContactRecord& x, const ContactRecord& y) {
     const auto key = [](const ContactRecord& c) {
         return std::make_tuple(c.wall, c.wall < 0 ? c.a : 0, c.b, c.feature);
@@ -148,20 +149,20 @@ inline bool contact_before(const ContactRecord& x, const ContactRecord& y) {
     return key(x) < key(y);
 }
 
-/// What a grains rank sends: its grains and how the contact side fared.
+/// What a grains rank sends: its grains and the report of the contact side.
 struct Motion {
     std::vector<GrainState> grains;
     ContactReport report;
-    /// Told with the state at the end of windows with output, by adapters that know them; otherwise
-    /// empty, which is not the same as none.
+    /// Sent with the state at the end of windows with output, by adapters that can report contacts;
+    /// otherwise empty, which is not the same as no contacts.
     std::optional<std::vector<ContactRecord>> contacts = {};
 };
 
-/// How the fluid side fared.
+/// Report of the fluid side.
 struct FluidReport {
     std::int64_t multiplier_iterations = 0;
     double multiplier_residual = 0.0;   ///< rms slip at the points [m/s]
-    bool multipliers_converged = true;  ///< all solves of the window, within their iterations
+    bool multipliers_converged = true;  ///< all solves of the window, within the iteration limit
     double divergence = 0.0;            ///< max |div phi| after step 1 [1/s]
     double final_divergence =
         0.0;  ///< after step 5 (large by nature), in windows with output [1/s]
@@ -172,7 +173,7 @@ struct FluidReport {
     double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
 };
 
-/// What a fluid rank answers to a Motion: kicks of the grains whose centre it owns.
+/// Answer of a fluid rank to a Motion: kicks of the grains whose centre it owns.
 struct Kicks {
     std::vector<Kick> kicks;
     FluidReport report;

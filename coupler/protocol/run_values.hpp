@@ -22,7 +22,7 @@ struct RunValues {
     double gravity = 0.0;       ///< g, along -y [m/s2]
     double grain_weight = 0.0;  ///< m g of a disc of diameter D in air, per unit length [N/m]
 
-    bool wet = false;                  ///< is there a fluid?
+    bool wet = false;                  ///< with a fluid
     double fluid_density = 0.0;        ///< rho_f; 0 when dry [kg/m3]
     double viscosity = 0.0;            ///< nu; 0 when dry [m2/s]
     double hydrodynamic_radius = 1.0;  ///< R_h/R; 1 when dry
@@ -32,7 +32,7 @@ struct RunValues {
     std::int64_t output_every = 1;  ///< windows from one output to the next
 
     std::array<double, 2> size{};  ///< of the domain, [0, size[0]] x [0, size[1]] [m]
-    Vec3 period{};  ///< per axis the length after which the domain repeats; 0: none [m]
+    Vec3 period{};                 ///< period of the domain per axis; 0: not cyclic [m]
 };
 
 /// Reads run.*, fluid.enabled, fluid.hydrodynamic_radius, domain.left and domain.bottom. Throws

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The resolved case as a flat list `key = value`: what the coupler tells every participant in its
-// welcome, so that no adapter reads YAML. Keys are those of the case file (`contact.friction`),
-// plus the run's physical values, already in the run's units:
+// The resolved case as a flat list `key = value`. The coupler sends it to every participant at the
+// start, so that no adapter reads YAML. Keys are those of the case file (`contact.friction`), plus
+// the physical values of the run, in the units of the run:
 //
 //     run.diameter  run.velocity_scale  run.time_scale        D, u_c, t_c
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
@@ -14,7 +14,7 @@
 //     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
 //     run.wall_motions                      granular_adapter/grains/wall_motions
-//     run.materials                         names of materials 1, 2, ... with a space between, whose
+//     run.materials                         names of materials 1, 2, ..., separated by spaces;
 //                                           coefficients are contact.materials.NAME.*
 //
 // Valid C++17.

@@ -16,12 +16,12 @@ bool write(const std::filesystem::path& file, const std::function<void(std::ostr
     return out.good();
 }
 
-/// Goes when it is left, unless it has been renamed.
+/// Removed at the end of its scope unless it has been renamed.
 struct Part {
     std::filesystem::path path;
 
     ~Part() {
-        std::error_code ignored;  // the failure that matters is on its way
+        std::error_code ignored;  // the original failure is already being thrown
         std::filesystem::remove(path, ignored);
     }
 };

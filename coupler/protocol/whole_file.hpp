@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Files that a reader may open at any moment of a run.
+// Files that may be read at any time during a run.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace turbidite {
 
-/// Writes beside `file` (name + ".part") and renames: a reader meets the old content or the new,
-/// never half of it. Throws Failure (participant failed) naming `file` where that cannot be done;
-/// then the old content is still there and the part is gone.
+/// Writes to a file beside `file` (name + ".part") and renames it: a reader sees either the old or
+/// the new content, never a part of it. On failure throws Failure (participant failed) naming
+/// `file`; the old content is then kept and the part removed.
 void write_whole(const std::filesystem::path& file,
                  const std::function<void(std::ostream&)>& content);
 

@@ -40,8 +40,8 @@ void Reader::finish() const {
 
 namespace {
 
-// One description per record serves both directions: `visit(record, code)` hands every field to a
-// Writer or a Reader. `Code` is either.
+// One description per record serves both directions: `visit(record, code)` passes every field to
+// `code`, a Writer or a Reader.
 
 template <class Code, class Array>
 void array(Code& code, Array& values) {

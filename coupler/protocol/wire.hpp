@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Records as bytes. Little-endian, eight bytes per number, doubles bit for bit, strings and lists
-// prefixed by their length. One `encode` and one `decode` per record, nothing else knows offsets.
-// Valid C++17.
+// prefixed by their length. One `encode` and one `decode` per record; nothing else depends on
+// offsets. Valid C++17.
 #pragma once
 
 #include <cstring>
@@ -19,7 +19,7 @@ namespace turbidite {
 
 using Bytes = std::vector<char>;
 
-/// A payload that is shorter, longer, or other than its message kind says.
+/// A payload that is shorter or longer than, or different from, what its message kind requires.
 class MalformedPayload : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
@@ -56,10 +56,10 @@ class Reader {
     }
     void operator()(std::string& text);
 
-    /// A list's length, refused when the payload cannot hold that many.
+    /// Length of a list, refused if the payload cannot hold that many entries.
     std::size_t length();
 
-    /// Throws MalformedPayload unless everything was read.
+    /// Throws MalformedPayload unless the whole payload was read.
     void finish() const;
 
  private:

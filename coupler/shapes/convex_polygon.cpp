@@ -22,7 +22,7 @@ Eigen::Vector3d spatial(const Point2& v) {
     return {v[0], v[1], 0.0};
 }
 
-/// Keeps a point unless one that is there is too near.
+/// Adds a point unless an existing one is too near.
 void add_point(std::vector<SurfacePoint>& points, const SurfacePoint& point, double spacing) {
     const auto too_near = [&](const SurfacePoint& other) {
         return (other.position - point.position).norm() < spacing * (1.0 - 1e-12);

@@ -12,9 +12,9 @@ namespace turbidite {
 ///     V = R^2 sum w_i / 2,   I_zz / rho = R^4 sum w_i (|v_i|^2 + v_i . v_i+1 + |v_i+1|^2) / 12
 class ConvexPolygon final : public Shape {
  public:
-    /// x, y of every vertex. Throws std::invalid_argument when they are no convex polygon
-    /// (polygon_outline.hpp), not counter-clockwise, or not of unit circumradius about the centre
-    /// of mass to 1e-9.
+    /// x, y of every vertex. Throws std::invalid_argument if they do not form a convex polygon
+    /// (polygon_outline.hpp), are not counter-clockwise, or do not have unit circumradius about the
+    /// centre of mass to 1e-9.
     explicit ConvexPolygon(const std::vector<double>& vertices);
 
     int dimension() const override { return 2; }
@@ -22,9 +22,9 @@ class ConvexPolygon final : public Shape {
     Eigen::Matrix3d inertia_per_density(double radius) const override;
     bool contains(const Eigen::Vector3d& point, double radius) const override;
 
-    /// Corners first, then the sides in equal parts; a point nearer than `spacing` to one before it
-    /// is left out, so that sharp corners keep the distance as well. Normals of corners halve the
-    /// angle between those of the sides.
+    /// Corners first, then equally spaced points on the sides; a point nearer than `spacing` to a
+    /// previous one is left out, so that the distance is kept at sharp corners as well. The normal
+    /// at a corner bisects the angle between those of the sides.
     std::vector<SurfacePoint> surface_points(double radius, double spacing) const override;
 
     std::vector<Point2> outline() const override { return vertices_; }

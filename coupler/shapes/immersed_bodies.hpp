@@ -17,7 +17,8 @@ class ImmersedBodies {
 
     ImmersedBodies(const RunValues& run, const ShapeTable& shapes);
 
-    /// M, I and their wet parts. Throws std::out_of_range for a shape that is not in the table.
+    /// M, I and their effective values in the fluid. Throws std::out_of_range for a shape that is
+    /// not in the table.
     ImmersedBody operator()(const GrainState& grain) const;
 
  private:

@@ -10,7 +10,7 @@
 //     effective mass      M - rho_f V(R_h)         effective inertia   I - I_f(R_h)
 //     submerged weight    (M - rho_f V(R)) g       (buoyancy acts on the true volume)
 //
-// Dry grains are the same with rho_f = 0. Valid C++17.
+// Dry grains have rho_f = 0. Valid C++17.
 #pragma once
 
 #include "coupler/shapes/shape.hpp"

@@ -10,8 +10,8 @@
 namespace turbidite {
 namespace {
 
-// Distances below this share of the outline's extent are no distances: far above rounding, far
-// below what anybody draws.
+// Distances below this fraction of the outline's extent count as zero: far above rounding, far
+// below any intended length.
 constexpr double least_share = 1e-9;
 
 Point2 minus(const Point2& a, const Point2& b) {
@@ -66,7 +66,7 @@ void check_repeated(const std::vector<Point2>& vertices, double least) {
                        std::to_string(j + 1) + "; remove it");
 }
 
-/// Height of a point over the line from a to b, positive to the left.
+/// Signed distance of a point from the line from a to b, positive to the left.
 double height(const Point2& a, const Point2& b, const Point2& point) {
     return cross(minus(b, a), minus(point, a)) / length(minus(b, a));
 }
@@ -90,8 +90,8 @@ void check_convex(const std::vector<Point2>& v, double least) {
 
 }  // namespace
 
-// Green's theorem over the triangles (0, v_i, v_i+1), seen from the first vertex: exact for
-// polygons, and far from the origin no digits are lost.
+// Green's theorem over the triangles (0, v_i, v_i+1), with the origin at the first vertex: exact
+// for polygons, without loss of digits far from the origin.
 AreaMoments area_moments(const std::vector<Point2>& vertices) {
     double twice_area = 0.0, x = 0.0, y = 0.0, second = 0.0;
     for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
@@ -120,7 +120,7 @@ Outline normalised_outline(const std::vector<double>& coordinates) {
         refuse("its area is zero: all vertices are in line with " + vertex_name(vertices, 0));
     Outline outline;
     outline.turned_round = area < 0.0;
-    // The first vertex stays the first.
+    // The first vertex remains the first.
     if (outline.turned_round) std::reverse(vertices.begin() + 1, vertices.end());
     check_convex(vertices, least);
     outline.centre = area_moments(vertices).centre;

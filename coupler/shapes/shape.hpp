@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The geometry of one grain, shared by the fluid and the contact side so that both mean the same
-// body: volume, inertia, "is this point inside?", surface points. Body frame: centre of mass at
-// the origin. Sizes scale with the circumscribed radius R of the grain.
+// The geometry of one grain, shared by the fluid and the contact side so that both use the same
+// body: volume, inertia, inside test, surface points. Body frame: centre of mass at the origin.
+// Sizes scale with the circumscribed radius R of the grain.
 //
 // Valid C++17.
 #pragma once
@@ -37,17 +37,17 @@ class Shape {
 
     virtual bool contains(const Eigen::Vector3d& point, double radius) const = 0;
 
-    /// What is nearer to the centre than this is inside; zero says nothing.
+    /// Points nearer to the centre than this are inside; zero gives no information.
     virtual double core_radius(double) const { return 0.0; }
 
-    /// Points spaced as evenly as the shape allows, never closer than `spacing` [m].
+    /// Surface points spaced as evenly as the shape allows, never closer than `spacing` [m].
     virtual std::vector<SurfacePoint> surface_points(double radius, double spacing) const = 0;
 
     /// Corners of a polygon of unit circumradius, counter-clockwise; empty for round shapes.
     virtual std::vector<Point2> outline() const { return {}; }
 };
 
-/// Every shape there is, by the name used in `grains.shape`.
+/// All shapes, by the name used in `grains.shape`.
 struct ShapeEntry {
     std::string kind;
     std::string description;
@@ -55,7 +55,7 @@ struct ShapeEntry {
 };
 const std::vector<ShapeEntry>& shape_list();
 
-/// Throws std::invalid_argument that lists the known kinds.
+/// Throws std::invalid_argument that lists the known shapes.
 std::shared_ptr<const Shape> make_shape(const ShapeRecord& record);
 
 }  // namespace turbidite

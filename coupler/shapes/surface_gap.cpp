@@ -21,13 +21,13 @@ double distance_to_side(const Point2& a, const Point2& b, const Point2& point) {
     return distance({a[0] + t * dx, a[1] + t * dy}, point);
 }
 
-/// Height of a point over the side from corner i on, positive outside.
+/// Signed distance of a point from the side that starts at corner i, positive outside.
 double height(const std::vector<Point2>& corners, std::size_t i, const Point2& point) {
     const Point2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
     return ((b[1] - a[1]) * (point[0] - a[0]) - (b[0] - a[0]) * (point[1] - a[1])) / distance(a, b);
 }
 
-/// Largest over the sides of the least height of the points.
+/// Maximum over the sides of the minimum signed distance of the points.
 double separation(const std::vector<Point2>& corners, const std::vector<Point2>& points) {
     double largest = -infinite;
     for (std::size_t i = 0; i < corners.size(); ++i) {

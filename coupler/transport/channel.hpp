@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How frames travel between the coupler and the ranks of one participant. A channel never blocks:
-// sending queues, receiving probes; who waits, waits in `Patience` below. Valid C++17.
+// Sends frames between the coupler and the ranks of one participant. A channel never blocks:
+// sending queues, receiving probes; waiting is done in `Patience` below. Valid C++17.
 #pragma once
 
 #include <chrono>
@@ -26,24 +26,24 @@ class Channel {
     /// Takes the frame and returns at once; frames to one peer arrive in order.
     virtual void send(int peer, Bytes bytes) = 0;
 
-    /// The next frame that has arrived, from any peer.
+    /// The next frame received from any peer, if there is one.
     virtual std::optional<Frame> try_receive() = 0;
 
-    /// True when every frame sent has left.
+    /// True if every frame has been sent.
     virtual bool flushed() = 0;
 };
 
-/// Waiting that does not spin: hot for 50 us, then sleeps that grow to 400 us, so that a process
-/// that waits leaves its core to one that computes. Near the expected arrival (the duration of the
-/// last wait at the same point) sleeps are short again.
+/// Waiting without continuous polling: polls for 50 us, then sleeps for times that grow to 400 us,
+/// so that a waiting process leaves its core to one that computes. Near the expected arrival (the
+/// duration of the last wait at the same point) the sleeps are short again.
 class Patience {
  public:
     using Clock = std::chrono::steady_clock;
 
-    /// `expected` seconds from now; 0 when nothing is known.
+    /// `expected` seconds from now; 0 if unknown.
     explicit Patience(double expected = 0.0);
 
-    /// One turn of waiting.
+    /// One poll or sleep.
     void wait();
 
     double seconds() const;

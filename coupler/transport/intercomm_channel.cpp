@@ -25,7 +25,7 @@ void IntercommChannel::send(int peer, Bytes bytes) {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw std::length_error("a frame of " + std::to_string(bytes.size()) +
                                 " bytes is more than MPI sends at once; use more ranks");
-    flushed();  // forget what has left
+    flushed();  // discard completed sends
     Pending& frame = pending_.emplace_back();
     frame.bytes = std::move(bytes);
     PMPI_Isend(frame.bytes.data(), static_cast<int>(frame.bytes.size()), MPI_BYTE, peer, frame_tag,
@@ -34,7 +34,7 @@ void IntercommChannel::send(int peer, Bytes bytes) {
 
 std::optional<Channel::Frame> IntercommChannel::try_receive() {
     begin_receiving();
-    std::vector<int> blocked;  // peers with an earlier frame on its way: theirs stay in order
+    std::vector<int> blocked;  // peers with an earlier frame in flight: their frames stay in order
     for (auto at = incoming_.begin(); at != incoming_.end(); ++at) {
         const int peer = at->frame.peer;
         if (std::find(blocked.begin(), blocked.end(), peer) != blocked.end()) continue;
@@ -45,12 +45,12 @@ std::optional<Channel::Frame> IntercommChannel::try_receive() {
         }
         blocked.push_back(peer);
     }
-    flushed();  // keeps long frames moving
+    flushed();  // progresses long frames
     return std::nullopt;
 }
 
-// A blocking receive of a long frame would wait for its sender, who may be stopped or dead: all of
-// it is left to MPI, and whoever waits keeps his own clock.
+// A blocking receive of a long frame would wait for its sender, which may be stopped or dead. The
+// receive is therefore non-blocking, and the caller enforces its own time limit.
 void IntercommChannel::begin_receiving() {
     for (;;) {
         int arrived = 0;

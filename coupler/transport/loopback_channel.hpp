@@ -17,7 +17,7 @@ namespace turbidite {
 
 class LoopbackChannel final : public Channel {
  public:
-    /// What a hook may do with a frame on its way: change it, or return false to drop it.
+    /// A hook may change a frame in transit, or return false to drop it.
     using Hook = std::function<bool(Bytes&)>;
 
     /// The coupler's end (with `ranks` peers) and one end per rank (with one peer each).

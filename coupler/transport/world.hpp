@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How the programs of one MPMD job find each other.
+// Connects the programs of one MPMD job.
 //
 // Every process takes part in exactly one MPI_Comm_split of the world (colour 1000 + role, or the
-// split that yade.mpy makes by itself); it is the only collective ever made on the world. Then each
-// participant's leader announces itself to the coupler, world rank 0, and both create an
+// split that yade.mpy makes by itself), the only collective operation on the world. Then the leader
+// of each participant announces itself to the coupler, world rank 0, and both create an
 // intercommunicator.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace turbidite {
 
-/// MPI for the length of a program: initialises (thread level serialized) unless somebody else did,
-/// finalises unless somebody else will.
+/// MPI for the lifetime of a program: initialises it (thread level serialized) unless this has been
+/// done, and finalises it unless other code will.
 class MpiEnvironment {
  public:
     MpiEnvironment(int* argc, char*** argv);
@@ -29,13 +29,13 @@ class MpiEnvironment {
     bool ours_ = false;
 };
 
-/// Makes the one split and returns this program's own communicator.
+/// Makes the single split and returns this program's own communicator.
 MPI_Comm split_world(Role role);
 
 /// A participant: announces `local` to the coupler and returns the intercommunicator to it.
 MPI_Comm join_coupler(MPI_Comm local, Role role);
 
-/// The coupler: one participant that announced itself.
+/// The coupler: one participant that has announced itself.
 struct JoinedParticipant {
     Role role = Role::grains;
     int ranks = 0;
@@ -45,9 +45,9 @@ struct JoinedParticipant {
 /// The coupler: waits for the next announcement. Throws Failure (stalled) after `limit` seconds.
 JoinedParticipant accept_participant(MPI_Comm local, double limit);
 
-/// Ends a job that does not get through its start: unless `disarm`ed within `limit` seconds the
-/// process prints `text` and leaves with code `stalled`, which makes mpirun end the job. For the
-/// one moment when waiting cannot be polled: the split of the world.
+/// Ends a job that hangs during its start: unless `disarm`ed within `limit` seconds the process
+/// prints `text` and exits with code `stalled`, which makes mpirun end the job. Used for the only
+/// wait that cannot be polled, the split of the world.
 class StartWatch {
  public:
     StartWatch(double limit, const char* text);

@@ -2,7 +2,7 @@
 //
 // PMPI wrappers for the calls that OpenFOAM's libPstream makes (a test compares this list with the
 // installed library). Each replaces MPI_COMM_WORLD by the program's own communicator; MPI_Abort
-// keeps the real world, since a failure must end the whole job.
+// uses the real world, since a failure must end the whole job.
 #include "coupler/transport/world_isolation.hpp"
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ MPI_Comm isolated(MPI_Comm comm) {
     return comm == MPI_COMM_WORLD && own_world != MPI_COMM_NULL ? own_world : comm;
 }
 
-// Preloaded into a stock program nobody calls isolate_world: the split is ours to make.
+// When preloaded into a stock program, isolate_world is not called: the split is made here.
 void split_if_asked() {
     const char* role = std::getenv("TURBIDITE_ROLE");
     if (own_world == MPI_COMM_NULL && role != nullptr)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// No fluid: contact velocities are the final ones. The kick is empty and says "move".
+// No fluid: contact velocities are the final ones. The kick is empty and only triggers the motion.
 //
 //     grains   window → kick → state
 #include "coupler/hub/schemes/exchanges.hpp"

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The exchanges that schemes share. What arrives is checked here to be finite, once per message;
-// PhysicsRefused names the grain and the window.
+// Exchanges shared by the schemes. Received numbers are checked here to be finite, once per
+// message; PhysicsRefused names the grain and the window.
 #pragma once
 
 #include "coupler/hub/schemes/scheme.hpp"
 
 namespace turbidite {
 
-/// Waits for all grains: `motion`, `state`. `window` is negative at the start.
+/// Waits for the grains' `motion` or `state`. `window` is negative at the start.
 Motion receive_grains(Kind kind, std::int64_t window, Cast& cast);
 
 /// Waits for the contact velocities of all grains.
 Motion receive_motion(const Window& window, Cast& cast);
 
-/// Waits for how all grains respond to contact impulses.
+/// Waits for the responses of all grains to contact impulses.
 std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast);
 
-/// The last constraint holds: the fluid ends its window.
+/// The last constraint is final: the fluid ends its window.
 void send_accept(Cast& cast);
 
-/// After send_accept: corrected velocities to the grains, which move. Fills kicks and state.
+/// After send_accept: sends corrected velocities to the grains, which move. Fills kicks and state.
 void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result);
 
 }  // namespace turbidite

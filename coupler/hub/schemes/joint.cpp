@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `joint`, beyond the paper: contacts are solved with the inertia that grains have together with
-// the fluid that the multipliers tie to them.
+// `joint` (not in the paper): contacts are solved with the combined inertia of the grains and the
+// fluid coupled to them by the multipliers.
 //
 //     fluid    step 5 for free grains: U^F and effective inertia A of each
 //     grains   contact problem with U = U^F + A^-1 J
 //     fluid    applies J to grains and fluid together: U', momentum exact
 //
-// U' is U where A is exact. Where it is not (grains that share fluid cells) the largest |U' - U| +
-// R |omega' - omega| decides: above coupling.tolerance the contacts are solved again from U^F = U'
-// - A^-1 J, a fixed-point iteration whose error shrinks by |1 - A_true^-1 A| per round. At the end
-// grains take the velocities U' and move with U, which no contact forbids.
+// U' is U where A is exact. Where it is not (grains that share fluid cells), contacts are solved
+// again from U^F = U' - A^-1 J as long as the largest |U' - U| + R |omega' - omega| exceeds
+// coupling.tolerance: a fixed-point iteration whose error shrinks by |1 - A_true^-1 A| per round.
+// At the end grains take the velocities U' and move with U, which satisfies all contacts.
 //
 //     fluid    window → bodies → response { → constraint → response } → accept → kicks
 //     grains   window { → contact_input → motion } → kick → state
@@ -50,7 +50,7 @@ class Joint final : public Scheme {
     }
 
  private:
-    /// One contact solve and what the fluid says to it.
+    /// One contact solve and the fluid's response.
     Responses play_round(const Window& window, const Responses& responses, Cast& cast,
                          WindowResult& result) const {
         cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A scheme is the order in which one window is played: the messages that each side sends and
-// receives, as data, and the coupler's part in them. It only moves messages; what the numbers mean
-// is the participants' business, who react to messages and know no scheme. A new scheme is one file
+// A scheme defines one window: the messages that each side sends and receives, as data, and the
+// coupler's part in them. It only passes messages on; their numbers are interpreted by the
+// participants, which react to messages and do not depend on the scheme. A new scheme is one file
 // beside this one and one line in scheme_list.cpp.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace turbidite {
 
-/// Everybody a scheme talks to.
+/// The participants of a run.
 struct Cast {
     ParticipantLink& grains;
     ParticipantLink* fluid;  ///< null in dry runs
@@ -38,8 +38,9 @@ struct SchemeEntry {
     const char* help;  ///< half a sentence, for the list of keys
     Order fluid;       ///< empty when there is no fluid
     Order grains;
-    /// Slips are solved this much below coupling.tolerance, so that what contacts and fluid
-    /// disagree by is that of the inertia and not of the solve; 0: coupling.tolerance is not used.
+    /// Tolerance of the slip over coupling.tolerance: small enough that the mismatch between
+    /// contacts and fluid comes from the inertia and not from the multiplier solve; 0:
+    /// coupling.tolerance is not used.
     double slip_per_mismatch;
     std::unique_ptr<Scheme> (*make)(const Settings&);
 
@@ -54,7 +55,7 @@ const std::vector<SchemeEntry>& scheme_list();
 /// "dry" when there is no fluid, otherwise coupling.scheme: run.scheme.
 std::string scheme_name(const Settings& settings);
 
-/// Throws std::invalid_argument, which names the known ones.
+/// Throws std::invalid_argument that lists the known schemes.
 const SchemeEntry& find_scheme(const std::string& name);
 
 SchemeEntry split_scheme();
