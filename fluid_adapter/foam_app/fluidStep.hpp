@@ -3,8 +3,7 @@
 // Interface of steps 1 to 3 of a window. There are two implementations, equal to rounding:
 //
 //     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; if fvSolution names FFT
-//     for
-//                    p and U, and with the default transport scheme
+//                    for p and U, and with the default transport scheme
 //     OperatorStep   OpenFOAM's operators and tables with the solvers that fvSolution names, for
 //                    everything else
 //

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One window of the fluid, as the list of the paper (Topin 2011, section 2.2):
+// One window of the fluid, step by step as in the paper (Topin 2011, section 2.2):
 //
-//     project     1  u is made free of divergence, p                  }
-//     transport   2  u is carried by itself                           }  advance
+//     project     1  pressure projection: u becomes divergence-free   }
+//     transport   2  convection of u                                  }  advance
 //     diffuse     3  viscosity                                        }
-//     answer      5  the multipliers of the grains, Eqs. 9-10            as often as grains come
-//     impose         u is what the multipliers make of it, and kicks     ends the window
+//     answer      5  the multipliers of the grains, Eqs. 9-10            whenever grains come
+//     impose         writes the u of the multipliers; kicks              ends the window
 //
-// Each step is played by a StepWatch (stepWatch.hpp), which knows clocks and names; what crosses
-// the boundaries goes to the ledger (momentumLedger.hpp).
+// A StepWatch (stepWatch.hpp) runs each step; it knows clocks and names. What crosses the
+// boundaries is entered in the ledger (momentumLedger.hpp).
 #pragma once
 
 #include <memory>
@@ -25,33 +25,33 @@ namespace turbidite {
 
 class FluidWindow {
  public:
-    /// Opens the OpenFOAM case; throws Failure (bad_input) naming the key that does not fit.
+    /// Opens the OpenFOAM case. Throws Failure (bad_input) naming the key that does not fit.
     FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
                 const Settings& settings, const ShapeTable& shapes);
 
     /// Steps 1 to 3.
     void advance(const Window& window);
 
-    /// Step 5 for grains that feel no contacts: they fall from U^n together with the fluid.
+    /// Step 5 for grains without contact forces: they fall from U^n together with the fluid.
     void let_fall(const std::vector<GrainState>& grains);
 
-    /// Step 5 for grains after a contact solve: the first ones of a window come with their
-    /// velocities, later ones with contact impulses that act on fluid and grains together.
+    /// Step 5 for grains after a contact solve. The first call of a window brings their velocities;
+    /// later calls bring contact impulses, which act on fluid and grains together.
     void correct(const std::vector<GrainState>& grains);
 
     std::vector<FreeResponse> responses();
 
-    /// Writes u back; yields the kicks and the window's report.
+    /// Writes u back; returns the kicks and the window's report.
     Kicks impose();
 
-    /// Puts what the steps keep for themselves into the fields: for output, function objects, a
+    /// Copies what the steps keep internally into the fields, for output, function objects and a
     /// saved state.
     void put_fields();
 
     // Changes from outside, between windows:
 
     void velocity_changed() { ledger_.forget(); }  ///< of U
-    void fields_replaced();                        ///< of all that a saved state holds
+    void fields_replaced();                        ///< everything that a saved state contains
 
     FluidFields& fields() { return fields_; }
     FluidStep& step() { return *step_; }
@@ -79,7 +79,7 @@ class FluidWindow {
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;
-    bool fields_follow_ = true;  ///< p and phi hold what the steps know
+    bool fields_follow_ = true;  ///< whether p and phi are up to date
     StepWatch watch_;
     FluidTimings timings_;
     FluidReport report_;

@@ -14,8 +14,9 @@ namespace turbidite {
 FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move(directory)) {
     Foam::FatalError.throwExceptions();
     Foam::FatalIOError.throwExceptions();
-    // Debian's controlDict asks for the floating-point trap, which kills the job without a word;
-    // finiteness is checked instead. Who sets FOAM_SIGFPE gets it back.
+    // Debian's controlDict switches on the floating-point trap, which kills the job without a
+    // message; here finiteness is checked instead. If the user sets FOAM_SIGFPE, the trap is set
+    // again.
     if (!Foam::getEnv("FOAM_SIGFPE").empty()) Foam::sigFpe::set(false);
     keep_freed_memory();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The fluid participant on OpenFOAM: the adapter functions over the steps of a window
-// (Topin 2011, section 2.2). No OpenFOAM type appears here, so that tests can drive it.
+// The fluid participant on OpenFOAM: the functions of an adapter, by the steps of a window (Topin
+// 2011, section 2.2). No OpenFOAM type appears here, so that tests can use it.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace turbidite {
 
-/// Time spent in the parts of a window [s], and what the multiplier step saw.
+/// Time spent in the parts of a window [s], and the results of the multiplier step.
 struct FluidTimings {
     double projection = 0.0, transport = 0.0, viscosity = 0.0, points = 0.0, multipliers = 0.0,
            output = 0.0;
@@ -31,9 +31,9 @@ class FoamAdapter final : public FluidAdapter {
     explicit FoamAdapter(std::filesystem::path directory);
     ~FoamAdapter() override;
 
-    /// The fluid's own communicator, as the number of a Fortran handle; before the other calls, and
-    /// not at all where there is one process. With several ranks OpenFOAM is put into parallel
-    /// mode: for it, the world must be this communicator (coupler/transport/world_isolation.hpp).
+    /// Passes the fluid's own communicator, as a Fortran handle. Called before the other functions,
+    /// and not at all with a single process. With several ranks OpenFOAM is put into parallel mode,
+    /// for which the world must be this communicator (coupler/transport/world_isolation.hpp).
     void share(int communicator);
 
     Hello describe() const override;
@@ -46,17 +46,17 @@ class FoamAdapter final : public FluidAdapter {
     SavedState save() const override;
     void restore(const SavedState& state) override;
 
-    /// Of the last window.
+    /// Timings of the last window.
     const FluidTimings& timings() const;
     const CollocationPoints& points() const;
 
-    /// Adds (x, y) to u everywhere: a stream to begin with, or a uniform body force times dt.
+    /// Adds (x, y) to u everywhere [m/s]: an initial stream, or a uniform body force times dt.
     void add_velocity(double x, double y);
 
-    /// u at a cell of the grid that this rank owns [m/s].
+    /// u in cell (i, j) of the grid, which this rank must own [m/s].
     Vec3 velocity(int i, int j) const;
 
-    /// p there, over rho_f [m2/s2]; all ranks call it together, as save().
+    /// p over rho_f in the same cell [m2/s2]. Collective, as is save().
     double pressure(int i, int j) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// OpenFOAM's fatal errors as exceptions of ours, with OpenFOAM's text.
+// Converts OpenFOAM's fatal errors to our exceptions, with OpenFOAM's text.
 #pragma once
 
 #include <error.H>
@@ -11,7 +11,7 @@
 
 namespace turbidite {
 
-/// Calls `work`; what OpenFOAM throws becomes a Failure (exit code 4) that names what was going on.
+/// Calls `work`; an OpenFOAM error becomes a Failure (exit code 4) that names the activity.
 template <class Work>
 auto with_foam_errors(const std::string& doing, Work work) {
     try {

@@ -8,11 +8,11 @@
 namespace turbidite {
 namespace {
 
-/// Cell centres may be off by this share of a cell: blockMesh's points are written as text.
+/// Cell centres may deviate by this fraction of a cell: blockMesh writes its points as text.
 constexpr double placement_tolerance = 1e-4;
 
-/// Stencils of points in this rank's cells reach two layers beyond them; one more, so that no
-/// rounding of a place can make a stencil leave the halo, which would go unnoticed.
+/// Stencils of points in this rank's cells reach two layers beyond them. There is one layer more,
+/// so that no rounding of a position makes a stencil leave the halo, which would go unnoticed.
 constexpr int halo_layers = 3;
 
 Side side_of(const std::string& kind) {

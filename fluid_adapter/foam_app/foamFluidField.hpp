@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number, on
+// An fvMesh as FluidField for the multiplier method: a uniform grid with cells found by number, on
 // several ranks with a halo around this rank's cells. Velocities are copied to contiguous
 // components before step 5 and back after it.
 #pragma once
@@ -19,7 +19,7 @@ namespace turbidite {
 
 class FoamFluidField final : public FluidField {
  public:
-    /// Throws Failure, on every rank, when the mesh is not the uniform grid of the case.
+    /// Throws Failure, on every rank, if the mesh is not the uniform grid of the case.
     FoamFluidField(FluidFields& fields, const FluidDomain& domain);
 
     const CellGrid& grid() const override { return grid_; }
@@ -35,13 +35,15 @@ class FoamFluidField final : public FluidField {
     void hold_grains(const GrainId* ids, int count) const override;
     void sum_over_holders(double* rows, int per_grain) const override;
 
-    /// i + nx j of each cell of this rank. Throws Failure as the constructor does.
+    /// i + nx j of each of this rank's cells. Throws Failure as the constructor does.
     std::vector<int> cell_numbers() const;
 
-    /// From U, cells of these points and those that other ranks know; no other is read.
+    /// Copies velocities from U for the cells of these points and those that other ranks know; no
+    /// others are read.
     void load(const CollocationPoints& points);
 
-    /// To U, cells of these points only. With `force_density`, also lambda = -rho_f (u - u3)/dt.
+    /// Copies velocities to U for the cells of these points. With `force_density`, also sets lambda
+    /// = -rho_f (u - u3)/dt.
     void store(const CollocationPoints& points, bool force_density);
 
  private:
@@ -51,11 +53,11 @@ class FoamFluidField final : public FluidField {
     FluidFields& fields_;
     CellGrid grid_;
     LocalBlock block_;
-    CellTable cells_;                       // of the block
+    CellTable cells_;                       // local indices in a block of the grid
     std::unique_ptr<HaloExchange> halo_;    // on several ranks
     std::unique_ptr<SharedGrains> shared_;  // on several ranks
     std::vector<int> shared_cells_;         // own cells in another rank's halo
-    std::vector<char> in_a_halo_;           // the same, by cell
+    std::vector<char> in_a_halo_;           // the same, as a flag per cell
     std::vector<double> x_, y_;
     int owned_ = 0;
     double cell_mass_ = 0.0;

@@ -8,7 +8,7 @@
 namespace turbidite {
 namespace {
 
-/// Conditions that hold a value or a gradient for good, or that couple cells.
+/// Conditions that always hold a value or always a gradient, or that couple cells.
 constexpr const char* lasting_conditions[] = {"zeroGradient",    "fixedGradient", "fixedValue",
                                               "noSlip",          "cyclic",        "processor",
                                               "processorCyclic", "empty"};
@@ -26,7 +26,8 @@ std::string switching_condition(const VolField<Type>& field) {
     return {};
 }
 
-/// What a patch gives to the right-hand side is zero where what it holds is.
+/// Names a patch that contributes to the right-hand side, because the value or gradient it holds is
+/// not zero; empty if there is none.
 template <class Type>
 std::string inhomogeneous_condition(const Foam::fvMatrix<Type>& matrix) {
     forAll(matrix.psi().boundaryField(), patch) {
@@ -43,13 +44,13 @@ Foam::fvScalarMatrix laplacian(Foam::volScalarField& p) {
     return Foam::fvScalarMatrix(Foam::fvm::laplacian(p));
 }
 
-/// The same for all components: none of the lasting conditions tells them apart.
+/// The same for all components: none of the conditions above distinguishes them.
 Foam::fvVectorMatrix laplacian(Foam::volVectorField& U) {
     return Foam::fvVectorMatrix(
         Foam::fvm::laplacian(Foam::dimensionedScalar("nu", Foam::dimViscosity, 1.0), U));
 }
 
-/// The boundary's share of the diagonal goes where a solver would see it.
+/// Puts the boundary's contribution to the diagonal where a solver expects it.
 template <class Type>
 BoxOperator read(const Foam::fvMatrix<Type>& matrix, const BoxCells& box) {
     Foam::lduMatrix whole(matrix);

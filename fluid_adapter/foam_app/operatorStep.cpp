@@ -35,7 +35,7 @@ bool OperatorStep::finite() const {
     return std::isfinite(sum);
 }
 
-/// All faces, inner ones first, then patch by patch.
+/// The excess at all faces, internal faces first, then patch by patch.
 std::vector<double> OperatorStep::memory() {
     const Foam::surfaceScalarField& excess = fields_.excess;
     std::vector<double> values(excess.primitiveField().begin(), excess.primitiveField().end());

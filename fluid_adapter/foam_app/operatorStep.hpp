@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 by OpenFOAM's operators, on any mesh, with any scheme of its tables.
+// Steps 1 to 3 by OpenFOAM's operators, on any mesh and with any scheme of its tables.
 #pragma once
 
 #include "fluid_adapter/foam_app/fluidStep.hpp"
@@ -11,7 +11,7 @@ namespace turbidite {
 
 class OperatorStep final : public FluidStep {
  public:
-    /// `divergence_goal`: of the projection [1/s].
+    /// `divergence_goal`: largest |div phi| after the projection [1/s].
     OperatorStep(FluidFields& fields, double divergence_goal)
         : fields_(fields), projection_(fields, divergence_goal), viscosity_(fields) {}
 

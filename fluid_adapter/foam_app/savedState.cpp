@@ -10,7 +10,7 @@ namespace {
 
 struct Header {
     std::int64_t cells = 0;
-    std::int64_t kind = 0;  // of the steps that wrote it
+    std::int64_t kind = 0;  // FluidStep::kind of the steps that wrote it
     std::int64_t time_index = 0;
     double time = 0.0;
     std::array<double, 4> corners{};  // of this rank's cells
@@ -35,7 +35,7 @@ void append(SavedState& state, const Field& field) {
     std::memcpy(state.data() + old, &field[0], bytes_of(field));
 }
 
-/// Fills an array from the bytes at `from`, and moves on.
+/// Fills an array from the bytes at `from`, and advances `from`.
 template <class Field>
 void take(const char*& from, Field& field) {
     std::memcpy(static_cast<void*>(&field[0]), from, bytes_of(field));

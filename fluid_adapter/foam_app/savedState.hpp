@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a restart needs of the fluid: time, u, p (the first guess of the next projection) and what
-// the step knows beyond them. phi follows from these, and the multipliers start from zero in every
+// The restart state of the fluid: time, u, p (the first guess of the next projection) and the
+// steps' state beyond them. phi follows from these, and the multipliers start from zero in every
 // window.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace turbidite {
 
 SavedState save_fields(FluidFields& fields, FluidStep& step);
 
-/// Throws Failure when the bytes belong to another mesh or decomposition.
+/// Throws Failure if the bytes belong to another mesh or decomposition.
 void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& step);
 
 }  // namespace turbidite

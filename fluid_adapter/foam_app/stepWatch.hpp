@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Plays the steps of a window under their names: their time goes to a clock, and what they throw
-// says which step of which window it was.
+// Runs the steps of a window under their names: measures their time, and adds step and window to
+// the errors they throw.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace turbidite {
 
-/// Adds the time until it goes out of scope [s].
+/// Adds the time between its construction and destruction to a total [s].
 class Stopwatch {
  public:
     explicit Stopwatch(double& total) : total_(total) {}
@@ -30,8 +30,8 @@ class StepWatch {
  public:
     void begin(const Window& window) { window_ = window.index; }
 
-    /// Throws what `work` throws: OpenFOAM's errors as Failure, PhysicsRefused with the step's
-    /// name.
+    /// Throws what `work` throws: OpenFOAM's errors as Failure, PhysicsRefused with the name of the
+    /// step.
     template <class Work>
     auto play(const std::string& step, double& clock, Work work) const {
         const Stopwatch watch(clock);

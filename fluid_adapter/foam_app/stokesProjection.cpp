@@ -13,13 +13,14 @@
 namespace turbidite {
 namespace {
 
-/// Divergence below this share of the goal is rounding: it has no pressure worth solving for.
+/// Divergence below this fraction of the goal is rounding, for which no pressure is solved.
 constexpr Foam::scalar rounding = 1e-7;
 
-/// The tolerance is a mean over cells, the goal a maximum: a few tightenings bridge them.
+/// The solver's tolerance is a mean over cells, the goal a maximum: it is tightened up to this many
+/// times.
 constexpr int attempts = 4;
 
-/// Iterations go on from what is there, so a small step down costs little.
+/// Iterations continue from the present solution, so a small reduction costs little.
 Foam::scalar tightening(Foam::scalar goal, Foam::scalar divergence) {
     return std::clamp(0.5 * goal / divergence, 0.01, 0.5);
 }
@@ -33,12 +34,12 @@ StokesProjection::StokesProjection(FluidFields& fields, Foam::scalar goal)
       controls_(fields.mesh.solverDict(fields.p.name())),
       given_("givenPhi", fields.phi) {
     fields.mesh.setFluxRequired(fields.p.name());
-    // Where no side fixes p: in one cell of all ranks'.
+    // If no side fixes p, it is fixed in one cell on one rank.
     matrix_.setReference(Foam::Pstream::master() ? 0 : -1, 0.0);
     solver_ = matrix_.solver(controls_);
 }
 
-/// `tighter`, at most one, multiplies the solver's tolerance.
+/// Solves with the solver's tolerance multiplied by `tighter`, at most one.
 void StokesProjection::solve_pressure(Foam::scalar tighter) {
     matrix_.source() = rate_;
     Foam::dictionary controls(controls_);
@@ -83,7 +84,7 @@ Foam::scalar StokesProjection::kept_share() const {
 
 void StokesProjection::remember() {
     fields_.excess = fields_.phi - Foam::fvc::flux(fields_.U);
-    // Sides of the box are given by boundary conditions and have nothing to remember.
+    // e is zero on the sides of the box, where the flux is given by boundary conditions.
     forAll(fields_.excess.boundaryField(), patch) {
         auto& side = fields_.excess.boundaryFieldRef()[patch];
         if (!side.coupled()) side = 0.0;

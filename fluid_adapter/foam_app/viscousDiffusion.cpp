@@ -21,7 +21,8 @@ void ViscousDiffusion::solve(Foam::scalar dt) {
     matrix_->source() = fields_.mesh.V().field() / dt * fields_.U.primitiveField();
     const Foam::dictionary& controls = fields_.mesh.solverDict(fields_.U.name());
     const auto result = matrix_->solve(controls);
-    // A vector's convergence flag is never set in this version: the cap on iterations tells.
+    // This version never sets the convergence flag of a vector; reaching the maximum of iterations
+    // tells.
     const Foam::label most = controls.getOrDefault<Foam::label>("maxIter", 1000);
     if (Foam::cmptMax(result.nIterations()) >= most)
         throw PhysicsRefused("the viscous solver did not converge in " + std::to_string(most) +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3), with OpenFOAM's matrix, assembled
-// when dt changes, and the solver that fvSolution names.
+// Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3), with OpenFOAM's matrix, which is
+// reassembled if dt changes, and the solver that fvSolution names.
 #pragma once
 
 #include <fvMatrices.H>
@@ -16,7 +16,7 @@ class ViscousDiffusion {
  public:
     explicit ViscousDiffusion(FluidFields& fields) : fields_(fields) {}
 
-    /// From u2 to u3. Throws PhysicsRefused when the solver does not converge.
+    /// Advances u2 to u3 over dt [s]. Throws PhysicsRefused if the solver does not converge.
     void solve(Foam::scalar dt);
 
  private:
