@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The keys contact.* of a case, each group with what its keys must satisfy together. They stand
-// here, below the case file, since a YADE script of the user's own gives the same options.
+// The keys contact.* of a case, in groups, each with the rules between its keys. They are defined
+// here, below the case file, because a user's own YADE script offers the same options.
 #pragma once
 
 #include "coupler/keys/rule.hpp"
@@ -13,7 +13,7 @@ KeyGroup contact_law_keys();         ///< friction laws, restitution, rolling, a
 KeyGroup material_keys();            ///< contact.materials.NAME.*, contact.pairs.FIRST-SECOND.*
 KeyGroup molecular_dynamics_keys();  ///< contact.md_*
 
-/// All of them.
+/// All groups in one table.
 KeyTable contact_key_table();
 
 }  // namespace turbidite

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The laws of a contact. Forces are in weights of one grain, m g with the density of the
-// grains: the same physical force with and without a fluid.
+// The keys of contact laws. Forces are in weights of one grain, m g with the density of the grains:
+// the same physical force with and without a fluid.
 #include <algorithm>
 
 #include "coupler/keys/key_value.hpp"
@@ -32,7 +32,7 @@ Ruling sliding_holds_less(const Settings& s) {
                      "Enlarge it."};
 }
 
-// With restitution e an impact feeds energy in unless theta <= 1/(1 + e).
+// With restitution e an impact adds energy unless theta <= 1/(1 + e).
 Ruling theta_makes_no_energy(const Settings& s) {
     const double e =
         std::max(s.real("contact.restitution"), s.real("contact.restitution_tangential"));
@@ -78,7 +78,7 @@ std::string without_bridges(const Settings& s) {
 std::string without_bonds(const Settings& s) {
     return is(s, "contact.adhesion", "cohesion") ? "" : "without contact.adhesion: cohesion";
 }
-/// Also of any material or pair.
+/// Covers the restitution of every material and pair as well.
 std::string without_restitution(const Settings& s) {
     for (const auto& [key, value] : s.entries())
         if (key.rfind("contact.", 0) == 0 && key.find("restitution") != std::string::npos &&

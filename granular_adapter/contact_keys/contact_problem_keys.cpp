@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How the contact problem of a window is posed and solved.
+// The keys for setting up and solving the contact problem of a window.
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ std::string without_recovery(const Settings& s) {
 }
 
 void notes(const Settings& s, std::vector<std::string>& notes) {
-    // It begins with 8000 sweeps (granular_adapter/nscd/solvers/central_path_solver.cpp).
+    // The solver begins with 8000 sweeps (granular_adapter/nscd/solvers/central_path_solver.cpp).
     if (constexpr std::int64_t enough = 20000;
         s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
         notes.push_back(

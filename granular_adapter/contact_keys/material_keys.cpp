@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Further materials and pairs of them. What a material does not say is as in contact.*; a pair has
-// the smaller value of both, or what it says itself.
+// The keys of further materials and of pairs of materials. A material takes what it does not
+// specify from contact.*; a pair takes the smaller value of both, unless it specifies its own.
 #include <algorithm>
 
 #include "granular_adapter/contact_keys/contact_keys.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The soft contact of molecular dynamics.
+// The keys of the soft contacts of molecular dynamics.
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 
 namespace turbidite {

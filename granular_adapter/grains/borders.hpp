@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The four sides of the domain as a grains adapter treats them:
+// The four sides of the domain as seen by a grains adapter:
 //
-//     wall     a straight wall with the grains' surface; a centre beyond it ends the run
+//     wall     a straight wall with the surface of the grains; a centre beyond it ends the run
 //     free     grains whose centre is more than R past the side are removed and counted
-//     cyclic   positions wrap, neighbours are nearest images
+//     cyclic   positions wrap, and the minimum image is used
 //
 // The domain is [0, run.size_x] x [0, run.size_y].
 #pragma once
@@ -21,33 +21,34 @@ namespace turbidite {
 
 enum class BorderKind { wall, free, cyclic };
 
-/// One side of the domain: its name, what it is, and the inward half-plane.
+/// One side of the domain: name, type, and the half-plane with the inward normal.
 struct Border {
     std::string name;  ///< "left"
     BorderKind side = BorderKind::wall;
     nscd::Wall plane;
 };
 
-/// Left, right, bottom, top, from domain.* and run.size_*; of the first material. Throws
-/// std::invalid_argument on an unknown side, or a cyclic one whose opposite is not.
+/// Left, right, bottom, top, from domain.* and run.size_*; made of the first material. Throws
+/// std::invalid_argument for an unknown type of side, or a cyclic side whose opposite is not
+/// cyclic.
 std::vector<Border> lay_borders(const Settings& settings);
 
-/// The walls among them.
+/// Those sides that are walls.
 std::vector<nscd::Wall> walls_of(const std::vector<Border>& borders);
 
-/// Throws PhysicsRefused naming a grain whose velocity is not a number; `when` ends the sentence
-/// ("in window 3").
+/// Throws PhysicsRefused naming a grain whose velocity is not finite; `when` ends the sentence ("in
+/// window 3").
 void check_velocities(const nscd::Bodies& bodies, const std::string& when);
 
-/// The same for a place that is not a number or a centre beyond a wall.
+/// The same for a position that is not finite, or a centre beyond a wall.
 void check_places(const nscd::Bodies& bodies, const std::vector<Border>& borders,
                   const std::string& when);
 
-/// Both.
+/// Both checks.
 void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders,
                   const std::string& when);
 
-/// Zero for every body that has left through a free side, one for the others.
+/// Zero for every body that has left through a free side, one for all others.
 std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,
                                        const std::vector<Border>& borders);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the fluid sends, brought into the order of the bodies: every grain gets exactly one record.
+// Sorts records sent by the fluid into the order of the bodies; every grain has exactly one record.
 #pragma once
 
 #include <stdexcept>
@@ -12,9 +12,9 @@
 
 namespace turbidite {
 
-/// One record per id, in the order of `ids`. `what` is its name ("kick"), `when` ends the sentence
-/// ("in window 3"). Throws std::runtime_error naming a grain without a record or with two, or one
-/// that is not here.
+/// One record per id, in the order of `ids`. `what` names the records in errors ("kick"), `when`
+/// ends the sentence ("in window 3"). Throws std::runtime_error naming a grain with no record or
+/// two, or a record of an unknown grain.
 template <class Record>
 std::vector<const Record*> by_grain(const std::vector<GrainId>& ids,
                                     const std::vector<Record>& records, const std::string& what,

@@ -14,12 +14,12 @@ std::string grain(GrainId id) {
     return "grain " + std::to_string(id);
 }
 
-/// In the plane.
+/// The planar part of a kick's velocities.
 nscd::Twist twist_of(const Kick& kick) {
     return {{kick.velocity[0], kick.velocity[1], 0.0}, {0.0, 0.0, kick.angular_velocity[2]}};
 }
 
-/// What step 4 moves: effective inertia, submerged weight.
+/// A grain with the inertia and weight of step 4: effective inertia, submerged weight.
 nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
     nscd::Body body;
     body.id = grain.id;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The grains of a case as bodies of step 4, which moves them with the inertia and the weight of
-// shapes/immersed_body, and back.
+// Converts the grains of a case to bodies of step 4 and back. Step 4 moves them with the inertia
+// and weight of shapes/immersed_body.
 #pragma once
 
 #include <vector>
@@ -12,15 +12,15 @@
 
 namespace turbidite {
 
-/// Throws std::runtime_error naming a grain that is there twice or whose shape is not in the table.
+/// Throws std::runtime_error naming a grain that occurs twice or whose shape is not in the table.
 void add_grains(nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
                 const std::vector<GrainState>& grains);
 
-/// Every body with its last window's contact impulses; nothing announced.
+/// Every body with the contact impulses of its last window; J_h is zero.
 std::vector<GrainState> grain_states(const nscd::Bodies& bodies);
 
-/// The kicks' velocities, in the plane. Every grain gets exactly one kick, std::runtime_error
-/// naming one that gets none or two; `when` ends the sentence.
+/// Sets the velocities from the kicks, in the plane. Throws std::runtime_error naming a grain with
+/// no kick or two; `when` ends the sentence.
 void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks, const std::string& when);
 
 }  // namespace turbidite

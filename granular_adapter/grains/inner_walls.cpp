@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t numbers_per_wall = 11;
 using Numbers = std::array<double, numbers_per_wall>;
 
-/// Exactly eleven numbers. By strtod, since streams do not read all that is written.
+/// Parses exactly eleven numbers, with strtod, since streams do not read every format that is
+/// written.
 Numbers numbers_of(const std::string& text) {
     Numbers numbers{};
     const char* at = text.c_str();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls inside the box, as the resolved case hands them on (`run.walls`,
-// launcher/case/inner_walls).
+// Walls inside the box, from the resolved case (`run.walls`, written by launcher/case/inner_walls).
 #pragma once
 
 #include <string>
@@ -12,9 +11,9 @@
 
 namespace turbidite {
 
-/// Plates in the run's units; none when the setting is missing or empty. `first_key` is the key of
-/// the first, so that borders keep theirs. Throws std::invalid_argument when the text is something
-/// else.
+/// Plates in the run's units; none if the setting is missing or empty. `first_key` is the key of
+/// the first plate, so that borders keep theirs. Throws std::invalid_argument if the text has
+/// another format.
 std::vector<nscd::Wall> inner_walls(const Settings& settings, std::int32_t first_key);
 
 }  // namespace turbidite

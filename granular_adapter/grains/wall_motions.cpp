@@ -53,7 +53,7 @@ class Harmonic final : public WallMotion {
     double phase_;
 };
 
-/// `table T X Y ANGLE T X Y ANGLE ...`, times growing from 0.
+/// `table T X Y ANGLE T X Y ANGLE ...`, with times ascending from 0.
 class Table final : public WallMotion {
  public:
     explicit Table(const std::vector<double>& numbers) {

@@ -24,7 +24,7 @@ using nscd::operator*;
 using nscd::norm;
 using Clock = std::chrono::steady_clock;
 
-// A contact impulse below this part of what a grain's momentum is made of is round-off.
+// A contact impulse below this fraction of the terms of a grain's momentum balance is rounding.
 constexpr double round_off = 1e-11;
 
 double seconds_since(Clock::time_point start) {
@@ -97,7 +97,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     return motion(at_protocol_positions());
 }
 
-/// What the protocol's positions are ahead of the host's, in time.
+/// How far the protocol's positions are ahead of the host's, in time [s].
 double MdAdapter::lead() const {
     return 0.5 * (run_.step - run_.step / static_cast<double>(substep_count_));
 }
@@ -107,7 +107,8 @@ Substeps MdAdapter::substeps(const Window& window) const {
     return {substep_count_, window.step / count, window.write_output};
 }
 
-/// The host's gravity moves every body alike; the difference to its own weight is a load.
+/// The host applies the same gravity to every body; the difference to the body's own weight is a
+/// load.
 Load MdAdapter::load(std::size_t i, double dt) const {
     const Vec3 buoyant{0.0, (bodies_.mass[i] - bodies_.weight_mass[i]) * run_.gravity, 0.0};
     return {(1.0 / dt) * held_[i].impulse + buoyant, (1.0 / dt) * held_[i].angular_impulse};
@@ -142,7 +143,7 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     return motion(sent);
 }
 
-/// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed it up.
+/// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed the impulses.
 void MdAdapter::book_contacts(const nscd::Bodies& before, const SubstepReport& run, double dt) {
     touched_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {

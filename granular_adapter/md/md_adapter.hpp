@@ -2,27 +2,27 @@
 //
 // Molecular dynamics as a grains adapter: step 4 of the splitting in sub-steps of a host, with the
 // inertia cM and the submerged weight of shapes/immersed_body, so that contact forces are the
-// physical ones. Per window of length dt, k sub-steps of delta = dt/k:
+// physical ones. Per window of length dt there are k sub-steps of delta = dt/k:
 //
 //     advance     loads J_h/dt, k sub-steps: x, U^n -> x', U^{n+4/5}; announces J_h
 //     apply_kick  U^{n+1} from the fluid, which solved cM (U^{n+1} - U^{n+4/5}) = dt lambda - J_h
 //
-// J_h is the multiplier impulse of the last window (zero in the first), its moment alike, and zero
-// throughout with `coupling.md_hold: false`. Held, the fluid acts on a grain while it touches
-// others and not in between, and what step 5 still has to change is small.
+// J_h is the multiplier impulse of the last window (zero in the first), with its moment, and always
+// zero with `coupling.md_hold: false`. With it, the force of the fluid acts on a grain throughout
+// the sub-steps, also during a collision, and the remaining change in step 5 is small.
 //
-// The position of the protocol is that of the contact engine, which is half a window ahead of the
-// velocity; the host's is half a sub-step ahead (both are leap-frogs), so
+// The position in the protocol is that of the contact engine, half a window ahead of the velocity;
+// that of the host is half a sub-step ahead (both are leap-frog schemes), so
 //
 //     q = x + (dt - delta)/2 U
 //
-// A grain that touched nothing is moved with the kick as if it had acted all along,
+// A grain without contact in the window is moved as if the kick had acted all along,
 //
 //     x^{n+1} = x' + (dt + delta)/2 (U^{n+1} - U^{n+4/5})
 //
-// which makes q^{n+1} = q^n + dt U^{n+1} exactly, J_h held or not; orientations alike. One that
-// touched stays where its contacts put it: the kick moving it would press it into its neighbours
-// behind the springs' back.
+// which makes q^{n+1} = q^n + dt U^{n+1} exactly, with or without J_h; orientations likewise. A
+// grain with a contact stays at its position after the sub-steps: moving it with the kick would
+// push it into its neighbours without any spring force.
 //
 // Reads: run.*, domain.*, contact.friction, coupling.md_hold, fluid.enabled,
 // fluid.hydrodynamic_radius.
@@ -41,21 +41,21 @@ namespace turbidite {
 
 class MdAdapter final : public GrainsAdapter {
  public:
-    /// The host outlives the adapter.
+    /// The host must outlive the adapter.
     MdAdapter(std::string adapter_name, MdHost& host);
 
     Hello describe() const override;
 
-    /// Throws std::invalid_argument naming a cyclic side or a shape that is no disc.
+    /// Throws std::invalid_argument naming a cyclic side, or a shape that is not a disc.
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
 
-    /// Once per window. Contact impulses are what the host summed up in windows with output, and
-    /// follow from the change of momentum in the others. Throws std::runtime_error when responses
-    /// of the fluid come.
+    /// Once per window. In windows with output the contact impulses are those summed by the host;
+    /// in the others they follow from the change of momentum. Throws std::runtime_error if there
+    /// are responses of the fluid.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
-    /// One kick per grain, or none at all when the case has no fluid.
+    /// One kick per grain, or none if the case has no fluid.
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override;
 
     SavedState save() const override;
@@ -85,7 +85,8 @@ class MdAdapter final : public GrainsAdapter {
     std::vector<Border> borders_;
     nscd::Bodies bodies_;  ///< at the host's positions
     std::vector<Held> held_;
-    std::vector<std::uint8_t> touched_;                   ///< in this window
+    /// whether a grain had a contact in this window
+    std::vector<std::uint8_t> touched_;
     std::optional<std::vector<ContactRecord>> contacts_;  ///< of this window, if it has output
     bool advanced_ = false;
     ContactReport report_;  ///< of this window

@@ -12,11 +12,11 @@ namespace {
 
 using nscd::operator+, nscd::operator-, nscd::operator*;
 
-// A local problem that slides puts its impulse on the cone to round-off.
+// The local solution of a sliding contact lies on the cone to rounding.
 constexpr double at_limit = 1.0 - 1e-9;
 
-/// From the solution of the contact problem: its cone is the law's, also where a law pulls. What is
-/// pulled and not pressed neither slides nor rolls.
+/// Status from the solution of the contact problem: its cone is that of the law, also with
+/// attraction. A contact under traction neither slides nor rolls.
 std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& solution) {
     std::int32_t status = 0;
     if (!(solution.n > 0.0)) return status;
@@ -54,7 +54,8 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
 
 std::vector<ContactRecord> contact_records(const nscd::Engine& engine) {
     std::vector<ContactRecord> records;
-    // Where a pull and the pressure it makes cancel, the bodies touch although they feel nothing.
+    // Where attraction and the pressure it causes cancel, the bodies touch although the net force
+    // is zero.
     for (std::size_t k = 0; k < engine.points().size(); ++k)
         if (engine.impulses()[k] != nscd::ContactVector{} ||
             engine.solution()[k] != nscd::ContactVector{})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The engine's last contacts as records of the protocol.
+// The contacts of the engine's last step as records of the protocol.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace turbidite {
 
-/// Every contact point that carries something, sorted by (wall, a, b, feature). Positions of the
-/// bodies must still be those that the contacts were detected at: call it before the move. Walls
-/// are named by their keys.
+/// Every contact point with an impulse, sorted by (wall, a, b, feature). The bodies must still be
+/// at the positions at which the contacts were detected: to be called before the move. Walls are
+/// identified by their keys.
 std::vector<ContactRecord> contact_records(const nscd::Engine& engine);
 
-/// Without the contacts of grains that are gone.
+/// Removes the contacts of grains that no longer exist.
 void drop_contacts_of(const std::vector<GrainId>& gone, std::vector<ContactRecord>& contacts);
 
 }  // namespace turbidite

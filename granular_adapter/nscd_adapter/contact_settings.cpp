@@ -29,7 +29,7 @@ constexpr Coefficient coefficients[] = {
     {"adhesion_force", &nscd::Surface::adhesion},
 };
 
-/// Those that the group gives; the others stay.
+/// Replaces the coefficients that the group specifies; the others stay.
 nscd::Surface with_group(nscd::Surface surface, const Settings& settings,
                          const std::string& group) {
     for (const Coefficient& coefficient : coefficients) {
@@ -51,8 +51,8 @@ std::vector<std::string> material_names(const Settings& settings) {
     return names;
 }
 
-/// Surfaces of contact.materials.NAME and values of contact.pairs.A-B, on top of what the rule of
-/// surface.hpp gives.
+/// Surfaces of contact.materials.NAME and values of contact.pairs.A-B, which override the pair rule
+/// of surface.hpp.
 void take_materials(const Settings& settings, nscd::EngineSettings& result) {
     const std::vector<std::string> names = material_names(settings);
     for (std::size_t i = 1; i < names.size(); ++i)

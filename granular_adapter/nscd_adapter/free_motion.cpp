@@ -11,7 +11,7 @@ namespace turbidite {
 namespace {
 
 nscd::PlanarTensor in_plane(const std::array<double, 21>& inertia) {
-    constexpr std::size_t x = 0, y = 1, spin = 5;  // of the six
+    constexpr std::size_t x = 0, y = 1, spin = 5;  // of the six components
     nscd::PlanarTensor tensor;
     tensor.xx = inertia[upper_entry(x, x)];
     tensor.xy = inertia[upper_entry(x, y)];

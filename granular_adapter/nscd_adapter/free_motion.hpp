@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a contact problem starts from that the fluid has responded to: its answers for free grains,
+// Free velocities and mobilities of a contact problem from the fluid's responses for free grains,
 // in the plane and in the order of the bodies.
 #pragma once
 
@@ -15,12 +15,12 @@ namespace turbidite {
 
 struct FreeMotion {
     std::vector<nscd::Twist> velocities;         ///< U^F, omega^F
-    std::vector<nscd::BodyMobility> mobilities;  ///< A^-1
+    std::vector<nscd::BodyMobility> mobilities;  ///< A^-1, A the effective inertia
 };
 
 /// `when` ends the sentence of an error ("in window 3"). Throws std::runtime_error naming a grain
-/// with no answer, or two, or one that the host holds fast; PhysicsRefused when an effective
-/// inertia is not positive definite.
+/// with no response or two, or one that the host has fixed; PhysicsRefused if an effective inertia
+/// is not positive definite.
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
                        const std::string& when);
 

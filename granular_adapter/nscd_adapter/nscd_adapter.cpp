@@ -107,7 +107,7 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     return motion();
 }
 
-// An advance that is repeated before the kick begins at t^n again; contact impulses are kept.
+// An advance that is repeated before the kick starts at t^n again; the contact impulses are kept.
 void NscdAdapter::begin_round() {
     const bool again = !contact_twists_.empty() && contact_twists_.size() == bodies().size();
     if (again)

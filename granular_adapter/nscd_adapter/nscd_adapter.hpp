@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The contact engine as a grains adapter: step 4 of the splitting (Topin 2011, Eqs. 16-19) with the
-// immersed inertia of shapes/immersed_body, then motion with the velocities that
-// `coupling.positions` asks for. Where the fluid has responded, free velocities and inertia are
-// its, advance may be repeated within a window, and grains move with the contact velocities. Hosts
-// such as YADE wrap it: they overwrite bodies() before a call and read them after.
+// immersed inertia of shapes/immersed_body, then motion with the velocities chosen by
+// `coupling.positions`. If the fluid has sent responses, these are the free velocities and
+// inertias, advance may be repeated within a window, and grains move with the contact velocities.
+// Hosts such as YADE wrap this class: they overwrite bodies() before a call and read them after it.
 //
-// Walls inside the box (run.walls) are plates that hold grains on both sides. They and the sides of
-// the box rest or move as run.wall_motions says. Grains whose motion is prescribed keep their
-// velocity; the materials of grains and their pairs are in contact_settings.hpp.
+// Walls inside the box (run.walls) are plates with grains on both sides. They and the sides of the
+// box are at rest or move as run.wall_motions prescribes. Grains with prescribed motion keep their
+// velocity. For the materials of grains and their pairs see contact_settings.hpp.
 //
-// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top},
-// fluid.enabled, fluid.hydrodynamic_radius, run.*. Gravity along -y; sides as in borders.hpp.
+// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top}, fluid.enabled,
+// fluid.hydrodynamic_radius, run.*. Gravity acts along -y; sides as in borders.hpp.
 #pragma once
 
 #include <filesystem>
@@ -31,45 +31,48 @@ namespace turbidite {
 
 class NscdAdapter final : public GrainsAdapter {
  public:
-    /// Names under which it introduces itself; a host gives its own ("yade-nscd", "YADE 2023.02a").
+    /// Names by which the adapter identifies itself; a host passes its own ("yade-nscd", "YADE
+    /// 2023.02a").
     explicit NscdAdapter(std::string adapter_name = "standalone-nscd",
                          std::string host_code = "none");
 
-    /// Where contact.dump_interval writes; before initialise(). Without it: the working folder.
+    /// Folder for contact.dump_interval, by default the working folder; to be set before
+    /// initialise().
     void set_run_folder(std::filesystem::path folder) { run_folder_ = std::move(folder); }
 
     Hello describe() const override;
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
-    /// One response per grain, or none at all. Throws std::runtime_error naming a grain that has
-    /// none while others do, or two, PhysicsRefused when an effective inertia is not positive
-    /// definite. Repeated before the kick it starts from t^n again, with the impulses found.
+    /// One response per grain, or none. Throws std::runtime_error naming a grain with two
+    /// responses, or with none while others have one; PhysicsRefused if an effective inertia is not
+    /// positive definite. A call repeated before the kick starts from t^n again, with the impulses
+    /// found so far.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
-    /// One kick per grain, or none at all when the case has no fluid. Throws std::runtime_error
-    /// naming a grain that has no kick or two, or a kick of an unknown grain.
+    /// One kick per grain, or none if the case has no fluid. Throws std::runtime_error naming a
+    /// grain with no kick or two, or an unknown grain.
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override;
 
     SavedState save() const override;
 
-    /// After initialise() with the same settings.
+    /// To be called after initialise() with the same settings.
     void restore(const SavedState& state) override;
 
-    /// Between two calls a host may overwrite whatever it owns: positions, velocities, loads,
+    /// Between two calls a host may overwrite anything in its bodies: positions, velocities, loads,
     /// flags.
     nscd::Bodies& bodies() { return engine().bodies(); }
     const nscd::Bodies& bodies() const { return engine().bodies(); }
 
-    /// The last window's contacts, for the host's own pictures.
+    /// Gives access to the contacts of the last window, for the host's own output.
     const nscd::Engine& engine() const;
     nscd::Engine& engine();
 
-    /// Impulses of the last window as bytes, for hosts that keep bodies in their own files:
-    /// take_over_contacts() in the new process makes its first window start from them.
+    /// Contact memory of the last window as bytes, for hosts that store bodies in their own files:
+    /// take_over_contacts() in the new process makes its first window start from it.
     std::vector<char> contact_memory() const { return engine().save_memory(); }
     void take_over_contacts(const std::vector<char>& bytes) { engine().restore_memory(bytes); }
 
-    /// Ids that left in the last apply_kick.
+    /// Ids of the grains removed by the last apply_kick.
     const std::vector<GrainId>& removed() const { return removed_; }
 
  private:
@@ -88,7 +91,7 @@ class NscdAdapter final : public GrainsAdapter {
     std::filesystem::path run_folder_ = ".";
     ProblemDumps dumps_;
     RunValues run_;
-    bool answered_ = false;  ///< by the fluid, in this window
+    bool answered_ = false;  ///< the fluid has sent responses in this window
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;
     std::vector<MovedWall> moved_walls_;

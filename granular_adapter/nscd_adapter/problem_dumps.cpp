@@ -15,7 +15,7 @@ ProblemDumps::ProblemDumps(const Settings& settings, std::filesystem::path run_f
     : folder_(std::move(run_folder) / "contacts") {
     if (!settings.has("contact.dump_interval")) return;
     const double windows = settings.real("contact.dump_interval") / settings.real("time.step");
-    // An interval beyond any run means none; llround has no answer there.
+    // An interval beyond any run means none; llround is undefined there.
     if (windows < 1e18) every_ = std::max<std::int64_t>(1, std::llround(windows));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// contact.dump_interval: the contact problems of a run as files RUN/contacts/problem_STEP.dat
-// (nscd/problem/plane/problem_file.hpp), STEP as in history.csv. Steps without contacts leave no
-// file.
+// contact.dump_interval: writes contact problems of a run to RUN/contacts/problem_STEP.dat
+// (nscd/problem/plane/problem_file.hpp), with STEP as in history.csv. Steps without contacts write
+// no file.
 //
 // Reads: contact.dump_interval, time.step (both in t_c).
 #pragma once
@@ -18,16 +18,17 @@ namespace turbidite {
 
 class ProblemDumps {
  public:
-    /// None.
+    /// No dumps.
     ProblemDumps() = default;
-    /// None unless the case has contact.dump_interval.
+    /// No dumps unless the case has contact.dump_interval.
     ProblemDumps(const Settings& settings, std::filesystem::path run_folder);
 
-    /// Writes when one is due. Throws std::runtime_error naming a file that cannot be written.
+    /// Writes the problem if a dump is due. Throws std::runtime_error naming a file that cannot be
+    /// written.
     void after(const Window& window, const nscd::ContactProblem& problem) const;
 
  private:
-    std::int64_t every_ = 0;  ///< windows; 0: never
+    std::int64_t every_ = 0;  ///< interval in windows; 0: never
     std::filesystem::path folder_;
 };
 

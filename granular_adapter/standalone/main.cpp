@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-grains RUN: the contact engine as a participant without a host code, and the smallest
-// example of an adapter's program.
+// turbidite-grains RUN: the contact engine as a participant without a host code. It is the smallest
+// example of an adapter program.
 #include <cstdio>
 
 #include "coupler/participant/participant.hpp"

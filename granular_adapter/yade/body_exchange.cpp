@@ -34,7 +34,7 @@ bool BodyExchange::is_as_written(std::size_t i, const BodyMotion& motion) const 
 void BodyExchange::read(nscd::Bodies& bodies) const {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyMotion motion = states_.read(i);
-        // Turning to YADE's axes and back would round.
+        // Rotating to YADE's axes and back would round.
         if (is_as_written(i, motion)) continue;
         bodies.position[i] = motion.position;
         bodies.orientation[i] = outline_orientation(motion.orientation, turn(i));

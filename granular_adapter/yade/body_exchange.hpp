@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Grains of an adapter and YADE's bodies that stand for them: motion is read before the adapter
-// works and written after it.
+// Exchange between an adapter's grains and the YADE bodies that represent them: motion is read
+// before the adapter works and written after it.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -18,19 +18,19 @@ class BodyExchange {
  public:
     BodyExchange() = default;
 
-    /// `states` are YADE's, one for each of `grains` grains in their order, `turns` as long or
-    /// empty where all are discs. Throws Failure when there is another number of states.
+    /// `states`: YADE's states, one per grain, in the order of the `grains` grains. `turns`: as
+    /// many, or empty if all are discs. Throws Failure if the number of states differs.
     BodyExchange(const boost::python::object& states, std::vector<Turn> turns, std::size_t grains);
 
-    /// Takes over the motion of every body that is not as it was written last.
+    /// Reads the motion of every body that differs from what was last written.
     void read(nscd::Bodies& bodies) const;
 
     void write(const nscd::Bodies& bodies);
 
-    /// The first body that somebody else has moved since the last write.
+    /// The first body that was moved by others since the last write.
     std::optional<std::size_t> moved() const;
 
-    /// Forgets the bodies whose entry is zero.
+    /// Drops the bodies whose entry is zero.
     void keep(const std::vector<std::uint8_t>& mask);
 
     Vec3 position(std::size_t i) const { return states_.read(i).position; }
@@ -41,7 +41,7 @@ class BodyExchange {
 
     BodyStates states_;
     std::vector<Turn> turns_;
-    std::vector<BodyMotion> written_;  ///< last, by body; empty: nothing yet
+    std::vector<BodyMotion> written_;  ///< last motion written, by body; empty if none
 };
 
 }  // namespace turbidite::yade

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Python module `turbidite_contact_engine`: what the package `turbidite_contact` is built on.
+// Python module `turbidite_contact_engine`, the basis of the package `turbidite_contact`.
 #include <boost/python.hpp>
 #include <string>
 
@@ -37,7 +37,8 @@ std::vector<T> vector_of(const python::object& list, Read read) {
     return result;
 }
 
-/// contact.* from {"theta": "0.5", ...}: checked like those of a case file, defaults filled in.
+/// contact.* from {"theta": "0.5", ...}, checked like those of a case file, with defaults filled
+/// in.
 Settings checked_settings(const python::dict& options) {
     CaseEntries entries;
     const python::list items = options.items();
@@ -53,7 +54,7 @@ Settings checked_settings(const python::dict& options) {
     for (const CaseProblem& problem : entries.problems)
         if (problem.key.rfind("contact.", 0) == 0) ours.push_back(problem);
     if (!ours.empty()) throw CaseRefused(ours);
-    // The keys' units in SI: m/s, m, N.
+    // The units of the keys in SI: m/s, m, N.
     for (const char* unit : {"run.velocity_scale", "run.diameter", "run.grain_weight"})
         settings.set(unit, 1.0);
     return settings;
@@ -74,7 +75,7 @@ ShapeRecord shape_of(const python::object& record) {
     return {field<std::string>(record, "kind"), numbers(record["vertices"])};
 }
 
-/// Place and normal are seen from the body's position, in its axes.
+/// Position and normal are relative to the body's position, in its axes.
 nscd::Wall wall_of(const python::object& record) {
     nscd::Wall wall;
     wall.point = triple(record["point"]);
@@ -109,7 +110,7 @@ Turn turn_of(const python::object& rotation) {
              python::extract<double>(rotation[2]), python::extract<double>(rotation[3])}};
 }
 
-/// What turbidite_contact/scene.py makes of YADE's bodies.
+/// Converts the description of YADE's bodies made by turbidite_contact/scene.py.
 Layout layout_of(const python::object& scene) {
     Layout layout;
     layout.shapes = vector_of<ShapeRecord>(scene["shapes"], shape_of);
@@ -140,7 +141,7 @@ std::vector<Vec3> triples(const python::object& list) {
     return vector_of<Vec3>(list, triple);
 }
 
-/// Throws std::invalid_argument naming the vertex at fault.
+/// Throws std::invalid_argument naming the invalid vertex.
 void check_outline(const python::object& vertices) {
     normalised_outline(numbers(vertices));
 }
@@ -158,7 +159,7 @@ class ContactEngine {
         return report_dict(host_.step(dt, {triples(forces), triples(torques)}));
     }
 
-    /// (first, second, depth, share of the smaller radius), or None.
+    /// (first, second, depth, depth over the smaller radius), or None.
     python::object overlap() const {
         const auto pair = host_.overlap();
         if (!pair) return {};

@@ -130,7 +130,7 @@ void ContactHost::take_loads(const Loads& loads) {
     bodies.torque = loads.torque.empty() ? std::vector<Vec3>(bodies.size()) : loads.torque;
 }
 
-/// Finite, and no centre behind a half-plane.
+/// Throws unless all motions are finite and no centre is behind a half-plane.
 void ContactHost::check_bodies(const char* when) const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {

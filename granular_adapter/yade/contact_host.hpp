@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The contact engine over YADE's bodies, for a script of its own: no coupling, no MPI. Before each
-// contact problem motions and loads are read from YADE, after the move motions are written back, so
-// that whatever a script does to a body in between counts. YADE's body ids are the engine's grain
-// ids and the keys of its walls. The engine's plane is z = 0, wherever YADE's bodies lie.
+// The contact engine acting on YADE's bodies in a user's own script: no coupling, no MPI. Motions
+// and loads are read from YADE before each contact problem, and motions are written back after the
+// move, so that whatever a script does to a body in between takes effect. YADE's body ids are the
+// engine's grain ids and the keys of its walls. The engine's plane is z = 0, wherever YADE's bodies
+// lie.
 #pragma once
 
 #include <memory>
@@ -19,33 +20,33 @@
 
 namespace turbidite::yade {
 
-/// What a scene holds, in the engine's terms.
+/// The contents of a scene, in the engine's terms.
 struct Layout {
     ShapeTable shapes;
     std::vector<double> frictions;   ///< mu by material of bodies and walls
-    std::vector<nscd::Body> bodies;  ///< motions are read from `states`
-    BodyStates states;               ///< of `bodies`, in their order
-    std::vector<Turn> turns;         ///< the same
+    std::vector<nscd::Body> bodies;  ///< their motions are read from `states`
+    BodyStates states;               ///< of `bodies`, in the same order
+    std::vector<Turn> turns;         ///< of `bodies`, in the same order
     HostedWalls walls;
     nscd::PeriodicBox box;
     SceneWatch watch;
 };
 
-/// Forces and torques that a script put on bodies (O.forces), in the order of the layout's bodies;
-/// empty: none [N, N m].
+/// Forces and torques applied by a script (O.forces), in the order of the layout's bodies; empty if
+/// there are none [N, N m].
 struct Loads {
     std::vector<Vec3> force;
     std::vector<Vec3> torque;
 };
 
-/// Force of one contact point, on `second`.
+/// Force at one contact point, acting on `second`.
 struct ContactForce {
-    GrainId first = 0;  ///< body, or the wall's key
+    GrainId first = 0;  ///< body id, or the key of a wall
     GrainId second = 0;
-    bool wall = false;              ///< `first` is a wall
+    bool wall = false;              ///< whether `first` is a wall
     Vec3 point{};                   ///< [m]
     Vec3 normal{};                  ///< unit, from first to second
-    double gap = 0.0;               ///< negative: overlap [m]
+    double gap = 0.0;               ///< gap, negative for an overlap [m]
     double normal_force = 0.0;      ///< J_n/dt [N]
     double tangential_force = 0.0;  ///< J_t/dt along e_z x normal [N]
     double rolling_moment = 0.0;    ///< [N m]
@@ -53,30 +54,32 @@ struct ContactForce {
 
 class ContactHost {
  public:
-    /// `settings.surfaces` has one entry; materials of the scene have its values and their own
-    /// friction. Throws std::invalid_argument like nscd::Engine.
+    /// `settings.surfaces` has one entry; materials of the scene have its values, with their own
+    /// friction. Throws std::invalid_argument as nscd::Engine does.
     explicit ContactHost(const nscd::EngineSettings& settings);
 
-    /// Takes this scene from now on; what contacts of known pairs remember is kept.
+    /// Replaces the scene; the contact memory of known pairs is kept.
     void lay_out(Layout layout);
 
-    /// Whether the scene, of `count` bodies, is no longer the one laid out.
+    /// Whether the scene, which has `count` bodies, has changed since it was laid out.
     bool outdated(std::size_t count) const { return watch_.changed(count, states_); }
 
-    /// Reads motions, solves the contacts, moves, writes motions. Throws std::runtime_error naming
-    /// a body whose motion is not finite or whose centre is behind a wall.
+    /// Reads motions, solves the contacts, moves the bodies, writes motions. Throws
+    /// std::runtime_error naming a body whose motion is not finite or whose centre is behind a
+    /// wall.
     nscd::StepReport step(double dt, const Loads& loads);
 
     const nscd::Engine& engine() const { return *engine_; }
 
-    /// Of the scene as it was laid out.
+    /// Largest overlap in the scene as it was laid out.
     std::optional<Overlap> overlap() const;
 
-    /// Impulses and states of the contacts, for the next process; walls are YADE's to keep.
+    /// Impulses and states of the contacts, for a new process, without the walls, which YADE
+    /// stores.
     std::vector<char> memory() const;
     void restore_memory(const std::vector<char>& bytes);
 
-    /// Of the last step, those with a force.
+    /// Contact points of the last step with a force.
     std::vector<ContactForce> contacts() const;
 
  private:
@@ -92,7 +95,7 @@ class ContactHost {
     BodyStates states_;
     std::vector<Turn> turns_;
     HostedWalls walls_;
-    std::vector<double> heights_;  ///< z in YADE
+    std::vector<double> heights_;  ///< z of the bodies in YADE
     SceneWatch watch_;
     std::vector<Vec3> solved_positions_;  ///< at which the last contacts were solved
     double last_step_ = 0.0;

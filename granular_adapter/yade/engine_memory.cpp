@@ -6,7 +6,7 @@
 namespace turbidite::yade {
 namespace {
 
-/// Takes an engine's walls away for a while.
+/// Removes the walls from an engine during its lifetime.
 class WithoutWalls {
  public:
     explicit WithoutWalls(nscd::Engine& engine)

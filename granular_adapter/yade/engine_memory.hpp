@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What contacts remember, without the engine's walls: those are YADE's bodies, and their number may
-// change while contacts live on.
+// The contact memory of an engine without its walls: these are bodies of YADE, and their number may
+// change while contacts persist.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace turbidite::yade {
 
 std::vector<char> contact_memory(nscd::Engine& engine);
 
-/// Throws std::invalid_argument on anything but what contact_memory gave.
+/// Throws std::invalid_argument for anything not written by contact_memory.
 void restore_contact_memory(nscd::Engine& engine, const std::vector<char>& bytes);
 
 }  // namespace turbidite::yade

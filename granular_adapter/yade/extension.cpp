@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Python module `turbidite_yade`: what a YADE script sees of the participant.
+// Python module `turbidite_yade`: the participant as a YADE script sees it.
 #include <boost/python.hpp>
 #include <memory>
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 
 namespace python = boost::python;
 
-// The text of the Python exception that is set, which thereby is handled.
+// Fetches and clears the present Python error; returns its text.
 std::string take_python_error() {
     PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
     PyErr_Fetch(&type, &value, &trace);
@@ -29,7 +29,7 @@ std::string take_python_error() {
     return python::extract<std::string>(python::str("").join(lines));
 }
 
-// Of the exception that is being handled and none of C++'s own.
+// Text of the exception being handled, if it is one of Python and not of C++.
 std::string python_text() {
     try {
         throw;
@@ -40,7 +40,7 @@ std::string python_text() {
     }
 }
 
-/// The contact engine with YADE's bodies.
+/// The contact engine with YADE's bodies, for Participant.
 struct ContactEngine {
     ContactEngine(const std::string& run_folder, python::object scene, const std::string& version)
         : adapter(std::move(scene), version) {
@@ -49,7 +49,7 @@ struct ContactEngine {
     YadeAdapter adapter;
 };
 
-/// YADE's own engines.
+/// YADE's own engines, for Participant.
 struct MolecularDynamics {
     MolecularDynamics(const std::string&, python::object scene, const std::string& version)
         : host(std::move(scene), version), adapter("yade-md", host) {}
@@ -57,12 +57,12 @@ struct MolecularDynamics {
     MdAdapter adapter;
 };
 
-/// One YADE process in the job; `Code` has an adapter.
+/// One YADE process of the job; `Code` contains the adapter.
 template <class Code>
 class Participant {
  public:
-    /// `communicator`: handle of mpy's communicator. Output goes to RUN/logs/grains.log from here
-    /// on.
+    /// `communicator`: handle of mpy's communicator. From here on, output goes to
+    /// RUN/logs/grains.log.
     Participant(const std::string& run_folder, std::uintptr_t communicator, python::object scene,
                 const std::string& yade_version)
         : code_(run_folder, std::move(scene), yade_version),
@@ -79,7 +79,7 @@ class Participant {
     }
     int leave() { return membership_.leave(session_->outcome()); }
 
-    /// What contacts remember, as bytes.
+    /// The contact memory as bytes.
     python::object contacts() {
         const std::vector<char> bytes = code_.adapter.contacts();
         return python::object(python::handle<>(
@@ -87,7 +87,7 @@ class Participant {
     }
 
  private:
-    // What a session throws is no matter for Python, whose exit would hang: it ends the job.
+    // Errors of a session are not passed to Python, whose exit would hang: they end the job.
     template <class Action>
     bool answered(Action action) {
         try {

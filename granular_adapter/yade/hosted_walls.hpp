@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE's walls and facets as walls of the engine. Where they are and how they move is read from
-// their states before every step; those that move are moved after it, as YADE's integrator would.
+// YADE's walls and facets as walls of the engine. Their positions and velocities are read from
+// their states before every step; moving walls are advanced after it, as YADE's integrator would
+// do.
 #pragma once
 
 #include <string>
@@ -12,19 +13,19 @@
 
 namespace turbidite::yade {
 
-/// A wall in the axes of its body: key, material, half length, and place and normal seen from the
-/// body's position.
+/// A wall in the axes of its body: key, material, half length, and position and normal relative to
+/// the body's position.
 class HostedWalls {
  public:
     HostedWalls() = default;
-    /// `states` of the bodies that `walls` belong to, in their order.
+    /// `states`: those of the bodies of `walls`, in the same order.
     HostedWalls(std::vector<nscd::Wall> walls, BodyStates states)
         : local_(std::move(walls)), states_(std::move(states)) {}
 
-    /// As they are in YADE now.
+    /// The walls at their present positions in YADE.
     std::vector<nscd::Wall> read() const;
 
-    /// Moves those that have a velocity or spin.
+    /// Moves the walls that have a velocity or spin, over dt [s].
     void advance(double dt) const;
 
  private:

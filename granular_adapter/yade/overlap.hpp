@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bodies that lie in each other before the first step. The engine takes overlap back slowly; much
-// of it is a mistake of the packing.
+// Bodies that overlap before the first step. The engine removes overlap slowly; a large one is an
+// error in the packing.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,12 @@ namespace turbidite::yade {
 struct Overlap {
     GrainId first = 0;
     GrainId second = 0;
-    double depth = 0.0;  ///< least displacement that parts them [m]
-    double share = 0.0;  ///< of the smaller circumscribed radius
+    double depth = 0.0;  ///< smallest displacement that separates them [m]
+    double share = 0.0;  ///< depth over the smaller circumscribed radius
 };
 
-/// The pair with the largest share; none when no two overlap. Pairs of fixed bodies do not count.
+/// The pair with the largest relative depth; none if no two bodies overlap. Pairs of fixed bodies
+/// are ignored.
 std::optional<Overlap> largest_overlap(const nscd::Bodies& bodies, const ShapeTable& shapes,
                                        const nscd::PeriodicBox& box);
 

@@ -9,7 +9,7 @@ namespace python = boost::python;
 
 namespace {
 
-/// -1 once YADE has erased the body.
+/// -1 if YADE has erased the body.
 long id_of(const python::object& body) {
     static PyObject* const name = PyUnicode_InternFromString("id");
     const python::handle<> id(PyObject_GetAttr(body.ptr(), name));

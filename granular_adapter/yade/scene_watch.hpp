@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a scene is still the one that was laid out: bodies added or erased, masses, moments or
-// blocked degrees of freedom changed.
+// Detects changes of a scene since it was laid out: bodies added or erased, and changed masses,
+// moments of inertia or blocked degrees of freedom.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -15,11 +15,11 @@ class SceneWatch {
  public:
     SceneWatch() = default;
 
-    /// `count`: len(O.bodies); `bodies`: all of them; `states` of those that are bodies of the
-    /// engine. Remembers how they are now.
+    /// `count`: len(O.bodies); `bodies`: all of them; `states`: those of the engine's bodies.
+    /// Records their present values.
     SceneWatch(std::size_t count, const boost::python::object& bodies, const BodyStates& states);
 
-    /// With len(O.bodies) now and the same `states`.
+    /// Compares with the present len(O.bodies) and the same `states`.
     bool changed(std::size_t count, const BodyStates& states) const;
 
  private:

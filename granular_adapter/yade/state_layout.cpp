@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How YADE's State lies in memory, found out instead of believed: YADE packages no headers, and
-// their numbers would depend on flags of its build. A state is given values through attributes and
-// looked at in place, then the other way round; only if all bits agree are states read in place.
+// Determines by experiment how YADE's State lies in memory: YADE packages no headers, and the
+// layout would depend on the flags of its build. A state is set through attributes and read in
+// place, then the other way round; states are accessed in place only if all bits agree.
 #include <boost/python.hpp>
 #include <cstring>
 
@@ -14,13 +14,13 @@ namespace python = boost::python;
 
 namespace {
 
-// In doubles from the references that YADE gives.
+// Distances in doubles from the references given by YADE.
 constexpr int position_before_velocity = 7;
 constexpr int orientation_before_velocity = 4;  // x, y, z, w
 constexpr int mass_behind_velocity = 3;
 constexpr int blocked_behind_inertia = 10;
 
-/// Different in every place; the quaternion is a unit one.
+/// Different in every component; the quaternion is a unit quaternion.
 BodyMotion sample(double sign) {
     return {{1.5 * sign, -2.25, 3.125},
             {0.1, 0.5 * sign, -0.7, 0.5},

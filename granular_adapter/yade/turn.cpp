@@ -21,7 +21,7 @@ bool is_identity(const Quaternion& q) {
     return q == Quaternion{1.0, 0.0, 0.0, 0.0};
 }
 
-/// The part about z; what is left is rounding of YADE's principal axes.
+/// The rotation about z; the rest is rounding of YADE's principal axes.
 Quaternion about_z(const Quaternion& q) {
     if (q[1] == 0.0 && q[2] == 0.0) return q;
     const double length = std::hypot(q[0], q[3]);

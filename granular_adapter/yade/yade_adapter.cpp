@@ -22,7 +22,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Rotations (w, x, y, z), None for discs.
+/// Rotations (w, x, y, z); None for discs.
 std::vector<Turn> turns_of(const python::object& list) {
     std::vector<Turn> turns(static_cast<std::size_t>(python::len(list)));
     for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -38,7 +38,7 @@ bool is_plate(const nscd::Wall& wall) {
     return std::isfinite(wall.half_length);
 }
 
-/// Half lengths of the walls inside the box.
+/// Half lengths of the walls inside the box [m].
 python::list plate_list(const std::vector<nscd::Wall>& walls) {
     python::list list;
     for (const nscd::Wall& wall : walls)
@@ -46,7 +46,7 @@ python::list plate_list(const std::vector<nscd::Wall>& walls) {
     return list;
 }
 
-/// Of a plate that lay along x.
+/// Motion of a plate whose reference position is along x.
 BodyMotion plate_motion(const nscd::Wall& wall) {
     const double half_angle = 0.5 * std::atan2(-wall.normal[0], wall.normal[1]);
     return {wall.point,
@@ -55,7 +55,7 @@ BodyMotion plate_motion(const nscd::Wall& wall) {
             {0.0, 0.0, wall.spin}};
 }
 
-/// Of a side of the box: YADE's wall stands at the coordinate along its axis.
+/// Motion of a side of the box: YADE's wall lies at the coordinate along its axis.
 BodyMotion side_motion(const nscd::Wall& wall) {
     const int axis = std::abs(wall.normal[0]) > 0.5 ? 0 : 1;
     Vec3 place{};

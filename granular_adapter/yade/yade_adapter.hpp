@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The contact engine with its bodies in YADE: before each contact problem positions and velocities
-// are read from YADE's bodies, after the move they are written back. Whatever a user's script does
-// to a body in between counts.
+// The contact engine with its bodies in YADE: positions and velocities are read from YADE's bodies
+// before each contact problem and written back after the move. Whatever a user's script does to a
+// body in between takes effect.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -16,15 +16,15 @@ namespace turbidite::yade {
 
 class YadeAdapter final : public GrainsAdapter {
  public:
-    /// `scene` is the Python object that builds and erases YADE's bodies: create(settings, grains)
-    /// returns their states and their turns (turn.hpp; None for discs), erase(ids) removes bodies
-    /// by grain id, side_states() and create_plates(half lengths) return the states of walls of the
-    /// box and inside it. complete() is called when all stand where they belong,
-    /// begin_window(index, moved) before each contact solve with the id of a grain that somebody
-    /// else has moved, or None.
+    /// `scene` is the Python object that creates and erases YADE's bodies. create(settings, grains)
+    /// returns their states and turns (turn.hpp; None for discs); erase(ids) removes bodies by
+    /// grain id; side_states() and create_plates(half lengths) return the states of the walls of
+    /// the box and inside it. complete() is called when all bodies are in place;
+    /// begin_window(index, moved) before each contact solve, with the id of a grain that was moved
+    /// by others, or None.
     YadeAdapter(boost::python::object scene, std::string yade_version);
 
-    /// Where contact.dump_interval writes; before initialise().
+    /// Folder for contact.dump_interval; to be set before initialise().
     void set_run_folder(const std::string& folder) { engine_.set_run_folder(folder); }
 
     Hello describe() const override { return engine_.describe(); }
@@ -35,7 +35,7 @@ class YadeAdapter final : public GrainsAdapter {
     SavedState save() const override { return engine_.save(); }
     void restore(const SavedState& state) override;
 
-    /// What contacts remember, for scenes that YADE saves.
+    /// Contact memory, for scenes saved by YADE.
     std::vector<char> contacts();
 
  private:
@@ -46,8 +46,8 @@ class YadeAdapter final : public GrainsAdapter {
     boost::python::object scene_;
     NscdAdapter engine_;
     BodyExchange exchange_;
-    BodyStates sides_;   ///< walls of the box, for YADE's eyes
-    BodyStates plates_;  ///< walls inside it
+    BodyStates sides_;   ///< walls of the box in YADE, for display and recorders
+    BodyStates plates_;  ///< walls inside the box in YADE
 };
 
 }  // namespace turbidite::yade

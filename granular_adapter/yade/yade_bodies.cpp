@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE registers converters for its Eigen types with Boost.Python; the registry is shared by the
+// YADE registers converters for its Eigen types with Boost.Python, whose registry is shared by the
 // whole process.
 #include "granular_adapter/yade/yade_bodies.hpp"
 
@@ -25,7 +25,7 @@ void set_vector(python::object state, const char* name, const std::array<double,
     state.attr(name) = Vector3(v[0], v[1], v[2]);
 }
 
-/// The numbers behind an attribute that YADE gives as a reference; null when it gives a copy.
+/// The numbers behind an attribute that YADE returns by reference; null if it returns a copy.
 double* reference(const python::object& state, const char* name) {
     const python::object first = state.attr(name), second = state.attr(name);
     Vector3& a = python::extract<Vector3&>(first);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE's bodies seen from C++ as plain numbers. Eigen types of YADE's build stay behind this
-// border: a header shared by code with other Eigen settings would read shifted members without any
-// error.
+// YADE's bodies as plain numbers. No header exposes the Eigen types of YADE's build: in code with
+// other Eigen settings their members would be read at wrong offsets without any error.
 //
-// YADE's attributes `vel`, `angVel` and `inertia` of a state are references into it. Where those of
-// a fresh state and the values around them are found as expected (position and orientation before
-// the velocity, mass behind it; state_layout.cpp), states are read and written in place, some
-// twenty times as fast; otherwise attribute by attribute.
+// YADE's attributes `vel`, `angVel` and `inertia` of a state are references into it. If a new state
+// has the expected values around them (position and orientation before the velocity, mass after it;
+// state_layout.cpp), states are read and written in place, about twenty times as fast; otherwise
+// attribute by attribute.
 #pragma once
 
 #include <array>
@@ -18,7 +17,7 @@
 
 namespace turbidite::yade {
 
-/// One body's motion; orientation as w, x, y, z.
+/// Motion of one body; orientation as (w, x, y, z).
 struct BodyMotion {
     std::array<double, 3> position{};
     std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};
@@ -28,7 +27,7 @@ struct BodyMotion {
     bool operator==(const BodyMotion&) const = default;
 };
 
-/// What of a state is no motion. `blocked`: bit 0 to 5 for x, y, z, X, Y, Z.
+/// The other properties of a state. `blocked`: bits 0 to 5 for x, y, z, X, Y, Z.
 struct BodyInertia {
     double mass = 0.0;
     std::array<double, 3> inertia{};
@@ -37,15 +36,15 @@ struct BodyInertia {
     bool operator==(const BodyInertia&) const = default;
 };
 
-/// Where a YADE state keeps its numbers; null: not known.
+/// Addresses of the numbers in a YADE state; null if unknown.
 struct StatePlaces {
     double* velocity =
-        nullptr;  ///< before it position (3) and orientation (x, y, z, w); behind: mass
+        nullptr;  ///< before it position (3) and orientation (x, y, z, w); after it the mass
     double* spin = nullptr;
-    double* inertia = nullptr;  ///< ten doubles further: the blocked degrees of freedom
+    double* inertia = nullptr;  ///< ten doubles after it: the blocked degrees of freedom
 };
 
-/// `states` are YADE's `Body.state` objects, in the engine's order.
+/// `states`: YADE's `Body.state` objects, in the engine's order.
 class BodyStates {
  public:
     BodyStates() = default;
@@ -56,25 +55,25 @@ class BodyStates {
     void write(std::size_t i, const BodyMotion& motion) const;
     BodyInertia inertia(std::size_t i) const;
 
-    /// Forgets the states whose entry is zero.
+    /// Drops the states whose entry is zero.
     void keep(const std::vector<std::uint8_t>& mask);
 
  private:
     std::vector<boost::python::object> states_;
-    std::vector<StatePlaces> places_;  ///< empty: by attributes
+    std::vector<StatePlaces> places_;  ///< empty: access by attributes
 };
 
-/// The attributes of one state, by name.
+/// Reads one state by its attributes.
 BodyMotion read_attributes(const boost::python::object& state);
 void write_attributes(boost::python::object state, const BodyMotion& motion);
 BodyInertia inertia_attributes(const boost::python::object& state);
 
-/// In place; the places must be known.
+/// Reads one state in place; its addresses must be known.
 BodyMotion read_places(const StatePlaces& places);
 void write_places(const StatePlaces& places, const BodyMotion& motion);
 BodyInertia inertia_places(const StatePlaces& places);
 
-/// Whether states of this YADE are laid out as StatePlaces says, found out on a state of our own.
+/// Whether this YADE's states have the layout of StatePlaces; tested on a state created for this.
 bool places_are_known();
 StatePlaces places_of(const boost::python::object& state);
 

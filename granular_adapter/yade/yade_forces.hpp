@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE's force container (O.forces) seen from C++ as plain numbers; see yade_bodies.hpp for why.
+// YADE's force container (O.forces) as plain numbers, for the reason given in yade_bodies.hpp.
 #pragma once
 
 #include <array>
@@ -12,12 +12,13 @@ class Forces {
  public:
     explicit Forces(boost::python::object container);
 
-    /// Permanent force and torque of a body, which YADE adds in every step until they are set
-    /// again.
+    /// Sets the permanent force and torque of a body, which YADE applies in every step until they
+    /// are set again [N], [N m].
     void load(int body, const std::array<double, 3>& force,
               const std::array<double, 3>& torque) const;
 
-    /// What acted on a body in the last step, permanent ones included, gravity not [N], [N m].
+    /// Force and torque on a body in the last step, including permanent ones, without gravity [N],
+    /// [N m].
     std::array<double, 3> force(int body) const;
     std::array<double, 3> torque(int body) const;
 

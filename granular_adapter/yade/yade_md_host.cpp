@@ -19,8 +19,8 @@ using nscd::operator*;
 
 namespace {
 
-// Overlaps are looked for this often while two grains bounce: the deepest point of a damped bounce
-// is missed by 6 % at most.
+// Number of probes for overlaps while two grains collide; the maximum overlap of a damped collision
+// is underestimated by 6 % at most.
 constexpr double probes_per_contact = 4.0;
 
 python::list list_of(const std::vector<int>& ids) {
@@ -117,8 +117,8 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
     return report;
 }
 
-/// YADE's contacts one by one: (body, grain or wall; body, grain; sliding; overlap, point, normal,
-/// force on the second body).
+/// YADE's contacts: (body, grain or wall; body, grain; sliding; overlap, point, normal, force on
+/// the second body).
 std::vector<ContactRecord> YadeMdHost::touching(double window) const {
     using nscd::operator-;
     const python::object list = scene_.attr("touching")();

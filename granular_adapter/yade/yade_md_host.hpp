@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // YADE's own engines as a host of molecular dynamics: spheres with the mass and inertia of discs,
-// held in the plane, ViscElMat contacts (linear spring and dashpot, no attraction, Coulomb),
-// NewtonIntegrator without numerical damping. The scene is the Python object that has them
-// (md_scene.py); forces and motion are read here.
+// restricted to the plane, ViscElMat contacts (linear spring and dashpot, no attraction, Coulomb
+// friction), NewtonIntegrator without numerical damping. The Python object `scene` (md_scene.py)
+// contains them; forces and motions are read here.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -19,8 +19,9 @@ namespace turbidite::yade {
 class YadeMdHost final : public MdHost {
  public:
     /// `scene` has create(settings, grains), which returns body ids; states(bodies); erase(bodies);
-    /// complete(), called when all are there; begin_window(), before the sub-steps of each; step(),
-    /// one sub-step; contacts(); touching(); deepest_overlap(); save() and restore(bytes).
+    /// complete(), called when all bodies exist; begin_window(), called before the sub-steps of
+    /// each window; step(), one sub-step; contacts(); touching(); deepest_overlap(); save() and
+    /// restore(bytes).
     YadeMdHost(boost::python::object scene, std::string yade_version);
 
     std::string code() const override { return "YADE " + version_; }
@@ -41,12 +42,12 @@ class YadeMdHost final : public MdHost {
 
     boost::python::object scene_;
     std::string version_;
-    std::vector<int> ids_;  ///< of YADE's bodies, in the order of the grains
+    std::vector<int> ids_;  ///< ids of YADE's bodies, in the order of the grains
     BodyExchange exchange_;
     std::vector<double> radii_;
     std::vector<Border> borders_;
-    std::int64_t stride_ = 1;  ///< sub-steps from one look at overlaps to the next
-    bool loaded_ = false;      ///< YADE holds forces from an earlier window
+    std::int64_t stride_ = 1;  ///< sub-steps between two probes for overlaps
+    bool loaded_ = false;      ///< YADE still holds forces of an earlier window
 };
 
 }  // namespace turbidite::yade
