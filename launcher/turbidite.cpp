@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite COMMAND: the commands are one table; every one is a file command_*.cpp.
+// turbidite COMMAND: the commands are a table, one file command_*.cpp each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ int act(const CommandAction& action) {
     }
 }
 
-/// Empty when the first word names a command or is an option.
+/// Empty if the first word is a command or an option.
 std::string unknown_command(int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return "";
     std::vector<std::string> names;

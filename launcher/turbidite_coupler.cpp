@@ -18,7 +18,8 @@ namespace {
 
 using namespace turbidite;
 
-// Starting a host code takes seconds; two minutes of silence mean that it never will [s].
+// Starting a host code takes seconds; after two minutes of silence it is assumed to have failed
+// [s].
 constexpr double start_limit = 120.0;
 
 struct Meeting {
@@ -56,7 +57,7 @@ RunStatus couple(const std::string& directory) {
     return hub.run();
 }
 
-// A hub that ran has written its own record, and knows more.
+// If the hub has run, it has written its own, more complete record.
 void record_failure(const std::string& directory, ExitCode code, const std::string& reason) {
     const auto record = RunFolder{directory}.record();
     if (!std::filesystem::exists(record) || has_verdict(record)) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A YAML document as a flat list of entries `contact.friction = 0.3` with the line each came from.
-// Groups may be nested or written with points.
+// A YAML document as a flat list of entries `contact.friction = 0.3`, each with its line. Groups
+// may be nested or written with points.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace turbidite {
 
-/// Entries of the file, with those of the overrides (`key=value`) in place of the file's.
+/// Entries of the file, replaced by those of the overrides (`key=value`).
 CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides);
 

@@ -32,8 +32,8 @@
 namespace turbidite {
 namespace {
 
-// The run folder holds a copy of the grains; the resolved case names that one, so that it can be
-// moved to another machine with its folder.
+// The run folder contains a copy of the grains, and the resolved case names this copy, so that the
+// folder can be moved to another machine.
 constexpr auto copied_grains = "grains/initial.csv";
 constexpr auto copied_walls = "grains/walls.csv";
 
@@ -48,7 +48,7 @@ struct Population {
     std::vector<std::string> notes;
 };
 
-/// Grains that are there already: those of a run folder, or of another run.
+/// Existing grains: those of a run folder, or of another run.
 struct EarlierStart {
     EarlierRun run;
     EarlierCase earlier;
@@ -143,7 +143,7 @@ Population grains_from_file(const std::filesystem::path& file, const Settings& s
     }
     PopulationFile read = read_population_csv(file, forms, material_names(settings));
     for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
-    if (!read.problems.empty()) return {};  // places that could not be read would be judged as 0
+    if (!read.problems.empty()) return {};  // unreadable positions would be checked as 0
     return {std::move(read.grains), std::move(read.source), {}};
 }
 
@@ -167,7 +167,8 @@ void refuse_grain(const Population& population, std::size_t i, const std::string
          .remedy = remedy});
 }
 
-/// What the fluid or the adapter cannot do with a grain; the first of each kind is named.
+/// Properties of a grain that the fluid or the adapter does not support; the first of each kind is
+/// named.
 void check_abilities(const Population& population, const Settings& settings,
                      const GrainForms& forms, CaseEntries& entries) {
     if (!settings.has("grains.adapter") || !settings.has("fluid.enabled")) return;
@@ -217,7 +218,7 @@ Population grains_of(const EarlierStart& start, const Settings& settings, const 
     return {std::move(read.grains), {read.source, {}}, std::move(notes)};
 }
 
-/// They are in the run folder, and the case's own grains are not asked for.
+/// They are in the run folder; the grains of the case itself are not read.
 void name_grains_file(CaseEntries& entries) {
     CaseEntry entry;
     entry.source = "--from";
@@ -230,7 +231,7 @@ void name_grains_file(CaseEntries& entries) {
     list.push_back(entry);
 }
 
-/// A packing that was computed overlaps by what its run allowed.
+/// A computed packing overlaps by what its run allowed.
 void accept_overlaps(Settings& settings) {
     if (!settings.has("limits.penetration") || !settings.has("grains.overlap")) return;
     settings.set("grains.overlap",
@@ -244,7 +245,7 @@ void set_materials(Settings& settings) {
     settings.set("run.materials", names);
 }
 
-// A region that was refused would only be refused again, grain by grain.
+// A refused region would only be refused again, grain by grain.
 bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
     const CaseEntry* entry = entries.find("grains.region");
     if (entry == nullptr || entry->is_null) return false;
@@ -254,7 +255,7 @@ bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
     return region->width > box.width || region->height > box.height;
 }
 
-/// Grains of the given file, else of grains.file, else generated. Needs a valid box.
+/// Grains from the given file, else from grains.file, else generated. Needs a valid box.
 Population make_population(Settings& settings, const GrainForms& forms, CaseEntries& entries,
                            const std::filesystem::path& folder, const GivenGrains& given) {
     for (const char* key : {"domain.size", "domain.left", "domain.right", "domain.bottom",
@@ -263,7 +264,7 @@ Population make_population(Settings& settings, const GrainForms& forms, CaseEntr
         if (!settings.has(key)) return {};
     if (region_is_refused(settings, entries)) return {};
     const bool from_file = given.earlier || !given.file.empty() || settings.has("grains.file");
-    // A valid count is missing: the generator has nothing to go by.
+    // The generator needs a valid count.
     const bool uncounted =
         settings.text("grains.generator") == "random" && !settings.has("grains.count");
     if (!from_file && uncounted) return {};
@@ -279,7 +280,7 @@ Population make_population(Settings& settings, const GrainForms& forms, CaseEntr
     return population;
 }
 
-/// The forms, unless the keys that they follow from were refused.
+/// The forms, unless the keys that define them were refused.
 std::optional<GrainForms> forms_of(const Settings& settings) {
     const bool polygon = settings.has("grains.shape") && settings.text("grains.shape") == "polygon";
     if (!settings.has("grains.shape") || (polygon && !settings.has("grains.vertices")))
@@ -308,7 +309,7 @@ std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
     return std::move(read.walls);
 }
 
-/// The text of grains.script. The run folder holds a copy of it under its own name.
+/// The text of grains.script. The run folder contains a copy under the same name.
 std::string users_script(Settings& settings, const std::filesystem::path& folder,
                          CaseEntries& entries) {
     if (!settings.has("grains.script")) return {};
@@ -353,14 +354,14 @@ double height_of(const Packing& grains) {
     return height;
 }
 
-/// The order of a window, decided here once for all programs.
+/// The coupling scheme, resolved here once for all programs.
 void set_scheme(Settings& settings) {
     const SchemeEntry& scheme = find_scheme(scheme_name(settings));
     settings.set("run.scheme", std::string(scheme.name));
     settings.set("run.slip_tolerance", scheme.slip_tolerance(settings));
 }
 
-/// What molecular dynamics takes its contacts and sub-steps from.
+/// The contact parameters and sub-steps of molecular dynamics.
 void set_soft_contact(Settings& settings, const Packing& grains) {
     if (grains_adapter(settings).family != "md") return;
     const SoftContact contact = soft_contact(settings, height_of(grains));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// From a case file (YAML) to the resolved case: every key with its value, defaults filled in, the
-// grains placed, the run's physical values. Anything wrong is collected and thrown together
+// From a case file (YAML) to the resolved case: every key with its value, including defaults, the
+// placed grains, and the physical values of the run. All problems are collected and thrown together
 // (CaseRefused, exit code 2).
 #pragma once
 
@@ -24,20 +24,21 @@ struct ResolvedCase {
     ShapeTable shapes;                   ///< GrainState::shape indexes it
     Packing packing;                     ///< the same grains in D
     std::string grains_csv;              ///< the same grains as a grains file
-    std::string walls_csv;               ///< walls inside the box; empty when there are none
-    std::string script;                  ///< text of grains.script; empty when there is none
+    std::string walls_csv;               ///< walls inside the box; empty if there are none
+    std::string script;                  ///< text of grains.script; empty if there is none
     std::string yaml;                    ///< resolved case; loads to itself
-    std::vector<std::string> notes;      ///< what the user should know, one sentence each
+    std::vector<std::string> notes;      ///< notes for the user, one sentence each
     Scales scales;
 };
 
-/// Overrides are the arguments of --set, `key=value` with the value in YAML; `from` is that of
-/// --from, DIR[@time], whose grains take the place of the case's.
+/// Overrides are the arguments of --set, `key=value` with the value in YAML; `from` is the argument
+/// of --from, DIR[@time], whose grains replace those of the case.
 ResolvedCase load_case(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {},
                        const std::string& from = "");
 
-/// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: what `turbidite run` prepared.
+/// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: the folder prepared by `turbidite
+/// run`.
 ResolvedCase load_run_folder(const std::filesystem::path& folder);
 
 }  // namespace turbidite

@@ -17,7 +17,7 @@ bool has_all(const Settings& settings, const Rule& rule) {
                        [&](const char* key) { return settings.has(key); });
 }
 
-/// Why a key has no effect; empty when it has.
+/// Why a key has no effect; empty if it has one.
 std::string idle_reason(const KeySpec& key, const Settings& settings) {
     const GrainsAdapter& adapter = grains_adapter(settings);
     if (!key.family.empty() && key.family != adapter.family)
@@ -25,7 +25,7 @@ std::string idle_reason(const KeySpec& key, const Settings& settings) {
     return key.idle ? key.idle(settings) : "";
 }
 
-/// The case of a run folder: it says nothing about what its author meant.
+/// The case of a run folder contains every key, so it does not show which ones the author has set.
 bool is_resolved(const CaseEntries& entries) {
     const KeyTable& table = key_table();
     return std::all_of(table.begin(), table.end(), [&](const KeySpec& key) {

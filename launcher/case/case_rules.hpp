@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What several keys must satisfy together. Each rule names the keys it reads and is tried only when
-// all of them have a valid value.
+// Rules that several keys must satisfy together. Each rule names the keys it reads and is checked
+// only if all of them have a valid value.
 #pragma once
 
 #include <vector>
@@ -12,15 +12,15 @@
 
 namespace turbidite {
 
-/// Appends to entries.problems what is wrong with the value of a key.
+/// Appends a problem with the value of a key to entries.problems.
 void object(const std::string& key, const Objection& objection, const Settings& settings,
             CaseEntries& entries);
 
 /// Problems are appended to entries.problems.
 void check_rules(const Settings& settings, CaseEntries& entries);
 
-/// Sentences for the user about a valid case, e.g. an end that is no whole number of windows, and
-/// the keys of `entries` that have no effect in it.
+/// Notes for the user about a valid case, e.g. an end that is not a whole number of windows, and
+/// the keys of `entries` that have no effect.
 std::vector<std::string> rule_notes(const Settings& settings, const CaseEntries& entries);
 
 }  // namespace turbidite

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A table of a case as CSV: a line of column names, then one line per row; blank lines and lines
-// that begin with # are passed over. Knows which columns there may be, not what they mean.
+// that begin with # are skipped. Knows which columns are allowed, not what they mean.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@
 namespace turbidite {
 
 struct CsvForm {
-    std::vector<std::string> columns;   ///< all that are known
-    std::vector<std::string> required;  ///< those that must be there
-    std::string sentence;               ///< what the first line must read
+    std::vector<std::string> columns;   ///< all known columns
+    std::vector<std::string> required;  ///< the mandatory ones
+    std::string sentence;               ///< the required form of the first line, in words
     std::string rows;                   ///< what a row is, in the singular: "grain"
 };
 
@@ -31,12 +31,12 @@ struct CsvTable {
     std::vector<Row> rows;
     std::vector<CaseProblem> problems;
 
-    /// Adds a problem that belongs to a line; 0: to none.
+    /// Adds a problem in a line; 0: in no particular line.
     void refuse(int line, const std::string& fault, const std::string& allowed,
                 const std::string& remedy);
 };
 
-/// Rows are complete wherever there is no problem.
+/// Rows are complete if there is no problem.
 CsvTable read_csv(const std::filesystem::path& file, const CsvForm& form);
 
 /// A finite number, or nothing and a problem.

@@ -38,7 +38,7 @@ struct Output {
     std::string file;
 };
 
-/// The points of every output, in order.
+/// The grains of every output, in order.
 std::vector<Output> outputs_of(const std::filesystem::path& series) {
     static const std::regex entry(R"rx(timestep="([^"]*)" part="0" file="([^"]*)")rx");
     const std::string text = whole_text(series);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The shapes that grains of a case may have: `grains.shape`, which is form 0, and for grains files
-// every other known one. `polygon` is among them when `grains.vertices` says what it is.
+// all other known shapes. `polygon` is among them if `grains.vertices` defines it.
 #pragma once
 
 #include <string>
@@ -17,14 +17,14 @@ namespace turbidite {
 struct GrainForm {
     ShapeRecord record;
     std::vector<Point2> outline;  ///< unit circumradius; empty for round ones
-    double radius = 0.5;          ///< circumscribed, where a file gives none [D]
+    double radius = 0.5;          ///< circumscribed, unless a file gives one [D]
 };
 
 struct GrainForms {
     std::vector<GrainForm> forms;
-    std::vector<std::string> notes;  ///< what was done to `grains.vertices`
+    std::vector<std::string> notes;  ///< changes made to `grains.vertices`
 
-    /// -1 when there is none.
+    /// -1 if there is none.
     std::int32_t index_of(const std::string& kind) const;
 };
 
@@ -36,13 +36,13 @@ GrainForms plain_discs();
 /// disc (Topin 2011, section 2.3).
 GrainForms make_grain_forms(const Settings& settings);
 
-/// What is wrong with `grains.vertices`, empty when all is well.
+/// The problem with `grains.vertices`; empty if there is none.
 std::string outline_fault(const std::vector<double>& vertices);
 
-/// A grain at its place, [D].
+/// A grain in position [D].
 PlacedOutline placed_outline(const PlacedGrain& grain, const GrainForms& forms);
 
-/// Leaves out forms that no grain has and renumbers the grains' shapes.
+/// Removes forms that no grain has and renumbers the grains' shapes.
 ShapeTable used_shapes(Packing& grains, const GrainForms& forms);
 
 }  // namespace turbidite

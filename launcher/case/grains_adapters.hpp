@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The programs that move the grains, and what each can do: the one table that the keys, the rules
-// and the launch line read. A new one is its own program or script, and an entry of
+// The programs that move the grains and their capabilities: the single table read by keys, rules
+// and the launch line. A new adapter is its own program or script, and an entry of
 // grains_adapter_table.def.
 #pragma once
 
@@ -12,21 +12,21 @@
 
 namespace turbidite {
 
-/// Who runs the adapter's file.
+/// What runs the adapter's file.
 enum class GrainsHost {
-    none,  ///< it is a program, BUILD/bin/FILE
+    none,  ///< it is a program itself, BUILD/bin/FILE
     yade,  ///< YADE runs the script BUILD/lib/yade/FILE
 };
 
 struct GrainsAdapter {
     std::string name;    ///< grains.adapter
     std::string help;    ///< one line
-    std::string family;  ///< of keys that mean something to it: "nscd" or "md"
+    std::string family;  ///< of keys that apply to it: "nscd" or "md"
     GrainsHost host = GrainsHost::none;
-    std::string file = {};                  ///< empty: of a later version
+    std::string file = {};                  ///< empty: planned for a later version
     std::vector<std::string> shapes = {};   ///< grains.shape
     std::vector<std::string> schemes = {};  ///< coupling.scheme
-    std::vector<std::string> laws = {};     ///< contact.law; empty: every one
+    std::vector<std::string> laws = {};     ///< contact.law; empty: all
     bool adhesion_and_rolling = false;      ///< contact.adhesion, contact.rolling_friction
     bool cyclic_sides = false;
     bool inner_walls = false;        ///< domain.walls_file
@@ -42,11 +42,11 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
 /// The entries of grains_adapter_table.def.
 const std::vector<GrainsAdapter>& grains_adapters();
 
-/// That of grains.adapter. Throws Failure (bad input) for a name that is not there or has no
+/// The adapter of grains.adapter. Throws Failure (bad input) for a name that is unknown or has no
 /// program in this version.
 const GrainsAdapter& grains_adapter(const Settings& settings);
 
-/// "yade-nscd or standalone-nscd": those that can do something.
+/// The adapters with a capability, as text: "yade-nscd or standalone-nscd".
 std::string adapters_that(bool (*can)(const GrainsAdapter&));
 
 }  // namespace turbidite

@@ -26,7 +26,7 @@ const CsvForm& csv_form() {
     return form;
 }
 
-/// The number that a column stands for.
+/// The member that a column sets.
 double* number_of(InnerWall& wall, const std::string& column) {
     const std::map<std::string, double*> numbers = {
         {"x1", &wall.from[0]}, {"y1", &wall.from[1]},     {"x2", &wall.to[0]},
@@ -67,7 +67,7 @@ InnerWall wall_of(CsvTable& table, const CsvTable::Row& row) {
     return wall;
 }
 
-/// Columns that mean something only together.
+/// Columns that are valid only together.
 void check_together(CsvTable& table, const char* one, const char* other) {
     const auto& columns = table.columns;
     const auto has = [&](const char* name) {

@@ -7,7 +7,7 @@
 // Each is a thin plate from (x1, y1) to (x2, y2) that holds grains on both sides. It follows a
 // prescribed motion: its pivot moves at (vx, vy), and it turns about the pivot. Lengths in D,
 // velocities in u_c, spin in 1/t_c; at rest, pivot in the middle and contact.friction unless given.
-// A plate that moves along itself and is long enough is a belt. Other motions are described below
+// A long plate that moves along itself acts as a belt. Other motions are defined below
 // domain.motions and named in the column motion.
 #pragma once
 
@@ -37,10 +37,10 @@ struct InnerWalls {
 };
 InnerWalls read_walls_csv(const std::filesystem::path& file);
 
-/// Every column; reads back to the same walls.
+/// Writes every column; reading it back gives the same walls.
 std::string walls_csv(const std::vector<InnerWall>& walls);
 
-/// Grains that a plate cuts at the start by more than `tolerance` [D].
+/// Reports grains that a plate cuts at the start by more than `tolerance` [D].
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
                                      const GrainForms& forms, const std::string& source,
                                      double tolerance = touching_tolerance);

@@ -9,7 +9,7 @@
 namespace turbidite {
 namespace {
 
-/// Behind the last key of the same group.
+/// The position after the last key of the same group.
 void insert_in_group(KeyTable& table, const KeySpec& key) {
     const auto last = std::find_if(table.rbegin(), table.rend(), [&](const KeySpec& other) {
         return group_of(other.name) == group_of(key.name);

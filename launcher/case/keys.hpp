@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Every key of a case file, registered once (keys/, granular_adapter/contact_keys). Parser,
-// validator, `turbidite keys`, the reference (docs/case-reference.md) and the resolved case are
-// made from this table.
+// validator, `turbidite keys`, the reference (docs/case-reference.md) and the resolved case use
+// this table.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace turbidite {
 
 const std::vector<KeyGroup>& key_groups();
 
-/// The keys of all groups; those whose names begin alike stand together.
+/// The keys of all groups; keys with the same prefix are consecutive.
 const KeyTable& key_table();
 
-/// nullptr when there is no such key.
+/// nullptr if there is no such key.
 const KeySpec* find_key(const std::string& name);
 
 }  // namespace turbidite

@@ -37,8 +37,8 @@ struct Stretch {
     double strain = 0.0;
 };
 
-/// What `jitter` needs along an axis, or the part of it that `box` has room for behind the last
-/// centre. Opposite sides that are joined keep their distance: nothing.
+/// The stretch that `jitter` needs along an axis, or as much of it as `box` has room for beyond the
+/// last centre; none along a periodic axis.
 Stretch stretch_along(double jitter, double last, double box, bool periodic) {
     const double strain = std::min(2.0 * std::numbers::sqrt2 * jitter, compacity_for_jitter / 2.0);
     const double needed = 2.0 * jitter + strain * (last - 0.5);
@@ -47,7 +47,7 @@ Stretch stretch_along(double jitter, double last, double box, bool periodic) {
     return {part * jitter, part * strain};
 }
 
-/// Returns the compacity over that before.
+/// Returns the ratio of the compacity to that before.
 double make_room(Packing& grains, const PackingRequest& request) {
     double right = 0.5, top = 0.5;
     for (const PlacedGrain& grain : grains) {
@@ -83,7 +83,7 @@ bool displace(NeighbourGrid& grid, std::size_t index, double dx, double dy,
     return false;
 }
 
-// The grains of the lattice are one note, since room and movement explain each other.
+// A single note about the grains of the lattice, since stretch and displacements belong together.
 void shake_lattice(PackingResult& result, const PackingRequest& request, double compacity) {
     const double left = make_room(result.grains, request);
     PackingResult shaken;
@@ -138,7 +138,8 @@ PackingResult lattice_packing(const PackingRequest& request) {
 }
 
 std::int64_t shake(Packing& grains, const PackingRequest& request, const PackingRegion& limits) {
-    // A stream of its own, so that displacements do not repeat the numbers that placed the grains.
+    // A separate random stream, so that displacements do not repeat the numbers that placed the
+    // grains.
     RandomNumbers random(request.seed ^ 0x9e3779b97f4a7c15u);
     NeighbourGrid grid(request.box, largest_radius(grains), 0.0, request.forms);
     for (const PlacedGrain& grain : grains) grid.insert(grain);

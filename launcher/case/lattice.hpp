@@ -8,10 +8,11 @@
 // Fill of a W x H region: row k at y = 1/2 + k height while y + 1/2 <= H; x from 1/2 (odd rows
 // 1/2 + a/2) while x + 1/2 <= W. 25 x 50 gives 1,397 grains (densest) to 1,190 (loosest).
 //
-// Rows touch, so with a jitter j the filled lattice is first stretched: two grains that each move
-// by up to j along x and y come closer by up to 2 sqrt(2) j, which a stretch by 1 + 2 sqrt(2) j
-// makes room for. It costs 4 sqrt(2) j of the compacity and no grain; at most 1 % of it, and no
-// more than the box has room for, is given.
+// A row is a horizontal line of grains. Rows touch, so with a jitter j the filled lattice is first
+// stretched: two grains that each move by up to j along x and y approach each other by up to
+// 2 sqrt(2) j, for which a stretch by 1 + 2 sqrt(2) j makes room. It reduces the compacity by
+// 4 sqrt(2) j and the number of grains not at all; it is limited to 1 % of the compacity and to the
+// room in the box.
 #pragma once
 
 #include "launcher/case/packing.hpp"
@@ -25,19 +26,19 @@ double densest_compacity();
 /// Spacing a that gives the compacity [D]; the argument lies between the two bounds.
 double lattice_spacing(double compacity);
 
-/// Most of the compacity that a jitter may cost, as a fraction of it.
+/// Largest relative loss of compacity by a jitter.
 inline constexpr double compacity_for_jitter = 0.01;
 
 /// Values within 1e-3 outside the bounds are clamped with a note, others refused. A jitter
-/// stretches the lattice (see above), which the note tells with the compacity that is left.
+/// stretches the lattice (see above); a note states the resulting compacity.
 PackingResult lattice_packing(const PackingRequest& request);
 
 /// Displaces each grain by up to `jitter` along x and y; a displacement that would make grains
-/// overlap or leave `limits` is halved until it fits, and dropped in the end. Returns how many
+/// overlap or leave `limits` is halved until it fits, and finally dropped. Returns how many grains
 /// moved.
 std::int64_t shake(Packing& grains, const PackingRequest& request, const PackingRegion& limits);
 
-/// The same within the box, when there is a jitter; a note when grains had no room.
+/// The same within the box, if there is a jitter; adds a note if grains had no room.
 void apply_jitter(PackingResult& result, const PackingRequest& request);
 
 }  // namespace turbidite

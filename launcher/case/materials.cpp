@@ -15,7 +15,7 @@ namespace {
 constexpr const char* material_prefix = "contact.materials.";
 constexpr const char* pair_prefix = "contact.pairs.";
 
-/// The word behind a prefix: "steel" of "contact.materials.steel.friction".
+/// The word after a prefix: "steel" in "contact.materials.steel.friction".
 std::string word_behind(const std::string& prefix, const std::string& key) {
     if (key.rfind(prefix, 0) != 0) return "";
     return key.substr(prefix.size(), key.find('.', prefix.size()) - prefix.size());
@@ -40,7 +40,7 @@ std::optional<Objection> unknown_material(const std::string& pair,
     return std::nullopt;
 }
 
-/// Of a material or a pair, with what it does not say taken from contact.*.
+/// The surface of a material or a pair; values it does not give are those of contact.*.
 std::optional<Objection> unfit(const Settings& s, const std::string& group) {
     const double sliding = given(s, group + ".friction", fallback(s, "friction"));
     const double sticking = given(s, group + ".static_friction", fallback(s, "static_friction"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The materials of a case: "default", which has the coefficients of contact.*, and those that
-// contact.materials names.
+// The materials of a case: "default", which has the coefficients of contact.*, and those defined by
+// contact.materials.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace turbidite {
 
-/// "default", then the others by name; a grain's material is an index of it.
+/// "default", then the others by name; a grain's material is an index into this list.
 std::vector<std::string> material_names(const Settings& settings);
 
-/// Pairs of materials that are not there, coefficients that do not fit together, an adapter that
-/// has one material. Problems are appended to entries.problems.
+/// Checks for pairs of unknown materials, inconsistent coefficients, and adapters with a single
+/// material. Problems are appended to entries.problems.
 void check_materials(const Settings& settings, CaseEntries& entries);
 
 }  // namespace turbidite

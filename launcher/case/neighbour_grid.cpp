@@ -9,7 +9,7 @@
 namespace turbidite {
 namespace {
 
-// Beyond this a finer grid gains nothing and a huge empty box would fill the memory.
+// Beyond this number a finer grid gains nothing, and a huge empty box would fill the memory.
 constexpr double most_cells_per_side = 4096.0;
 
 std::size_t cells_along(double length, double cell) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Square cells over the box, one grain per centre, so that the neighbours of a grain are found in
-// the nine cells around it: cells are at least as wide as the largest distance at which two grains
-// matter, 2 R_max + reach. Grains of any size and form; periodic directions use the nearest image.
+// Square cells over the box that hold the grains by their centres. The neighbours of a grain are in
+// the nine cells around it: cells are at least as wide as the largest relevant distance of two
+// centres, 2 R_max + reach. Grains may have any size and form; periodic directions use the nearest
+// image.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ namespace turbidite {
 
 class NeighbourGrid {
  public:
-    /// `reach` is the largest gap that will be asked about [D]. Grains are discs unless their forms
-    /// are given, which must live as long.
+    /// `reach` is the largest gap of interest [D]. Grains are discs unless their forms are given,
+    /// which must outlive the grid.
     NeighbourGrid(const PackingBox& box, double largest_radius, double reach,
                   const GrainForms* forms = nullptr);
 
@@ -30,10 +31,11 @@ class NeighbourGrid {
     /// Surface distance between two grains, negative when they overlap [D].
     double gap(const PlacedGrain& one, const PlacedGrain& other) const;
 
-    /// Indices of the grains in the nine cells around a place, each once, ascending.
+    /// Indices of the grains in the nine cells around a point, each once, ascending.
     std::vector<std::size_t> near(double x, double y) const;
 
-    /// No grain but number `except` is closer than `smallest_gap` to the surface of `grain`.
+    /// True if no grain except number `except` is closer than `smallest_gap` to the surface of
+    /// `grain`.
     bool is_free(const PlacedGrain& grain, double smallest_gap,
                  std::size_t except = static_cast<std::size_t>(-1)) const;
 

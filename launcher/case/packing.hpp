@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where the grains are at t = 0, in units of the grain diameter D.
+// Positions of the grains at t = 0, in units of the grain diameter D.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ struct PlacedGrain {
     double angle = 0.0;                  ///< counter-clockwise [rad]
     double vx = 0.0, vy = 0.0;           ///< [u_c]
     double spin = 0.0;                   ///< [1/t_c]
-    std::optional<double> density = {};  ///< over the fluid's; grains.density_ratio unless given
+    std::optional<double> density = {};  ///< ratio to rho_f; grains.density_ratio unless given
     std::int32_t material = 0;           ///< index of material_names
     bool prescribed = false;             ///< keeps its velocity and spin: fixed or driven
 };
 using Packing = std::vector<PlacedGrain>;
 
-/// The box of the grains; a periodic direction has its opposite sides joined.
+/// The box of the grains.
 struct PackingBox {
     double width = 0.0;   ///< [D]
     double height = 0.0;  ///< [D]
@@ -45,12 +45,12 @@ struct PackingRegion {
 
 struct PackingRequest {
     PackingBox box;
-    std::optional<PackingRegion> region = {};  ///< what is filled; the whole box unless given
+    std::optional<PackingRegion> region = {};  ///< region to fill; the whole box unless given
     double compacity = 0.0;  ///< lattice: solid area fraction of the infinite lattice
     std::int64_t count = 0;  ///< random: number of grains
     double jitter = 0.0;     ///< largest displacement along x and along y [D]
     std::uint64_t seed = 1;
-    const GrainForms* forms = nullptr;  ///< form 0 is placed; discs of radius 0.5 unless given
+    const GrainForms* forms = nullptr;  ///< form 0 is used; discs of radius 0.5 unless given
     double size_ratio = 1.0;            ///< random: largest radius over the smallest
 
     PackingRegion filled() const { return region ? *region : PackingRegion{box.width, box.height}; }
@@ -59,14 +59,14 @@ struct PackingRequest {
 /// 0.5 for none [D].
 double largest_radius(const Packing& grains);
 
-/// A packing, remarks for the user, or the reason why there is none.
+/// A packing with notes for the user, or the reason for a refusal.
 struct PackingResult {
     Packing grains;
     std::vector<std::string> notes;
-    std::string refusal;  ///< empty when all is well
+    std::string refusal;  ///< empty if there is none
 };
 
-/// Every generator there is, by the name used in `grains.generator`.
+/// All generators, by the name used in `grains.generator`.
 struct GeneratorEntry {
     std::string name;
     std::string help;
@@ -74,8 +74,8 @@ struct GeneratorEntry {
 };
 const std::vector<GeneratorEntry>& generator_list();
 
-/// Grains as close as this count as touching, not overlapping [D]: far above rounding, far below
-/// what a contact solver sees.
+/// Overlaps up to this count as touching [D]: far above rounding, far below what matters to a
+/// contact solver.
 inline constexpr double touching_tolerance = 1e-9;
 
 }  // namespace turbidite

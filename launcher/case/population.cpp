@@ -12,10 +12,10 @@
 namespace turbidite {
 namespace {
 
-// A packing that is wrong everywhere should not scroll the first error away.
+// A packing with errors everywhere should not scroll the first one off the screen.
 constexpr std::size_t most_problems_of_a_kind = 10;
 
-/// What the words of a grains file mean.
+/// The meaning of the words in a grains file.
 struct FileWords {
     const GrainForms& forms;
     const std::vector<std::string>& materials;
@@ -126,7 +126,7 @@ PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const FileWords&
     return grain;
 }
 
-/// Adds to a list up to a number; `finish` says how many were left out.
+/// Adds problems up to a largest number; `finish` reports how many were left out.
 class Collector {
  public:
     Collector(std::vector<CaseProblem>& problems, const PopulationSource& source)
@@ -180,7 +180,7 @@ void check_densities(const Packing& grains, Collector problems) {
 
 struct Side {
     const char* name;
-    double excess;  // how far beyond the side, >= 0 when outside [D]
+    double excess;  // distance beyond the side, >= 0 if outside [D]
 };
 
 Side worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSides& walls,
@@ -249,7 +249,7 @@ PopulationFile read_population_csv(const std::filesystem::path& file, const Grai
 
 namespace {
 
-/// Columns that are written only where a grain has something to say there.
+/// Columns that are written only if a grain has such a value.
 struct OptionalColumns {
     const char* header;
     bool (*needed)(const PlacedGrain&, const GrainForms&);

@@ -3,8 +3,8 @@
 // Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin][,density]
 // [,material][,motion]`, lengths in D, angles in rad, velocities in u_c, spin in 1/t_c;
 // `grains.shape` and its radius unless given; at rest, grains.density_ratio, material default,
-// free), and what must hold for any population: ids once, radii positive, nobody outside, nobody
-// overlapping, all by true shapes.
+// free), and the checks of any population: unique ids, positive radii, no grain outside, no
+// overlaps, all with the true shapes.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@
 
 namespace turbidite {
 
-/// `source` and `line(i)` say where grain i came from, in error texts.
+/// `source` and `line(i)` are the origin of grain i for error messages.
 struct PopulationSource {
     std::string name;        ///< file name; for generators, the case file
     std::vector<int> lines;  ///< line of each grain; empty for generators
@@ -33,12 +33,12 @@ PopulationFile read_population_csv(const std::filesystem::path& file,
                                    const GrainForms& forms = plain_discs(),
                                    const std::vector<std::string>& materials = {"default"});
 
-/// Numbers round-trip exactly. Columns beyond the radius only where a grain needs them. A density
-/// is given for all grains or for none.
+/// Numbers round-trip exactly. Columns beyond the radius are written only if a grain needs them;
+/// the density for all grains or none.
 std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs(),
                            const std::vector<std::string>& materials = {"default"});
 
-/// A side that is a wall keeps the whole grain inside; of the others the centre must be inside.
+/// At a wall the whole grain must be inside, at other sides its centre.
 struct SolidSides {
     bool left = true, right = true, bottom = true, top = true;
 };

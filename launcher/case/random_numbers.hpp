@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Random numbers that are the same with every standard library: the 64-bit Mersenne twister is
-// fixed by the standard, the distributions of <random> are not, so the mapping is made here.
+// Random numbers that are the same with every standard library: the standard fixes the 64-bit
+// Mersenne twister but not the distributions of <random>, so the mapping is done here.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ namespace turbidite {
 namespace {
 
 constexpr std::array gaps{0.1, 0.05, 0.02, 0.005, 0.0};  // [D] tried in this order
-constexpr double least_gap = 0.005;                      // of grains that are no unit discs
+constexpr double least_gap = 0.005;                      // for grains other than unit discs
 constexpr int attempts_per_grain = 500;
 constexpr int shaking_sweeps = 100;
 constexpr double shaking_distance = 0.2;  // [D]
@@ -50,7 +50,7 @@ std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& ran
     return radii;
 }
 
-// Walls take the gap as well, so that no grain starts in touch with anything.
+// The gap applies to walls as well, so that no grain is in contact at the start.
 PlacedGrain random_place(const PackingRegion& region, double edge, RandomNumbers& random) {
     return {.x = random.uniform(edge, region.width - edge),
             .y = random.uniform(edge, region.height - edge)};
@@ -72,7 +72,7 @@ bool add_one(NeighbourGrid& grid, const PackingRequest& request, double radius, 
     return false;
 }
 
-/// Empty when the grains did not fit with this gap.
+/// Empty if the grains did not fit with this gap.
 Packing add_one_by_one(const PackingRequest& request, double gap) {
     RandomNumbers random(request.seed);
     const std::vector<double> radii = draw_radii(request, random);
@@ -89,7 +89,7 @@ Packing lattice_of(const PackingRequest& request, double compacity) {
     return lattice_packing(plain).grains;
 }
 
-/// The loosest of a few lattices that has enough sites; empty when even the densest has not.
+/// The loosest of a few lattices that has enough sites; empty if even the densest has too few.
 Packing enough_sites(const PackingRequest& request) {
     constexpr int steps = 32;
     const double low = loosest_compacity();

@@ -2,13 +2,13 @@
 //
 // A given number of grains of one form without overlap, placed at random in the region. Polygons
 // lie at random angles. With a size ratio q the radii are uniform between 2 R/(1 + q) and
-// 2 R q/(1 + q), R the form's own, so that their mean stays R; large grains are placed first.
+// 2 R q/(1 + q), R the radius of the form, so that their mean is R; large grains are placed first.
 //
-// Random sequential addition with a smallest gap of 0.1 D, taken smaller step by step (never below
-// 0) when the grains do not fit; it saturates at a solid fraction of about 0.547. Denser requests
-// take random sites of the loosest lattice that has enough of them and shake the grains by
-// hard-disc Monte Carlo moves. That is for equal discs of diameter D; others keep a gap of 0.005 D
-// or more, of their true surfaces, and are refused when they do not fit.
+// Random sequential addition with a minimum gap of 0.1 D, reduced step by step to 0 if the grains
+// do not fit; it saturates at a solid fraction of about 0.547. For denser packings, grains are put
+// on random sites of the loosest lattice that has enough of them and moved by hard-disc Monte
+// Carlo. This applies to equal discs of diameter D; others keep a gap of at least 0.005 D between
+// their true surfaces, and are refused if they do not fit.
 #pragma once
 
 #include "launcher/case/packing.hpp"

@@ -31,7 +31,7 @@ std::string line_of(const KeySpec& key, const std::string& full_name, const Sett
     return fmt::format("{}: {}{}\n", name, value_text(key, full_name, settings), unit);
 }
 
-/// Of a key with words of the user's in its name all that were given, otherwise the key itself.
+/// For a key with a placeholder in its name, all keys given for it; otherwise the key itself.
 std::vector<std::string> names_of(const KeySpec& key, const Settings& settings) {
     if (!has_words(key)) return {key.name};
     std::vector<std::string> names;
@@ -40,7 +40,7 @@ std::vector<std::string> names_of(const KeySpec& key, const Settings& settings) 
     return names;
 }
 
-// `~` is no value for keys that need one only in other circumstances, so they are left out.
+// Keys without a value (`~`) that are required only in other cases are left out.
 bool is_written(const KeySpec& key, const Settings& settings) {
     if (!key.available) return false;
     return settings.has(key.name) || key.need == Need::optional;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every path of a run folder, named once.
+// All paths of a run folder.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,8 @@ struct RunFolder {
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
 
-    /// Its existence asks the coupler to play one more window, write it, and end the run. Its text
-    /// is the exit code to end with, 130 or 143.
+    /// If this file exists, the coupler completes and writes one more window and ends the run. Its
+    /// text is the exit code, 130 or 143.
     std::filesystem::path stop() const { return root / "STOP"; }
 };
 

@@ -81,8 +81,7 @@ void set_run_values(Settings& settings, const Scales& scales) {
     settings.set("run.velocity_scale", scales.velocity);
     settings.set("run.time_scale", scales.time);
     settings.set("run.gravity", scales.gravity);
-    // m g of a disc of diameter D, per unit length, in air: what forces of contact laws are given
-    // in.
+    // m g of a disc of diameter D in air, per unit length: the unit of forces in contact laws.
     settings.set("run.grain_weight", std::numbers::pi / 4.0 * scales.diameter * scales.diameter *
                                          settings.real("grains.density_ratio") *
                                          scales.fluid_density * scales.gravity);

@@ -24,8 +24,8 @@ struct Scales {
     double time = 1.0;           ///< t_c [s]
     double gravity = 1.0;        ///< g along -y [m/s2]
     double fluid_density = 1.0;  ///< rho_f, the unit of density even in dry cases [kg/m3]
-    double viscosity = 0.0;      ///< nu [m2/s]; 0 in dry cases that give none
-    double reynolds = 0.0;       ///< u_c D / nu; 0 in dry cases that give none
+    double viscosity = 0.0;      ///< nu [m2/s]; 0 in dry cases without one
+    double reynolds = 0.0;       ///< u_c D / nu; 0 in dry cases without one
 };
 
 /// Eq. 21 with the diameter, gravity, density ratio and compacity given.

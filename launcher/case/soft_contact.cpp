@@ -36,7 +36,7 @@ double deepest_of(double damping) {
 
 namespace {
 
-// Of u_c and of a fall from the top.
+// Factors of u_c and of the speed of a fall from the top.
 constexpr double wet_speed = 2.0, dry_speed = 2.0;
 
 /// [m/s]

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The convection schemes of OpenFOAM 1912, and what forward Euler (step 2) makes of them. Where a
+// The convection schemes of OpenFOAM 1912, and their stability with forward Euler (step 2). Where a
 // scheme is linear interpolation, a wave of small wave number k grows by 1 + (u k dt)2/2 in a step
 // and viscosity takes 1 - nu k2 dt of it:
 //
 //     dt <= 2 nu/u2
 //
-// Without an upwind part nothing else damps it. A limiter that never leaves the range of the
-// neighbours keeps the solution bounded at any dt within u dt <= h.
+// Without an upwind part there is no other damping. A limiter that stays within the range of the
+// neighbours keeps the solution bounded for any dt with u dt <= h.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ enum class SchemeKind {
     central,   ///< grows without bound beyond the limit
     biased,    ///< upwind part or loose limiter: grows too, but slowly or far beyond the limit
     limited,   ///< stays bounded
-    by_field,  ///< depends on other schemes or fields; nothing is claimed
+    by_field,  ///< depends on other schemes or fields; unknown
 };
 
 struct TransportScheme {
@@ -30,11 +30,11 @@ struct TransportScheme {
 
 const std::vector<TransportScheme>& transport_scheme_list();
 
-/// What fluid.transport_scheme says: "[bounded] Gauss NAME ...".
+/// A parsed fluid.transport_scheme: "[bounded] Gauss NAME ...".
 struct SchemeChoice {
-    const TransportScheme* scheme = nullptr;  ///< null where it makes no sense
-    std::string fault;                        ///< then: why
-    std::string remedy;                       ///< and: with the nearest that does
+    const TransportScheme* scheme = nullptr;  ///< null if it is invalid
+    std::string fault;                        ///< why it is invalid
+    std::string remedy;                       ///< what to do, with the nearest valid scheme
 };
 SchemeChoice read_transport_scheme(const std::string& text);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Motions that walls follow, described below domain.motions and named by a side of the box
-// (domain.left_motion) or a wall inside it (column motion). What they mean is said in
+// Prescribed motions of walls, defined below domain.motions and named by a side of the box
+// (domain.left_motion) or a wall inside it (column motion). Their definition is in
 // granular_adapter/grains/wall_motions.hpp.
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace turbidite {
 
-/// Motions that say too little or too much, sides that cannot follow one, walls inside the box that
-/// name one that is not there. Problems are appended to entries.problems.
+/// Checks for incomplete or contradictory motions, sides that cannot move, and walls inside the box
+/// that name an unknown motion. Problems are appended to entries.problems.
 void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
                    CaseEntries& entries);
 

@@ -7,7 +7,7 @@
 
 namespace turbidite {
 
-/// A few lines on what a valid case is: grains, box, mesh, windows, scales, notes.
+/// A short summary of a valid case: grains, box, mesh, windows, scales, notes.
 std::string case_summary(const ResolvedCase& resolved);
 
 }  // namespace turbidite

@@ -9,13 +9,13 @@
 
 namespace turbidite {
 
-/// Returns the exit code; throws Failure for what the user should read.
+/// Returns the exit code; throws Failure with a message for the user.
 using CommandAction = std::function<int()>;
 
 struct Command {
     std::string name;
     std::string help;
-    /// Declares the options; the action it returns is called after parsing.
+    /// Declares the options; the returned action is called after parsing.
     CommandAction (*declare)(CLI::App& options);
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite bench [NAME] [OPTIONS]: becomes turbidite-bench, which has the options (bench/).
+// turbidite bench [NAME] [OPTIONS]: executes turbidite-bench, which has the options (bench/).
 #include "launcher/commands/command.hpp"
 #include "launcher/job/hand_over.hpp"
 #include "launcher/job/programs.hpp"
@@ -17,7 +17,7 @@ namespace {
 }  // namespace
 
 CommandAction declare_bench(CLI::App& app) {
-    app.set_help_flag();  // --help goes through, like everything else
+    app.set_help_flag();  // --help is passed on, like everything else
     app.prefix_command();
     return [&app]() -> int { return run_bench(app.remaining()); };
 }

@@ -20,7 +20,8 @@ struct CompareOptions {
     bool each = false;
 };
 
-// The numbers go beside the page under its name, so the name must not be theirs.
+// The numbers are written beside the page under the same base name, so the page must not have their
+// ending.
 void require_page_name(const fs::path& page) {
     if (page.extension() == ".html") return;
     throw Failure(ExitCode::bad_input,

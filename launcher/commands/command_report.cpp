@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite report DIR: report.html from what a run folder holds.
+// turbidite report DIR: creates report.html from a run folder.
 #include <fmt/format.h>
 
 #include <memory>

@@ -13,7 +13,7 @@
 namespace turbidite {
 namespace {
 
-// Tests that start MPI jobs carry one of these labels.
+// Tests that start MPI jobs have one of these labels.
 constexpr auto slow_labels = "system|physics|protocol";
 
 int test(bool unit_only) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite yade SCRIPT: YADE with the contact engine in reach of its scripts (docs/yade.md).
+// turbidite yade SCRIPT: YADE with the contact engine available to its scripts (docs/yade.md).
 
 #include <cstdlib>
 #include <memory>
@@ -27,7 +27,7 @@ void show_packages_to_python(const std::string& folder) {
     setenv("PYTHONPATH", path.c_str(), 1);
 }
 
-// Without -x an error opens a prompt, and a script that nobody watches waits for ever.
+// Without -x an error opens a prompt, and an unattended script would wait forever.
 std::vector<std::string> command_line(const YadeOptions& options, const Programs& programs) {
     std::vector<std::string> line{programs.yade(), "-j", std::to_string(options.threads)};
     if (!options.interactive) line.insert(line.end(), {"-n", "-x"});
@@ -53,7 +53,7 @@ CommandAction declare_yade(CLI::App& app) {
         ->check(CLI::PositiveNumber);
     app.add_flag("--interactive", options->interactive,
                  "with YADE's prompt, and its 3-D view where there is a display");
-    app.prefix_command();  // what follows the script is the script's
+    app.prefix_command();  // arguments after the script belong to the script
     return [options, &app] {
         options->arguments = app.remaining();
         return run_yade(*options);

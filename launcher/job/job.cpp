@@ -28,7 +28,7 @@ sigset_t watched_signals() {
     return set;
 }
 
-/// Signals wait in a queue while the job runs, so none is lost between two looks at it.
+/// Signals are queued while the job runs, so none is lost between two checks.
 class BlockedSignals {
  public:
     BlockedSignals() : set_(watched_signals()) { sigprocmask(SIG_BLOCK, &set_, &old_); }
@@ -74,9 +74,9 @@ pid_t session_of(const std::filesystem::path& process) {
     return session;
 }
 
-// mpirun gives every rank a process group of its own, but they stay in its session.
+// mpirun gives every rank its own process group, but they stay in its session.
 void kill_session(pid_t session) {
-    std::error_code ignored;  // processes end while we look
+    std::error_code ignored;  // processes may end during the search
     for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
         const std::string name = entry.path().filename();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
@@ -84,7 +84,7 @@ void kill_session(pid_t session) {
     }
 }
 
-// Looks without collecting: until then the number of the session belongs to nobody else.
+// Checks without reaping the process: until then its session id cannot be reused.
 bool has_ended(pid_t child) {
     siginfo_t info{};
     return waitid(P_PID, child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
@@ -116,7 +116,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
         end_session(child, signals);
         break;
     }
-    kill_session(child);  // an mpirun that was killed leaves its ranks behind
+    kill_session(child);  // a killed mpirun leaves its ranks behind
     int status = 0;
     waitpid(child, &status, 0);
     end.status = code_of(status);

@@ -55,7 +55,7 @@ ExitCode signal_code(int signal) {
     return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
 }
 
-// mpirun passes on the exit code of the rank that ended first; of those only ours mean something.
+// mpirun returns the exit code of the rank that ended first; only our own codes have a meaning.
 ExitCode code_of_status(int status) {
     for (const ExitCode code :
          {ExitCode::handshake_refused, ExitCode::stalled, ExitCode::physics_refused})
@@ -68,7 +68,7 @@ std::string rank_name(const std::string& number, const std::vector<std::string>&
     return rank < ranks.size() ? ranks[rank] : "world rank " + number;
 }
 
-/// Which program ended first, as mpirun tells it; empty when it does not.
+/// Which program ended first according to mpirun; empty if unknown.
 std::string first_to_end(const std::filesystem::path& log, const std::vector<std::string>& ranks) {
     static const std::regex by_signal(R"(process rank (\d{1,9}) .* exited on signal (.*)\.)");
     static const std::regex process(R"(Process name: \[\[\d+,\d+\],(\d{1,9})\])");
@@ -87,7 +87,8 @@ std::string first_to_end(const std::filesystem::path& log, const std::vector<std
     return "";
 }
 
-/// What the coupler said last, for when the disk had no room for its record; empty without.
+/// The last line of the coupler's log, in case the disk was too full for its record; otherwise
+/// empty.
 std::string last_word(const std::filesystem::path& log) {
     const std::string sign = "turbidite: ";
     std::ifstream input(log);
@@ -111,7 +112,7 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
                         end.status)};
 }
 
-// A word that cannot be kept is still said.
+// A message that cannot be saved is still printed.
 void keep_outcome(const RunFolder& folder, nlohmann::ordered_json record, JobOutcome& outcome) {
     try {
         write_run_json(folder.record(), record);

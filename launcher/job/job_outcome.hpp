@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How a job ended: the coupler's word in run.json if there is one, else what mpirun's exit status
-// and the logs tell.
+// How a job ended: from the coupler's record in run.json if there is one, otherwise from mpirun's
+// exit status and the logs.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ struct JobOutcome {
     std::string error;  ///< empty when done
 };
 
-/// Completes run.json when the coupler left no word. `ranks` names the ranks of the world, for the
-/// one that mpirun says died.
+/// Completes run.json if the coupler left no record. `ranks` names the ranks of the world, to
+/// identify the one that mpirun reports as dead.
 JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks);
 
-/// What the user reads at the end.
+/// The message for the user at the end.
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome);
 
 /// The last lines of mpirun's log and of every program's.

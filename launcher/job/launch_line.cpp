@@ -20,7 +20,7 @@ std::filesystem::path grains_file(const GrainsAdapter& adapter, const Programs& 
     return (script ? programs.yade_folder() : programs.folder) / adapter.file;
 }
 
-// -x: a Python error ends the program instead of opening a prompt, at which the job would hang.
+// -x: a Python error ends the program instead of opening a prompt, where the job would hang.
 Arguments grains_command(const GrainsAdapter& adapter, const Programs& programs,
                          const std::string& run) {
     const std::string file = grains_file(adapter, programs);
@@ -73,7 +73,8 @@ LaunchSite this_site() {
             .python = python ? python : ""};
 }
 
-// Copying between processes through the kernel is forbidden in most containers; mpirun would warn.
+// Most containers forbid copying between processes through the kernel; mpirun would print a
+// warning.
 std::vector<std::string> mpirun_options(const LaunchSite& site) {
     Arguments options{"mpirun"};
     if (site.as_root) options.push_back("--allow-run-as-root");

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The mpirun line of a prepared run folder: what `turbidite run` starts and --dry-run prints.
+// The mpirun command line of a prepared run folder: started by `turbidite run`, printed by
+// --dry-run.
 //
 //     mpirun … -n 1 turbidite-coupler RUN : … -n F turbidite-fluid -case RUN/fluid : … -n G
 //     <grains>
 //
-// It carries all it needs: absolute paths, exported variables. Dry cases have no fluid part.
+// It is self-contained: absolute paths, exported variables. Dry cases have no fluid part.
 #pragma once
 
 #include <filesystem>
@@ -20,27 +21,27 @@ namespace turbidite {
 
 struct LaunchSite {
     Programs programs;
-    bool as_root = false;       ///< mpirun refuses root unless told
+    bool as_root = false;       ///< mpirun refuses to run as root without an option
     std::string openfoam = {};  ///< WM_PROJECT_DIR
-    std::string python = {};    ///< the user's own PYTHONPATH, kept behind ours
+    std::string python = {};    ///< the user's own PYTHONPATH, appended to ours
 };
 
 /// Of this machine and user.
 LaunchSite this_site();
 
-/// `mpirun` and what it needs on this site, before the first program.
+/// `mpirun` and the options it needs on this site, before the first program.
 std::vector<std::string> mpirun_options(const LaunchSite& site);
 
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
                                           const LaunchSite& site);
 
-/// Who a rank of the world is, by its number: "coupler", "fluid rank 0", …
+/// Name of a rank of the world: "coupler", "fluid rank 0", …
 std::vector<std::string> rank_names(const Settings& settings);
 
 /// Quoted where needed, to be pasted in a shell.
 std::string shell_line(const std::vector<std::string>& arguments);
 
-/// The programs that the line starts, to be looked for before the job.
+/// The programs that the line starts, to be checked for before the job.
 std::vector<std::filesystem::path> needed_programs(const Settings& settings,
                                                    const Programs& programs);
 

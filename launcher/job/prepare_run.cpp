@@ -30,8 +30,8 @@ bool is_plain(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
-// Two runs started within one second, even at the same time, get numbers: whoever creates the
-// folder has it.
+// Two runs started within one second, even at the same time, get different numbers: the one that
+// creates the folder owns it.
 fs::path fresh_folder(std::string case_name) {
     std::replace_if(
         case_name.begin(), case_name.end(), [](char c) { return !is_plain(c); }, '_');
@@ -51,7 +51,7 @@ bool is_run_folder(const RunFolder& folder) {
     return fs::exists(folder.resolved_case()) || fs::exists(folder.record());
 }
 
-// Only what a run writes, so that a mistyped --out --force costs nothing else.
+// Removes only what a run writes, so that a mistyped --out with --force deletes nothing else.
 void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
@@ -73,7 +73,7 @@ void write_text(const fs::path& file, const std::string& text) {
                       "cannot write " + file.string() + ": is the disk full?");
 }
 
-/// By the index that grains carry; corners as x, y of unit circumscribed radius.
+/// By the shape index of the grains; corners as x, y for unit circumscribed radius.
 nlohmann::ordered_json shape_table(const ShapeTable& shapes) {
     auto table = nlohmann::ordered_json::array();
     for (const ShapeRecord& shape : shapes)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where the programs and scripts of the job are: beside the running program in the build folder,
+// Locations of the programs and scripts of the job: beside the running program in the build folder;
 // those of the report in the source tree.
 #pragma once
 

@@ -10,15 +10,15 @@
 
 namespace turbidite {
 
-/// Failure (bad_input) that names a directory which is no run folder.
+/// Throws Failure (bad_input) naming a directory that is not a run folder.
 void require_run_folder(const std::filesystem::path& directory);
 
-/// Runs launcher/report/report.py; false when it failed, its words on stderr.
+/// Runs launcher/report/report.py; false if it failed, with its messages on stderr.
 bool write_report(const RunFolder& folder, const Programs& programs);
 
 /// Runs launcher/report/compare.py, which writes `page` and the numbers beside it; without `each`
-/// it averages runs that differ in the seed alone. Not done: bad_input when the runs cannot be
-/// compared, otherwise participant_failed; its words on stderr.
+/// it averages runs that differ only in the seed. On failure returns bad_input if the runs cannot
+/// be compared, otherwise participant_failed; its messages are on stderr.
 ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
                           bool each, const Programs& programs);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The program that moves the grains, and what the table of them says that it can do.
+// The program that moves the grains, and checks against its capabilities in the table of adapters.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ bool has(const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// "yade-md knows no WHAT."; the remedy names the adapters that do.
+/// "yade-md knows no WHAT."; the remedy names the adapters that support it.
 Objection unknown_to(const Settings& s, const std::string& what, bool (*can)(const GrainsAdapter&),
                      const std::string& first_remedy) {
     return {fmt::format("{} {}.", s.text("grains.adapter"), what),
@@ -85,7 +85,7 @@ Ruling rolling_is_known(const Settings& s) {
     return unknown_to(s, "has no rolling resistance: 0", adheres_and_rolls, "Use 0");
 }
 
-// The fluid's mesh knows the sides of the box only; soft-sphere adapters know no plates.
+// The fluid's mesh has only the sides of the box; soft-sphere adapters do not support plates.
 Ruling walls_have_an_engine(const Settings& s) {
     if (s.flag("fluid.enabled"))
         return Objection{"Walls inside the box are not seen by the fluid.",

@@ -7,7 +7,7 @@
 namespace turbidite {
 namespace {
 
-/// Those of hub/schemes that couple, and the one to come.
+/// The schemes of hub/schemes with a fluid, and one planned for later.
 std::vector<Choice> scheme_choices() {
     std::vector<Choice> choices;
     for (const SchemeEntry& scheme : scheme_list())

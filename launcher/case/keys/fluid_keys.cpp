@@ -17,7 +17,7 @@ bool needs_reynolds(const Settings& s) {
     return is(s, "fluid.enabled", "true") && !is(s, "scales.kind", "physical");
 }
 
-/// u_c D/nu, or nothing while the keys it follows from are not all valid.
+/// u_c D/nu, or nothing unless the keys it depends on are all valid.
 std::optional<double> reynolds_of(const Settings& s) {
     const bool physical = s.text("scales.kind") == "physical";
     const std::vector<const char*> needed =
@@ -37,12 +37,12 @@ Ruling scheme_is_known(const Settings& s) {
     return Objection{choice.fault, choice.remedy};
 }
 
-// Jets between grains that settle: a cloud under sedimentation-discs.yaml reaches these [u_c].
+// Speeds of jets between settling grains, as reached in sedimentation-discs.yaml [u_c].
 constexpr double usual_peak = 6.0;
 constexpr double highest_peak = 8.0;
 
-// Transport is cut into parts in which nothing crosses more than this share of a cell, up to so
-// many (fluid_adapter/box_step/transport_parts.hpp).
+// Transport is cut into parts with at most this Courant number, up to a largest number of parts
+// (fluid_adapter/box_step/transport_parts.hpp).
 constexpr double cells_per_part = 2.0 / 3.0;
 constexpr double most_parts = 1000.0;
 
@@ -60,9 +60,9 @@ Ruling transport_can_be_cut(const Settings& s) {
         "Use a smaller step or fewer cells."};
 }
 
-/// The largest stable step [t_c] of a scheme of this kind where the fluid moves at `peak` [u_c] and
-/// the case's step is above it: 2 nu/u2 (transport_schemes.hpp), for a part of a window. Where
-/// cells are so small that no part is above it, any step is stable.
+/// The largest stable step [t_c] of a scheme of this kind for a fluid speed of `peak` [u_c], if the
+/// step of the case exceeds it: 2 nu/u2 (transport_schemes.hpp), for a part of a window. If cells
+/// are so small that no part exceeds it, any step is stable.
 std::optional<double> step_limit_exceeded(const Settings& s, SchemeKind kind, double peak) {
     const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
     if (!s.flag("fluid.enabled") || !choice.scheme || choice.scheme->kind != kind)
@@ -86,8 +86,8 @@ Ruling scheme_is_stable(const Settings& s) {
         "Use Gauss limitedLinearV 1, which stays bounded, or a smaller step."};
 }
 
-// Step 5 keeps a halo of three layers (halo_layers in foamFluidField.cpp), and a rank should have
-// more than its halo.
+// Step 5 needs a halo of three layers (halo_layers in foamFluidField.cpp), and a rank should have
+// more layers than its halo.
 constexpr double least_layers = 4.0;
 
 Ruling ranks_have_cells(const Settings& s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Which grains, and where they are at the start.
+// The grains and their initial positions.
 #include <fmt/format.h>
 #include "coupler/shapes/shape.hpp"
 #include "launcher/case/grain_forms.hpp"
@@ -102,7 +102,7 @@ std::string without_chance(const Settings& s) {
     const bool still = is(s, "grains.generator", "lattice") && s.real("grains.jitter") == 0.0;
     return still ? "with grains.generator: lattice and no grains.jitter" : "";
 }
-/// A grains file may name the polygon grain by grain.
+/// A grains file may name the polygon for individual grains.
 std::string without_polygons(const Settings& s) {
     return is_polygon(s) || s.has("grains.file") ? "" : "without grains.shape: polygon";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// When a run ends against its will.
+// Limits at which a run is ended.
 #include <fmt/format.h>
 
 #include "coupler/keys/key_value.hpp"

@@ -17,7 +17,7 @@ Ruling at_least_one_window(const Settings& s) {
         "Make the end later or the step smaller."};
 }
 
-// More windows than any machine plays, and far below the largest whole number.
+// More windows than any run needs, and far below the largest integer.
 constexpr double most_windows = 1e12;
 
 Ruling countable_windows(const Settings& s) {
