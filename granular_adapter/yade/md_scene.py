@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's bodies and engines for molecular dynamics of the grains of a case.
 
-Contacts, forces and motion are YADE's own; a window of a coupled run is many of YADE's steps. What a user's
-script adds to O.engines runs in every one of them.
+Contacts, forces and motion are YADE's own; a window of a coupled run consists of many YADE steps. Whatever a
+user's script adds to O.engines runs in every one of them.
 """
 import math
 import os
@@ -12,12 +12,12 @@ import users_script
 from yade import *
 from yade import utils
 
-# Stiffness and damping across a contact over those along it: the share that makes both oscillate alike. An
-# impulse moves the touching point of a disc three times as far along the contact as across it.
+# Ratio of tangential to normal stiffness and damping, for which both directions oscillate with the same period:
+# an impulse moves the contact point of a disc three times as far tangentially as normally.
 TANGENTIAL = 1.0 / 3.0
 
-# How far bounding boxes reach beyond a disc, over the smallest radius: further means fewer searches for pairs
-# and more pairs in vain.
+# Margin of bounding boxes beyond a disc, over the smallest radius. A larger one means fewer searches for pairs,
+# and more pairs without contact.
 VERLET = 0.1
 
 
@@ -31,7 +31,7 @@ class Scene:
         self.script = users_script.NoScript()
 
     def create(self, settings, grains):
-        """Adds walls and one disc per grain; returns the discs' body ids in the order of `grains`."""
+        """Adds the walls and one disc per grain; returns the discs' body ids in the order of `grains`."""
         self.settings = settings
         self.frequency = float(settings['run.md_frequency'])
         self.damping = float(settings['run.md_damping'])
@@ -44,8 +44,8 @@ class Scene:
         return list(self.body_of.values())
 
     def _material(self, mass):
-        """Springs in series have k = k1 k2/(k1 + k2): with k_i = m_i w^2 every pair has its reduced mass times
-        w^2, and a wall, which has none, leaves the disc's own."""
+        """Springs in series have k = k1 k2/(k1 + k2). With k_i = m_i w^2 every pair of grains has its reduced mass
+        times w^2, and a contact with a wall, which has no spring of its own, the disc's m w^2."""
         label = 'mass %r' % mass
         if label not in [material.label for material in O.materials]:
             spring, dashpot = mass * self.frequency**2, 2.0 * self.damping * mass * self.frequency
@@ -57,7 +57,7 @@ class Scene:
     def _create_disc(self, grain):
         body = utils.sphere(grain['position'], grain['radius'], material=self._material(grain['mass']))
         state = body.state
-        # A disc per unit length, not YADE's sphere.
+        # The mass of a disc per unit length, not of YADE's sphere.
         state.mass = grain['mass']
         state.inertia = (grain['inertia'],) * 3
         state.blockedDOFs = 'zXY'
@@ -84,7 +84,7 @@ class Scene:
         ]
 
     def complete(self):
-        """All is there: what the user adds to the scene."""
+        """Called when all bodies and engines exist; runs the user's additions to the scene."""
         self.script = users_script.complete_scene(self.settings)
 
     def begin_window(self):
@@ -108,22 +108,22 @@ class Scene:
         return O.forces
 
     def step(self):
-        """One sub-step. O.run(n, wait=True) would look every 40 ms only whether it is through."""
+        """One sub-step. O.run(n, wait=True) would test only every 40 ms whether it has finished."""
         self.script.check_step()
         O.step()
 
     def contacts(self):
-        """How many touch."""
+        """Number of contacts with a force."""
         return O.interactions.countReal()
 
     def touching(self):
-        """The last step's contacts: (side of the domain or -1, grain, grain, does it slide, overlap, point,
+        """Contacts of the last step: (side of the domain or -1, grain, grain, whether it slides, overlap, point,
         normal from the first to the second, force on the second, branch between the centres or from a wall)."""
         grain_of = {body: grain for grain, body in self.body_of.items()}
         return [self._contact(contact, grain_of) for contact in O.interactions if contact.isReal]
 
     def _contact(self, contact, grain_of):
-        """The smaller grain id, or the wall, comes first."""
+        """The record of one contact; the smaller grain id, or the wall, comes first."""
         geom, phys = contact.geom, contact.phys
         first, second, sense = contact.id1, contact.id2, 1.0
         if second in self.walls or first not in self.walls and grain_of[first] > grain_of[second]:
@@ -138,7 +138,7 @@ class Scene:
                 branch[0], branch[1])
 
     def deepest_overlap(self):
-        """Of two discs in the last step; where sizes differ a bound from above."""
+        """Largest overlap of two discs in the last step [m]; an upper bound if sizes differ."""
         return max(0.0, utils.maxOverlapRatio() * self.largest)
 
     def save(self):

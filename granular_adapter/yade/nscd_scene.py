@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's scene of a coupled run with the contact engine.
 
-Bodies, walls, materials and engines are YADE's own and open to recorders and plots; contacts and motion are
-the contact engine's, called once per window by a PyRunner.
+Bodies, walls, materials and engines are YADE's own and available to recorders and plots; contacts and motion are
+computed by the contact engine, which a PyRunner calls once per window.
 """
 import math
 
@@ -12,7 +12,7 @@ from yade import *
 from yade import utils
 from yade.minieigenHP import Vector3
 
-# One window of the coupled run, called by YADE's loop.
+# One window of the coupled run, called from YADE's loop.
 WINDOW = 'import nscd_scene; nscd_scene.play_window()'
 _playing = None
 
@@ -25,7 +25,7 @@ def play_window():
 
 
 class Store:
-    """Settings and impulses of the contacts in YADE's scene, where turbidite_contact finds them."""
+    """Settings and contact impulses in YADE's scene, stored where turbidite_contact finds them."""
 
     # Units of the keys of a case, by key of the group contact.
     UNITS = {'recovery_speed': 'run.velocity_scale', 'restitution_speed': 'run.velocity_scale',
@@ -46,18 +46,18 @@ class Store:
 
 
 class Scene:
-    """Builds YADE's bodies for the grains of a case, takes away those that leave, and plays the windows."""
+    """Builds YADE's bodies for the grains of a case, removes those that leave, and runs the windows."""
 
     def __init__(self):
         self.body_of = {}  # grain id -> body id
-        self.labels = []   # of YADE's materials, by the grains' index
+        self.labels = []   # labels of YADE's materials, by material index of the grains
         self.case = {}
         self.script = None       # users_script
         self.participant = None  # turbidite_yade.Participant, when windows are played
         self.engine_error = None
 
     def create(self, settings, grains):
-        """Adds walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
+        """Adds the walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
         self.case = settings
         self._create_materials(settings, grains[0]['density'] if grains else 1.0)
         self._create_walls(settings)
@@ -66,7 +66,7 @@ class Scene:
             body = self._create_polygon(grain) if grain['vertices'] else self._create_disc(grain)
             turns.append(axes_of(body) if grain['vertices'] else None)
             state = body.state
-            # Of a body per unit length, with the inertia that contacts see.
+            # Mass and inertia per unit length, as in the contact problem.
             state.mass = grain['mass']
             state.inertia = Vector3(0.5, 0.5, 1) * grain['inertia']
             state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else 'zXY'
@@ -78,7 +78,7 @@ class Scene:
         return states, turns
 
     def _create_materials(self, settings, density):
-        """For the scene's own use; the contact engine has its own table of them."""
+        """YADE materials for the scene's own use; the contact engine has its own table."""
         for name in ['grains'] + settings.get('run.materials', '').split():
             friction = settings.get('contact.materials.%s.friction' % name, settings['contact.friction'])
             O.materials.append(FrictMat(
@@ -89,7 +89,7 @@ class Scene:
         return utils.sphere(grain['position'], grain['radius'], material=self.labels[grain['material']])
 
     def _create_polygon(self, grain):
-        """YADE turns it to its principal axes; the participant writes the orientation with those."""
+        """YADE rotates a Polyhedra to its principal axes; the participant converts the orientation."""
         body = turbidite_contact.polygon(grain['vertices'], material=self.labels[grain['material']])
         body.state.pos = grain['position']
         return body
@@ -101,14 +101,14 @@ class Scene:
                       for side, (axis, position, sense) in sides.items() if settings['domain.' + side] == 'wall']
 
     def side_states(self):
-        """Of the sides that are walls: left, right, bottom, top."""
+        """States of the sides that are walls, in the order left, right, bottom, top."""
         return [O.bodies[i].state for i in self.sides]
 
     def create_plates(self, half_lengths):
-        """Walls inside the box, along x around the origin; the participant puts and moves them.
+        """Creates the walls inside the box, along x around the origin; the participant places and moves them.
 
-        A facet's position is the centre of its inscribed circle: of these triangles the middle of the line in
-        which they cross z = 0, from -h to h.
+        The position of a facet is the centre of its inscribed circle. For these triangles that is the middle of the
+        line, from -h to h, in which they cross z = 0.
         """
         root = math.sqrt(3)
         corners = [((-1.5 * h, 0, -0.5 * root * h), (1.5 * h, 0, -0.5 * root * h), (0, 0, root * h))
@@ -117,7 +117,7 @@ class Scene:
         return [O.bodies[i].state for i in ids]
 
     def complete(self):
-        """Bodies stand where they belong: the engines, and what the user adds to the scene."""
+        """Called when bodies are in place: adds the engines and runs the user's additions to the scene."""
         global _playing
         _playing = self
         self.store = Store(self.case)
@@ -130,7 +130,7 @@ class Scene:
         self.script.check(moved)
 
     def play(self, participant):
-        """An engine that fails between two windows is reported in the next one, where the job hears of it."""
+        """Runs all windows. An error in an engine between two windows is reported in the next window."""
         self.participant = participant
         try:
             O.run(wait=True)
@@ -139,7 +139,7 @@ class Scene:
             participant.step()
 
     def play_window(self):
-        """A scene saved after it keeps the contacts' impulses."""
+        """Runs one window and stores the contact impulses, so that O.save after it includes them."""
         if not self.participant.step():
             O.pause()
         self.store.keep(self.participant.contacts())
@@ -152,6 +152,6 @@ class Scene:
 
 
 def axes_of(body):
-    """Orientation of a body as it was made, (w, x, y, z)."""
+    """Orientation of a body in the axes in which it was created, (w, x, y, z)."""
     ori = body.state.ori
     return ori[3], ori[0], ori[1], ori[2]

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a YADE process takes part in a coupled job: what both participants begin and end with.
+"""The life of a YADE process in a coupled job: start and end, common to both participants.
 
-To be imported before anything else. YADE is started with `-x`: without it a Python error opens a prompt and the
-job waits for ever.
+Must be imported before anything else. YADE must be started with `-x`: otherwise a Python error opens a prompt, and
+the job waits for ever.
 """
 import sys
 import traceback
 
-# First of all: mpy splits the world when it is imported, and every process of the job takes part in that
-# one split now. Imported later (YADE does so at its exit) it would hang a finished job.
+# Must come first: mpy splits the MPI world when it is imported, a collective operation that all processes of the
+# job perform at this point. A later import (YADE does one at its exit) would hang a finished job.
 from yade import mpy
 
 import yade.config
 
 
 def abort():
-    """Ends the whole job with the traceback of the present exception.
+    """Aborts the whole job with the traceback of the present exception.
 
     An orderly exit would wait in MPI_Finalize for programs that wait for this one.
     """
@@ -25,10 +25,10 @@ def abort():
 
 
 def take_part(parts):
-    """The whole life of the process; leaves with the exit code of the run.
+    """Runs the participant, and exits with the exit code of the run.
 
-    parts() returns the participant's type (turbidite_yade) and a scene for it: with the functions that the
-    C++ side calls, and play(participant), which plays windows until there are no more.
+    parts() returns the participant's type (from turbidite_yade) and its scene: an object with the functions called
+    from C++, and play(participant), which runs windows until there are no more.
     """
     try:
         participant_type, scene = parts()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""grains.script: a Python file of the user's that adds to the scene of a coupled run.
+"""grains.script: a Python file of the user that adds to the scene of a coupled run.
 
-It runs once, when bodies and engines are there and before the first window, among YADE's own names as any YADE
-script. What it may not touch is what the coupling stands on: O.dt, the engines that are there, and the bodies;
-all of it is looked at when the file is through and again before every window. Fault names the file.
+It runs once, after bodies and engines have been created and before the first window, in YADE's namespace like any
+YADE script. It must not change what the coupling relies on: O.dt, the existing engines, and the bodies. All of
+this is checked after the script and again before every window. Errors name the file.
 """
 import os
 import sys
@@ -13,11 +13,11 @@ from yade import *
 
 
 class Fault(Exception):
-    """The script has changed what belongs to the case."""
+    """The script has changed something that belongs to the case."""
 
 
 def complete_scene(settings):
-    """Runs the script of the case, if there is one; returns what to check before every window."""
+    """Runs the script of the case, if there is one; returns the object that checks the scene before every window."""
     if not settings.get('grains.script'):
         return NoScript()
     return Script(os.path.join(sys.argv[1], settings['grains.script']))
@@ -64,7 +64,7 @@ class Script:
                 tuple(state.inertia), state.blockedDOFs, getattr(body.shape, 'radius', None))
 
     def check(self, moved=None):
-        """Before every window; `moved` is the grain that somebody but the coupling has moved."""
+        """Called before every window; `moved` is the id of a grain not moved by the coupling."""
         self.check_step()
         self._check_engines()
         self._check_bodies()
@@ -73,7 +73,7 @@ class Script:
                          'the fluid moves grains too and would not know of it')
 
     def check_step(self):
-        """Before every step: grains moved with a longer one would be far outside before the window ends."""
+        """Called before every step: with a longer O.dt grains would leave the domain within the window."""
         if O.dt != self.step:
             self._refuse(f'changed O.dt from {self.step} to {O.dt}', 'use time.step, or contact.md_substeps')
 
@@ -95,7 +95,7 @@ class Script:
                 self._refuse(f'erased body {i}', 'bodies are those of the case')
 
     def expect_fewer(self, bodies):
-        """The coupling itself erases these."""
+        """Called when the coupling itself erases these bodies."""
         for i in bodies:
             del self.bodies[i]
 

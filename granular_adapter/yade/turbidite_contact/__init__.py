@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid grains by non-smooth contact dynamics in a YADE script of your own, without coupling:
+"""Rigid grains by non-smooth contact dynamics in your own YADE script, without coupling:
 
     import turbidite_contact
     O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0), theta=0.5)
 
-docs/yade.md says what bodies, materials and forces mean here, and how results reach YADE's tools.
+docs/yade.md explains which bodies, materials and forces are supported, and how results reach YADE's tools.
 """
 from yade.minieigenHP import Vector3
 from yade.wrapper import ForceResetter, NewtonIntegrator, Omega, PyRunner
@@ -19,25 +19,25 @@ __all__ = ['Refused', 'attach', 'contact_force', 'contacts', 'disc', 'engines', 
 
 O = Omega()
 _STEP = 'import turbidite_contact; turbidite_contact.step()'
-_present = None  # the host of the scene that stepped last
+_present = None  # the host of the scene that made the last step
 
 
 def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
-    """What O.engines needs: a list that begins with ForceResetter and ends with the store of impulses.
+    """A list for O.engines, which begins with ForceResetter and ends with the store of contact impulses.
 
     gravity  [m/s2], in the plane: no z component
-    show     every so many steps O.interactions and O.forces show the contacts (0: never); recorders that want
-             them run at multiples of it, behind these engines
+    show     interval in steps at which O.interactions and O.forces show the contacts (0: never); recorders that
+             read them must run at multiples of it, after these engines
     contact  theta, tolerance, iterations, law, solver, ...: the keys of `turbidite keys` in the group contact,
              in SI units, except friction, which is that of the bodies' materials
 
-    Engines that add forces (O.forces.addF) belong behind the first, all others behind the last of the list.
-    Raises Refused or RuntimeError, naming the key, when a setting is not allowed.
+    Engines that add forces (O.forces.addF) belong after the first of the list, all others after the last.
+    Raises Refused or RuntimeError, naming the key, for a setting that is not allowed.
     """
     settings = _host.settings(gravity, show, contact)
     return [
         ForceResetter(),
-        # Steps nothing: unbalancedForce and its like look for gravity there.
+        # Inactive: unbalancedForce and similar functions read gravity from it.
         NewtonIntegrator(gravity=Vector3(*settings['gravity']), damping=0.0, dead=True),
         PyRunner(command=_STEP, iterPeriod=1, initRun=True, label='turbidite_contact'),
         memory.holder(settings),
@@ -45,9 +45,9 @@ def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
 
 
 def attach(gravity=(0.0, -9.81, 0.0), show=0, **contact):
-    """Sets O.engines to engines(...) followed by those of the present ones that neither collide nor integrate.
+    """Sets O.engines to engines(...) followed by those present engines that neither detect contacts nor integrate.
 
-    Impulses that the present engines or a scene saved by a coupled run hold are kept.
+    Impulses stored by the present engines, or in a scene saved by a coupled run, are kept.
     """
     replaced = ('ForceResetter', 'InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator',
                 'GlobalStiffnessTimeStepper')
@@ -62,7 +62,7 @@ def attach(gravity=(0.0, -9.81, 0.0), show=0, **contact):
 
 
 def step():
-    """One step of O.dt: what the PyRunner of engines() calls."""
+    """One step of length O.dt; called by the PyRunner of engines()."""
     global _present
     store = memory.find()
     if _present is None or not memory.is_marked(store, _present.mark):
@@ -71,14 +71,14 @@ def step():
 
 
 def report():
-    """How the last step's solver fared: contacts, iterations, residual, converged, quad, max, candidates, and
+    """Results of the last step's solver: contacts, iterations, residual, converged, quad, max, candidates, and
     unconverged_steps since the script started or loaded a scene."""
     return dict(_stepped().report)
 
 
 def contacts():
-    """Contact points of the last step that carry a force: objects with id1, id2, point, normal (from id1 to
-    id2), gap, normal_force, shear_force (on id2), rolling_moment."""
+    """Contact points of the last step with a force: objects with id1, id2, point [m], normal (from id1 to id2),
+    gap [m], normal_force, shear_force (on id2) [N], rolling_moment [N m]."""
     return _stepped().contacts()
 
 
@@ -88,13 +88,13 @@ def contact_force(body):
 
 
 def show():
-    """Puts the last step's contacts into O.interactions and O.forces now."""
+    """Writes the last step's contacts into O.interactions and O.forces now."""
     _stepped().show()
 
 
 def refresh():
-    """Reads shapes and states anew before the next step: after a script exchanged a body's state or changed
-    the shape of one. Additions, erasures, masses, degrees of freedom, materials and walls are noticed anyway."""
+    """Re-reads shapes and states before the next step; needed after a script has replaced the state of a body or
+    changed a shape. Changes of bodies, masses, degrees of freedom, materials and walls are detected without it."""
     if _present is not None:
         _present.scene = None
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contacts where YADE's own tools look for them: O.interactions and O.forces.
+"""Contacts where YADE's own tools expect them: in O.interactions and O.forces.
 
-Between two bodies YADE knows one interaction; the points of a pair are summed up at their common centre of
-force. Forces are impulses over the step, those of the last contact problem; the interaction's acts on id2.
+YADE has one interaction between two bodies, so the points of a pair are combined at their common centre of force.
+Forces are the impulses of the last contact problem over the step; the force of an interaction acts on id2.
 """
 from yade import utils
 from yade.minieigenHP import Vector3
@@ -21,10 +21,10 @@ def show(contacts, impulses, dt):
         O.forces.addF(body, Vector3(*impulse) / dt)
         O.forces.addT(body, Vector3(*moment) / dt)
     for contact in contacts:
-        if contact.wall:  # no body of the engine
+        if contact.wall:  # walls are not bodies of the engine
             O.forces.addF(contact.id1, -contact.force)
             O.forces.addT(contact.id1, (contact.point - O.bodies[contact.id1].state.pos).cross(-contact.force))
-    if impulses:  # summed up now: ForceResetter leaves alone what was added since the last sum
+    if impulses:  # sum now: ForceResetter does not clear what was added since the last sum
         O.forces.f(impulses[0][0], True)
 
 
@@ -42,7 +42,7 @@ def by_pair(contacts):
 def geometry(id1, id2, points):
     weight = sum(p.normal_force.norm() for p in points)
     geom = ScGeom()
-    # Where all points pull (cohesion) weights are as good; without any normal force the middle is.
+    # Under traction at all points (cohesion) the same weights apply; without normal forces, the mean position.
     shares = [p.normal_force.norm() / weight if weight else 1 / len(points) for p in points]
     geom.contactPoint = sum((share * p.point for share, p in zip(shares, points)), Vector3.Zero)
     normal = sum((share * p.normal for share, p in zip(shares, points)), Vector3.Zero)

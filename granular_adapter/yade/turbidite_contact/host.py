@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One scene's contact engine: notices what the script did, steps, keeps the memory up to date."""
+"""The contact engine of one scene: detects changes made by the script, steps, keeps the memory up to date."""
 import turbidite_contact_engine
 from yade.minieigenHP import Vector3
 from yade.wrapper import Omega
@@ -10,11 +10,12 @@ from .scene import read_scene
 
 O = Omega()
 YADE_DEFAULT_STEP = 1e-8
-MOST_OVERLAP = 0.05  # of the smaller radius, when bodies are new; packings of soft bodies have 0.01 at most
+# of the smaller radius, for new bodies; packings of soft bodies have 0.01 at most
+MOST_OVERLAP = 0.05
 
 
 def settings(gravity, show, contact):
-    """Checked settings in JSON types: gravity, show, options (texts by key of the group contact)."""
+    """Checked settings in JSON types: gravity, show, options (strings, by key of the group contact)."""
     if len(gravity) != 3 or gravity[2] != 0:
         raise Refused(f'turbidite_contact: gravity = {tuple(gravity)} must be (x, y, 0): motion is in the plane')
     if int(show) != show or show < 0:
@@ -23,12 +24,13 @@ def settings(gravity, show, contact):
         raise Refused('turbidite_contact: friction is that of the materials (FrictMat.frictionAngle) of the bodies')
     options = {key: str(value) for key, value in contact.items()}
     result = {'gravity': [float(g) for g in gravity], 'show': int(show), 'options': options}
-    turbidite_contact_engine.ContactEngine(options, result['gravity'])  # raises what it does not accept
+    # raises for settings that the engine does not accept
+    turbidite_contact_engine.ContactEngine(options, result['gravity'])
     return result
 
 
 class Contact:
-    """One contact point; vectors of the plane with z."""
+    """One contact point; vectors have three components."""
 
     def __init__(self, record):
         self.id1, self.id2, point, normal, self.gap, pushing, dragging, self.rolling_moment, self.wall = record
@@ -39,7 +41,7 @@ class Contact:
 
 
 class Host:
-    """`settings` as above; `mark` is that of the store that this engine is up to date with."""
+    """`settings` as returned above; `mark`: that of the store with which this engine is up to date."""
 
     def __init__(self, settings, remembered, mark):
         self.settings, self.mark = settings, mark
@@ -69,7 +71,7 @@ class Host:
         self.sync_count = O.forces.syncCount
 
     def follow_scene(self):
-        """Lays the engine out anew when bodies were added, erased or changed."""
+        """Lays the engine out again if bodies were added, erased or changed."""
         if self.scene is None or self.scene.materials.changed() or self.engine.outdated(len(O.bodies)):
             known = self.scene.ids if self.scene else []
             self.scene = read_scene()
@@ -85,10 +87,10 @@ class Host:
                           '%g is no packing of rigid bodies. Move them apart' % (*worst, MOST_OVERLAP))
 
     def loads(self):
-        """(forces, torques) of O.forces by body, empty when nobody set any in this step.
+        """(forces, torques) of O.forces by body; empty if none were set in this step.
 
-        The container counts how often it summed up the forces of its threads: no new sum since the last step,
-        and no permanent forces, means that there are none.
+        The force container counts how often it has summed the forces of its threads. No new sum since the last
+        step, and no permanent forces, means that there are none.
         """
         ids = self.scene.ids
         if not ids:
@@ -111,7 +113,7 @@ class Host:
         return [Contact(record) for record in self.engine.contacts()]
 
     def contact_force(self, body):
-        """On a wall: the reaction."""
+        """Contact force on a body [N]; on a wall, the reaction."""
         for number, impulse, _ in self.engine.impulses():
             if number == body:
                 return Vector3(*impulse) / self.dt
@@ -124,7 +126,7 @@ class Host:
 
 
 def check_loop():
-    """Nobody else moves the bodies, and forces of the last step are gone."""
+    """Checks that no other engine moves the bodies, and that the forces of the last step are cleared."""
     if O.dt == YADE_DEFAULT_STEP or not O.dt > 0:
         raise Refused(f'turbidite_contact: O.dt = {O.dt} s; set the time step, usually 1e-3 to 1e-2 of sqrt(D/g)')
     resetter = False

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Coulomb friction of YADE's materials: mu = tan(frictionAngle), the smaller of the two in a contact."""
+"""Coulomb friction from YADE's materials: mu = tan(frictionAngle), and the smaller of both in a contact."""
 import math
 
 from .refusal import refuse
 
 
 class Materials:
-    """Numbers the coefficients, and remembers the materials, to notice that a script changes an angle."""
+    """Numbers the friction coefficients, and stores the materials, to detect changed angles."""
 
     def __init__(self):
         self.frictions = []  # mu by number
@@ -15,7 +15,7 @@ class Materials:
         self._numbers = {}  # mu -> number
 
     def number(self, body):
-        """The number of the coefficient of a body; refuses a material without a proper friction angle."""
+        """The number of a body's coefficient; refuses a material without a valid friction angle."""
         material = body.mat
         if material is None:
             refuse(body, 'has no material', 'give it a FrictMat')

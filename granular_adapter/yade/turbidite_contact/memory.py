@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The engine's settings, contact impulses and law states in a YADE object, so that O.save keeps them.
+"""The engine's settings, contact impulses and law states in a YADE object, so that O.save includes them.
 
-The object is a dead PyRunner at the end of O.engines, whose command is a comment:
+The object is an inactive (dead) PyRunner at the end of O.engines, whose command is a comment:
 
     # turbidite_contact {settings as JSON} {contact memory, base64}
 
-A scene that YADE loaded is another one, even where its text is the one last written here. To see that, the
-holder is marked with a random number in two places that a dead engine never uses: iterLast, which YADE saves,
-and execCount, which it does not.
+A scene that YADE has loaded is a different one, even if its text equals the one last written here. To recognise
+this, the holder is marked with a random number in two places that a dead engine never uses: iterLast, which YADE
+saves, and execCount, which it does not.
 """
 import binascii
 import itertools
@@ -31,7 +31,7 @@ def holder(settings):
 
 
 def find():
-    """The holder of the present scene."""
+    """The holder in the present scene."""
     for engine in Omega().engines:
         if engine.label == LABEL:
             return engine
@@ -48,12 +48,12 @@ def write(runner, settings, contacts):
 
 
 def is_marked(runner, mark):
-    """Whether this very object, not one that was loaded, was written last with this mark."""
+    """Whether this object itself, and not a loaded copy, was last written with this mark."""
     return runner.iterLast == mark and runner.execCount == mark
 
 
 def mark(runner):
-    """Marks what was loaded as known."""
+    """Marks a loaded holder as known."""
     runner.execCount = runner.iterLast
     return runner.iterLast
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of YADE that are prisms or triangles in space, seen in the plane of motion."""
+"""Plane outlines of YADE's shapes: prisms and triangles in space, in the plane of motion."""
 import math
 
 from turbidite_contact_engine import check_outline
@@ -7,26 +7,26 @@ from yade.minieigenHP import Quaternion, Vector3
 
 from .refusal import refuse
 
-# Rotations that bring a local axis to z, in the order they are tried.
+# Rotations that bring a local axis to z, in the order in which they are tried.
 _HALF = math.sqrt(0.5)
-TURNS = {  # (number of the axis, its sign): w, x, y, z
+TURNS = {  # (index of the axis, its sign): w, x, y, z
     (2, 1): (1.0, 0.0, 0.0, 0.0), (2, -1): (0.0, 1.0, 0.0, 0.0),
     (0, 1): (_HALF, 0.0, -_HALF, 0.0), (0, -1): (_HALF, 0.0, _HALF, 0.0),
     (1, 1): (_HALF, _HALF, 0.0, 0.0), (1, -1): (_HALF, -_HALF, 0.0, 0.0),
 }
-TILT = 1e-6  # an axis that deviates more from z is not in the plane
+TILT = 1e-6  # an axis that deviates more from z is refused
 
 
 class Outline:
-    """A convex polygon: vertices of unit circumradius, anticlockwise; `turn` brings YADE's axes of the body
-    to those of the outline; `axis` is the number of YADE's axis that is normal to the plane."""
+    """A convex polygon: vertices of unit circumradius, anticlockwise; `turn` rotates YADE's axes of the body to
+    those of the outline; `axis` is the index of YADE's axis that is normal to the plane."""
 
     def __init__(self, vertices, radius, turn, axis):
         self.vertices, self.radius, self.turn, self.axis = vertices, radius, turn, axis
 
 
 def prism_outline(body):
-    """Outline of a Polyhedra or Box; refuses what is no prism with its axis along z."""
+    """Outline of a Polyhedra or Box; refuses a body that is not a prism with its axis along z."""
     corners = box_corners(body.shape) if type(body.shape).__name__ == 'Box' else list(body.shape.v)
     axis = axis_along_z(body)
     if axis is None:
@@ -46,7 +46,7 @@ def box_corners(shape):
 
 
 def axis_along_z(body):
-    """(number, sign) of the local axis that points along +z."""
+    """(index, sign) of the local axis that points along +z."""
     units = (Vector3.UnitX, Vector3.UnitY, Vector3.UnitZ)
     for axis in TURNS:
         direction = axis[1] * (body.state.ori * units[axis[0]])
@@ -56,7 +56,7 @@ def axis_along_z(body):
 
 
 def split_by_level(corners, body):
-    """(corners of the lower end, of the upper end) as (x, y)."""
+    """Corners of the lower and of the upper end, as (x, y)."""
     low, high = min(c[2] for c in corners), max(c[2] for c in corners)
     if not high > low:
         refuse(body, 'is flat', 'a polygon is a prism of some thickness along z')
@@ -67,7 +67,7 @@ def split_by_level(corners, body):
 
 
 def anticlockwise(points):
-    """Around the origin, which is the centre of mass, beginning behind the negative x axis."""
+    """Sorts anticlockwise about the origin, which is the centre of mass, from the negative x axis on."""
     return sorted(points, key=lambda point: math.atan2(point[1], point[0]))
 
 

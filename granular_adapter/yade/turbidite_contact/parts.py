@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies of YADE that move in the plane: discs and convex polygons of a given thickness along z."""
+"""YADE bodies that move in the plane: discs and convex polygons with a given thickness along z."""
 import math
 
 from yade import utils
@@ -12,7 +12,7 @@ PLANAR = 'zXY'
 
 
 def disc(center, radius, thickness=1.0, fixed=False, **kw):
-    """A Sphere with mass and moment of inertia of a disc (rho pi R^2 t, m R^2 / 2) that moves in the plane.
+    """A Sphere with the mass and moment of inertia of a disc (rho pi R^2 t, m R^2 / 2) that moves in the plane.
 
     Other arguments are those of utils.sphere.
     """
@@ -20,7 +20,7 @@ def disc(center, radius, thickness=1.0, fixed=False, **kw):
 
 
 def make_disc(body, thickness=1.0):
-    """Gives a Sphere the mass, moment and degrees of freedom of a disc; fixed ones stay fixed."""
+    """Gives a Sphere the mass, moment of inertia and degrees of freedom of a disc; fixed ones stay fixed."""
     radius, state = body.shape.radius, body.state
     state.mass = body.mat.density * math.pi * radius**2 * thickness
     state.inertia = Vector3(1, 1, 2) * (0.25 * state.mass * radius**2)
@@ -30,10 +30,10 @@ def make_disc(body, thickness=1.0):
 
 
 def polygon(vertices, thickness=None, z=0.0, fixed=False, material=-1, color=None, **kw):
-    """A convex polygon as a Polyhedra: the prism of the vertices (x, y), which YADE draws.
+    """A convex polygon as a Polyhedra: the prism over the vertices (x, y), which YADE can draw.
 
-    Mass and moment are those of the prism; its position is the centre of mass. Without `thickness` it is a
-    tenth of the largest extent, thin enough for YADE to keep z as an axis of the body.
+    Mass and moment of inertia are those of the prism; its position is the centre of mass. The default thickness
+    is a tenth of the largest extent, thin enough for z to be one of YADE's axes of the body.
     """
     if len(vertices) < 3:
         raise Refused(f'turbidite_contact: a polygon has at least 3 vertices, not {len(vertices)}')

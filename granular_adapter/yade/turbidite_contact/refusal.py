@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the contact engine cannot treat is refused before a step, by the id of the body."""
+"""Refusal of what the contact engine does not support, before a step, naming the body by its id."""
 
 
 class Refused(ValueError):
-    """A scene or a setting that is not supported; the text says which body and what to do."""
+    """A scene or a setting that is not supported; the text names the body and the remedy."""
 
 
 def refuse(body, fault, remedy):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""YADE's bodies as the contact engine sees them, or a refusal that names the body.
+"""YADE's bodies as input of the contact engine, or a refusal that names the body.
 
     Sphere             disc; mass and moment of inertia are those of its state
     Polyhedra, Box     convex polygon: prisms whose axis is z
@@ -39,12 +39,12 @@ def read_scene():
                    'supported are Sphere, Polyhedra, Box, Wall, Facet')
     for body in walls:
         builder.add_wall(body)
-        period[getattr(body.shape, 'axis', 2)] = 0.0  # a wall bounds its axis
+        period[getattr(body.shape, 'axis', 2)] = 0.0  # an axis bounded by a wall is not periodic
     return builder.scene(period)
 
 
 def period_of_cell():
-    """Length per axis, 0 where it does not repeat."""
+    """Period of each axis [m], 0 if it is not periodic."""
     if not O.periodic:
         return [0.0, 0.0, 0.0]
     cell = O.cell
@@ -57,7 +57,7 @@ def period_of_cell():
 
 
 def check_body(body):
-    """What holds for every body."""
+    """Requirements on every body."""
     if body.isClump or body.isClumpMember:
         refuse(body, 'is a clump or part of one', 'clumps are not supported; use a Polyhedra')
     if body.shape is None:
@@ -68,7 +68,7 @@ def check_body(body):
 
 
 class Scene:
-    """`layout`: what the engine takes; `ids` of its bodies, in order; `materials` they are made of."""
+    """`layout`: input of the engine; `ids` of its bodies, in order; `materials` of the bodies."""
 
     def __init__(self, layout, ids, materials):
         self.layout, self.ids, self.materials = layout, ids, materials
@@ -156,7 +156,7 @@ class Builder:
     # ---- walls ----
 
     def add_wall(self, body):
-        """Place and normal are seen from the body's position, in its axes."""
+        """Position and normal are relative to the body's position, in its axes."""
         self.check_mask(body)
         state = body.state
         if state.blockedDOFs != 'xyzXYZ':
@@ -182,7 +182,7 @@ class Builder:
         return {'point': [0.0, 0.0, 0.0], 'normal': normal, 'half_length': None}
 
     def side_of(self, wall, axis):
-        """+1 or -1: where all bodies are that move."""
+        """The side of the wall on which all moving bodies are: +1 or -1."""
         sides, place = {}, wall.state.pos[axis]
         for record, state in zip(self.bodies, self.states):
             if not record['fixed']:
