@@ -55,7 +55,36 @@ std::string solves(const Row& row, const RunValues& run) {
     return text;
 }
 
+double fall_of(const Row& row, const RunValues& run) {
+    return mean_fall(*row.state) / run.velocity;
+}
+
+double overlap_of(const Row& row, const RunValues& run) {
+    return row.state->report.max_penetration / run.diameter;
+}
+
+bool all_converged(const Row& row) {
+    return (!row.contact || row.contact->converged) &&
+           (!row.fluid || row.fluid->multipliers_converged) && (!row.joint || row.joint->converged);
+}
+
+std::string log_line(const Row& row, const RunValues& run, double per_window) {
+    return fmt::format(
+        "window {}/{}  t/t_c {:.3f}  fall {:.4f} u_c  overlap {:.0e} D{}  {:.3f} s/window",
+        row.step, run.windows, row.time / run.time, fall_of(row, run), overlap_of(row, run),
+        solves(row, run), per_window);
+}
+
 }  // namespace
+
+std::string progress_line(const Row& row, const RunValues& run, double per_window) {
+    const double end = static_cast<double>(run.windows) * run.step;
+    const double left = per_window * static_cast<double>(run.windows - row.step);
+    return fmt::format(
+        "{:.1f}/{:.4g} t_c  {}  overlap {:.0e} D  {} left", row.time / run.time, end / run.time,
+        all_converged(row) ? fmt::format("fall {:.3f} u_c", fall_of(row, run)) : "NOT CONVERGED",
+        overlap_of(row, run), clock_text(left));
+}
 
 std::string clock_text(double seconds) {
     const long s = static_cast<long>(seconds + 0.5);
@@ -85,12 +114,8 @@ void Progress::show(const Row& row, bool due) {
     if (!due && !(terminal_ && Clock::now() - last_shown_ > refresh)) return;
     last_shown_ = Clock::now();
     const double per_window = seconds_since(start_) / static_cast<double>(row.step);
-    const std::string line = fmt::format(
-        "window {}/{}  t/t_c {:.3f}  fall {:.4f} u_c  overlap {:.0e} D{}  {:.3f} s/window  left {}",
-        row.step, run_.windows, row.time / run_.time, mean_fall(*row.state) / run_.velocity,
-        row.state->report.max_penetration / run_.diameter, solves(row, run_), per_window,
-        clock_text(per_window * static_cast<double>(run_.windows - row.step)));
-    if (due) log_ << line << std::endl;
+    if (due) log_ << log_line(row, run_, per_window) << std::endl;
+    const std::string line = progress_line(row, run_, per_window);
     if (terminal_) {
         std::fputs(("\r\033[K" + line).c_str(), stdout);
         line_open_ = row.step < run_.windows;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The progress display of a run: one line, rewritten in place on a terminal, otherwise printed at
-// every output interval. Everything also goes to logs/coupler.log.
+// The progress display of a run: one line of at most 60 columns, rewritten in place on a terminal,
+// otherwise printed at every output interval. logs/coupler.log has the same windows with contacts,
+// multipliers, Courant number and divergence.
 #pragma once
 
 #include <chrono>
@@ -35,6 +36,10 @@ class Progress {
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_shown_{};
 };
+
+/// "12.5/70 t_c  fall 0.321 u_c  overlap 3e-05 D  2:01:05 left". A window with a solve that
+/// stopped at its limit says NOT CONVERGED in place of the mean fall. `per_window` [s] of wall time.
+std::string progress_line(const Row& row, const RunValues& run, double per_window);
 
 /// "1:05", "2:01:05".
 std::string clock_text(double seconds);
