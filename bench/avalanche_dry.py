@@ -5,10 +5,10 @@
     bench/avalanche_dry.py [--adapters A,B] [--compacities 0.9069,0.84,0.7854] [--seeds 1,2,3]
                            [--variants 'name: key=value key=value'] [--set key=value]... [--out FOLDER]
 
-Runs `./turbidite run configs/avalanche-dry.yaml` once per adapter, compacity, seed and variant, one after the
-other, unless the run is in FOLDER already, so that it can be stopped and started again. Then it calls
-`./turbidite compare` per compacity and for all and prints the tables. A variant is a set of keys, e.g. a
-smaller time step, whose runs are compared with the plain ones. Wall times are this machine's."""
+Runs `./turbidite run configs/avalanche-dry.yaml` for each adapter, compacity, seed and variant, one after the
+other. Runs already present in FOLDER are skipped, so that the script can be stopped and restarted. Then it calls
+`./turbidite compare` for each compacity and for all runs, and prints the tables. A variant is a set of keys, e.g.
+a smaller time step, whose runs are compared with those without it. Wall times are those of this machine."""
 import argparse
 import itertools
 import json
@@ -53,7 +53,7 @@ def arguments():
 
 
 def variants_of(options):
-    """{name: keys}; PLAIN has none."""
+    """{name: keys}; PLAIN has no keys."""
     variants = {} if options.only_variants else {PLAIN: []}
     for text in options.variants:
         name, _, keys = text.partition(':')
@@ -69,7 +69,7 @@ def is_done(folder):
 
 
 def play(options, group, settings, seed):
-    """The folder of one run; started only if it is not there."""
+    """The folder of one run, which is started only if it is not there."""
     folder = Path(options.out) / f'{group}-seed{seed}'
     if is_done(folder):
         return folder
@@ -84,7 +84,7 @@ def play(options, group, settings, seed):
 
 
 def play_all(options):
-    """{compacity: {group: folders of its seeds}}, a group being `ADAPTER-COMPACITY[-VARIANT]`."""
+    """{compacity: {group: run folders of its seeds}}; a group is `ADAPTER-COMPACITY[-VARIANT]`."""
     variants = variants_of(options)
     seeds = options.seeds.split(',')
     runs = {}
@@ -97,7 +97,7 @@ def play_all(options):
 
 
 def compare(options, name, groups):
-    """The comparison's JSON; the page is FOLDER/compare-NAME.html."""
+    """The comparison's JSON; its page is FOLDER/compare-NAME.html."""
     folders = [str(folder) for folders in groups.values() for folder in folders]
     if len(folders) < 2:
         return None
@@ -128,7 +128,7 @@ def pair_cells(pair):
 
 
 def is_telling(pair, runs):
-    """Same packing, or same adapter and variant."""
+    """Whether the two groups have the same packing, or the same adapter and variant."""
     compacity = {group: value for value, groups in runs.items() for group in groups}
     first, second = pair['first'], pair['second']
     rest = lambda group: group.replace(f'-{compacity[group]}', '', 1)
@@ -147,7 +147,7 @@ def draw(runs, file):
     figure, axes = plt.subplots(figsize=(7.5, 4.2), layout='constrained')
     for i, groups in enumerate(runs.values()):
         for j, (group, folders) in enumerate(groups.items()):
-            # One colour per compacity, one style per adapter; a lone compacity has colours to spare.
+            # One colour per compacity, one style per adapter; with a single compacity, one colour per adapter.
             colour = f'C{(i if len(runs) > 1 else j) % 10}'
             style = STYLES[j % len(STYLES)] if len(runs) > 1 else '-'
             member, = seeds.members([run_data.load_run(folder) for folder in folders])

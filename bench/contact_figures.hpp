@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite bench contact: the contact solver's speed on dense packings, alone and beside others.
-// Each figure is measured in a file of its own; here is the list.
+// turbidite bench contact: the speed of the contact solver on dense packings, alone and against
+// others. Each figure is measured in a file of its own; this is the list.
 #pragma once
 
 #include "bench/figure.hpp"

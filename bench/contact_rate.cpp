@@ -10,7 +10,7 @@
 namespace turbidite::bench {
 namespace {
 
-/// One call of the worker.
+/// Parameters of one call of the worker program.
 struct Order {
     double width = 0.0;  ///< of the column [D]
     int warm_up = 0, steps = 1;
@@ -87,8 +87,8 @@ Measured contact_rate_50000(Site& site) {
     return rate(site, {.width = 147.6, .warm_up = 20, .steps = 10}, 3);
 }
 
-// A fixed number of sweeps at both sizes, since large columns converge slower; in agitation, since
-// their weight would take many steps to be felt everywhere.
+// A fixed number of sweeps at both sizes, since large columns converge more slowly; with agitation,
+// since otherwise contacts form everywhere only after many steps.
 Measured contact_cost_growth(Site& site) {
     Order small{.width = 21.2, .warm_up = 2, .steps = site.quick() ? 2 : 50, .sweeps = 64};
     small.tolerance = 1e-12;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Contact-iterations per second of our solver on one core: sweeps times contacts that have an
-// impulse, over the processor time of whole solves, set-up and final check included.
+// Contact updates per second of our solver on one core: sweeps times the number of contacts with an
+// impulse, over the processor time of whole solves, including set-up and the final check.
 #pragma once
 
 #include "bench/figure.hpp"

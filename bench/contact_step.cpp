@@ -2,9 +2,9 @@
 //
 // turbidite-bench-contact: times the contact solver on the steps of a dense column of discs.
 //
-// Every timed step is done by the engine (warm start, detection and all), then its problem is
-// solved once more from the same first guess, alone under the clock. Counted are updates of
-// contacts that have an impulse at the end: sweeps times those.
+// Every step is done by the engine (with warm start and detection). Then its problem is solved once
+// more from the same initial guess, and only this solve is timed. Counted are updates of contacts
+// that have an impulse at the end: the sweeps times their number.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>

@@ -22,7 +22,7 @@ int along(double size) {
     return static_cast<int>(std::lround(size * Box2d::cells_per_diameter));
 }
 
-/// What a part of the work writes to standard error, so that nobody waits in the dark.
+/// Reports progress on standard error.
 void say(const std::string& text) {
     fmt::print(stderr, "  {}\n", text);
 }
@@ -63,7 +63,7 @@ RunFolder prepared_mid_fall(const Site& site, int ranks) {
     return folder;
 }
 
-/// Windows of our fluid on a prepared folder, in processes of their own.
+/// Windows of our fluid on a prepared folder, each sample in its own process.
 Sample played(const Site& site, const RunFolder& folder, const std::string& name,
               const Effort& effort, int ranks, bool discs) {
     const fs::path result = site.folder() / "ours.json";
@@ -101,7 +101,7 @@ fs::path prepared_icofoam(const Site& site, const Box2d& box, const Effort& effo
     return folder;
 }
 
-/// The clock after every step, from lines "ExecutionTime = 4.6 s  ClockTime = 5 s".
+/// The clock after every step, from lines such as "ExecutionTime = 4.6 s  ClockTime = 5 s".
 std::vector<double> execution_times(const std::string& log) {
     static const std::regex line("ExecutionTime = ([0-9.e+-]+) s");
     std::vector<double> times;

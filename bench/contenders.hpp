@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The contenders of the fluid benchmark: our window, the array code, icoFoam on the case
-// bench/fluid.yaml, in boxes given in D; and our window in the shipped sedimentation.
+// The contenders of the fluid benchmark on the case bench/fluid.yaml, in boxes given in D: our
+// window, the array code, and icoFoam; and our window in the shipped sedimentation.
 #pragma once
 
 #include "bench/site.hpp"
@@ -12,7 +12,7 @@ struct Box2d {
     static constexpr int cells_per_diameter = 16;
 
     double width = 0.0, height = 0.0;  ///< [D], multiples of 2.5
-    int discs = 0;                     ///< 0: no grains, and bench/start_flow.hpp moves the fluid
+    int discs = 0;                     ///< 0: no grains; the initial flow is bench/start_flow.hpp
 
     int cells() const;
     std::string name() const;
@@ -23,17 +23,17 @@ struct Effort {
 };
 
 /// Prepares the run folder at the first call. Grains start at rest and fall. Several ranks run
-/// under mpirun, and need discs to move the fluid.
+/// under mpirun, and require discs to drive the flow.
 Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks = 1);
 
-/// The shipped sedimentation, configs/sedimentation-discs.yaml, in mid-fall: from rest where its
-/// discs are after 12 t_c (bench/mid_fall.csv), so that a warm-up of 100 windows lets them fall on
-/// among contacts.
+/// The shipped sedimentation, configs/sedimentation-discs.yaml, in mid-fall: starts from rest with
+/// the discs at their positions after 12 t_c (bench/mid_fall.csv), so that after a warm-up of 100
+/// windows they fall among contacts again.
 Sample mid_fall_window(Site& site, const Effort& effort, int ranks = 1);
 
 Sample array_code_step(Site& site, const Box2d& box, const Effort& effort);
 
-/// Stock icoFoam on bench/icofoam: the mean of the clock in its log (ExecutionTime).
+/// Stock icoFoam on bench/icofoam: mean step time from the clock in its log (ExecutionTime).
 Sample icofoam_step(Site& site, const Box2d& box, const Effort& effort);
 
 }  // namespace turbidite::bench

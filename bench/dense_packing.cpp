@@ -19,7 +19,7 @@ nscd::Wall wall(std::int32_t key, const Vec3& normal) {
     return result;
 }
 
-/// In [0, 1), the same with every library.
+/// Uniform in [0, 1), the same with every standard library.
 double next(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The packings of `turbidite bench contact`: a dense column of discs against a left wall and a
-// floor, both rough, open to the right (Topin 2011, Fig. 8a). Lengths in D, g = 1, density 1.
+// The packings of `turbidite bench contact`: a dense column of discs on a floor against a left
+// wall, both rough, open to the right (Topin 2011, Fig. 8a). Lengths in D, g = 1, density 1.
 #pragma once
 
 #include "granular_adapter/nscd/engine/engine.hpp"
@@ -9,14 +9,15 @@
 namespace turbidite::bench {
 
 struct Column {
-    double width = 25.0;  ///< [D]; twice as high. 25 give 1397 discs
-    /// Radii lie in [1 - shrink, 1] D/2: gaps between neighbours, and no perfect lattice.
+    double width = 25.0;  ///< [D]; the height is twice this. 25 gives 1397 discs
+    /// Radii are in [1 - shrink, 1] D/2: this leaves gaps between neighbours and breaks the perfect
+    /// lattice.
     double shrink = 1e-4;
-    /// Velocity components lie in [-agitation, agitation]: contacts everywhere from the first step.
+    /// Velocity components are in [-agitation, agitation]: contacts everywhere from the first step.
     double agitation = 0.0;
 };
 
-/// The column at rest: triangular lattice, touching where radii are largest.
+/// The column at rest: a triangular lattice, touching where radii are largest.
 nscd::Engine dense_column(const Column& column, const nscd::SolverSettings& settings);
 
 }  // namespace turbidite::bench

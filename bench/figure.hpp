@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a benchmark measures. A benchmark is a list of figures; each has a name that others may rely
-// on, a reach (what was hoped for), and a function that measures it. Out of reach is no failure.
+// A benchmark is a list of figures. Each figure has a name that others may rely on, a target (the
+// value aimed for), and a function that measures it. Missing the target is not a failure.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct Reach {
 struct Measured {
     double value = 0.0;
     double lowest = 0.0, highest = 0.0;  ///< over the repeats
-    std::vector<std::string> notes;      ///< what the value is made of, one line each
+    std::vector<std::string> notes;      ///< the components of the value, one line each
 };
 
 struct Figure {
@@ -31,7 +31,7 @@ struct Figure {
     std::string what;
     std::string unit;
     Reach reach;
-    Measured (*measure)(Site& site);  ///< throws Failure with the reason when it cannot be measured
+    Measured (*measure)(Site& site);  ///< throws Failure with the reason if it cannot be measured
 };
 
 struct Benchmark {
@@ -40,7 +40,7 @@ struct Benchmark {
     std::vector<Figure> figures;
 };
 
-/// All there are.
+/// All benchmarks.
 const std::vector<Benchmark>& benchmark_list();
 
 }  // namespace turbidite::bench

@@ -22,7 +22,7 @@ int repeats(const Site& site) {
     return site.quick() ? 1 : 5;
 }
 
-/// The full box of 320 x 960 cells; one of 40 x 80 to try things out.
+/// The full box of 320 x 960 cells; 40 x 80 cells for trials.
 Box2d tall_box(const Site& site, bool discs) {
     if (site.quick()) return {2.5, 5.0, discs ? 3 : 0};
     return {20.0, 60.0, discs ? 300 : 0};
@@ -36,7 +36,7 @@ std::string milliseconds(const std::string& who, const std::vector<Sample>& samp
     return fmt::format("{} {:.4g} ms", who, 1e3 * median_of(samples, processor));
 }
 
-/// Where a window's time goes: medians over all repeats.
+/// Distribution of a window's time: medians over all repeats.
 std::string profile(const std::vector<Sample>& samples) {
     std::string text = "our window:";
     for (const auto& [part, unused] : samples.front().parts) {
@@ -50,7 +50,7 @@ std::string profile(const std::vector<Sample>& samples) {
 
 Measured icofoam_over_ours(Site& site) {
     const Box2d box = tall_box(site, true);
-    // icoFoam's clock has ticks of 10 ms, so tiny meshes need many steps.
+    // icoFoam's clock has a resolution of 10 ms, so tiny meshes need many steps.
     const Effort steps = site.quick() ? Effort{5, 60} : Effort{3, 8};
     const Duel duel = alternate(
         repeats(site), [&] { return icofoam_step(site, tall_box(site, false), steps); },
@@ -100,7 +100,7 @@ Measured speedup_2_ranks(Site& site) {
     return measured;
 }
 
-/// Mid-fall needs a flow: one t_c of it before the clock starts.
+/// Mid-fall requires a developed flow: one t_c before the clock starts.
 Effort mid_fall(const Site& site) {
     return site.quick() ? Effort{2, 3} : Effort{100, 30};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // turbidite bench fluid: the fluid step against stock icoFoam, against a code written by hand for
-// one purpose, against itself on a larger mesh and on two ranks, and its memory.
+// one purpose, on a larger mesh, and on two ranks; and its memory.
 #pragma once
 
 #include "bench/figure.hpp"

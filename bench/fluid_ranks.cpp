@@ -6,7 +6,7 @@
 namespace turbidite::bench {
 namespace {
 
-/// Where each rank's bytes begin in the list of all.
+/// Offsets of each rank's bytes in the concatenated list.
 std::vector<int> starts_of(const std::vector<int>& counts) {
     std::vector<int> starts(counts.size(), 0);
     for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
@@ -28,8 +28,8 @@ std::vector<Record> of_all_ranks(const std::vector<Record>& records) {
     return result;
 }
 
-/// How far beyond its surface a grain matters to a rank: 16 cells, more than any stencil or rule of
-/// points reaches, so that nothing here depends on them.
+/// Distance from its surface within which a grain matters to a rank: 16 cells, more than the range
+/// of any stencil or rule of points, so that no result depends on it.
 double margin(const Settings& settings) {
     return 16.0 * settings.real("run.diameter") / settings.real("fluid.cells_per_diameter");
 }
@@ -44,7 +44,7 @@ FluidRanks::FluidRanks(bool parallel, int* argc, char*** argv) {
 
 void FluidRanks::initialise(FoamAdapter& fluid, const Settings& settings,
                             const ShapeTable& shapes) {
-    // Nobody else is in this world, so that OpenFOAM may have it as it is.
+    // This world has no other programs, so OpenFOAM may use it directly.
     if (mpi_) fluid.share(MPI_Comm_c2f(MPI_COMM_WORLD));
     const Box box = fluid.initialise(settings, shapes);
     if (mpi_) plan_.emplace(std::vector<Box>{box}, margin(settings), Vec3{});

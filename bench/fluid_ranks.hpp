@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The ranks of our fluid when turbidite-bench-fluid runs alone under mpirun: what the coupler does
-// in a job, without messages. Every rank moves all grains, gives the fluid those that touch its
-// box, and hears the kicks of all ranks.
+// The ranks of our fluid when turbidite-bench-fluid runs alone under mpirun: does what the coupler
+// does in a job, without its messages. Every rank moves all grains, passes those that touch its box
+// to the fluid, and receives the kicks of all ranks.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace turbidite::bench {
 
 class FluidRanks {
  public:
-    /// `parallel`: under mpirun. Otherwise there is one rank, and MPI is not even started.
+    /// `parallel`: under mpirun. Otherwise there is one rank, and MPI is not initialised.
     FluidRanks(bool parallel, int* argc, char*** argv);
 
     bool first() const { return rank_ == 0; }
@@ -24,14 +24,14 @@ class FluidRanks {
     /// Opens the case on every rank.
     void initialise(FoamAdapter& fluid, const Settings& settings, const ShapeTable& shapes);
 
-    /// The grains that this rank's fluid needs.
+    /// The grains needed by this rank's fluid.
     std::vector<GrainState> here(const std::vector<GrainState>& grains) const;
 
-    /// What each rank says of its grains, on all ranks.
+    /// Gathers the kicks of each rank's grains on all ranks.
     std::vector<Kick> all(const std::vector<Kick>& kicks) const;
     std::vector<FreeResponse> all(const std::vector<FreeResponse>& responses) const;
 
-    /// Waits until every rank is here.
+    /// Waits for all ranks.
     void meet() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // turbidite-bench-fluid RUN: times windows of our fluid on a prepared run folder, with --parallel
-// under mpirun. With --discs the grains of the folder move as the contact engine and the fluid make
-// them, under the case's scheme (`split` or `joint`), and only the fluid's work is timed.
+// under mpirun. With --discs the grains of the folder are moved by the contact engine and the
+// fluid, under the case's scheme (`split` or `joint`), and only the fluid's work is timed.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -28,7 +28,7 @@ struct Options {
     bool discs = false, parallel = false;
 };
 
-/// The contact engine beside the fluid; without --discs there are no grains at all.
+/// The contact engine for the grains; without --discs there are no grains.
 class MovingGrains {
  public:
     MovingGrains(const ResolvedCase& resolved, bool discs) {
@@ -37,9 +37,9 @@ class MovingGrains {
         grains_ =
             contact_->initialise(resolved.settings, resolved.shapes, resolved.population).grains;
     }
-    /// As the window began.
+    /// The grains at the start of the window.
     const std::vector<GrainState>& now() const { return grains_; }
-    /// After contact.
+    /// The grains after the contact solve.
     std::vector<GrainState> advance(const Window& window,
                                     const std::vector<FreeResponse>& responses) {
         if (!contact_) return {};
@@ -58,7 +58,7 @@ class MovingGrains {
     std::int64_t contacts_ = 0;
 };
 
-/// Plays windows as the coupler does; only the fluid is on the clock.
+/// Runs windows as the coupler does; only the fluid is timed.
 class Player {
  public:
     Player(const Options& options, const ResolvedCase& resolved, FoamAdapter& fluid,
@@ -132,7 +132,7 @@ class Player {
     std::int64_t most_rounds_;
 };
 
-/// Seconds of every part of every timed window.
+/// Times of every part of every timed window [s].
 class Profile {
  public:
     void add(const FluidTimings& t) {
@@ -179,7 +179,7 @@ Sample run(const Options& options, FluidRanks& ranks) {
     return sample;
 }
 
-/// Without the end of MPI, which would wait for the other ranks: mpirun ends them.
+/// Exits without MPI_Finalize, which would wait for the other ranks: mpirun ends them.
 [[noreturn]] void leave(int code, const char* why) {
     std::fprintf(stderr, "turbidite-bench-fluid: %s\n", why);
     std::fflush(nullptr);

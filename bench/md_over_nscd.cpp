@@ -15,14 +15,14 @@
 namespace turbidite::bench {
 namespace {
 
-// Softer and coarser than by default, where there is more to spare; the notes say whether it was
-// enough.
+// Softer contacts and longer steps than by default, which leave a margin; the notes tell whether
+// the accuracy was sufficient.
 constexpr const char* cheap_md[] = {"contact.md_speed=15", "contact.md_substeps=16"};
 
 constexpr double overlap_limit = 1e-3;   // [D]
 constexpr double residual_limit = 1e-3;  // of the natural map
 
-/// Columns of a run's history.csv; empty cells are not-a-number.
+/// Columns of a run's history.csv; empty cells become NaN.
 std::map<std::string, std::vector<double>> history(const std::filesystem::path& run) {
     std::ifstream file(run / "history.csv");
     std::string line, cell;
@@ -38,7 +38,7 @@ std::map<std::string, std::vector<double>> history(const std::filesystem::path& 
     return columns;
 }
 
-/// wall_grains is the mean per window since the row before.
+/// wall_grains is the mean per window since the previous row.
 double seconds_of_grains(const std::map<std::string, std::vector<double>>& columns) {
     const auto& steps = columns.at("step");
     const auto& seconds = columns.at("wall_grains");
@@ -56,7 +56,7 @@ double percentile_95(std::vector<double> values) {
     return values[static_cast<std::size_t>(0.95 * static_cast<double>(values.size() - 1))];
 }
 
-/// The output interval decides for which windows the natural map is known.
+/// The natural map is known for windows with output; the interval selects them.
 Sample column(Site& site, const std::string& adapter, const std::string& interval) {
     const std::filesystem::path run = site.folder() / adapter;
     std::vector<std::string> line{site.programs().folder / "turbidite",

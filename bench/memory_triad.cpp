@@ -17,10 +17,10 @@ double memory_triad() {
         const double start = wall_seconds();
         const double s = 0.5 + pass;
         for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + s * c[i];
-        std::swap(a, b);  // every pass is needed by the next
+        std::swap(a, b);  // makes each pass depend on the previous one
         best = std::min(best, wall_seconds() - start);
     }
-    // A use of the result, or the loops could go.
+    // Uses the result, so that the loops are not optimised away.
     return b[n / 2] > 0.0 ? 3.0 * sizeof(double) * n / best : 0.0;
 }
 

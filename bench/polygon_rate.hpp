@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Pair detections of triangles that fill the plane, per second of one core: pairs whose
-// circumscribed circles are within the alert distance, over the processor time of placing all
-// corners and testing all those pairs.
+// Pair tests of triangles that fill the plane, per second on one core: pairs whose circumscribed
+// circles are within the alert distance, over the processor time of placing all corners and testing
+// all those pairs.
 #pragma once
 
 #include "bench/figure.hpp"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-bench-polygons: times the detection of contacts between triangles that fill the plane.
+// turbidite-bench-polygons: times contact detection between triangles that fill the plane.
 //
-// The plane is tiled with equilateral triangles, up and down in turn, each shrunk by 1 % and turned
-// by up to half a degree: every triangle faces three others side by side and nine at its corners.
-// Timed are placing all corners and the narrow phase on every pair that the broad phase hands on,
-// circumscribed circles closer than the alert distance of a step at rest (0.02 of both radii). All
-// of these need a test of the shapes; `near` counts those that turn out to be within it.
+// The plane is tiled with equilateral triangles, alternately up and down, each shrunk by 1 % and
+// rotated by up to half a degree: every triangle faces three others side by side and nine at its
+// corners. Timed are the placing of all corners and the narrow phase on every pair from the broad
+// phase, i.e. with circumscribed circles closer than the alert distance of a step at rest (0.02 of
+// both radii). All of these pairs need a test of the shapes; `near` counts those that are within
+// the alert distance.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -35,13 +36,13 @@ nscd::Body triangle(GrainId id, double x, double y, double angle) {
     nscd::Body body;
     body.id = id;
     body.radius = radius;
-    body.density = body.mass = body.weight_mass = body.inertia = 1.0;  // nothing moves
+    body.density = body.mass = body.weight_mass = body.inertia = 1.0;  // no body moves
     body.position = {x, y, 0.0};
     body.orientation = {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
     return body;
 }
 
-/// `rows` rows of 2 `rows` triangles; a row is 3/2 of the tile's radius high.
+/// `rows` rows of 2 `rows` triangles; the height of a row is 3/2 of the tile's radius.
 nscd::Bodies tiling(int rows) {
     const double tile = radius * (1.0 + shrink), half_side = 0.5 * std::sqrt(3.0) * tile;
     std::mt19937_64 random(1);
@@ -57,7 +58,7 @@ nscd::Bodies tiling(int rows) {
     return bodies;
 }
 
-/// Pairs whose shapes are within the alert distance; appends their points.
+/// Returns the number of pairs whose shapes are within the alert distance; appends their points.
 double detect(const nscd::NarrowPhase& narrow, const nscd::Bodies& bodies,
               const std::vector<nscd::Pair>& pairs, std::vector<nscd::ContactPoint>& points) {
     using namespace nscd;

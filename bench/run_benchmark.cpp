@@ -17,7 +17,7 @@
 namespace turbidite::bench {
 namespace {
 
-/// A figure to be measured, then with its outcome.
+/// A figure, with its result once measured.
 struct Entry {
     const Figure* figure = nullptr;
     std::string command;
@@ -125,7 +125,7 @@ void write_json(const std::vector<Entry>& entries, const std::filesystem::path& 
 bool run_benchmarks(const BenchOrder& order) {
     std::vector<Entry> entries = entries_of(order);
     Site site(order.quick);
-    double load = 0.0;  // before we add to it
+    double load = 0.0;  // of the machine before the benchmark
     ::getloadavg(&load, 1);
     fmt::print("machine: {} processors, load {:.1f}, memory triad {:.1f} GB/s on one core\n",
                ::sysconf(_SC_NPROCESSORS_ONLN), load, 1e-9 * memory_triad());

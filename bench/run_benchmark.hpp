@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Measures figures one after the other, prints each as soon as it is there, then the table.
+// Measures figures one after the other, prints each as soon as it is available, and then the table.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct BenchOrder {
     bool quick = false;
 };
 
-/// False when a figure could not be measured; the others are there all the same, and the reason is
-/// in the table and the file. Throws Failure (bad_input) for unknown names.
+/// False if a figure could not be measured; the other figures are reported, and the reason is in
+/// the table and in the file. Throws Failure (bad_input) for unknown names.
 ///
 /// The file maps names of figures to {value, unit, command, reach, reached, lowest, highest,
 /// notes}; a figure that could not be measured has a null value and a reason.

@@ -5,10 +5,10 @@
     bench/same_histories.py record FOLDER [--program turbidite] [--only NAME]...
     bench/same_histories.py compare BEFORE AFTER
 
-`record` plays what is not in FOLDER yet, with the given program (another checkout's to have its histories).
-`compare` asks every column of history.csv but the wall times (wall_*) to be the same text; it prints where a
-run first differs and ends with 1. Columns that only one side has are named; values of the others still count.
-Takes about four minutes on two cores."""
+`record` plays the runs that are not yet in FOLDER, with the given program (that of another checkout, to record its
+histories). `compare` requires every column of history.csv except the wall times (wall_*) to have identical text; it
+prints where each run first differs, and exits with 1. Columns that only one side has are named; the values of the
+others are still compared. Takes about four minutes on two cores."""
 import argparse
 import csv
 import subprocess
@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-# The recovery of before the case had one of its own, so that older programs can be compared.
+# The default recovery before the case had its own, so that older programs can be compared.
 SEDIMENTATION = ['fluid.cells_per_diameter=8', 'time.end=5', 'output.interval=0.1',
                  'contact.recovery_fraction=0.2']
 COLUMN = ['time.end=5', 'output.interval=0.1']
@@ -49,7 +49,7 @@ def arguments():
 
 
 def play(options, name):
-    """One run, unless it is there; False when it failed."""
+    """Plays one run, unless it is there; False if it failed."""
     folder = options.folder / name
     if (folder / 'report.html').exists():
         return True
@@ -65,7 +65,7 @@ def play(options, name):
 
 
 def history(folder):
-    """({column: texts}, number of rows) of a run, without wall times."""
+    """({column: texts}, number of rows) of a run, without the wall times."""
     with open(folder / 'history.csv', newline='', encoding='utf-8') as file:
         rows = list(csv.DictReader(file))
     names = [name for name in rows[0] if not name.startswith('wall_')]
@@ -73,7 +73,7 @@ def history(folder):
 
 
 def differences(before, after):
-    """Sentences on what differs between two run folders; none: equal."""
+    """Sentences on the differences between two run folders; empty if they are equal."""
     (old, old_rows), (new, new_rows) = history(before), history(after)
     found = [f'only one side has the column {name}' for name in sorted(set(old) ^ set(new))]
     if old_rows != new_rows:

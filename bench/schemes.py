@@ -4,9 +4,8 @@
 
     bench/schemes.py [--case FILE] [--set key=value]... [--steps 0.02,0.01,0.005] [--out FOLDER]
 
-Runs `./turbidite run` once per row, unless the row's run folder is there already, and compares the mean
-histories with those of `joint` at the smallest step. Times are wall times of this machine: compare rows, not
-tables."""
+Runs `./turbidite run` once per row, unless the row's run folder exists, and compares the mean histories with those of
+`joint` at the smallest step. Times are wall times of this machine, and comparable only within one table."""
 import argparse
 import subprocess
 import sys
@@ -16,7 +15,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / 'launcher/report'))
-import run_data  # noqa: E402  what a run folder holds
+import run_data  # access to the contents of a run folder
 
 SCHEMES = {
     'split, corrected': ['coupling.scheme=split', 'coupling.positions=corrected'],
@@ -54,7 +53,7 @@ def arguments():
 
 
 def play(options, scheme, step):
-    """The run of one row; started only if it is not there."""
+    """The run of one row, which is started only if it is not there."""
     folder = Path(options.out) / f'{scheme.replace(", ", "-")}-{step}'
     if not (folder / 'report.html').exists():
         command = [options.program, 'run', options.case, '--out', str(folder), '--force']
@@ -66,7 +65,7 @@ def play(options, scheme, step):
 
 
 def difference(run, reference):
-    """rms of the difference of mean vertical velocities, over the largest of the reference's."""
+    """rms difference of the mean vertical velocities, over the largest value of the reference."""
     times = reference.column('time')
     fall = np.interp(times, run.column('time'), run.column('mean_velocity_y'))
     wanted = reference.column('mean_velocity_y')

@@ -28,12 +28,12 @@ fs::path temporary_folder() {
 }  // namespace
 
 Site::Site(bool quick) : quick_(quick), programs_(find_programs()), folder_(temporary_folder()) {
-    // OpenFOAM looks for its settings while its libraries load.
+    // OpenFOAM reads its settings while its libraries are loaded.
     ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
 }
 
 Site::~Site() {
-    std::error_code ignored;  // a folder left over spoils no figure
+    std::error_code ignored;  // a folder left behind does not affect the figures
     fs::remove_all(folder_, ignored);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Where a benchmark works: a temporary folder, removed at the end, with the prepared cases, and the
-// programs it starts. Every contender is a process of its own.
+// The working place of a benchmark: a temporary folder, removed at the end, with the prepared
+// cases; and the programs it starts. Every contender is a process of its own.
 #pragma once
 
 #include <filesystem>
@@ -22,13 +22,14 @@ class Site {
     Site(const Site&) = delete;
     Site& operator=(const Site&) = delete;
 
-    bool quick() const { return quick_; }  ///< tiny meshes, to see that everything works
+    bool quick() const { return quick_; }  ///< tiny meshes, to test that everything works
     const Programs& programs() const { return programs_; }
     const std::filesystem::path& folder() const { return folder_; }
-    std::filesystem::path source(const std::string& file) const;  ///< of this folder, bench/
+    /// path of a file in this folder, bench/
+    std::filesystem::path source(const std::string& file) const;
 
-    /// Runs a program to its end; its output goes to the folder's file `log`. Throws Failure with
-    /// the last words of the log when it fails.
+    /// Runs a program to its end, with its output in the folder's file `log`. Throws Failure with
+    /// the end of the log if the program fails.
     void run(const std::vector<std::string>& line, const std::string& log) const;
 
     std::string text(const std::string& log) const;
@@ -41,7 +42,8 @@ class Site {
 
 using Contender = std::function<Sample()>;
 
-/// Samples of two contenders that took turns, A B A B …, so that both meet the same machine.
+/// Samples of two contenders in turns, A B A B …, so that the state of the machine is the same for
+/// both.
 struct Duel {
     std::vector<Sample> first, second;
 };
@@ -50,7 +52,7 @@ Duel alternate(int repeats, const Contender& first, const Contender& second);
 using Quantity = std::function<double(const Sample&)>;
 double median_of(const std::vector<Sample>& samples, const Quantity& quantity);
 
-/// Median over median of first over second, with the spread of the ratios turn by turn.
+/// Ratio of the medians, first over second, with the spread of the ratios of the turns.
 Measured ratio(const Duel& duel, const Quantity& quantity);
 
 }  // namespace turbidite::bench

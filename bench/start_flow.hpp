@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The flow that benchmarks without grains start from: one large vortex over smaller ones 2.5 D
-// wide, the size of the wakes among grains. It has no divergence and is at rest on all walls when
-// the sides are multiples of 2.5 D. bench/icofoam/system/setExprFieldsDict says the same to
-// OpenFOAM, for icoFoam and for our own fluid.
+// The initial flow of benchmarks without grains: one large vortex and smaller ones 2.5 D wide, the
+// size of the wakes among grains. It is divergence-free, and zero on all walls if the sides are
+// multiples of 2.5 D. bench/icofoam/system/setExprFieldsDict defines the same flow for OpenFOAM,
+// both for icoFoam and for our fluid.
 #pragma once
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Times the steps of one contender inside its own process, and leaves the result as a small JSON
+// Times the steps of one contender inside its own process, and writes the result to a small JSON
 // file for the benchmark that started it.
 //
-// Comparisons on one core use processor time, which does not count what other programs of the
-// machine take; only comparisons between numbers of ranks, which wait for each other, use wall
+// Comparisons on one core use processor time, which excludes the time of other programs on the
+// machine. Only comparisons between different numbers of ranks, which wait for each other, use wall
 // time.
 #pragma once
 
@@ -15,13 +15,14 @@
 
 namespace turbidite::bench {
 
-double processor_seconds();  ///< of this process
+double processor_seconds();  ///< of this process [s]
 double wall_seconds();
 
-/// Middle value; of an even number the mean of the two. Throws std::invalid_argument when empty.
+/// Median; the mean of the two middle values if their number is even. Throws std::invalid_argument
+/// if empty.
 double median(std::vector<double> values);
 
-/// Resident memory of this process now [bytes] (VmRSS).
+/// Present resident memory of this process [bytes] (VmRSS).
 double resident_bytes();
 
 class StepClock {
@@ -29,7 +30,7 @@ class StepClock {
     void start();
     void stop();  ///< ends a step
 
-    // What lies between these two does not count.
+    // The time between these two calls is not counted.
     void pause();
     void resume();
 
@@ -40,19 +41,19 @@ class StepClock {
 
  private:
     double processor_start_ = 0.0, wall_start_ = 0.0;
-    double processor_so_far_ = 0.0, wall_so_far_ = 0.0;  // of a step that was paused
+    double processor_so_far_ = 0.0, wall_so_far_ = 0.0;  // of a step interrupted by pause()
     bool runs_ = false;
     std::vector<double> processor_, wall_;
 };
 
-/// What a contender reports: medians over its timed steps.
+/// The result of a contender: medians over its timed steps.
 struct Sample {
     double processor = 0.0;                ///< per step [s]
     double wall = 0.0;                     ///< per step [s]
     double resident = 0.0;                 ///< after the last step [bytes]
     double arrays = 0.0;                   ///< the array code: its arrays [bytes]
     std::map<std::string, double> parts;   ///< of a step, wall [s]
-    std::map<std::string, double> counts;  ///< what was done, by name
+    std::map<std::string, double> counts;  ///< of operations, by name
 };
 
 /// Throw Failure naming the file.

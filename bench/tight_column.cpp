@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // turbidite-bench-tight: contact problems of the paper's dry column at several times, each solved
-// from zero impulses to a tight tolerance. One line per problem; the table of
+// from zero impulses to a tight tolerance. Prints one line per problem, for the table of
 // docs/contact-solvers.md.
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -21,7 +21,7 @@ struct Options {
     nscd::SolverSettings settings{.tolerance = 1e-8, .max_iterations = 1000000};
 };
 
-/// The problem of the step after the column's state; the column itself plays on untouched.
+/// The problem of the step after the column's present state; the column itself is not advanced.
 nscd::ContactProblem next_problem(const nscd::Engine& column, const DryColumn& settings) {
     nscd::Engine probe = dry_column(settings);
     probe.restore(column.save());
@@ -29,7 +29,7 @@ nscd::ContactProblem next_problem(const nscd::Engine& column, const DryColumn& s
     return probe.problem();
 }
 
-/// Prints one line; false where the solver did not converge.
+/// Solves and prints one line; false if the solver did not converge.
 bool solve(const nscd::ContactProblem& problem, const Options& options, double time) {
     const auto solver = nscd::make_solver(options.solver);
     const double start = processor_seconds();
@@ -43,7 +43,7 @@ bool solve(const nscd::ContactProblem& problem, const Options& options, double t
     return result.converged;
 }
 
-/// All times of one compacity.
+/// Runs all times for one compacity.
 bool solve_column(const Options& options) {
     nscd::Engine column = dry_column(options.column);
     double now = 0.0;

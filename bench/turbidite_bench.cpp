@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-bench [NAME]: side-by-side timings; `turbidite bench` starts it.
+// turbidite-bench [NAME]: runs the benchmarks; started by `turbidite bench`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -10,7 +10,7 @@ BoxSolve::BoxSolve(const Rows& rows, double spacing, Condition condition, double
                    double* first)
     : rows_(rows), pivots_(static_cast<std::size_t>(rows.nx) * rows.ny) {
     const bool neumann = condition == Condition::neumann;
-    // Estimated plans, so that two runs do the same arithmetic.
+    // Estimated plans, so that two runs perform the same arithmetic.
     there_ = fftw_plan_r2r_1d(rows.nx, first, first, neumann ? FFTW_REDFT10 : FFTW_RODFT10,
                               FFTW_ESTIMATE);
     back_ = fftw_plan_r2r_1d(rows.nx, first, first, neumann ? FFTW_REDFT01 : FFTW_RODFT01,
@@ -38,7 +38,7 @@ void BoxSolve::factorise(Condition condition, double alpha, double beta_over_h2)
             pivots_[static_cast<std::size_t>(j) * nx + k] = pivot;
         }
     }
-    // The constant is free: its last pivot is infinite but for rounding.
+    // The constant is free: its last pivot is infinite to rounding.
     if (neumann && alpha == 0.0) pivots_[static_cast<std::size_t>(ny - 1) * nx] = 0.0;
 }
 

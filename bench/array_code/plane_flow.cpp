@@ -9,7 +9,7 @@
 namespace turbidite::array_code {
 namespace {
 
-constexpr int line = 8;  // doubles in a cache line; ghosts left of a row take one
+constexpr int line = 8;  // doubles in a cache line; the ghosts left of a row occupy one
 
 std::ptrdiff_t padded(int nx) {
     return line + (nx + line) / line * line;  // at least one ghost on the right
@@ -20,26 +20,26 @@ inline double positive(double x) {
     return 0.5 * (x + std::abs(x));
 }
 
-/// A row of faces, each between a cell and the one `next` behind it.
+/// A row of faces; face i lies between the cells i - next and i.
 struct FaceRow {
     int first = 0, end = 0;
     std::ptrdiff_t next = 1;
-    const double *u, *v, *p;  // cells beyond the faces
-    const double* normal;     // u or v, whichever crosses the faces
+    const double *u, *v, *p;  // by cell; cell i is on the upper side of face i
+    const double* normal;     // u or v, the component normal to the faces
     double* w;                // face velocity, becomes e
     double *flux_u, *flux_v;
 };
 
-/// Takes the pressure part from w, carries momentum, and leaves e in w. c = dt/h.
+/// Subtracts the pressure part from w, computes the momentum flux, and leaves e in w. c = dt/h.
 ///
-/// limitedLinear with the limiter of the difference's own direction (OpenFOAM: limitedLinearV 1).
-/// There is no branch, so that the loop becomes vector code.
+/// limitedLinear with a limiter in the direction of the difference (OpenFOAM: limitedLinearV 1).
+/// There is no branch, so that the loop is vectorised.
 void cross(const FaceRow& row, double c) {
     const std::ptrdiff_t next = row.next;
     const double *u = row.u, *v = row.v, *p = row.p, *normal = row.normal;
     double *w = row.w, *flux_u = row.flux_u, *flux_v = row.flux_v;
     constexpr double tiny = 1e-300;  // 0/0 is smooth: limiter 1
-#pragma GCC ivdep                    // no array reaches into another
+#pragma GCC ivdep                    // arrays do not overlap
     for (int i = row.first; i < row.end; ++i) {
         const double speed = w[i] - c * (p[i] - p[i - next]);
         w[i] = speed - 0.5 * (normal[i] + normal[i - next]);
@@ -109,7 +109,7 @@ void PlaneFlow::step() {
     std::swap(v_, moved_v_);
 }
 
-/// The mirror image that gives the walls no gradient (sign 1) or zero (-1).
+/// The mirror image that gives the walls zero gradient (sign 1) or zero value (-1).
 void PlaneFlow::fill_ghosts(Field& field, double sign) const {
     const int nx = setup_.nx, ny = setup_.ny;
     for (int j = 0; j < ny; ++j) {
@@ -123,7 +123,7 @@ void PlaneFlow::fill_ghosts(Field& field, double sign) const {
     }
 }
 
-/// w into wx and wy, -div w/dt into p. Faces on walls stay zero.
+/// Writes w into wx and wy, and -div w/dt into p. Faces on walls stay zero.
 void PlaneFlow::face_velocity_and_divergence() {
     const int nx = setup_.nx, ny = setup_.ny;
     const double h = setup_.spacing, dt = setup_.step;
@@ -157,7 +157,7 @@ void PlaneFlow::correct_cells() {
     }
 }
 
-/// The face velocities lose their pressure part and become e; momentum goes with them.
+/// Turns the face velocities into e by subtracting their pressure part, and transports momentum.
 void PlaneFlow::transport() {
     const int nx = setup_.nx;
     const double c = setup_.step / setup_.spacing;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The yardstick of `ours_over_array_code`: what a window without grains costs when it is written by
-// hand for one purpose. A closed box with no-slip walls, flat arrays, one core, FFTW; no OpenFOAM
-// and nothing of Turbidite. It computes the same numbers as Turbidite's fluid (a test compares
-// them), by the same splitting on the same collocated grid:
+// The reference of `ours_over_array_code`: the cost of a window without grains in a code written by
+// hand for this one purpose. A closed box with no-slip walls, flat arrays, one core, FFTW; no
+// OpenFOAM and no code of Turbidite. It computes the same numbers as Turbidite's fluid (a test
+// compares them), by the same splitting on the same collocated grid:
 //
 //     1  w = S.u + k e;  lap p = div w/dt;  w -= dt dp/dn;  u -= dt grad p;  e = w - S.u
 //     2  u -= dt div(w u_f)              u_f: limitedLinear, one limiter for both components
 //     3  (1 - nu dt lap) u = u           one solve per component
 //
-// w: face velocities, e: what they know beyond the cells' mean S.u, k = 1/(1 + 4 nu dt/h2).
+// w: face velocities, e: their excess over the mean S.u of the cells, k = 1/(1 + 4 nu dt/h2).
 //
-// Left out, because a code written for one purpose would: checks (finiteness, divergence, momentum
-// balance, Courant number) and everything that reads a case or writes a file.
+// Omitted, as a code written for one purpose would omit them: checks (finiteness, divergence,
+// momentum balance, Courant number), and everything that reads a case or writes a file.
 #pragma once
 
 #include <functional>
@@ -42,11 +42,11 @@ class PlaneFlow {
     double u(int i, int j) const { return u_.cell(i, j); }
     double v(int i, int j) const { return v_.cell(i, j); }
 
-    /// Of all arrays.
+    /// Memory of all arrays.
     std::size_t bytes() const;
 
  private:
-    /// A value per cell, one row of ghosts below and above, ghosts left and right.
+    /// One value per cell, with one row of ghosts below and above, and ghosts left and right.
     class Field {
      public:
         explicit Field(const FlowSetup& setup);
@@ -66,7 +66,7 @@ class PlaneFlow {
         double* first_;
     };
 
-    /// Momentum through the faces of a row [m2/s2].
+    /// Momentum flux through the faces of a row [m2/s2].
     struct FaceFlux {
         std::vector<double> u, v;
     };
@@ -80,7 +80,7 @@ class PlaneFlow {
 
     FlowSetup setup_;
     Field u_, v_, p_, moved_u_, moved_v_;
-    Field wx_, wy_;  // e between windows, w inside; [i]: left and upper face of cell i
+    Field wx_, wy_;  // e between windows, w within; [i]: left and upper face of cell i
     FaceFlux left_, above_, below_;
     BoxSolve pressure_, viscosity_;
 };

@@ -42,7 +42,7 @@ Stopped solve_to_measure(const nscd::ContactSolver& solver, const nscd::ContactP
         result.iterations += solved.iterations;
         result.error = error_measure(problem, result.impulses);
         result.converged = result.error <= tolerance;
-        // Both measures fall together: aim where theirs is met, a little below.
+        // Both measures decrease together: aim slightly below the required error.
         settings.tolerance *= std::clamp(0.8 * tolerance / result.error, 0.2, 0.9);
     }
     return result;

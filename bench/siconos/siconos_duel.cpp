@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // turbidite-bench-siconos: Siconos' NSGS and our solvers on the same contact problems, the dry
-// column at several times. Everybody starts from zero impulses and stops at the same error measure;
-// at the end Siconos' own function judges all answers.
+// column at several times. All start from zero impulses and stop at the same error measure; at the
+// end Siconos' own function evaluates all answers.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +29,7 @@ struct Options {
     std::string result;
 };
 
-/// One contender's times, and the error that Siconos' function sees.
+/// Times of one contender, and its error by Siconos' function.
 struct Contender {
     std::vector<double> seconds;
     std::int64_t iterations = 0;
@@ -88,14 +88,15 @@ nlohmann::ordered_json duel(const nscd::ContactProblem& problem, const Options& 
 nlohmann::ordered_json run(const Options& options) {
     nscd::Engine engine = dry_column(options.column);
     const double mass = engine.bodies().mass.front();
-    // Masses by a grain's, velocities by h g.
+    // Masses are scaled by that of a grain, velocities by h g.
     const siconos::Scale scale{mass, options.column.step};
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     double now = 0.0;
     for (const double time : options.times) {
         play(engine, time - now, options.column.step);
         now = time;
-        nscd::Engine probe = dry_column(options.column);  // the column itself plays on untouched
+        // the original column is not advanced by this
+        nscd::Engine probe = dry_column(options.column);
         probe.restore(engine.save());
         probe.step(options.column.step);
         json.push_back(duel(siconos::dimensionless(probe.problem(), scale), options));

@@ -30,7 +30,7 @@ std::vector<std::string> line(const Site& site, const std::filesystem::path& res
     return words;
 }
 
-/// One problem: the ratio turn by turn, of processor time.
+/// One problem: ratios of processor time, turn by turn.
 std::vector<double> ratios(const nlohmann::json& problem) {
     std::vector<double> result;
     const auto first = problem.at(theirs).at("seconds").get<std::vector<double>>();
@@ -47,7 +47,7 @@ double iterations(const nlohmann::json& problem, const char* who) {
     return problem.at(who).at("iterations").get<double>();
 }
 
-/// The ratio is that of the times per iteration times that of their numbers.
+/// The ratio is the product of the ratios of time per iteration and of iterations.
 std::string note(const nlohmann::json& problem) {
     const auto part = [&](const char* who) {
         const nlohmann::json& c = problem.at(who);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench/siconos/siconos_problem.hpp"
 
-// Headers in C.
+// The headers are C.
 #define restrict __restrict__
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
@@ -32,7 +32,7 @@ double norm(const double* x, std::size_t n) {
     return std::sqrt(sum);
 }
 
-/// A file that goes when it is no longer needed. Siconos crashes on names without ".dat".
+/// A temporary file, removed at the end. Siconos crashes on names without ".dat".
 class PassingFile {
  public:
     explicit PassingFile(const nscd::ContactProblem& problem) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A contact problem in Siconos' hands: its solvers, its error measure. Only tests and benchmarks
-// link this.
+// A contact problem in Siconos: access to its solvers and its error measure. Only tests and
+// benchmarks link this.
 //
-// Siconos' measure mixes impulses and velocities, so the problem is made dimensionless first:
-// masses by `mass`, velocities by `speed`. Vectors here are dimensionless, (n, t) of every contact
-// in turn.
+// Siconos' measure adds impulses and velocities, so the problem is made dimensionless first, with
+// masses scaled by `mass` and velocities by `speed`. Vectors here are dimensionless, (n, t) of all
+// contacts in order.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Scale {
     double speed = 1.0;  ///< [m/s]; for packings at rest h g
 };
 
-/// The problem whose numbers are the dimensionless ones.
+/// The same problem in dimensionless numbers.
 nscd::ContactProblem dimensionless(const nscd::ContactProblem& problem, const Scale& scale);
 
 struct Solution {
@@ -36,7 +36,8 @@ struct Solution {
 
 class Problem {
  public:
-    /// Through the text file of nscd/problem/plane/problem_file.hpp, which Siconos reads.
+    /// Passes the problem through the text file of nscd/problem/plane/problem_file.hpp, which
+    /// Siconos reads.
     Problem(const nscd::ContactProblem& problem, const Scale& scale);
     explicit Problem(const std::filesystem::path& file);
     ~Problem();
@@ -45,24 +46,24 @@ class Problem {
 
     int contacts() const;
 
-    /// fc2d_compute_error of these impulses, relative to the largest norm of q, r and u; the
-    /// velocities W r + q go to `velocities` if given.
+    /// fc2d_compute_error of these impulses, relative to the largest norm of q, r and u; stores W r
+    /// + q in `velocities` if given.
     double error(std::vector<double> impulses, std::vector<double>* velocities = nullptr) const;
 
-    /// W, n rows of n entries, for small problems.
+    /// W as n rows of n entries; for small problems.
     std::vector<double> dense_matrix() const;
     const double* q() const;
     const double* friction() const;
 
-    /// fc2d_driver from zero impulses. `solver`: "nsgs" (any size), "lemke" or "cpg" (dense,
-    /// small).
+    /// fc2d_driver from zero impulses. `solver`: "nsgs" (any size), "lemke" or "cpg" (dense, small
+    /// problems).
     Solution solve(const std::string& solver, double tolerance, int most_iterations) const;
 
  private:
     std::unique_ptr<FrictionContactProblem, void (*)(FrictionContactProblem*)> problem_;
 };
 
-/// Impulses in N s as the dimensionless vector, and back.
+/// Impulses [N s] as the dimensionless vector, and the inverse.
 std::vector<double> flat(const nscd::Impulses& impulses, const Scale& scale);
 nscd::Impulses impulses_of(const std::vector<double>& flat, const Scale& scale);
 
