@@ -43,7 +43,7 @@ if(NOT _openfoam_dpkg EQUAL 0)
     unset(OpenFOAM_VERSION)
 endif()
 
-# Debian keeps the libraries in /usr/lib itself, next to a folder of dummies: no suffixes.
+# Debian installs the libraries directly in /usr/lib, next to a folder of dummies: no suffixes.
 set(_openfoam_libraries finiteVolume meshTools OpenFOAM Pstream)
 set(_openfoam_library_variables "")
 foreach(_library IN LISTS _openfoam_libraries)

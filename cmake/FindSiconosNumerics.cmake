@@ -1,5 +1,5 @@
-# Siconos' solvers of contact problems (Debian: libsiconos-numerics-dev), which comes without CMake
-# files of its own. Imported target: Siconos::numerics.
+# Siconos' solvers for contact problems (Debian: libsiconos-numerics-dev), which has no CMake files of its
+# own. Imported target: Siconos::numerics.
 find_path(SiconosNumerics_INCLUDE_DIR siconos/numerics/FrictionContactProblem.h)
 find_library(SiconosNumerics_LIBRARY siconos_numerics)
 find_library(SiconosExternals_LIBRARY siconos_externals)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of a report show, in words and numbers. A number that is not there is left out."""
+"""Captions of the figures of a report, with numbers. Missing numbers are left out."""
 import findings
 import peaks
 
@@ -26,14 +26,14 @@ def fastest_fluid(pictures):
 
 
 def fastest_grain(pictures):
-    """(largest speed, its time) of the pictures whose grains tell it; None without any."""
+    """(largest speed, its time) of the pictures with grain velocities; None without any."""
     seen = [(float(p.grains.speeds().max()), p.time) for p in pictures
             if p.grains is not None and p.grains.velocities is not None and len(p.grains.radii)]
     return max(seen) if seen else None
 
 
 def collapse(run):
-    """Under Fig. 8(a): the peak of the mean velocity, and how far the front got."""
+    """For Fig. 8(a): the peak of the mean velocity, and the position of the front."""
     text = []
     highest = peaks.peak(run)
     if highest:
@@ -53,7 +53,7 @@ def grains_lost(run):
 
 
 def settling(run):
-    """Under Fig. 3: how fast, from where to where, at rest since when."""
+    """For Fig. 3: speeds, start and end heights, time of coming to rest."""
     text = []
     time, velocity = run.column('mean_velocity_y')
     if len(velocity):
@@ -78,7 +78,7 @@ def rest(run):
 
 
 def force_network(networks):
-    """How strong the widest lines are, and where."""
+    """The force of the widest lines, and their position."""
     counts = ', '.join(f'{len(network.forces)} at t = {network.time:.3g} t_c' for network in networks)
     strongest = max(networks, key=lambda network: abs(network.forces).max())
     return ('Lines join grains in contact, as wide as their normal force (red pushes, blue pulls), on one '
@@ -108,7 +108,7 @@ def motion(run):
 
 
 def packing(run):
-    """How loose the packing became, and what of the contacts slides at the end."""
+    """The loosest packing, and the share of sliding contacts at the end."""
     text = []
     _, pores = run.column('pore_volume')
     if len(pores) and pores[0] > 0.0:
@@ -121,7 +121,7 @@ def packing(run):
 
 
 def solvers(run):
-    """The checks over all windows, and what the iterations cost on average."""
+    """The checks over all windows, and the mean numbers of iterations."""
     text = []
     defects = [(name, findings.largest(run, column, column)) for name, column in
                (('grains', 'grain_balance'), ('fluid', 'fluid_balance'))]

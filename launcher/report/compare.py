@@ -26,7 +26,7 @@ from page import write_whole
 
 
 class Refusal(Exception):
-    """What the user should read; exit code 2."""
+    """An error message for the user; exit code 2."""
 
 
 @dataclass
@@ -57,7 +57,7 @@ QUANTITIES = [
 
 @dataclass
 class Surface:
-    """At the end of a member's runs, in D: mean, smallest and largest height over columns x."""
+    """Free surface at the end of a member's runs, in D: mean, smallest and largest height over columns x."""
 
     time: float  # t_c
     x: np.ndarray
@@ -69,9 +69,9 @@ class Surface:
 
 @dataclass
 class Comparison:
-    """What the page, the CSV and the JSON show. Tables by the member's name; what cannot be told is None."""
+    """The content of the page, the CSV and the JSON. Tables by the member's name; unknown values are None."""
 
-    members: list     # seeds.Member, the first is what others are compared with
+    members: list     # seeds.Member; the first is the reference
     quantities: list  # that at least one member has
     parameters: list  # (key, one value per member)
     wall: list        # (seconds of the run, of a window on average) per member
@@ -118,7 +118,7 @@ def parameters(members):
 
 
 def wall_seconds(run):
-    """(of the run, of a window on average), of the windows that the history tells about."""
+    """Wall time (of the run, mean per window), over the windows covered by the history."""
     wall = findings.wall_time(run)
     if wall is None:
         return None, None
@@ -127,7 +127,7 @@ def wall_seconds(run):
 
 
 def numbers(first, member, column):
-    """Difference from the first member; it has an end value alone."""
+    """Difference from the first member; the first one has only an end value."""
     result = dict.fromkeys(['begin', 'end', 'rms', 'max', 'rms_relative', 'max_relative'])
     _, values = member.data.column(column)
     result['end_value'] = float(values[-1]) if len(values) else None
@@ -190,7 +190,7 @@ def as_json(comparison):
 
 
 def compare(page_file, folders, each=False):
-    """Returns whether everything was written."""
+    """True if everything was written."""
     members = seeds.members(load(folders), each)
     check_spans(members)
     comparison = measure(members)

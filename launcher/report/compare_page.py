@@ -18,7 +18,7 @@ def percent(value):
 
 
 def span(bounds):
-    """`a to b`, or one number when they are the same."""
+    """`a to b`, or one number if they are equal."""
     low, high = (number(value) for value in bounds)
     return low if low == high else f'{low} to {high}'
 
@@ -55,7 +55,7 @@ def add_groups(page, members):
 
 
 def overview(comparison):
-    """Rows: what, then one cell per member."""
+    """Rows: a name, then one cell per member."""
     members, wall = comparison.members, comparison.wall
     rest = [findings.rest_time(member.data) for member in members]
     maxima = lambda name, column: [number(findings.largest(member.data, column, name))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The contact series of a run folder, made into force networks."""
+"""Reads the contact series of a run folder as force networks."""
 import numpy as np
 
 import force_network
@@ -9,7 +9,7 @@ MOST_NETWORKS = 4
 
 
 def networks(run):
-    """Up to four instants, evenly over the outputs that tell contacts; none for runs that tell none."""
+    """Up to four times, evenly spaced over the outputs with contacts; none for runs without contacts."""
     index = run.folder / 'grains' / 'contacts.pvd'
     if not index.exists():
         return []
@@ -37,8 +37,8 @@ def read_network(run, time, contact_file, grain_file):
 
 
 def unit_force(run):
-    """rho_s g D^2 per unit length out of the plane. Dry runs in units of D, u_c count densities in those of
-    a fluid that is not there, so rho_s = density_ratio."""
+    """rho_s g D^2 per unit length out of the plane. Dry runs in units of D, u_c use the density of a fictitious fluid
+    as unit, so rho_s = density_ratio."""
     fluid = float(run.record.get('rho') or 1.0)
     density = fluid * float(run.case.get('grains.density_ratio', 1.0))
     return density * float(run.record.get('g') or 1.0) * run.scale('D')**2

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
-# Residuals of lone contacts are round-off; drawn at their value they would flatten everything else.
+# Residuals of single contacts are round-off; drawn at their value they would compress all other curves.
 LOG_FLOOR = 1e-16
 TIME_LABEL = r'$t\,/\,t_c$'
 
@@ -53,7 +53,7 @@ MOTION = [
     Plot('Contacts with an impulse', 'count', [Curve('contacts', '')]),
 ]
 
-# What the contacts say about the packing, at the output times.
+# Averages over the contacts, at the output times.
 NETWORK = [
     Plot('Coordination', 'contacts per grain', [Curve('coordination', '')]),
     Plot('Stress in the packing', r'stress $/\,(\rho_s g D)$',
@@ -79,7 +79,7 @@ SOLVERS = [
 
 
 def figure(run, plots, columns=2):
-    """The plots the history has numbers for, as one figure; None when there are none."""
+    """The plots for which the history has numbers, as one figure; None if there are none."""
     shown = [plot for plot in plots if available(plot, run)]
     if not shown:
         return None
@@ -123,7 +123,7 @@ def decorate(axes, title, unit):
 
 
 def logarithmic(axes):
-    """Zeros cannot be drawn and what is below round-off means nothing: both leave the curve."""
+    """Zeros cannot be drawn and values below round-off are meaningless: both are removed from the curve."""
     positive = False
     for line in axes.lines:
         values = np.asarray(line.get_ydata(), dtype=float)

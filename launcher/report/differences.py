@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far the histories of two runs are apart."""
+"""Differences between the histories of two runs."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,8 +7,8 @@ import numpy as np
 
 @dataclass
 class Difference:
-    """Of a quantity q(t) of a run from that of the first run, over the time both have; `scale` is the
-    first run's max |q| there. Relative values are None where that is 0."""
+    """Difference of a quantity q(t) from that of the first run, over their common time; `scale` is the first run's
+    max |q| there. Relative values are None if that is 0."""
 
     begin: float  # t_c
     end: float
@@ -22,7 +22,7 @@ class Difference:
 
 
 def common_span(first, second):
-    """(begin, end) that two rising lists of times share; None when they share no more than an instant."""
+    """(begin, end) of the common time of two increasing lists; None if it is a single point or empty."""
     if not len(first) or not len(second):
         return None
     begin, end = max(first[0], second[0]), min(first[-1], second[-1])
@@ -30,8 +30,8 @@ def common_span(first, second):
 
 
 def difference(first, second):
-    """Of two curves (times, values), interpolated linearly at the times of both; None without a common
-    span. Averages are over time, not over rows: rms sqrt(int d^2 dt / T), mean int |d| dt / T."""
+    """Difference of two curves (times, values), interpolated linearly at the times of both; None without a common
+    time. Averages are over time, not over rows: rms sqrt(int d^2 dt / T), mean int |d| dt / T."""
     span = common_span(first[0], second[0])
     if span is None:
         return None

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The numbers a report states: when the grains came to rest, extremes, wall time by participant."""
+"""The numbers of a report: time of coming to rest, extremes, wall time by participant."""
 from dataclasses import dataclass
 
 import numpy as np
 
-# At rest: the mean speed stays below this part of its maximum.
+# At rest: the mean speed stays below this fraction of its maximum.
 REST_FRACTION = 0.01
-# (column, name) of what a window's wall time is made of.
+# (column, name) of the parts of a window's wall time.
 PARTICIPANTS = [('wall_fluid', 'fluid'), ('wall_grains', 'grains'), ('wall_coupling', 'coupling')]
 
 
 def rest_time(run):
-    """First output time [t_c] from which on the grains are at rest, None when the run ends before."""
+    """First output time [t_c] from which the grains are at rest; None if the run ends before."""
     time, speed = run.column('mean_speed')
     if len(speed) < 2 or speed.max() == 0.0:
         return None
@@ -21,7 +21,7 @@ def rest_time(run):
 
 
 def largest(run, column, in_record=None):
-    """Largest value of a quantity: over all windows if run.json has it, else over the rows; or None."""
+    """Largest value of a quantity, over all windows if run.json has it, else over the rows; or None."""
     recorded = (run.record.get('maxima') or {}).get(in_record) if in_record else None
     if recorded is not None:
         return float(recorded)
@@ -31,19 +31,19 @@ def largest(run, column, in_record=None):
 
 @dataclass
 class WallTime:
-    """Rows of a history with wall times; seconds per window, each a mean since the row before."""
+    """Rows of a history with wall times; seconds per window, each a mean since the previous row."""
 
     time: np.ndarray     # t_c
-    windows: np.ndarray  # that a row stands for
+    windows: np.ndarray  # covered by a row
     window: np.ndarray
     parts: dict          # name of a participant: seconds per window
 
     def rest(self):
-        """What the parts leave of a window; 0 where participants overlap by more than that."""
+        """The remaining time of a window; 0 if participants overlap by more than that."""
         return np.maximum(0.0, self.window - sum(self.parts.values()))
 
     def overlaps(self):
-        """Whether participants that work at the same time share a part worth saying (5 %)."""
+        """True if participants work at the same time for a notable part of the run (5 %)."""
         return self.total(sum(self.parts.values())) > 1.05 * self.total(self.window)
 
     def total(self, seconds):
@@ -52,7 +52,7 @@ class WallTime:
 
 
 def wall_time(run):
-    """None when the history has no wall time."""
+    """None if the history has no wall time."""
     if run.history is None or 'wall_step' not in run.history:
         return None
     given = np.isfinite(run.history['wall_step'])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The fluid's velocity in a run folder: at which times it was written, and the field at one of them as
-2-D arrays. How OpenFOAM stores it (format, folders) is known in this file alone."""
+"""The fluid's velocity in a run folder: the times at which it was written, and the field at one of them as 2-D
+arrays. Only this file depends on how OpenFOAM stores it (format, folders)."""
 import gzip
 import re
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ class VelocityField:
 
 
 def field_times(run):
-    """(time, folder) of every instant with a velocity field, in order."""
+    """(time, folder) of every output with a velocity field, in order."""
     fluid = run.folder / 'fluid'
     if not run.is_wet():
         return []
@@ -38,7 +38,7 @@ def field_times(run):
 
 
 def velocity_at(run, time, folder):
-    """The field of one (time, folder) of `field_times`; ValueError when it is broken."""
+    """The field of one (time, folder) of `field_times`; ValueError if it is damaged."""
     columns, rows = mesh_cells(run)
     values = processor_fields.whole_field(
         folder, columns * rows, lambda part, n: read_vectors(_contents(part / 'U'), n))

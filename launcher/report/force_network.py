@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pictures of what the contacts carry: the force network over the grains, the distribution of normal forces
-and the directions of contacts."""
+"""Pictures of the contact forces: the force network over the grains, the distribution of normal forces and the
+directions of contacts."""
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -12,8 +12,8 @@ import grain_drawing
 import pictures
 
 WIDEST = 4.0            # points, of the line of the largest force drawn at scale
-LARGEST_PART = 0.995    # larger forces than this part of them are drawn as wide as it
-THINNEST = 0.08         # of the widest; thinner lines are not seen
+LARGEST_PART = 0.995    # quantile of the forces that gets the full width, as do larger ones
+THINNEST = 0.08         # of the widest; thinner lines are invisible
 PUSH, PULL = '#b3261e', '#1d5fa8'
 BINS_FORCE, BINS_ANGLE = 30, 36
 LARGEST_FORCE = 6.0     # f/<f> in the distribution
@@ -25,14 +25,14 @@ class Network:
 
     time: float           # t_c
     grains: object        # grain_files.Grains
-    ends: np.ndarray      # (n, 2, 2) of the line that stands for a contact [D]
+    ends: np.ndarray      # (n, 2, 2) of the line that represents a contact [D]
     normals: np.ndarray   # (n, 2) unit
-    forces: np.ndarray    # (n,) along the normal, > 0 pushes
+    forces: np.ndarray    # (n,) along the normal, > 0 repulsive
     between_grains: np.ndarray  # (n,) bool; others are at walls
 
 
 def figure(run, networks):
-    """The networks side by side, lines as wide as their force over one scale for all."""
+    """The networks side by side, line width proportional to the force, with one scale for all."""
     scale = force_scale(networks)
     result, axes, size = pictures.frame(run, [network.grains for network in networks],
                                         pictures.LABEL_WIDTH)
@@ -49,7 +49,7 @@ def force_scale(networks):
 
 
 def lines(network, scale):
-    """Weak contacts first, so that strong ones lie on top."""
+    """Draws weak contacts first, so that strong ones are on top."""
     order = np.argsort(np.abs(network.forces))
     part = np.clip(np.abs(network.forces[order]) / scale, 0.0, 1.0)
     seen = part >= THINNEST
@@ -80,7 +80,7 @@ def statistics(networks):
 
 
 def distribution(network):
-    """(middles of the bins, probability density) of pushing forces over their mean; empty bins left out."""
+    """(centres of the bins, probability density) of repulsive forces over their mean; without empty bins."""
     forces = network.forces[network.between_grains]
     forces = forces[forces > 0.0]
     density, edges = np.histogram(forces / forces.mean(), bins=BINS_FORCE, range=(0.0, LARGEST_FORCE))

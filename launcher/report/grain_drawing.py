@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Grains on a plot whose axes are in D: discs as discs, polygons as polygons turned by their angle."""
+"""Draws grains on a plot with axes in D: discs, and polygons at their angle."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, PolyCollection
@@ -9,8 +9,8 @@ EDGE_WIDTH = 0.4  # points
 
 
 def draw(axes, grains, diameter, values=None, limits=None, colours='viridis', alpha=1.0):
-    """Adds the grains; with `values`, one per grain, they are coloured between `limits` and the result
-    is what a colour bar needs. Otherwise they are plain and the result is None."""
+    """Adds the grains; with `values`, one per grain, they are coloured between `limits` and the image for a colour
+    bar is returned. Otherwise they are plain and None is returned."""
     image = None
     for chosen, collection in collections(axes, grains, diameter):
         collection.set(edgecolors=EDGE, linewidths=EDGE_WIDTH, alpha=alpha)
@@ -25,7 +25,7 @@ def draw(axes, grains, diameter, values=None, limits=None, colours='viridis', al
 
 
 def collections(axes, grains, diameter):
-    """(which grains, their collection) of the discs and of the polygons, as far as there are any."""
+    """(indices of grains, their collection) of the discs and of the polygons, if there are any."""
     outlines = grains.outlines or {}
     polygons = np.array(sorted(outlines), dtype=int)
     discs = np.setdiff1d(np.arange(len(grains.radii)), polygons)

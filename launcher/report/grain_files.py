@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The series of a run's grains folder and what a file of grains holds."""
+"""The series in a run's grains folder, and the content of a file of grains."""
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ import numpy as np
 
 @dataclass
 class Grains:
-    """At one time, in the run's own units; what a file does not tell is None."""
+    """The grains at one time, in the units of the run; values missing in the file are None."""
 
     time: float
     centres: np.ndarray            # (n, 2)
@@ -22,7 +22,7 @@ class Grains:
 
 
 def grain_series(run):
-    """(time, path) of every instant of grains/grains.pvd; outlines of polygons stand beside the grains."""
+    """(time, path) of every output in grains/grains.pvd; outlines of polygons are in files beside them."""
     index = run.folder / 'grains' / 'grains.pvd'
     if not index.exists():
         run.remarks.append('grains/grains.pvd is missing: pictures have no grains.')
@@ -31,13 +31,13 @@ def grain_series(run):
 
 
 def series(index):
-    """(time, path) of the first part of every instant."""
+    """(time, path) of the first part of every output."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))
             for entry in ElementTree.parse(index).iter('DataSet') if entry.get('part', '0') == '0']
 
 
 def read_grains(time, path):
-    """Grains of a VTK PolyData file, with the outlines of the file beside it if there is one."""
+    """Grains of a VTK PolyData file, with the outlines from the file beside it if it exists."""
     arrays = read_arrays(path)
     if 'radius' not in arrays:
         raise ValueError(f'{path.name} has no array "radius"')
@@ -67,8 +67,8 @@ def in_plane(triples):
 
 
 def read_arrays(path):
-    """Every array of a one-piece PolyData file by name, flat, the positions as `Points`. Where points and
-    cells share a name it is the cells'. Arrays are ascii, or it is a ValueError."""
+    """Every array of a one-piece PolyData file by name, flat, the positions as `Points`. Where points and cells share
+    a name, it is that of the cells. ValueError unless the arrays are ascii."""
     piece = ElementTree.parse(path).find('.//Piece')
     arrays = {'Points': _array(piece.find('Points/DataArray'))}
     for group in ('Verts', 'Lines', 'Polys', 'PointData', 'CellData'):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A self-contained HTML page of figures and tables, written whole or not at all."""
+"""A self-contained HTML page of figures and tables, written completely or not at all."""
 import base64
 import html
 import io
@@ -68,7 +68,7 @@ class Page:
 
 
 def write_whole(path, content):
-    """A reader never meets half a file. OSError is said on stderr; returns whether it was written."""
+    """Writes a file atomically. An OSError is printed on stderr; returns whether the file was written."""
     part = path.with_name(path.name + '.part')
     try:
         part.write_bytes(content if isinstance(content, bytes) else content.encode())
@@ -84,4 +84,4 @@ def _remove(part):
     try:
         part.unlink(missing_ok=True)
     except OSError:
-        pass  # the failure that matters is said already
+        pass  # the original failure has already been printed

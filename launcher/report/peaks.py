@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How an avalanche is told apart from another: its fastest moment, and how far two mean curves differ."""
+"""Comparison of avalanches: the peak velocity, and the difference between two mean curves."""
 from dataclasses import dataclass
 
 from differences import difference
@@ -9,14 +9,14 @@ COLUMN = 'mean_velocity_norm'  # |<u>|, Fig. 8 of Topin et al. 2011
 
 @dataclass
 class Peak:
-    """Largest |<u>| [u_c] and when [t_c]."""
+    """Largest |<u>| [u_c] and its time [t_c]."""
 
     value: float
     time: float
 
 
 def peak(run):
-    """Of one run or of a mean curve; None when the grains never moved."""
+    """The peak of one run or of a mean curve; None if the grains never moved."""
     time, values = run.column(COLUMN)
     if not len(values) or values.max() <= 0.0:
         return None
@@ -43,7 +43,7 @@ def peaks(member):
 
 @dataclass
 class Pair:
-    """Difference of |<u>|(t) of two members over the time both have, over the first one's peak."""
+    """Difference of |<u>|(t) of two members over their common time, divided by the peak of the first."""
 
     first: str
     second: str
@@ -54,7 +54,7 @@ class Pair:
 
 
 def pairs(members):
-    """Every two members that moved in a common time."""
+    """All pairs of members that moved during a common time."""
     found = []
     for i, first in enumerate(members):
         for second in members[i + 1:]:

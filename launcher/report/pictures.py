@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pictures of a run at a few instants from the start until the grains rest: with a fluid its vertical
-velocity in colour (red up, blue down, white at rest) with the grains on it, otherwise the grains coloured by
-their speed."""
+"""Pictures of a run at a few times from the start until the grains are at rest: with a fluid its vertical velocity in
+colour (red up, blue down, white at rest) and the grains, otherwise the grains coloured by their speed."""
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -13,20 +12,20 @@ import grain_drawing
 import grain_files
 
 MOST_PICTURES = 6
-# Farther apart than this part of an output interval, grains and fluid do not belong together.
+# Grains and fluid are matched if their times differ by less than this fraction of an output interval.
 SAME_TIME = 0.01
 FIGURE_WIDTH = 11.0    # inches
 LARGEST_HEIGHT = 7.0   # of one picture
 BAR_WIDTH = 1.5        # of a colour bar and the labels
 LABEL_WIDTH = 0.5      # of the labels alone
-# A few cells in a narrow gap can be much faster than the rest; colours end below this part of them.
+# A few cells in a narrow gap can be much faster than the rest; this quantile sets the colour scale.
 COLOURED_PART = 0.999
 SPEED_COLOURS = 'viridis'
 
 
 @dataclass
 class Picture:
-    """One instant, in the run's own units; grains or velocity may be None."""
+    """One time, in the units of the run; grains or velocity may be None."""
 
     time: float
     grains: object
@@ -34,8 +33,8 @@ class Picture:
 
 
 def instants(run):
-    """Up to six (time, grains file or None, field folder or None), evenly until the grains rest, or
-    over the run when they do not."""
+    """Up to six (time, grains file or None, field folder or None), evenly spaced until the grains are at rest, or
+    over the run if they are not."""
     grains, fields = grain_files.grain_series(run), fluid_fields.field_times(run)
     leading = grains or fields
     if not leading:
@@ -64,7 +63,7 @@ def _at(time, series, tolerance):
 
 
 def load(run, instant):
-    """Grains and field of an instant; what cannot be read is remarked and left out."""
+    """Grains and field at one time; unreadable data are noted and left out."""
     time, grains_file, field_folder = instant
     picture = Picture(time, None, None)
     try:
@@ -92,8 +91,8 @@ def speed_limit(run, pictures):
 
 
 def view(run, all_grains):
-    """Width and height that are drawn [D], from the lower left corner: the domain, or, without a fluid,
-    what the grains take up of it."""
+    """Width and height of the drawing [D], from the lower left corner: the domain, or, without a fluid, the part
+    occupied by grains."""
     width, height = run.size()
     if run.is_wet():
         return width, height
@@ -106,7 +105,7 @@ def view(run, all_grains):
 
 
 def columns_for(count, aspect):
-    """How many pictures of height/width `aspect` stand side by side."""
+    """Number of pictures of height/width `aspect` side by side."""
     return min(count, 6 if aspect > 1.5 else 3 if aspect > 0.6 else 2)
 
 
@@ -123,8 +122,8 @@ def figure(run, pictures):
 
 
 def frame(run, all_grains, beside=BAR_WIDTH):
-    """A figure with a place for each, its axes, and the width and height that each shows [D]; `beside`
-    inches are left for labels and a colour bar."""
+    """A figure with axes for each picture, and the width and height that each shows [D]; `beside` inches are left for
+    labels and a colour bar."""
     width, height = view(run, all_grains)
     columns = columns_for(len(all_grains), height / width)
     rows = -(-len(all_grains) // columns)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Fields of a fluid case that several ranks wrote: fluid/processor0, fluid/processor1, ...
 
-Every rank writes the values of its own cells; cellProcAddressing, which decomposePar leaves beside its mesh,
-says which cells of the whole mesh these are.
+Every rank writes the values of its own cells; cellProcAddressing, which decomposePar writes beside its mesh, maps
+them to cells of the whole mesh.
 """
 import re
 from pathlib import Path
@@ -11,7 +11,7 @@ import numpy as np
 
 
 def processor_folders(fluid):
-    """fluid/processorN in the order of N; empty for a case on one rank."""
+    """The folders fluid/processorN in the order of N; empty for a case on one rank."""
     found = [p for p in Path(fluid).glob('processor*') if re.fullmatch(r'processor\d+', p.name)]
     return sorted(found, key=lambda p: int(p.name[len('processor'):]))
 
@@ -23,8 +23,8 @@ def time_parent(fluid):
 
 
 def whole_field(time_folder, count, read_part):
-    """Values (count, ...) of all cells at the time of `time_folder`, which is a folder of the case or of its
-    first processor. `read_part(folder, n)` reads the n values of one folder, n None where not known."""
+    """Values (count, ...) of all cells at the time of `time_folder`, which is a folder of the case or of its first
+    processor. `read_part(folder, n)` reads the n values of one folder; n is None if unknown."""
     if not re.fullmatch(r'processor\d+', time_folder.parent.name):
         return read_part(time_folder, count)
     whole = None

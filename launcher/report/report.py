@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """report.py RUN: writes RUN/report.html, one file with everything in it, and its figures as RUN/pictures/*.png.
 
-Reads run.json, case.yaml, history.csv, the grain series and the fluid's velocity fields. What is missing or
-broken is said in the page; the rest is shown.
+Reads run.json, case.yaml, history.csv, the grain series and the fluid's velocity fields. Missing or damaged data are
+noted in the page; the rest is shown.
 """
 import sys
 from pathlib import Path
@@ -24,7 +24,7 @@ from page import Page, write_whole
 
 
 def coupling(case):
-    """Positions are a choice of `split` alone."""
+    """coupling.positions applies to `split` only."""
     scheme = case.get('coupling.scheme')
     return scheme if scheme == 'joint' else f'{scheme}, positions {case.get("coupling.positions")}'
 

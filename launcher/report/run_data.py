@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run folder holds, read for the report: case and run record, history. Grains are read by
-grain_files.py, the fluid's fields by fluid_fields.py.
+"""Reads the case, run record and history of a run folder for the report. Grains are read by grain_files.py, the
+fluid's fields by fluid_fields.py.
 
-Everything is returned in the run's own units (see run.json: D, u_c, t_c). What is missing is None, and
-`RunData.remarks` says so in words.
+Everything is returned in the units of the run (see run.json: D, u_c, t_c). Missing data are None, and
+`RunData.remarks` describes them.
 """
 import csv
 import json
@@ -23,7 +23,7 @@ class RunData:
     remarks: list = field(default_factory=list)
 
     def scale(self, name):
-        """D, u_c or t_c; 1 when run.json does not tell (non-physical cases)."""
+        """D, u_c or t_c; 1 if it is not in run.json (non-physical cases)."""
         return float(self.record.get(name) or 1.0)
 
     def size(self):
@@ -34,7 +34,7 @@ class RunData:
         return self.case.get('fluid.enabled') != 'false'
 
     def column(self, name):
-        """The rows of the history in which a quantity is given: times [t_c] and values."""
+        """The rows of the history that contain a quantity: times [t_c] and values."""
         if self.history is None or name not in self.history:
             return np.empty(0), np.empty(0)
         given = np.isfinite(self.history[name])
@@ -69,7 +69,7 @@ def _read_json(path):
 
 
 def read_resolved_case(path):
-    """The flat keys of a resolved case, which is two levels of plain `key: value` lines."""
+    """The flat keys of a resolved case, which consists of two levels of plain `key: value` lines."""
     case, group = {}, ''
     for line in path.read_text().splitlines():
         text = line.split('  #')[0].rstrip()

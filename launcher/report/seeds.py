@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs of one case with several seeds, taken together: the mean of their histories and how far they spread.
+"""Runs of one case with several seeds, averaged: the mean of their histories and their spread.
 
-A `Member` is one line of a comparison, a single run or such a group. Its `data` has the interface of a
-single run's, so what can be told of a run can be told of a group.
+A `Member` is one line of a comparison, a single run or such a group. Its `data` has the interface of a single run, so
+the same quantities are available for runs and groups.
 """
 import os
 import re
@@ -30,7 +30,7 @@ class Member:
         return [run.case.get(SEED, '?') for run in self.runs]
 
     def band(self, column):
-        """Times [t_c], smallest and largest value over the runs; of a single run both are its own."""
+        """Times [t_c], smallest and largest value over the runs; for a single run both are its value."""
         if not self.is_group():
             time, values = self.data.column(column)
             return time, values, values
@@ -41,8 +41,8 @@ class Member:
 
 
 def members(runs, each=False):
-    """One member per run, or, unless `each`, per set of runs whose cases differ in the seed alone. Runs with
-    equal seeds stay single: they are repetitions, whose mean tells nothing about seeds."""
+    """One member per run, or, unless `each`, per set of runs whose cases differ only in the seed. Runs with equal
+    seeds stay single: they are repetitions, whose mean is no average over seeds."""
     groups = [[run] for run in runs] if each else grouped(runs)
     names = unique([name_of(group) for group in groups], groups)
     return [Member(name, group[0] if len(group) == 1 else average(group), group)
@@ -50,7 +50,7 @@ def members(runs, each=False):
 
 
 def grouped(runs):
-    """Lists of runs, in the order of their first ones."""
+    """Lists of runs, in the order of their first runs."""
     alike = {}
     for run in runs:
         alike.setdefault(case_without_seed(run), []).append(run)
@@ -63,7 +63,7 @@ def grouped(runs):
 
 
 def case_without_seed(run):
-    """A run without a readable case is like no other."""
+    """A run without a readable case belongs to no group."""
     if not run.case:
         return id(run)
     return tuple(sorted((key, value) for key, value in run.case.items() if key != SEED))
@@ -77,7 +77,7 @@ def share_time(runs):
 # --- names --------------------------------------------------------------------------------------------
 
 def name_of(group):
-    """The folder's name; of a group what its folders have in common, without a trailing `-seed`."""
+    """The name of the folder; for a group the common part of its folders' names, without a trailing `-seed`."""
     names = [run.folder.resolve().name for run in group]
     if len(group) == 1:
         return names[0]
@@ -86,7 +86,7 @@ def name_of(group):
 
 
 def unique(names, groups):
-    """Names that tell the members apart: the paths as given where the folders' names are equal."""
+    """Unique names of the members: the paths as given where the folders' names are equal."""
     if len(set(names)) < len(names):
         names = [str(group[0].folder) for group in groups]
     if len(set(names)) < len(names):
@@ -97,7 +97,7 @@ def unique(names, groups):
 # --- averages -----------------------------------------------------------------------------------------
 
 def at_times(run, column, time):
-    """A quantity of a run interpolated linearly; nan beyond the rows in which it is given."""
+    """A quantity of a run interpolated linearly; nan outside the rows that contain it."""
     given, values = run.column(column)
     if not len(values):
         return np.full(len(time), np.nan)
@@ -105,7 +105,7 @@ def at_times(run, column, time):
 
 
 def shared_times(runs):
-    """Rows of any of the runs within the time that all have [t_c]."""
+    """Times of the rows of all runs within their common time [t_c]."""
     begin = max(run.history['time'][0] for run in runs)
     end = min(run.history['time'][-1] for run in runs)
     times = np.unique(np.concatenate([run.history['time'] for run in runs]))
@@ -113,7 +113,7 @@ def shared_times(runs):
 
 
 def average(runs):
-    """RunData of the group: mean history, largest of the maxima, status of the worst."""
+    """RunData of the group: mean history, largest maxima, worst status."""
     mean = run_data.RunData(runs[0].folder, record=average_record(runs), case=dict(runs[0].case))
     mean.case[SEED] = ', '.join(run.case[SEED] for run in runs)
     time = shared_times(runs)
@@ -127,7 +127,7 @@ def average(runs):
 
 
 def average_record(runs):
-    """Maxima are the largest of any run; scales are the same for all; the first status that is not done."""
+    """The largest maxima over the runs; scales, which are the same for all; the first status other than done."""
     record = dict(runs[0].record)
     statuses = [run.record.get('status', 'unknown') for run in runs]
     record['status'] = next((status for status in statuses if status != 'done'), 'done')

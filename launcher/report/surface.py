@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The free surface of a heap: its highest point in each column of one D."""
+"""The free surface of a heap: its highest point in each column of width D."""
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -8,7 +8,7 @@ import grain_files
 
 
 def surface(run, grains):
-    """(middles of the columns, heights), both in D; 0 where there is no grain."""
+    """(centres of the columns, heights), both in D; 0 where there is no grain."""
     diameter = run.scale('D')
     centres, radii = grains.centres / diameter, grains.radii / diameter
     columns = int(np.ceil(run.size()[0]))
@@ -24,13 +24,13 @@ def surface(run, grains):
 
 
 def top_of_disc(centre, radius, column):
-    """Highest point with column <= x <= column + 1; 0 when the disc does not reach in."""
+    """Highest point with column <= x <= column + 1; 0 if the disc does not reach it."""
     nearest = min(max(centre[0], column), column + 1.0) - centre[0]
     return centre[1] + np.sqrt(radius**2 - nearest**2) if abs(nearest) < radius else 0.0
 
 
 def top_of_polygon(corners, column):
-    """The same of a polygon: a corner in the column, or where an edge enters or leaves it."""
+    """The same for a polygon: a corner in the column, or a point where an edge enters or leaves it."""
     inside = (corners[:, 0] >= column) & (corners[:, 0] <= column + 1.0)
     tops = [0.0, *corners[inside, 1]]
     for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0)):
@@ -51,7 +51,7 @@ def figure(run, instants):
 
 
 def trimmed(x, *heights):
-    """Without the empty columns beyond the last one with grains in the first of `heights`."""
+    """Removes the empty columns beyond the last one with grains in the first of `heights`."""
     reach = np.flatnonzero(heights[0])
     end = reach[-1] + 2 if len(reach) else 1
     return (x[:end], *(height[:end] for height in heights))
@@ -66,7 +66,7 @@ def decorate(axes):
 
 
 def last_grains(run):
-    """Grains of the last instant that can be read; None, and a remark, when there is none."""
+    """Grains of the last readable output; None, and a remark, if there is none."""
     for time, path in reversed(grain_files.grain_series(run)):
         try:
             return grain_files.read_grains(time, path)

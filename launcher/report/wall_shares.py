@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the wall time went: seconds per window of each participant, stacked over the run."""
+"""Wall time in seconds per window of each participant, stacked over the run."""
 import matplotlib.pyplot as plt
 
 import curves

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# The bootstrap on a fake Debian. Where packages are missing it must name all of them, install nothing and
-# leave with 2. Where all are there it must build what the command needs and nothing else, and hand over.
-# usage: bootstrap_test.sh PROJECT_FOLDER
+# The bootstrap on a fake Debian. If packages are missing it must name all of them, install nothing and
+# exit with 2. If all are installed it must build what the command needs and nothing else, and start the
+# program. usage: bootstrap_test.sh PROJECT_FOLDER
 set -euo pipefail
 
 project=$1
@@ -18,11 +18,11 @@ broken() {
     exit 1
 }
 
-# Every installer that could do harm writes a witness.
+# Fake installers that record any call.
 for name in apt-get sudo; do
     printf '#!/bin/bash\ntouch "%s/installed"\n' "$work" >"$work/bin/$name"
 done
-# Only yade and g++ are there; cmake was removed but left its configuration.
+# Only yade and g++ are installed; cmake was removed but left its configuration.
 cat >"$work/bin/dpkg-query" <<'FAKE'
 #!/bin/bash
 printf 'yade installed\ng++ installed\ncmake config-files\n'
@@ -41,7 +41,7 @@ done
 if grep -qE '^(yade|g\+\+) ' <<<"$output"; then broken "an installed package is called missing"; fi
 [[ ! -e $work/installed ]] || broken "an installer was called although TURBIDITE_NO_INSTALL forbids it"
 
-# ---- a machine with all packages, and a build folder whose targets only write down that they were built ----
+# ---- a machine with all packages, and a build folder whose targets only record that they were built ----
 
 cat >"$work/bin/dpkg-query" <<'FAKE'
 #!/bin/bash
@@ -82,7 +82,7 @@ for target in run_programs bench_programs; do
     grep -q "^add_custom_target($target " "$project/CMakeLists.txt" || broken "CMake has no target $target"
 done
 
-# A build that fails is told with its words and its own code, and the program is not started.
+# A failing build is reported with its output and its own code, and the program is not started.
 printf 'rule fail\n  command = echo the compiler is not well; false\nbuild run_programs: fail\n' >"$build/build.ninja"
 code=0
 output=$(cd / && PATH="$work/bin:$PATH" TURBIDITE_OPENFOAM_INCLUDE="$work/headers" "$work/a link" run 2>&1) || code=$?

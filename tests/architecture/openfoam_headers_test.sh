@@ -20,7 +20,7 @@ broken() {
 }
 same() { [[ $2 == "$3" ]] || broken "$1:"$'\n'"$2"$'\n'"expected:"$'\n'"$3"; }
 
-# The machine: Debian entries in both formats, among others that must not be asked.
+# The machine: Debian entries in both formats, among others that must not be used.
 cat >"$work/etc/sources.list" <<'LIST'
 deb [signed-by=/k.gpg arch=amd64] http://mirror.example/debian bookworm main contrib # comment
 deb-src http://deb.debian.org/debian bookworm main

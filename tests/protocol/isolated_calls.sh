@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# Every MPI call of OpenFOAM's libPstream that takes a communicator must be answered by the isolation layer.
+# Every MPI call of OpenFOAM's libPstream that takes a communicator must be wrapped by the isolation layer.
 # usage: isolated_calls.sh libturbidite_world_isolation.so
 set -eu
 
