@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// `preconditioner FFT;` where coefficients vary. With coefficients between m and M times their
-// axis's mean, kappa = M/m, an error in the norm of A falls by q = (sqrt(kappa) - 1)/(sqrt(kappa) +
-// 1) per iteration, and the residual after n of them is below 2 sqrt(cond A) q^n of the first one.
+// `preconditioner FFT;` for variable coefficients. With coefficients between m and M times the mean
+// of their axis, kappa = M/m, the error in the norm of A is reduced by q = (sqrt(kappa) -
+// 1)/(sqrt(kappa) + 1) per iteration, and the residual after n iterations is below 2 sqrt(cond A)
+// q^n of the initial one.
 #include "tests/foam_solver/stock_application.hpp"
 
 namespace turbidite {
 namespace {
 
-/// Iterations until `reduction` of the residual is sure.
+/// Upper bound of the iterations needed for `reduction` of the residual.
 int bound(double kappa, double condition, double reduction) {
     const double root = std::sqrt(kappa);
     const double q = (root - 1.0) / (root + 1.0);
@@ -47,10 +48,10 @@ class LidDrivenCavity : public StockApplication {
     }
 };
 
-/// A(U) over its value inside is 1 + d/(1 + 4 d) at a wall and twice that more in a corner, d = nu
-/// dt/h2 = 0.1, and what the convection adds is zero for a flow without divergence: kappa is below
-/// 1.2. The smallest eigenvalue of the pressure's matrix is its reference's delta over the number
-/// of cells, and so cond A = 8 x 1152/2. The residual has 1e-10 to fall from at most 1.
+/// A(U) over its value inside is 1 + d/(1 + 4 d) at a wall, and twice that excess in a corner, with
+/// d = nu dt/h2 = 0.1; the contribution of convection is zero for a divergence-free flow: kappa is
+/// below 1.2. The smallest eigenvalue of the pressure's matrix is its reference's delta over the
+/// number of cells, so cond A = 8 x 1152/2. The residual must fall to 1e-10 from at most 1.
 TEST_F(LidDrivenCavity, TakesTheIterationsThatTheWallRowsCostAndNoMore) {
     const Outcome direct = flow("solver PCG; preconditioner FFT;");
     const Outcome reference = flow("solver GAMG; smoother DIC;");
@@ -94,9 +95,9 @@ class PreconditionedDiffusion : public StockApplication {
                       two = "type fixedValue; value uniform 2;";
 };
 
-/// Cells twice as long in one third and half as long in another: coefficients along x in 1 : 4, and
-/// along y by the length. The smallest eigenvalue is above 1/600 of the largest on 24 x 18 cells,
-/// and the grading costs another 4.
+/// Cells twice as long in one third and half as long in another: coefficients in the ratio 1 : 4
+/// along x, and proportional to the length along y. The smallest eigenvalue is above 1/600 of the
+/// largest on 24 x 18 cells, and the grading costs another factor of 4.
 TEST_F(PreconditionedDiffusion, AGradedMeshCostsTheRatioOfItsCoefficients) {
     FoamBox box;
     box.x = {0.0, 0.5, 0.75, 1.75};
@@ -105,8 +106,8 @@ TEST_F(PreconditionedDiffusion, AGradedMeshCostsTheRatioOfItsCoefficients) {
     EXPECT_LT(largest_difference(direct.T, at_rest(box, {one, flat, flat, two}, dic).T), 1e-8);
 }
 
-/// Only a third of one side holds a value, so that the nearest separable problem has free
-/// constants and the matrix has not.
+/// Only a third of one side holds a value, so that constants are free in the nearest separable
+/// problem but not in the matrix.
 TEST_F(PreconditionedDiffusion, ASideOfTwoConditionsConverges) {
     FoamBox box;
     box.lower_left = one;

@@ -2,9 +2,9 @@
 //
 // `solver FFT;` in laplacianFoam and potentialFoam against their PCG.
 //
-// PCG stops at 1e-14 of its norm, which is below 200 c with values of order one, and the inverse of
-// the smallest eigenvalue is below 300/c on 24 x 18 cells: PCG's error is below 1e-9. A wrong row
-// of the operator next to a side is worth 1e-2.
+// PCG stops at 1e-14 of its norm, which is below 200 c for values of order one, and the inverse of
+// the smallest eigenvalue is below 300/c on 24 x 18 cells: the error of PCG is below 1e-9. A wrong
+// equation of a cell next to a side causes an error of 1e-2.
 #include "tests/foam_solver/stock_application.hpp"
 
 namespace turbidite {
@@ -24,7 +24,7 @@ struct Conditions {
     const char* name;
     Sides sides;
     bool cyclic_x, cyclic_y;
-    bool steady;  // has a solution without a time derivative
+    bool steady;  // whether it has a solution without a time derivative
 };
 
 void PrintTo(const Conditions& conditions, std::ostream* out) {
@@ -49,7 +49,7 @@ FoamBox box_with(const Conditions& conditions) {
     return box;
 }
 
-/// Without order or symmetry.
+/// Values without any order or symmetry.
 std::vector<double> some_values(int count) {
     std::vector<double> values(count);
     for (int c = 0; c < count; ++c) values[c] = std::sin(3.7 * c * c + 1.0);
@@ -81,7 +81,8 @@ TEST_P(FftSolver, EqualsPcgInTime) {
     const Outcome direct = diffused(box, GetParam().sides, fft);
     EXPECT_SAYS(direct.log, "FFT:  Solving for T");
     EXPECT_EQ(iterations(direct.log, "T"), std::vector<int>(3, 1));
-    EXPECT_LT(worst_residual(direct.log, "T"), 1e-13);  // rounding of 5 terms, not 1e-9
+    // rounding of 5 terms, not the 1e-9 of the tolerance
+    EXPECT_LT(worst_residual(direct.log, "T"), 1e-13);
     EXPECT_LT(largest_difference(direct.T, diffused(box, GetParam().sides, pcg).T), agreement);
 }
 
@@ -91,12 +92,12 @@ TEST_P(FftSolver, EqualsPcgAtRest) {
     box.ddt = "steadyState";
     const Outcome direct = diffused(box, GetParam().sides, fft);
     EXPECT_LT(largest_difference(direct.T, diffused(box, GetParam().sides, pcg).T), agreement);
-    // The second and third step find the answer already there.
+    // The second and third step start from the solution.
     EXPECT_EQ(iterations(direct.log, "T"), (std::vector<int>{1, 0, 0}));
 }
 
-/// Ranks that have whole rows, that have none, and that have neither; blockMesh's numbers go block
-/// by block, so that no rank's cells are in the order of the box.
+/// Ranks with complete rows, with none, and with partial rows. blockMesh numbers block by block, so
+/// that on no rank are the cells in the order of the box.
 TEST_P(FftSolver, EqualsPcgOnSeveralRanks) {
     FoamBox box = box_with(GetParam());
     const std::vector<double> reference = diffused(box, GetParam().sides, pcg).T;
@@ -112,7 +113,7 @@ TEST_P(FftSolver, EqualsPcgOnSeveralRanks) {
 INSTANTIATE_TEST_SUITE_P(Conditions, FftSolver, testing::ValuesIn(all_conditions),
                          [](const auto& info) { return std::string(info.param.name); });
 
-/// Flow through a box: the potential is free but for its reference.
+/// Flow through a box: the potential is determined only by its reference.
 class Reference : public StockApplication {
  protected:
     std::vector<double> potential(const std::string& solver, int ranks = 1) const {
@@ -140,7 +141,7 @@ TEST_F(Reference, TheAnswerHasItsValueAtTheReference) {
     EXPECT_GT(*most - *least, 0.5);
 }
 
-/// OpenFOAM takes the reference for one of rank 0's cells, so it is another cell there.
+/// OpenFOAM puts the reference in one of rank 0's cells, which is another cell here.
 TEST_F(Reference, TheAnswerIsTheSameUpToItsLevelOnSeveralRanks) {
     const std::vector<double> one = potential(fft);
     for (const std::array<int, 2>& ranks : {std::array<int, 2>{2, 1}, {2, 2}}) {
@@ -169,7 +170,7 @@ TEST_F(FftSolver, TheSmallestBoxIsSolved) {
               agreement);
 }
 
-/// Stops with a reason instead of returning something.
+/// Cases in which the solver must stop with a reason instead of returning a solution.
 class Refusal : public StockApplication {
  protected:
     std::string said(FoamBox box, const Sides& sides, const std::string& solver,

@@ -25,7 +25,7 @@ std::string list(std::initializer_list<int> numbers) {
     return text + ")";
 }
 
-/// The face of a side in the third-th of its three blocks.
+/// The face of a side in block `third` of its three blocks.
 std::string face(int side, int third) {
     const int at = side % 2 == 0 ? 0 : 3, a = third, b = third + 1;
     if (side < 2)

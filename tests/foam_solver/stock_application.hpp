@@ -35,7 +35,7 @@ class StockApplication : public ShellTest {
                application + " -parallel";
     }
 
-    /// On several ranks what they write is put together again.
+    /// Runs the application; on several ranks its output is reconstructed.
     Answer run(int ranks, const std::string& application) const {
         if (ranks == 1) return run(application);
         run("decomposePar -force");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The hand-written array code of `turbidite bench fluid` is a fair yardstick only if it computes
-// what our window without grains computes.
+// The hand-written array code of `turbidite bench fluid` is a fair reference only if it computes
+// the same as our window without grains.
 //
-// Both solve their linear problems directly and differ by the order of their sums alone: 20 windows
-// of velocities of order 1 agree to 1e-11, while any other limiter, wall or memory of the faces is
-// worth 1e-4 or more.
+// Both solve their linear problems directly and differ only in the order of their sums: 20 windows
+// of velocities of order 1 agree to 1e-11, while a different limiter, wall or excess flux causes a
+// difference of at least 1e-4.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ CoupledSetup closed_box() {
     return setup;
 }
 
-/// The formula as the start field of an OpenFOAM case.
+/// Writes the formula as the initial field of an OpenFOAM case.
 void write_start(const std::filesystem::path& folder, const CoupledSetup& setup,
                  const array_code::FlowSetup& box, const array_code::VelocityAt& start) {
     write_fluid_case(settings_of(setup), folder);
@@ -50,8 +50,8 @@ void write_start(const std::filesystem::path& folder, const CoupledSetup& setup,
 TEST(ArrayCode, ComputesOurWindowWithoutGrains) {
     const CoupledSetup setup = closed_box();
     const array_code::FlowSetup box{80, 120, 1.0 / 16.0, 1.0 / setup.reynolds, setup.step};
-    // The formula's walls are at rest and its divergence is zero: a stream across them, which the
-    // first projection must take out, makes the pressure work.
+    // The formula vanishes on the walls and is divergence-free. A stream across the walls, which
+    // the first projection must remove, is added so that the pressure matters.
     const array_code::VelocityAt start = [&](double x, double y) {
         const auto [u, v] = bench::start_flow(setup.width, setup.height, x, y);
         return std::pair{u + 0.3 * x * y / 10.0, v - 0.2};

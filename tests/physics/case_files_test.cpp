@@ -20,7 +20,7 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// Exit status of a program on the case; its output in `log`.
+/// Exit status of a program run on the case, with its output in `log`.
 int run_on(const std::filesystem::path& folder, const std::string& program,
            const std::filesystem::path& log) {
     const std::string command =

@@ -12,7 +12,7 @@
 namespace turbidite {
 namespace {
 
-/// The case and its mesh; returns the folder.
+/// Writes the case and its mesh; returns the folder.
 std::filesystem::path prepared(const std::filesystem::path& folder, const CoupledSetup& setup) {
     write_fluid_case(settings_of(setup), folder);
     build_fluid_mesh(folder, folder / "blockMesh.log");
@@ -99,7 +99,7 @@ TemporaryFolder::TemporaryFolder() {
 }
 
 TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;  // a folder left over is no reason to fail a test
+    std::error_code ignored;  // a folder left behind is no reason to fail
     std::filesystem::remove_all(path_, ignored);
 }
 

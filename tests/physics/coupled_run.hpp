@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fluid and contact adapters in one process, called in the order of the `split` scheme without hub
+// Fluid and contact adapters in one process, called in the order of the `split` scheme, without hub
 // or messages. Run units: D = u_c = rho_f = 1.
 #pragma once
 
@@ -30,10 +30,10 @@ struct CoupledSetup {
     double hydrodynamic_radius = 1.0;
     std::string transport_scheme = "Gauss limitedLinearV 1";
     std::string pressure_solver = "FFT", viscous_solver = "FFT";
-    double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative ones
+    double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative solvers
 };
 
-/// The four sides of a box, under the name of a test's parameter.
+/// The four sides of a box, with the name of the test parameter.
 struct Sides {
     const char* name;
     const char *left, *right, *bottom, *top;
@@ -71,7 +71,8 @@ class CoupledRun {
     const std::vector<GrainState>& between() const { return between_; }  ///< U^{n+4/5}
     const std::vector<GrainState>& grains() const { return grains_; }    ///< U^{n+1}
     const Kicks& answer() const { return answer_; }
-    std::int64_t contacts() const { return contacts_; }  ///< with an impulse, of all windows
+    /// with an impulse, summed over all windows
+    std::int64_t contacts() const { return contacts_; }
     ImmersedBody body() const;
 
  private:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The direct solvers of pressure and viscosity against OpenFOAM's iterative ones: the same windows
-// with discs that fall, turn and meet, in boxes with every kind of side.
+// with discs that fall, rotate and collide, in boxes with every type of side.
 //
-// The iterative solvers stop at 1e-11 of their residual norms and the multipliers, in both runs, at
-// 1e-9 u_c: what 20 windows make of that is below 1e-8 u_c, and a wrong row of the operator next to
-// any side is worth 1e-2.
+// The iterative solvers stop at 1e-11 of their residual norms, and the multipliers, in both runs,
+// at 1e-9 u_c. After 20 windows the difference is below 1e-8 u_c, while a wrong equation of a cell
+// next to any side causes 1e-2.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,9 +94,9 @@ TEST_P(DirectSolvers, AgreeWithTheIterativeOnes) {
         for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(one[axis], other[axis], 1e-8);
         fastest = std::max(fastest, std::abs(one[1]));
     }
-    EXPECT_GT(fastest, 0.1);  // something did move
+    EXPECT_GT(fastest, 0.1);  // the discs move
     EXPECT_GE(direct.contacts(),
-              10);  // and met: the second disc reaches the fifth in about four windows
+              10);  // and collide: the second disc reaches the fifth in about four windows
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, DirectSolvers, testing::ValuesIn(all_sides),
@@ -110,7 +110,7 @@ void replace_in(const std::filesystem::path& file, const std::string& from, cons
     std::ofstream(file) << text.replace(at, from.size(), to);
 }
 
-/// What a case with these words replaced is refused with.
+/// The message with which a case is refused after these words have been replaced.
 std::string refusal(const CoupledSetup& setup, const char* file, const std::string& from,
                     const std::string& to) {
     const TemporaryFolder folder;
@@ -152,8 +152,8 @@ TEST(DirectSolversRefusal, AnUnknownNameIsAnsweredWithTheList) {
     }
 }
 
-/// Values other than zero on a side need the operators, with the same direct solver: 1.5 on the
-/// free sides is a level of p and moves nothing.
+/// Non-zero values on a side require OpenFOAM's operators, with the same direct solver: 1.5 on the
+/// free sides only shifts p and causes no motion.
 TEST(DirectSolversByOperators, TakeAFixedValueOtherThanZero) {
     const CoupledSetup setup = box_with(all_sides[2]);
     const TemporaryFolder folder;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 on rows of a box against the same steps by OpenFOAM's operators, and what explicit
-// transport does beyond dt = 2 nu/u2.
+// Steps 1 to 3 on the rows of a box (a row is the cells of one y) against the same steps by
+// OpenFOAM's operators, and the behaviour of explicit transport beyond dt = 2 nu/u2.
 //
-// `bounded` takes u div phi off the transport, which is rounding after a direct projection: the
-// same numbers, but a scheme that only OpenFOAM's table knows, so the operators run.
+// `bounded` subtracts u div phi from the transport, which is rounding after a direct projection:
+// the result is the same, but only OpenFOAM's table has this scheme, so its operators are used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr Sides all_sides[] = {
     {"cyclic", "cyclic", "cyclic", "cyclic", "cyclic"},
 };
 
-constexpr int nx = 27, ny = 34;  // odd and even: transforms pair rows
+constexpr int nx = 27, ny = 34;  // odd and even: transforms process rows in pairs
 
 CoupledSetup box_with(const Sides& sides, bool operators, const std::string& k) {
     CoupledSetup setup = with_sides(sides);
@@ -59,7 +59,8 @@ double largest_difference(CoupledRun& a, CoupledRun& b) {
     return largest;
 }
 
-/// Ten windows of rounding, 1e-16, through solves of about 1e3 and conjugate gradients.
+/// Rounding, 1e-16, over ten windows, amplified by solves of condition about 1e3 and by conjugate
+/// gradients.
 constexpr double rounding = 1e-11;
 
 class FluidSteps : public testing::TestWithParam<Sides> {};
@@ -77,12 +78,12 @@ TEST_P(FluidSteps, OnRowsAreOpenFoamsOperators) {
             EXPECT_LT(one.answer().report.momentum_defect, 1e-10);
         }
         EXPECT_LT(largest_difference(one, other), rounding);
-        EXPECT_GT(one.answer().report.courant, 0.02);  // something did move
+        EXPECT_GT(one.answer().report.courant, 0.02);  // the fluid moves
     }
 }
 
-/// What the steps keep for themselves reaches the saved state: from one, a fluid that has gone
-/// another way goes on as the one that was saved, bit for bit.
+/// The steps' own state is part of the saved state: after restoring it, a fluid that took another
+/// course continues bit for bit as the one that was saved.
 TEST_P(FluidSteps, GoOnFromASavedState) {
     for (const bool by_operators : {false, true}) {
         const CoupledSetup setup = box_with(GetParam(), by_operators, "1");
@@ -117,13 +118,13 @@ TEST(TransportParts, KeepEveryPartBelowTwoThirds) {
     EXPECT_EQ(transport_parts(std::numeric_limits<double>::quiet_NaN()), 1);  // refused elsewhere
 }
 
-/// Beyond a Courant number of 2/3 transport is cut into parts; the two kinds of steps still agree,
-/// momentum balances on open sides too, and u stays bounded.
+/// Beyond a Courant number of 2/3 transport is divided into sub-steps; both kinds of steps still
+/// agree, momentum balances on open sides too, and u stays bounded.
 TEST_P(FluidSteps, TakeLongStepsInParts) {
     CoupledSetup rows = box_with(GetParam(), false, "1"),
                  operators = box_with(GetParam(), true, "1");
     CoupledRun one(rows, two_discs(rows)), other(operators, two_discs(operators));
-    const double speed = 2.0 / (rows.step * 8.0);  // 2 cells per window and more
+    const double speed = 2.0 / (rows.step * 8.0);  // at least 2 cells per window
     for (CoupledRun* run : {&one, &other}) run->fluid().add_velocity(speed, 0.3 * speed);
     double courant = 0.0;
     for (int n = 0; n < 6; ++n) {
@@ -133,14 +134,14 @@ TEST_P(FluidSteps, TakeLongStepsInParts) {
         EXPECT_LT(one.answer().report.momentum_defect, 1e-10);
         EXPECT_LT(other.answer().report.momentum_defect, 1e-8);
     }
-    // A closed box stops the stream at once.
+    // A closed box stops the stream immediately.
     if (std::string(GetParam().name) != "closed") {
         EXPECT_GT(courant, 2.0 / 3.0);
     }
     EXPECT_LT(largest_difference(one, other), rounding * speed * 10.0);
 }
 
-/// A stream past a disc in a cyclic box, 25 times beyond 2 nu/u2 = 0.002.
+/// A stream past a disc in a cyclic box, with a step 25 times the limit 2 nu/u2 = 0.002.
 CoupledSetup stream_beyond_the_limit(const std::string& scheme) {
     CoupledSetup setup = box_with(all_sides[5], false, "1");
     setup.reynolds = 1000.0;
@@ -151,7 +152,7 @@ CoupledSetup stream_beyond_the_limit(const std::string& scheme) {
     return setup;
 }
 
-/// Largest |u_x| on the way; infinity once a window is refused.
+/// Largest |u_x| during the run; infinity if a window is refused.
 double fastest(const CoupledSetup& setup, int windows) try {
     CoupledRun run(setup, {disc_at(setup, 1.63, 2.017)});
     run.fluid().add_velocity(1.0, 0.3);

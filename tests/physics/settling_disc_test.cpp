@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One disc in a box against the force balance of the scheme. Gravity as in sedimentation at density
+// One disc in a box, against the force balance of the scheme. Gravity as in sedimentation at
+// density
 // ratio 1.5 and compacity 0.2: g = u_c^2 / ((pi D/2)(1/2)(1 - 0.2)^10) = 11.86 u_c^2/D.
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TEST_P(SettlingDisc, BalancesForcesInEveryWindow) {
     EXPECT_NEAR(run.grains()[0].position[1], 0.5, 0.01);
 }
 
-/// A disc in the middle of a symmetric box keeps to the middle and does not turn.
+/// A disc in the middle of a symmetric box stays in the middle and does not rotate.
 TEST_P(SettlingDisc, FallsStraightInASymmetricBox) {
     const CoupledSetup setup = settling(GetParam());
     CoupledRun run(setup, {disc_at(setup, 2.0, 3.0)});
@@ -90,12 +91,12 @@ TEST(SettlingDiscRefusal, AProjectionThatDoesNotConvergeNamesStepAndWindow) {
     const TemporaryFolder folder;
     write_fluid_case(settings_of(setup), folder.path());
     build_fluid_mesh(folder.path(), folder.path() / "blockMesh.log");
-    // Two sweeps cannot do what takes some ten.
+    // Two sweeps cannot replace the ten or so that are needed.
     std::ofstream(folder.path() / "system" / "fvSolution", std::ios::app)
         << "solvers { p { maxIter 2; } }\n";
     FoamAdapter fluid(folder.path());
     fluid.initialise(settings_of(setup), {ShapeRecord{"disc", {}}});
-    fluid.advance({0, 0.0, setup.step, false, false});  // still fluid: nothing to solve
+    fluid.advance({0, 0.0, setup.step, false, false});  // fluid at rest: nothing to solve
     fluid.correct({0, 0.0, setup.step, false, false}, {disc_at(setup, 2.0, 2.0, 0.0, -0.1)});
     fluid.impose({0, 0.0, setup.step, false, false});
     try {

@@ -15,12 +15,12 @@ CoupledSetup cyclic_box(const std::string& points) {
 
 class UniformStream : public testing::TestWithParam<std::string> {};
 
-/// Fluid and disc move with (0.7, -0.4): nothing pushes on anything, for ever.
+/// Fluid and disc move with (0.7, -0.4): there is no force, however long they move.
 TEST_P(UniformStream, IsNotDisturbedByADiscMovingWithIt) {
     const CoupledSetup setup = cyclic_box(GetParam());
     CoupledRun run(setup, {disc_at(setup, 2.03, 0.31, 0.7, -0.4)});
     run.fluid().add_velocity(0.7, -0.4);
-    for (int n = 0; n < 100; ++n) {  // crosses the lower and, at x = 2.73, no side
+    for (int n = 0; n < 100; ++n) {  // crosses the lower side, but no other (x = 2.73)
         run.advance();
         ASSERT_NEAR(run.grains()[0].velocity[0], 0.7, 1e-12);
         ASSERT_NEAR(run.grains()[0].velocity[1], -0.4, 1e-12);
@@ -33,8 +33,8 @@ TEST_P(UniformStream, IsNotDisturbedByADiscMovingWithIt) {
         }
 }
 
-/// A disc faster than the stream shares its momentum with a box that nothing else acts on: the sum
-/// of cM U and the fluid's momentum stays, to the tolerance of the solvers.
+/// A disc faster than the stream exchanges momentum with the fluid in a box without other forces:
+/// the sum of cM U and the fluid's momentum is conserved, to the tolerance of the solvers.
 TEST_P(UniformStream, SharesMomentumInACyclicBox) {
     const CoupledSetup setup = cyclic_box(GetParam());
     CoupledRun run(setup, {disc_at(setup, 2.03, 2.01, 1.0, 0.0)});
@@ -47,7 +47,7 @@ TEST_P(UniformStream, SharesMomentumInACyclicBox) {
     for (int j = 0; j < 64; ++j)
         for (int i = 0; i < 64; ++i) fluid += run.fluid().velocity(i, j)[0] / 256.0;
     EXPECT_NEAR(cM * run.grains()[0].velocity[0] + fluid, cM, 1e-7 * cM);
-    EXPECT_LT(run.grains()[0].velocity[0], 0.5);  // and it did slow down
+    EXPECT_LT(run.grains()[0].velocity[0], 0.5);  // and the disc did slow down
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, UniformStream, testing::Values("interior", "interior+boundary"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The arithmetic of a comparison and how a sample travels from a contender to the benchmark.
+// The arithmetic of a comparison, and the transfer of a sample from a contender to the benchmark.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -72,7 +72,7 @@ TEST(Figures, ASampleSurvivesItsFile) {
     EXPECT_THROW(read_sample(scratch.path() / "missing.json"), Failure);
 }
 
-// 8 MiB touched are 8 MiB resident; the rest of the process moves by less than half of that.
+// 8 MiB written are 8 MiB resident; other memory of the process varies by less than half of that.
 TEST(Figures, ResidentMemoryGrowsByWhatIsTouched) {
     const double before = resident_bytes();
     const std::vector<double> touched(8 << 17, 1.0);

@@ -30,7 +30,7 @@ Pair convection(double x, double y) {
     return {u * ux + v * uy, -u * uy - v * ux};
 }
 
-/// mean |div(phi u) - (u . grad) u| over n x n cells, with exact fluxes.
+/// Mean of |div(phi u) - (u . grad) u| over n x n cells, with exact fluxes.
 double mean_error(int n) {
     const double h = 2 * pi / n;
     const auto at = [&](int i, int j) { return velocity((i + 0.5) * h, (j + 0.5) * h); };
@@ -58,7 +58,7 @@ double mean_error(int n) {
     return sum / (2 * n * n);
 }
 
-/// Halving h divides the error by 4 but for the few faces at extrema, where the limiter acts.
+/// Halving h divides the error by 4, except at the few faces at extrema, where the limiter acts.
 /// Linear interpolation has 2.3e-4 at 128 cells, limitedLinear per component 7.2e-4.
 TEST(ConvectiveFlux, IsOfSecondOrderWhereUIsSmooth) {
     const double coarse = mean_error(64), fine = mean_error(128);
@@ -66,7 +66,7 @@ TEST(ConvectiveFlux, IsOfSecondOrderWhereUIsSmooth) {
     EXPECT_LT(fine, 3e-4);
 }
 
-/// At an extremum along the flow the limiter closes: what is carried is the upwind value.
+/// At an extremum along the flow the limiter is zero: the upwind value is carried.
 TEST(ConvectiveFlux, IsUpwindAtAnExtremum) {
     const double u[] = {1.0, 2.0, 1.5, 0.0}, v[] = {0.0, 0.0, 0.0, 0.0};
     const double flux = 3.0;

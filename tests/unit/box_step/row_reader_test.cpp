@@ -23,7 +23,7 @@ std::vector<double> some_field() {
     return field;
 }
 
-/// Cell that stands for index k of n cells, and its factor.
+/// The cell whose value index k of n cells takes, and the factor.
 std::pair<int, double> image(int k, int n, End lower, End upper) {
     if (k >= 0 && k < n) return {k, 1.0};
     if (lower == End::periodic) return {(k + n) % n, 1.0};
@@ -51,7 +51,7 @@ TEST(RowReader, GivesImagesBeyondTheSides) {
         }
 }
 
-/// The stencils of the steps write row j after they have read row j + 2.
+/// The steps write row j after their stencils have read row j + 2.
 TEST(RowReader, KeepsWhatIsOverwrittenBehindIt) {
     std::vector<double> field = some_field();
     const AxisOperator x{nx, 1.0, End::periodic, End::periodic};

@@ -7,7 +7,7 @@
 namespace turbidite {
 namespace {
 
-// Both ends of one conversation, driven along the table.
+// Both ends of one connection, driven through the table.
 struct Ends {
     CallOrder coupler, participant;
     explicit Ends(Role role) : coupler(role, "participant"), participant(role, "coupler") {}
@@ -24,7 +24,7 @@ struct Ends {
     void start(Role role, const std::string& scheme) {
         const Order order = find_scheme(scheme).order(role);
         coupler.set_window_order(order);
-        participant.set_window_order(decode<Order>(encode(order)));  // as it travels
+        participant.set_window_order(decode<Order>(encode(order)));  // as it is sent
         for (const Step& step : start_order(role)) pass(step.kind);
     }
 };
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                Kind::contact_input, Kind::motion, Kind::kick, Kind::state}},
         Table{Role::grains, "dry", {Kind::window, Kind::kick, Kind::state}}));
 
-// What stands before the rounds is iteration 0, a round and what follows it carry its number.
+// What precedes the rounds is iteration 0; a round and what follows it carry its number.
 TEST(CallOrder, IterationCountsTheRoundsOfAWindow) {
     Ends fluid(Role::fluid), grains(Role::grains);
     fluid.start(Role::fluid, "joint");
@@ -101,7 +101,7 @@ TEST(CallOrder, AMessageOfAnotherRoundIsRefused) {
     }
 }
 
-// Between the two messages of a round nothing ends it; before the first round nothing skips it.
+// A round cannot end between its two messages, and the first round cannot be skipped.
 TEST(CallOrder, AcceptIsDueBehindARoundOnly) {
     Ends ends(Role::fluid);
     ends.start(Role::fluid, "joint");
@@ -122,7 +122,7 @@ TEST(CallOrder, AcceptIsDueBehindARoundOnly) {
     EXPECT_EQ(grains.participant.due_text(), "\"kick\" or \"contact_input\"");
 }
 
-// Nothing repeats under split, so no round is counted and none can be told.
+// Under split nothing is repeated, so no round is counted.
 TEST(CallOrder, SplitHasNoRounds) {
     Ends ends(Role::fluid);
     ends.start(Role::fluid, "split");
@@ -186,7 +186,8 @@ TEST(CallOrder, TheStartNeedsTheOrderOfAWindow) {
     EXPECT_THROW(order.next_sent(Kind::domain, to_coupler), OrderViolation);
 }
 
-// A participant that is told nonsense says so at the start, not somewhere in a window.
+// A participant that receives an invalid order reports it at the start, not in the middle of a
+// window.
 TEST(CallOrder, AnOrderThatCannotBePlayedIsRefused) {
     const auto why = [](const Order& order) -> std::string {
         try {
@@ -230,7 +231,8 @@ TEST(Schemes, EveryOrderCanBePlayed) {
     }
 }
 
-// Slips well below what contacts and fluid may differ by, where that is looked at.
+// The slip tolerance is well below the allowed difference between contacts and fluid, if that is
+// checked.
 TEST(Schemes, TheSlipToleranceIsTheSmallerOfTwo) {
     Settings settings;
     settings.set("fluid.multiplier_tolerance", 1e-4);

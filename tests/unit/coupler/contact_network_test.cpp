@@ -13,7 +13,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double step = 0.01;
 
-/// Grains 1 apart in the direction `angle`, pushing with `force` along it.
+/// Two grains at distance 1 in the direction `angle`, pushing each other with `force` along it.
 ContactRecord push(GrainId a, GrainId b, double angle, double force = 1.0) {
     ContactRecord contact;
     contact.a = a;
@@ -32,8 +32,8 @@ ContactRecord on_floor(GrainId grain, double force = 1.0) {
     return contact;
 }
 
-/// Links of an n x n lattice with unit forces: to the right, and towards every other of `angles`
-/// upwards, where the neighbour in the row above is `shift` columns on.
+/// Links of an n x n lattice with unit forces: to the right, and upwards in the directions
+/// `angles`, where the neighbour in the row above is `shift` columns further.
 std::vector<ContactRecord> lattice(int n, bool triangular) {
     std::vector<ContactRecord> contacts;
     for (int row = 0; row < n; ++row)
@@ -60,14 +60,16 @@ TEST(ContactNetwork, OfASquareLattice) {
     EXPECT_NEAR(network.virial.xy, 0.0, 1e-11);
 }
 
-// 90 links along a row, 90 and 81 at 60 and 120 degrees: the sums of cos 2 theta and sin 2 theta.
+// 90 links along the rows, and 90 and 81 at 60 and 120 degrees: the sums of cos 2 theta and sin 2
+// theta.
 TEST(ContactNetwork, OfATriangularLattice) {
     const ContactNetwork network = contact_network(lattice(10, true), 100, step);
     EXPECT_EQ(network.grain_links, 261);
     const double cosine = 90 - 0.5 * (90 + 81), sine = std::sqrt(0.75) * (90 - 81);
     EXPECT_NEAR(network.fabric->anisotropy, 2 * std::hypot(cosine, sine) / 261, 1e-14);
     EXPECT_NEAR(network.fabric->angle, 0.5 * std::atan2(sine, cosine), 1e-14);
-    // Equal forces in three directions at 60 degrees: an isotropic stress, but for the 9 missing.
+    // Equal forces in three directions at 60 degrees: isotropic stress, apart from the 9 missing
+    // links.
     EXPECT_NEAR(network.virial.xx, 90 + 0.25 * 171, 1e-11);
     EXPECT_NEAR(network.virial.yy, 0.75 * 171, 1e-11);
 }
@@ -81,7 +83,7 @@ TEST(ContactNetwork, KnowsOneDirectionWhicheverEndANormalHas) {
 }
 
 // A tower of n discs of weight w, D = 1: the stress at a height is the weight above it, and its sum
-// over the links is that of every weight times its height.
+// over the links is the sum of each weight times its height.
 TEST(ContactNetwork, StressOfATowerIsItsWeightTimesHeight) {
     const double weight = 0.7;
     const int n = 5;
@@ -97,7 +99,7 @@ TEST(ContactNetwork, StressOfATowerIsItsWeightTimesHeight) {
     EXPECT_NEAR(*network.normal_force, weight * (4 + 3 + 2 + 1) / 4, 1e-12);
 }
 
-// Shear: forces of +-45 degrees of different strength; the tensor stays symmetric.
+// Shear: different forces at +45 and -45 degrees; the tensor stays symmetric.
 TEST(ContactNetwork, TellsShear) {
     const auto network =
         contact_network({push(1, 2, pi / 4, 3.0), push(3, 4, -pi / 4, 1.0)}, 4, step);
@@ -106,7 +108,7 @@ TEST(ContactNetwork, TellsShear) {
     EXPECT_NEAR(network.virial.xy, 1.0, 1e-12);
 }
 
-// Two triangles face to face have one neighbour each, and the force of both points.
+// Two triangles face to face have one neighbour each, and the sum of the forces of both points.
 TEST(ContactNetwork, PointsOfAPairAreOneLink) {
     std::vector<ContactRecord> contacts = {push(1, 2, 0.0, 1.0), push(1, 2, 0.0, 2.0)};
     contacts[1].feature = 1;
@@ -119,7 +121,8 @@ TEST(ContactNetwork, PointsOfAPairAreOneLink) {
     EXPECT_DOUBLE_EQ(*network.sliding_share, 0.5);
 }
 
-// A grain at two walls, and grain 1 that is no wall's although a wall's `a` is any number.
+// A grain at two walls; and grain 1, which touches no wall although the `a` of a wall contact may
+// be any number.
 TEST(ContactNetwork, WallsCountOnceAndFliersNotAtAll) {
     ContactRecord left = on_floor(7);
     left.wall = 0;

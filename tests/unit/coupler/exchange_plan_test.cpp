@@ -42,7 +42,7 @@ TEST(ExchangePlan, PeriodicImagesAreRouted) {
 
 TEST(ExchangePlan, KicksGoHomeWhateverTheIds) {
     ExchangePlan plan({}, 0.0, {});
-    const GrainId huge = GrainId{1} << 60;  // ids are names, not array sizes
+    const GrainId huge = GrainId{1} << 60;  // ids are identifiers, not array indices
     plan.gather({{{grain(huge, 0)}, {}}, {{grain(-3, 1), grain(7, 2)}, {}}});
     const auto routed = plan.by_owner(std::vector{kick(7), kick(huge), kick(-3)});
     ASSERT_EQ(routed.size(), 2u);
@@ -50,7 +50,7 @@ TEST(ExchangePlan, KicksGoHomeWhateverTheIds) {
     EXPECT_EQ(routed[1].size(), 2u);
 }
 
-// std::max(0, nan) is 0: the ledger would never hear of it.
+// std::max(0, nan) is 0: the ledger would not notice.
 TEST(ExchangePlan, AReportThatIsNotANumberStaysOne) {
     ExchangePlan plan({}, 0.0, {});
     std::vector<Motion> shares(2);
@@ -67,10 +67,10 @@ ContactRecord contact(GrainId a, GrainId b, int feature = 0) {
     return c;
 }
 
-// However the grains are shared out, contacts are the same list.
+// The list of contacts is the same for any distribution of the grains.
 TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
     ExchangePlan plan({}, 0.0, {});
-    ContactRecord floor = contact(77, 2);  // the id of a says nothing at a wall
+    ContactRecord floor = contact(77, 2);  // the id of a has no meaning at a wall
     floor.wall = 2;
     const std::vector<ContactRecord> left = {floor, contact(1, 2, 1), contact(1, 2)};
     const Motion all = plan.gather({{{grain(1, 0), grain(2, 1)}, {}, left},
@@ -94,7 +94,7 @@ TEST(ExchangePlan, AContactTwiceOrOfAStrangerOrByHalfTheRanksIsRefused) {
     EXPECT_NO_THROW(gather(left, {{grain(2, 1)}, {}, std::vector<ContactRecord>{}}));
 }
 
-// An adapter without a residual leaves it to the others, and all of them leave it empty.
+// An adapter without a residual leaves it to the others; if no adapter has one, it stays empty.
 TEST(ExchangePlan, EmptyMeasuresStayEmpty) {
     ExchangePlan plan({}, 0.0, {});
     std::vector<Motion> shares(2);

@@ -20,8 +20,8 @@ std::string slurp(const std::filesystem::path& file) {
     return text.str();
 }
 
-// A viewer may open the series at any moment of a run: after every write it must end with its end
-// tags, once, and name every file so far.
+// A viewer may open the series at any moment of a run: after every write it must end with its
+// closing tags, once, and list every file so far.
 TEST(GrainSeries, IsCompleteAfterEveryWrite) {
     const TestFolder folder("series");
     GrainSeries series(folder.path(), {{"disc", {}}});
@@ -49,7 +49,7 @@ std::string array_of(const std::string& text, const std::string& name) {
     return text.substr(begin, text.find("</DataArray>", begin) - begin);
 }
 
-// A triangle turned by 90 degrees at (3, 2), R = 2, beside a disc. Shapes without corners have no
+// A triangle rotated by 90 degrees at (3, 2), R = 2, beside a disc. Shapes without corners have no
 // outline.
 TEST(GrainSeries, DrawsPolygonsWhereTheyAre) {
     const TestFolder folder("outlines");
@@ -75,7 +75,7 @@ TEST(GrainSeries, DrawsPolygonsWhereTheyAre) {
         << outlines;
     EXPECT_EQ(array_of(outlines, "id"), "101\n");
     EXPECT_EQ(array_of(outlines, "offsets"), "3\n");
-    // Corners of the upright triangle: (0, 1), (-h, -1/2), (h, -1/2); turned: (-1, 0), (1/2, -h),
+    // Corners of the upright triangle: (0, 1), (-h, -1/2), (h, -1/2); rotated: (-1, 0), (1/2, -h),
     // (1/2, h).
     std::istringstream numbers(array_of(outlines, "position"));
     double right = 0.0, top = -10.0, left = 10.0;
@@ -134,7 +134,7 @@ TEST(ContactSeries, HasALineAndTheForcesOfEveryContact) {
     EXPECT_NE(text.find("<CellData Scalars=\"normal_force\""), std::string::npos);
 }
 
-// An instant without contacts is one all the same: the series has no gaps.
+// A time without contacts also has a file: the series has no gaps.
 TEST(ContactSeries, IsThereWithoutContactsToo) {
     const TestFolder folder("no-contacts");
     ContactSeries series(folder.path());

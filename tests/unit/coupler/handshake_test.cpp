@@ -65,7 +65,7 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
     EXPECT_TRUE(mismatches(knowing, joint).empty());
 }
 
-// A participant of version 1.3 waits for the shapes where the order of a window comes.
+// A participant of version 1.3 waits for the shapes when the order of a window arrives.
 TEST(Handshake, AVersionThatIsToldNoOrderIsRefused) {
     Hello old = fitting();
     old.protocol_minor = 3;

@@ -81,8 +81,8 @@ std::map<std::string, std::string> written(const Row& row, const Settings& setti
     return last_row(folder.path() / "history.csv");
 }
 
-// Four discs of density 1.5 in a square, the upper two on the lower ones, these on the floor; D =
-// 2, g = 3. A disc weighs w = 1.5 pi 3.
+// Four discs of density 1.5 in a square, the upper two resting on the lower ones, these on the
+// floor; D = 2, g = 3. A disc weighs w = 1.5 pi 3.
 TEST(History, ContactForcesAreInWeightsOfTheSolid) {
     Settings settings = test_settings();
     settings.set("run.diameter", 2.0), settings.set("run.gravity", 3.0);
@@ -111,7 +111,7 @@ TEST(History, ContactForcesAreInWeightsOfTheSolid) {
     auto cells = written(row, settings);
     const double pores = 4.0 - area;  // between the four centres
     EXPECT_NEAR(std::stod(cells["pore_volume"]), pores / 4.0, 1e-9);
-    // Two towers: w (1 + 3) each; over the area, over rho_s g D.
+    // Two towers: w (1 + 3) each; divided by the area, and by rho_s g D.
     EXPECT_NEAR(std::stod(cells["sigma_yy"]),
                 8.0 * weight / (4.0 * area + pores) / (1.5 * 3.0 * 2.0), 1e-9);
     EXPECT_EQ(std::stod(cells["sigma_xx"]), 0.0);
@@ -123,7 +123,7 @@ TEST(History, ContactForcesAreInWeightsOfTheSolid) {
     EXPECT_EQ(cells["sliding_share"], "0");
 }
 
-// Of an adapter that knows neither contacts nor residuals, and of a first row.
+// From an adapter without contacts or residuals, and in a first row.
 TEST(History, WhatDoesNotApplyIsEmpty) {
     Motion state;
     state.grains = test_population();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The whole coupler without MPI: scripted participants in threads, loopback channels between.
+// The whole coupler without MPI: scripted participants in threads, connected by loopback channels.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -77,7 +77,7 @@ TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnWords) {
     const auto record = nlohmann::json::parse(std::ifstream(folder.path() / "run.json"));
     EXPECT_EQ(record["exit_code"], 6);
     EXPECT_EQ(record["ranks"].size(), 2u);
-    EXPECT_GE(read_csv(folder.path() / "history.csv").size(), 3u);  // what was good is kept
+    EXPECT_GE(read_csv(folder.path() / "history.csv").size(), 3u);  // the good rows are kept
 }
 
 TEST(Hub, AnUnexpectedExceptionIsAFailedParticipant) {
@@ -109,7 +109,7 @@ TEST(Hub, AllMismatchesOfTheHandshakeAreReportedTogether) {
 TEST(Hub, NaNIsRefusedBeforeItTravels) {
     const TestFolder folder("hub-nan");
     Job job;
-    // A spoilt velocity in the kick: the grains would carry it on.
+    // A corrupted velocity in the kick, which the grains would go on with.
     job.to_grains = [](Bytes& bytes) {
         Message message = unframe(bytes);
         if (message.envelope.kind != Kind::kick || message.envelope.window != 2) return true;
@@ -124,7 +124,7 @@ TEST(Hub, NaNIsRefusedBeforeItTravels) {
         << job.status.reason;
 }
 
-// What a participant sends is looked at where it arrives.
+// Messages of a participant are checked where they arrive.
 TEST(Hub, AMotionOrAKickThatIsNotFiniteNamesGrainAndWindow) {
     const auto spoilt = [](Kind kind, const auto& spoil) -> LoopbackChannel::Hook {
         return [kind, spoil](Bytes& bytes) {
@@ -217,8 +217,8 @@ TEST(Hub, AStopRequestInTheLastWindowIsARunThatIsDone) {
     EXPECT_EQ(job.status.statistics.windows_done, last + 1);
 }
 
-// Discs whose lowest point is at 4.5 fall on a floor at 4.4995: two windows carry them 3e-4 (a
-// little less with drag), the third would carry them 6e-4 and meets it, then it holds them.
+// Discs whose lowest point is at 4.5 fall on a floor at 4.4995. Two windows move them by 3e-4 (a
+// little less with drag); the third would make it 6e-4, but the floor stops them.
 Job landing(double inertia_error) {
     Job job;
     job.settings = test_settings("joint");
@@ -248,9 +248,10 @@ TEST(HubJoint, AnExactFluidNeedsOneRound) {
     EXPECT_EQ(rows[1][column(rows[0], "joint_rounds")], "") << "no window yet";
 }
 
-// The contact is scalar, so with an inertia that is 20 % off J errs by 0.2 of itself in round 1 and
-// by 0.2 of the rest in each further one. The landing speed is about 0.02 u_c: 0.02 * 0.2^n < 1e-9
-// takes at most eleven rounds, and more than one. The answer is the exact fluid's to the tolerance.
+// The contact is scalar, so with an inertia that is 20 % off, J has a relative error of 0.2 in
+// round 1, which every further round multiplies by 0.2. The landing speed is about 0.02 u_c: 0.02 *
+// 0.2^n < 1e-9 takes at most eleven rounds, and more than one. The answer equals that of the exact
+// fluid to the tolerance.
 TEST(HubJoint, AnApproximateFluidIsIteratedToTheSameAnswer) {
     const TestFolder exact_folder("hub-joint-reference"), folder("hub-joint-approximate");
     Job exact = landing(0.0);
@@ -278,7 +279,7 @@ TEST(HubJoint, AnApproximateFluidIsIteratedToTheSameAnswer) {
     }
 }
 
-// Two rounds leave a mismatch: the window is played to its end, counted, and told.
+// Two rounds leave a mismatch: the window is completed, counted and reported.
 TEST(HubJoint, AWindowThatNeedsMoreRoundsIsCounted) {
     const TestFolder folder("hub-joint-capped");
     Job job = landing(0.2);
@@ -298,7 +299,7 @@ TEST(HubJoint, AWindowThatNeedsMoreRoundsIsCounted) {
     EXPECT_NE(log.str().find("of 6 windows contacts and fluid differ"), std::string::npos);
 }
 
-/// A fluid whose multiplier problem stops at its limit in these windows.
+/// A fluid whose multiplier solver reaches its iteration limit in these windows.
 LoopbackChannel::Hook unsolved_in(std::vector<std::int64_t> windows) {
     return [windows](Bytes& bytes) {
         Message message = unframe(bytes);
@@ -372,7 +373,7 @@ TEST(HubJoint, OtherSchemesLeaveItsColumnsEmpty) {
             "joint_rounds"));
 }
 
-// A round too few on the way to the fluid: refused with a sentence, and everybody leaves.
+// One round too few on the fluid's side: refused with a message, and all participants end.
 TEST(HubJoint, AnAcceptOutOfTurnIsRefused) {
     const TestFolder folder("hub-joint-order");
     Job job = landing(0.0);
@@ -394,7 +395,8 @@ TEST(HubJoint, AnAcceptOutOfTurnIsRefused) {
     EXPECT_EQ(job.status.statistics.windows_done, 1);
 }
 
-// A constraint that is lost in the second round stalls, and the table says where everybody stands.
+// A constraint lost in the second round causes a stall, and the table shows what each participant
+// waits for.
 TEST(HubJoint, AStallNamesTheRound) {
     const TestFolder folder("hub-joint-stall");
     Job job = landing(0.2);

@@ -48,7 +48,7 @@ TEST(KickRule, BalanceClosesForAConsistentWindowAndOnlyThen) {
     disc.rule.complete(disc.kicks, disc.before, step);
     EXPECT_LT(disc.rule.defect(disc.kicks, disc.before, disc.contact, step), 1e-14);
 
-    disc.contact.grains[0].contact_impulse[0] = -0.01;  // a contact force that nobody felt
+    disc.contact.grains[0].contact_impulse[0] = -0.01;  // a contact force without reaction
     EXPECT_GT(disc.rule.defect(disc.kicks, disc.before, disc.contact, step), 0.1);
 }
 

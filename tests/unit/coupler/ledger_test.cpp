@@ -27,7 +27,7 @@ class LedgerTest : public ::testing::Test {
         return result;
     }
 
-    /// What the ledger says; empty when it agrees.
+    /// The ledger's message; empty if it accepts.
     std::string complaint() {
         try {
             ledger.check(result);
@@ -48,9 +48,9 @@ TEST_F(LedgerTest, CountsThoseWhoLeft) {
     result.state.grains.pop_back();
     result.state.report.removed = 1;
     EXPECT_EQ(complaint(), "");
-    result.state.report.removed = 0;  // it stays counted
+    result.state.report.removed = 0;  // the report still counts it
     EXPECT_EQ(complaint(), "");
-    result.state.grains.pop_back();  // this one left without a word
+    result.state.grains.pop_back();  // a grain that vanished without being reported
     EXPECT_SAYS(complaint(), "1 grains and 1 that left through free sides do not make 3");
 }
 
@@ -63,7 +63,7 @@ TEST_F(LedgerTest, BoundsTheOverlap) {
     EXPECT_NE(complaint(), "");
 }
 
-// The advice names keys that the adapter has.
+// The advice names keys of the adapter in use.
 TEST_F(LedgerTest, SaysWhatLessensOverlaps) {
     result.state.report.max_penetration = 0.21;
     EXPECT_SAYS(complaint(), "Use a smaller time.step, or more contact.iterations.");
@@ -78,7 +78,7 @@ TEST_F(LedgerTest, BearsTwoDivergentWindowsButNotThree) {
     result.kicks.report.divergence = 2e-4;
     EXPECT_EQ(complaint(), "");
     EXPECT_EQ(complaint(), "");
-    result.kicks.report.divergence = 1e-5;  // a good one: counting starts again
+    result.kicks.report.divergence = 1e-5;  // a good window: counting starts again
     EXPECT_EQ(complaint(), "");
     result.kicks.report.divergence = 2e-4;
     EXPECT_EQ(complaint(), "");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A whole job without MPI: the hub, scripted participants in threads, loopback channels between. And what it wrote.
+// A whole job without MPI: the hub and scripted participants in threads, connected by loopback
+// channels; and its output.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +27,8 @@ struct Job {
     LoopbackChannel::Hook to_grains;
     std::string adapter = "scripted";
     std::string hash = "0123456789abcdef";
-    std::optional<double> floor;  // of the grains
-    double inertia_error = 0.0;   // of the fluid
+    std::optional<double> floor;  // height of the floor under the grains
+    double inertia_error = 0.0;   // relative error of the fluid's effective inertia
     LoopbackChannel::Hook to_fluid;
     LoopbackChannel::Hook from_fluid, from_grains;
     std::optional<SchemeEntry> scheme;  // instead of run.scheme
@@ -95,7 +96,7 @@ inline std::size_t column(const std::vector<std::string>& header, const std::str
     return std::find(header.begin(), header.end(), name) - header.begin();
 }
 
-/// A row counts from the header.
+/// Rows are counted from the header.
 inline double cell(const Rows& rows, std::size_t row, const std::string& name) {
     const std::string& text = rows.at(row).at(column(rows[0], name));
     return text.empty() ? NAN : std::stod(text);

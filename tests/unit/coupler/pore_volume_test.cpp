@@ -22,7 +22,7 @@ double pores(const std::vector<SolidGrain>& grains, Vec3 period = {}) {
     return pore_volume(grains, 1.0, period);
 }
 
-/// Rows of `columns` discs, `a` apart, each row shifted by `shift` from the one below.
+/// Rows of `columns` discs at spacing `a`, each row shifted by `shift` against the one below.
 std::vector<SolidGrain> rows(int columns, int count, double a, double height, double shift) {
     std::vector<SolidGrain> grains;
     for (int row = 0; row < count; ++row)
@@ -31,8 +31,8 @@ std::vector<SolidGrain> rows(int columns, int count, double a, double height, do
     return grains;
 }
 
-/// Straight from the definition: every triple of grains whose circumscribed circle is at most D
-/// wide and holds no other centre.
+/// By the definition: every triple of grains whose circumscribed circle has a diameter of at most D
+/// and contains no other centre.
 double by_definition(const std::vector<SolidGrain>& g) {
     double total = 0.0;
     for (std::size_t a = 0; a < g.size(); ++a)
@@ -75,11 +75,11 @@ TEST(PoreVolume, TooFewOrInALineHaveNone) {
     EXPECT_EQ(pores({disc(1, 1), disc(1, 1), disc(1, 1)}), 0.0);
 }
 
-// Three discs that touch: an equilateral triangle less half a disc.
+// Three touching discs: an equilateral triangle minus half a disc.
 TEST(PoreVolume, OfThreeDiscs) {
     const double h = std::sqrt(3.0) / 2.0;
     EXPECT_NEAR(pores({disc(0, 0), disc(1, 0), disc(0.5, h)}), h / 2.0 - pi / 8.0, 1e-14);
-    // The widest that counts, sides sqrt(3): its circumradius is D. And one that is wider.
+    // The largest that counts, with sides sqrt(3), whose circumradius is D; and a larger one.
     const double a = std::sqrt(3.0);
     const auto wide = [&](double s) {
         return pores({disc(0, 0), disc(s * a, 0), disc(s * a / 2, s * a * h)});
@@ -88,15 +88,15 @@ TEST(PoreVolume, OfThreeDiscs) {
     EXPECT_EQ(wide(1.0 + 1e-6), 0.0);
 }
 
-// Perfect lattices: (columns - 1)(rows - 1) cells between their centres. Four centres on one circle
-// have no triangulation of their own.
+// Perfect lattices: (columns - 1)(rows - 1) cells between the centres. Four centres on a circle
+// have no unique triangulation.
 TEST(PoreVolume, OfLattices) {
     EXPECT_NEAR(pores(rows(7, 5, 1.0, 1.0, 0.0)), 6 * 4 * (1.0 - pi / 4.0), 1e-12);
     const double h = std::sqrt(3.0) / 2.0;
-    // Rows shifted by half a disc: between two rows of n there are 2 n - 2 triangles.
+    // Rows shifted by half a disc: 2 n - 2 triangles between two rows of n.
     EXPECT_NEAR(pores(rows(7, 2, 1.0, h, 0.5)), 12 * (h / 2.0 - pi / 8.0), 1e-12);
-    // The loosest lattice of the paper: squares of side 1 on their corner. Between three rows of
-    // six there are 5 whole ones and, at the edges, 11 halves.
+    // The loosest lattice of the paper: squares of side 1 standing on a corner. Between three rows
+    // of six there are 5 whole squares and, at the edges, 11 halves.
     const double s = std::sqrt(2.0);
     const auto loose = rows(6, 3, s, s / 2, s / 2);
     EXPECT_NEAR(pores(loose), 21 * (0.5 - pi / 8.0), 1e-12);
@@ -107,7 +107,7 @@ TEST(PoreVolume, OfRandomPackingsIsTheDefinitions) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int packing = 0; packing < 20; ++packing) {
         std::vector<SolidGrain> grains;
-        for (int k = 0; k < 45; ++k)  // of two sizes, with holes
+        for (int k = 0; k < 45; ++k)  // two sizes, with holes
             grains.push_back(disc(7.0 * unit(random), 5.0 * unit(random), k % 2 ? 0.3 : 0.15));
         const double expected = by_definition(grains);
         EXPECT_GT(expected, 1.0);
@@ -117,7 +117,7 @@ TEST(PoreVolume, OfRandomPackingsIsTheDefinitions) {
     }
 }
 
-// Everything that is not solid, when the packing fills a box that repeats.
+// The whole volume outside the grains, if the packing fills a periodic box.
 TEST(PoreVolume, RespectsCyclicSides) {
     EXPECT_NEAR(pores(rows(4, 4, 1.0, 1.0, 0.0), {4, 4, 0}), 16.0 - 4.0 * pi, 1e-12);
     const double h = std::sqrt(3.0) / 2.0;
@@ -130,7 +130,7 @@ TEST(PoreVolume, RespectsCyclicSides) {
     EXPECT_NEAR(pores(grains, {6, 6, 0}), 36.0 - 36 * pi * 0.09, 1e-11);
 }
 
-// Two heaps far apart: what is between them is open space.
+// Two heaps far apart: the space between them does not count as pores.
 TEST(PoreVolume, LeavesOutOpenSpace) {
     auto grains = rows(3, 3, 1.0, 1.0, 0.0);
     const double one = pores(grains);

@@ -10,7 +10,7 @@
 namespace turbidite {
 namespace {
 
-/// A window in a run of 70 t_c, with hours to go.
+/// A window in a run of 70 t_c that will take hours.
 struct LateWindow {
     LateWindow() {
         run.windows = 7000;

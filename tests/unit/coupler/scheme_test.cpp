@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A scheme is one file: this one has a fourth, of this test alone, which no other file knows. It plays over loopback
-// channels with the scripted partners, whose library has never heard of it.
+// A scheme is one file. This file adds a fourth one, known to no other file. It runs over loopback
+// channels with the scripted partners, whose library does not know it.
 //
-// `twice` begins as `split` does, then asks the fluid how grains respond and solves the contacts once more:
+// `twice` begins as `split` does, then asks the fluid for the response of the grains and solves the
+// contacts once more:
 //
 //     fluid    window → constraint → response → constraint → response → accept → kicks
 //     grains   window → motion → contact_input → motion → kick → state
 //
-// The response to a contact solve without fluid is that of free grains with their true inertia, so the second solve
-// is what `joint` finds in its first, and the run is that of `joint`.
+// The response to a contact solve without fluid is that of free grains with their true inertia. The
+// second solve therefore equals the first of `joint`, and the run equals that of `joint`.
 #include <gtest/gtest.h>
 
 #include "coupler/hub/handshake.hpp"
@@ -89,7 +90,8 @@ TEST(AFourthScheme, PlaysWithPartnersThatNeverHeardOfIt) {
     EXPECT_LT(job.status.statistics.maxima.grain_balance, 1e-13);
 }
 
-// The grains participant alone would take the second contact solve of `split` for a mistake of the coupler.
+// With the order of `split`, a grains participant must treat the second contact solve as an error
+// of the coupler.
 TEST(AFourthScheme, OutOfOrderMessagesAreRefusedByTheParticipant) {
     const TestFolder folder("scheme-twice-participant");
     Job job = landing_under("split");
@@ -131,7 +133,7 @@ TEST(AFourthScheme, OutOfOrderMessagesAreRefusedByTheCoupler) {
         << job.status.reason;
 }
 
-// Its order needs effective inertia, and the handshake knows that from the order alone.
+// Its order requires effective inertia, which the handshake derives from the order alone.
 TEST(AFourthScheme, AsksForWhatItsOrderNeeds) {
     const Settings settings = test_settings();
     for (const Role role : {Role::fluid, Role::grains}) {

@@ -34,7 +34,7 @@ TEST(Settings, AWrongLookUpNamesTheKey) {
     EXPECT_THROW(settings.flag("time.step"), std::invalid_argument);
 }
 
-// Published FNV-1a test vectors: the empty text gives the offset basis, "a" af63dc4c8601ec8c.
+// Published FNV-1a test vectors: the empty text gives the offset basis, "a" gives af63dc4c8601ec8c.
 TEST(CaseHash, IsFnv1a) {
     EXPECT_EQ(case_hash(""), "cbf29ce484222325");
     EXPECT_EQ(case_hash("a"), "af63dc4c8601ec8c");

@@ -8,8 +8,8 @@
 namespace turbidite {
 namespace {
 
-// Volume and inertia from counting random points inside must agree with the closed forms; 1e6 points leave
-// about 0.1 % noise.
+// Volume and inertia by counting random points inside must agree with the closed forms; 1e6 points
+// have about 0.1 % noise.
 TEST(Disc, VolumeAndInertiaAgreeWithMonteCarlo) {
     const auto disc = make_shape({"disc", {}});
     const double radius = 0.7, side = 2.0 * radius;

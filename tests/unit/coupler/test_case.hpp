@@ -44,7 +44,7 @@ inline std::vector<GrainState> test_population() {
     return grains;
 }
 
-/// A folder of its own for each test, removed afterwards.
+/// A separate folder for each test, removed afterwards.
 class TestFolder {
  public:
     explicit TestFolder(const std::string& name)

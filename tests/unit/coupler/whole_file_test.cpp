@@ -24,7 +24,7 @@ class WholeFile : public ::testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// What a failed write of "new" says.
+    /// The error message of a failed write of "new".
     std::string complaint(const fs::path& to) const {
         try {
             write_whole(to, [](std::ostream& out) { out << "new"; });
@@ -44,7 +44,7 @@ TEST_F(WholeFile, IsReplacedAtOnce) {
     EXPECT_FALSE(fs::exists(file.string() + ".part"));
 }
 
-// /dev/full takes what is written to the part.
+// The partial file is a link to /dev/full.
 TEST_F(WholeFile, AFullDiskLeavesTheOldOneAndNoPart) {
     const fs::path part = file.string() + ".part";
     fs::create_symlink("/dev/full", part);
@@ -61,7 +61,7 @@ TEST_F(WholeFile, APlaceThatIsTakenIsAnError) {
     EXPECT_EQ(complaint(folder.path() / "nowhere" / "file").find("cannot write "), 0u);
 }
 
-// Where the content cannot be made, nothing is left either.
+// If the content cannot be produced, nothing is left behind either.
 TEST_F(WholeFile, AnExceptionOfTheContentPasses) {
     const auto fails = [](std::ostream&) { throw std::out_of_range("no such thing"); };
     EXPECT_THROW(write_whole(file, fails), std::out_of_range);

@@ -8,7 +8,7 @@
 namespace turbidite {
 namespace {
 
-// Numbers that a text format, or a float, would not keep.
+// Numbers that a text format or a float would not preserve.
 constexpr double awkward = 0.1 + 1e-17;
 constexpr double tiny = std::numeric_limits<double>::denorm_min();
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Minus the Laplacian of a small grid as a dense matrix, assembled face by face as a finite-volume
-// code does it: what passes through a face is the difference of the two values beside it over their
-// distance; a face of the boundary has one value beside it, at half the distance.
+// Minus the Laplacian of a small grid as a dense matrix, assembled face by face as in a
+// finite-volume code: the flux through a face is the difference of the two adjacent values over
+// their distance; a boundary face has one adjacent value, at half the distance.
 #pragma once
 
 #include <Eigen/Core>

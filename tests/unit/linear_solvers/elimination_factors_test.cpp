@@ -10,7 +10,7 @@ namespace {
 
 constexpr int modes = 320, rows = 960;
 
-/// Diagonals over r of the modes of a row; alpha h2/beta is added.
+/// Diagonals over r of the modes, with alpha h2/beta added.
 std::vector<double> shifts(End end, double added) {
     const AxisOperator x{modes, 1.0, end, end};
     std::vector<double> shift;
@@ -18,9 +18,9 @@ std::vector<double> shifts(End end, double added) {
     return shift;
 }
 
-/// Every factor is that of the recurrence, to what the recurrence makes of rounding.
+/// Every factor equals that of the recurrence, to the rounding of the recurrence.
 TEST(EliminationFactors, AreThoseOfTheRecurrence) {
-    // Without addition the first periodic mode has d = 2.
+    // Without the added term the first periodic mode has d = 2.
     for (const auto& [end, added] : {std::pair{End::dirichlet, 1e-3},
                                      {End::periodic, 1e-3},
                                      {End::periodic, 0.0},
@@ -28,7 +28,8 @@ TEST(EliminationFactors, AreThoseOfTheRecurrence) {
         const std::vector<double> shift = shifts(end, added);
         EliminationFactors factors;
         factors.compute(shift, 3.0, 2.0, 3.0, rows);
-        std::vector<long double> e(modes), gain(modes, 0.0L);  // of roundings, summed
+        // gain: sum of the amplified rounding errors
+        std::vector<long double> e(modes), gain(modes, 0.0L);
         for (int j = 0; j < rows; ++j) {
             const long double d = j == 0 || j == rows - 1 ? 3.0L : 2.0L;
             for (int k = 0; k < modes; ++k) {
@@ -48,8 +49,9 @@ TEST(EliminationFactors, AreThoseOfTheRecurrence) {
     }
 }
 
-/// Mode k settles within 36/(2 pi k/320) rows: 4 % of the pressure's factors are stored, and of the
-/// viscous step's, with nu dt/h2 = 0.07, next to none beside the first and the last row.
+/// Mode k settles within 36/(2 pi k/320) rows. So 4 % of the factors of the pressure are stored,
+/// and of those of the viscous step, with nu dt/h2 = 0.07, almost none besides the first and the
+/// last row.
 TEST(EliminationFactors, AreStoredOnlyUntilTheySettle) {
     EliminationFactors factors;
     std::vector<double> shift = shifts(End::neumann, 0.0);

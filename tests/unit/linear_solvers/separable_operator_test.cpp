@@ -10,7 +10,7 @@
 namespace turbidite {
 namespace {
 
-/// The eigenvalues are the matrix's: compared, sorted, with those of the dense matrix.
+/// The eigenvalues are those of the matrix, compared in sorted order with the dense matrix's.
 TEST(SeparableOperator, EigenvaluesAreThoseOfTheMatrix) {
     for (const Ends& ends : all_ends())
         for (int n : {3, 8, 13}) {
@@ -33,7 +33,8 @@ TEST(SeparableOperator, DiagonalIsThatOfTheMatrix) {
     }
 }
 
-/// Constants pass only where no end holds them: then mu_0 is zero, not merely small.
+/// Constants are in the kernel only if no end holds a value: mu_0 is then exactly zero, not just
+/// small.
 TEST(SeparableOperator, ConstantsAreFreeWithoutADirichletEnd) {
     for (const Ends& ends : all_ends()) {
         const bool held = ends[0] == End::dirichlet || ends[1] == End::dirichlet;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every pair of pairs of ends against a dense solve of the same problem, on grids with even and odd
-// counts and cells that are not square.
+// Every combination of ends on both axes against a dense solve of the same problem, on grids with
+// even and odd counts and with cells that are not square.
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::vector<PlaneOperator> all_planes() {
     return planes;
 }
 
-/// Without order, scale or symmetry.
+/// Values without any order, scale or symmetry.
 Eigen::VectorXd some_values(const PlaneOperator& plane) {
     Eigen::VectorXd f(plane.x.cells * plane.y.cells);
     for (int i = 0; i < f.size(); ++i) f[i] = std::sin(3.7 * i * i + 1.0) + 0.3;
@@ -61,8 +61,8 @@ TEST(SeparableSolve, EqualsADenseSolveForEveryPairOfEnds) {
     }
 }
 
-/// f = g + 5 with g of zero mean: 5 comes back as what was taken off, and x is the solution for g
-/// that has zero mean, which is the one of least norm.
+/// f = g + 5 with g of zero mean: 5 is returned as the subtracted mean, and x is the zero-mean
+/// solution for g, which is that of least norm.
 TEST(SeparableSolve, FreeConstantsTakeTheMeanOffAndGiveZeroMean) {
     int seen = 0;
     for (const PlaneOperator& plane : all_planes()) {
@@ -83,7 +83,7 @@ TEST(SeparableSolve, FreeConstantsTakeTheMeanOffAndGiveZeroMean) {
     EXPECT_EQ(seen, 4 * 4);  // neumann or periodic along x and along y, four grids each
 }
 
-/// In a large grid the residual stays at rounding: eps |A| |x|, with a margin of 100.
+/// On a large grid the residual is rounding: eps |A| |x|, with a margin of 100.
 TEST(SeparableSolve, LeavesARoundingResidualOnALargeGrid) {
     for (const Ends& x_ends : all_ends())
         for (const Ends& y_ends : all_ends()) {
@@ -104,8 +104,8 @@ TEST(SeparableSolve, LeavesARoundingResidualOnALargeGrid) {
 }
 
 TEST(SeparableSolve, TheHundredthSolveIsAsGoodAsTheFirst) {
-    // Rows are transformed in pairs, also the last one of an odd count: what it leaves in the row
-    // that is not there must not come back.
+    // Rows are transformed in pairs, also the last of an odd number. What it leaves in the row that
+    // stands in for the missing one must not return.
     for (const PlaneOperator& plane : all_planes()) {
         SeparableSolve solve(plane);
         solve.factorise({1.0, 0.02});
@@ -116,7 +116,7 @@ TEST(SeparableSolve, TheHundredthSolveIsAsGoodAsTheFirst) {
     }
 }
 
-/// A second problem on the same plans, and the first again, bit for bit.
+/// A second problem with the same plans, and then the first again, bit for bit.
 TEST(SeparableSolve, CanBeFactorisedAgain) {
     const PlaneOperator plane{axis_of(7, 0.25, {End::neumann, End::neumann}),
                               axis_of(6, 0.4, {End::periodic, End::periodic})};
@@ -138,7 +138,7 @@ TEST(SeparableSolve, RefusesWhatIsNotPositive) {
     EXPECT_THROW(solve.factorise({1.0, std::nan("")}), std::invalid_argument);
 }
 
-/// Stock OpenFOAM applications end at the first division by zero.
+/// Stock OpenFOAM applications abort at the first division by zero.
 TEST(SeparableSolve, FreeConstantsAreNoDivisionByZero) {
     for (const PlaneOperator& plane : all_planes()) {
         SeparableSolve solve(plane);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Row transforms against the sums that define them, for two rows at once and for one alone.
+// Row transforms against the sums that define them, for two rows at once and for a single one.
 #include "fluid_adapter/linear_solvers/transform.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,8 @@ std::vector<double> by_definition(const std::vector<double>& row, const Weight& 
     return modes;
 }
 
-// Sums of up to 13 terms up to 2, with angles up to 40 that are rounded as well: 26 x 40 roundings.
+// Sums of up to 13 terms up to 2, with angles up to 40 that are rounded too: 26 x 40 rounding
+// errors.
 constexpr double rounding = 26 * 40 * 2.2e-16;
 
 void expect_equal(const std::vector<double>& row, const std::vector<double>& expected) {

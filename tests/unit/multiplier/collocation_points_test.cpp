@@ -31,7 +31,8 @@ int boundary_points(const CollocationPoints& points, int g) {
 constexpr int full_ring = 33;
 
 TEST(CollocationPoints, AreaOfInteriorCellsIsThatOfTheDisc) {
-    // pi (D/2)^2 / h^2 = 201.06 cells; a grid misses it by the cells cut, at most some per cent.
+    // pi (D/2)^2 / h^2 = 201.06 cells; a grid deviates by the cells that are cut, a few per cent at
+    // most.
     MemoryField field(64, 64, Side::wall);
     const CollocationPoints points = place(field, {disc(1, 2.013, 2.007)}, false);
     EXPECT_NEAR(points.size(), 201.06, 4.0);
@@ -54,7 +55,7 @@ TEST(CollocationPoints, BoundaryStencilsAreNoInteriorPoints) {
 TEST(CollocationPoints, AGrainAcrossACyclicSideHasAllItsPoints) {
     MemoryField field(64, 64, Side::cyclic);
     const CollocationPoints middle = place(field, {disc(1, 2.01, 2.02)});
-    // 2.01 - 2 D: the same place on the grid, moved by 32 whole cells.
+    // 2.01 - 2 D: the same position relative to the grid, shifted by 32 whole cells.
     const CollocationPoints across = place(field, {disc(1, 0.01, 0.02)});
     EXPECT_EQ(across.size(), middle.size());
     EXPECT_EQ(boundary_points(across, 0), full_ring);
@@ -70,8 +71,8 @@ TEST(CollocationPoints, AGrainAcrossACyclicSideHasAllItsPoints) {
 
 TEST(CollocationPoints, PointsNearAWallAreDropped) {
     MemoryField field(64, 64, Side::wall);
-    // The disc touches the floor: points with 8 h + 8 h sin(angle) < 2 h go, that is sin(angle) <
-    // -0.75: a share of (pi - 2 asin(0.75)) / 2 pi = 0.230 of the ring, 7.6 points.
+    // The disc touches the floor: points with 8 h + 8 h sin(angle) < 2 h are dropped, that is
+    // sin(angle) < -0.75, a fraction (pi - 2 asin(0.75)) / 2 pi = 0.230 of the ring, or 7.6 points.
     const CollocationPoints points = place(field, {disc(1, 2.0, 0.5)});
     EXPECT_NEAR(points.dropped.near_wall, 0.230 * full_ring, 1.0);
     EXPECT_EQ(boundary_points(points, 0), full_ring - points.dropped.near_wall);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Step 5 solved another way, for comparison: no multiplier is eliminated, all points of all grains
-// are rows of one dense matrix S = B m^-1 B^T + T C^-1 T^T, C = diag(cM, cM, cI), solved directly.
+// Step 5 solved in another way, for comparison: no multiplier is eliminated; all points of all
+// grains are rows of one dense matrix S = B m^-1 B^T + T C^-1 T^T, C = diag(cM, cM, cI), which is
+// solved directly.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -40,7 +41,7 @@ class DenseReference {
         per_mass_ /= field.reference_mass();
     }
 
-    /// Motions of all grains; `pushes`: impulses that come in addition.
+    /// Motions of all grains; `pushes`: additional impulses.
     std::vector<Planar> motions(const std::vector<Planar>& pushes) {
         const int n = static_cast<int>(rows_.size());
         Eigen::MatrixXd T(2 * n, 3 * grains_.size());
@@ -57,7 +58,7 @@ class DenseReference {
             free.segment<3>(3 * g) =
                 grains_[g].free_motion() + inverse.segment<3>(3 * g).cwiseProduct(pushes[g]);
         }
-        const Eigen::SparseMatrix<double> B = B_.sparseView();  // nine entries in a row at most
+        const Eigen::SparseMatrix<double> B = B_.sparseView();  // at most nine entries in a row
         const Eigen::MatrixXd gram(B * per_mass_.asDiagonal() * B.transpose());
         Eigen::MatrixXd S = T * inverse.asDiagonal() * T.transpose();
         S.topLeftCorner(n, n) += gram;
@@ -75,7 +76,7 @@ class DenseReference {
     }
 
  private:
-    /// S is indefinite where a grain is lighter than the fluid (cM < 0).
+    /// S is indefinite if a grain is lighter than the fluid (cM < 0).
     static Eigen::VectorXd solved(const Eigen::MatrixXd& S, const Eigen::VectorXd& slip) {
         const Eigen::LLT<Eigen::MatrixXd> factors(S);
         if (factors.info() == Eigen::Success) return factors.solve(slip);

@@ -33,7 +33,7 @@ GrainState grain(GrainId id, double x, double y, const Vec3& velocity = {}) {
     return state;
 }
 
-/// A field that begins with some flow, and step 5 on it.
+/// A field with some initial flow, and step 5 on it.
 struct Scene {
     explicit Scene(double slip_tolerance = 0.1 * tolerance)
         : field(96, 96, Side::wall), five(field, settings(slip_tolerance), {{"disc", {}}}) {
@@ -52,7 +52,7 @@ std::vector<GrainState> neighbours() {
             grain(3, 2.03, 3.07, {0.0, -1.0, 0.0})};
 }
 
-/// What a contact solve would send with these impulses, had it the responses' inertia.
+/// What a contact solve would send for these impulses if it used the inertia of the responses.
 std::vector<GrainState> after_contacts(std::vector<GrainState> grains,
                                        const std::vector<FreeResponse>& responses) {
     for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -98,7 +98,7 @@ TEST(ImmersedStep, NeighboursAgreeWithinTheToleranceAfterAFewRounds) {
         scene.five.push(after_contacts(neighbours(), scene.five.responses()));
         mismatch = largest_mismatch(scene.five.responses());
         if (rounds == 0) {
-            EXPECT_GT(mismatch, tolerance);  // there is something to do
+            EXPECT_GT(mismatch, tolerance);  // the case is not trivial
         }
     }
     EXPECT_LE(mismatch, tolerance);
@@ -126,7 +126,7 @@ TEST(ImmersedStep, MomentumIsExactWithContactImpulses) {
 }
 
 TEST(ImmersedStep, WithoutContactsFreeGrainsAreThoseThatFellBefore) {
-    // U^{n+4/5} = U^n - g dt is what a contact solve finds where nothing touches.
+    // U^{n+4/5} = U^n - g dt is the result of a contact solve without contacts.
     Scene free_fall, constrained(1e-4);
     free_fall.five.take_free(neighbours(), step);
     free_fall.five.solve();

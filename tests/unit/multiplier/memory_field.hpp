@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A fluid field that is two arrays, and grains on it, for tests of the multiplier method.
+// A fluid field stored in two arrays, and grains on it, for tests of the multiplier method.
 #pragma once
 
 #include <functional>
@@ -80,7 +80,7 @@ class MemoryField final : public FluidField {
     CellTable cells_;
 };
 
-/// u of the cells that boundary points interpolate from, by slot.
+/// u in the cells used for interpolation, by slot.
 inline std::vector<PlaneVector> at_slots(MemoryField& field, const CollocationPoints& points) {
     std::vector<PlaneVector> u;
     for (const StencilCell& at : points.stencilled)

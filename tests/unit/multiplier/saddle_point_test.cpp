@@ -19,13 +19,13 @@ struct Problem {
         PointPlacement(rules).place(field, grains, points);
     }
 
-    /// Solves, with the field as it is now, to a slip below `tolerance`; u is not changed yet.
+    /// Solves with the present field to a slip below `tolerance`; u is not changed yet.
     MultiplierResult solve(double tolerance) {
         system.assemble(field, grains, points);
         return solve_on(tolerance);
     }
 
-    /// Goes on from where the system is.
+    /// Continues from the present state of the system.
     MultiplierResult solve_on(double tolerance) {
         MultiplierSettings settings;
         settings.tolerance = tolerance;
@@ -40,7 +40,7 @@ struct Problem {
     MultiplierWorkspace work;
 };
 
-/// Two that nearly touch and one by itself.
+/// Two discs that nearly touch, and a separate one.
 std::vector<ImmersedGrain> three_discs() {
     return {disc(1, 1.513, 2.007, {0.1, -0.5, 0.7}), disc(2, 2.52, 2.03, {-0.2, 0.3, -0.4}),
             disc(3, 4.01, 4.02, {0.0, -1.0, 0.0})};
@@ -52,7 +52,7 @@ std::vector<ImmersedGrain> loose_heap() {
             disc(3, 2.03, 3.07, {0.0, -1.0, 0.0}), disc(4, 3.4, 3.05, {0.4, -0.2, 0.3})};
 }
 
-/// Touching rows, the hardest configuration: points dropped in every gap.
+/// Touching rows of grains, the hardest configuration: points are dropped in every gap.
 std::vector<ImmersedGrain> dense_packing() {
     std::vector<ImmersedGrain> grains;
     for (int row = 0; row < 5; ++row)
@@ -154,7 +154,7 @@ struct Case {
     const char* name;
     std::vector<ImmersedGrain> (*grains)();
     bool boundary;
-    double density_factor;  // on cM and cI: negative is lighter than the fluid
+    double density_factor;  // factor of cM and cI; negative means lighter than the fluid
 };
 
 void PrintTo(const Case& scene, std::ostream* out) {
@@ -195,7 +195,7 @@ TEST_P(Against, TheDenseReferenceWithImpulsesThatComeLater) {
 }
 
 TEST_P(Against, MomentumOfFluidAndGrains) {
-    // cM (U - U45) = J + dt lambda, and the fluid loses dt lambda. Round-off only, whatever the
+    // cM (U - U45) = J + dt lambda, and the fluid loses dt lambda, to rounding whatever the
     // tolerance.
     const std::vector<Planar> given = pushes(problem.grains.size());
     const Planar before = problem.field.momentum();
@@ -219,8 +219,8 @@ TEST_P(Against, MomentumOfFluidAndGrains) {
 }
 
 TEST_P(Against, TheConstraintItself) {
-    // After impose, u at every point is the grain's: in covered cells exactly, at boundary points
-    // to the tolerance.
+    // After impose, u at every point is the grain's velocity: exactly in covered cells, at boundary
+    // points to the tolerance.
     problem.solve(1e-10);
     problem.system.impose();
     const std::vector<Planar>& motions = problem.system.motions();
@@ -252,8 +252,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Against,
 class WithOrWithoutBoundary : public testing::TestWithParam<bool> {};
 
 TEST_P(WithOrWithoutBoundary, AnAnnouncedImpulseIsNotCountedTwice) {
-    // A host that already spent J_h and says so gets the same velocity as one that did not, and the
-    // fluid the same impulse.
+    // A host that has already applied J_h and announces it gets the same velocity as one that has
+    // not, and the fluid the same impulse.
     const Planar held(0.02, -0.05, 0.01);
     ImmersedGrain plain = disc(1, 3.013, 3.007, {0.1, -0.5, 0.7}), announced = plain;
     announced.announced_impulse = held;
@@ -286,7 +286,7 @@ TEST_P(WithOrWithoutBoundary, ARigidMotionOfAllIsLeftAlone) {
 INSTANTIATE_TEST_SUITE_P(Points, WithOrWithoutBoundary, testing::Bool());
 
 TEST(EffectiveInertia, IsWhatAnImpulseMoves) {
-    // Exact for a grain by itself: one push, one velocity.
+    // Exact for a separate grain: a push causes the velocity predicted by the effective inertia.
     Problem problem({disc(1, 3.013, 3.007)}, true);
     problem.solve(1e-13);
     const Planar push(0.3, -0.2, 0.1);
@@ -297,7 +297,8 @@ TEST(EffectiveInertia, IsWhatAnImpulseMoves) {
 }
 
 TEST(EffectiveInertia, HoldsTheFluidOfAboutTheDisc) {
-    // cM + rho_f V(R) would be pi/8 + pi/4 = 1.18; boundary points tie some fluid beyond the disc.
+    // cM + rho_f V(R) would be pi/8 + pi/4 = 1.18; boundary points tie additional fluid outside the
+    // disc.
     Problem problem({disc(1, 3.013, 3.007)}, true);
     problem.system.assemble(problem.field, problem.grains, problem.points);
     const Eigen::Matrix3d& inertia = problem.system.effective_inertia()[0];
@@ -307,8 +308,8 @@ TEST(EffectiveInertia, HoldsTheFluidOfAboutTheDisc) {
 }
 
 TEST(EffectiveInertia, IsNearlyRightAmongNeighbours) {
-    // Grains that share cells feel each other's pushes, which the inertia of one does not know. The
-    // rest must be small, or `joint` would need many rounds.
+    // A grain is also moved by pushes on grains that share its cells, which its own inertia does
+    // not contain. The difference must be small, or `joint` would need many rounds.
     Problem problem(loose_heap(), true);
     problem.solve(1e-13);
     const std::vector<Planar> before = problem.system.motions(), given = pushes(4);
@@ -320,7 +321,7 @@ TEST(EffectiveInertia, IsNearlyRightAmongNeighbours) {
         const Planar rest = problem.system.motions()[g] - before[g] - told;
         largest = std::max(largest, rest.norm() / told.norm());
     }
-    EXPECT_GT(largest, 1e-6);  // they do share cells
+    EXPECT_GT(largest, 1e-6);  // the grains do share cells
     EXPECT_LT(largest, 0.2);
 }
 
@@ -364,7 +365,8 @@ TEST(UzawaCg, SaysWhenItRanOutOfIterations) {
 }
 
 TEST(UzawaCg, AShortStepIsStillSolvedToAHundredth) {
-    // Slip 1e-5 of u_c, below the tolerance of 1e-4: without the second rule nothing would be done.
+    // Slip 1e-5 of u_c, below the tolerance of 1e-4: without the second criterion nothing would be
+    // solved.
     Problem problem({disc(1, 3.013, 3.007, {0.0, -1e-5, 0.0})}, true);
     problem.system.assemble(problem.field, problem.grains, problem.points);
     const MultiplierResult result = uzawa_cg(problem.system, {}, problem.work);
@@ -380,7 +382,7 @@ TEST(UzawaCg, NoGrainsNoWork) {
 }
 
 TEST(SaddlePoint, RefusesAGrainWithoutInertia) {
-    ImmersedGrain ghost = disc(7, 30.0, 3.0);  // beyond the grid: covers nothing
+    ImmersedGrain ghost = disc(7, 30.0, 3.0);  // outside the grid: covers no fluid
     ghost.effective_mass *= -1.0;
     Problem problem({ghost}, true);
     EXPECT_THROW(problem.system.assemble(problem.field, problem.grains, problem.points),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The multiplier method on cells of different sizes: what is exact on equal cells stays so.
+// The multiplier method on cells of different sizes: what is exact on a uniform grid remains exact.
 #include <gtest/gtest.h>
 
 #include "fluid_adapter/multiplier/uzawa_cg.hpp"
@@ -10,8 +10,8 @@
 namespace turbidite {
 namespace {
 
-/// From 0 to 4, cells growing by a twentieth from one to the next up to the middle, then shrinking:
-/// sizes in 1 : 2.5.
+/// Edges from 0 to 4: cells grow by a twentieth from one to the next up to the middle, then shrink;
+/// sizes in the ratio 1 : 2.5.
 std::vector<double> graded_edges() {
     std::vector<double> sizes;
     for (int i = 0; i < 20; ++i) sizes.push_back(std::pow(1.05, i));
@@ -51,7 +51,7 @@ TEST_P(StretchedGrid, FindsTheLayerOfEveryPlace) {
     EXPECT_NEAR(grid.size(0, -1), grid.size(0, grid.counts[0] - 1), 1e-14);
 }
 
-/// The volume of the covered cells is that of the disc, but for cells cut.
+/// The volume of the covered cells is that of the disc, apart from cut cells.
 TEST_P(StretchedGrid, CoversTheVolumeOfADisc) {
     PointRules interior_only;
     interior_only.boundary = false;
@@ -61,7 +61,7 @@ TEST_P(StretchedGrid, CoversTheVolumeOfADisc) {
 }
 
 TEST_P(StretchedGrid, InterpolatesALinearFieldExactly) {
-    if (GetParam() == Side::cyclic) return;  // a linear field does not close
+    if (GetParam() == Side::cyclic) return;  // a linear field is not periodic
     place();
     const auto plane = [](double x, double y) {
         return Planar(0.3 + 1.7 * x - 0.6 * y, -1.1 * x + 0.4 * y - 2.0, 0.0);
@@ -80,7 +80,8 @@ TEST_P(StretchedGrid, InterpolatesALinearFieldExactly) {
         }
 }
 
-/// A stencil's weights add up to one, so what points give to cells is what they have.
+/// The weights of a stencil add up to one, so the force spread to the cells equals that of the
+/// points.
 TEST_P(StretchedGrid, GivesCellsTheForceOfThePoints) {
     place();
     std::vector<double> L(2 * points.boundary_points());
@@ -96,8 +97,8 @@ TEST_P(StretchedGrid, GivesCellsTheForceOfThePoints) {
     EXPECT_NEAR(sum_y, 0.0, 1e-12);
 }
 
-/// What grains and fluid exchange is one impulse, whatever the sizes of the cells; and the answer
-/// is that of a dense solve.
+/// Grains and fluid exchange one impulse, whatever the sizes of the cells; and the answer equals
+/// that of a dense solve.
 TEST_P(StretchedGrid, KeepsMomentumAndAgreesWithADenseSolve) {
     place();
     field.fill_randomly(7);
@@ -129,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, StretchedGrid, testing::Values(Side::wall, Side:
                              return info.param == Side::wall ? "wall" : "cyclic";
                          });
 
-/// Edges of equal cells give what a uniform grid gives.
+/// Edges of equal cells give the result of a uniform grid.
 TEST(StretchedGridOfEqualCells, IsTheUniformOne) {
     std::vector<double> edges;
     for (int i = 0; i <= 64; ++i) edges.push_back(i / 16.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Ways to deal the cells of a grid to ranks: for each cell i + nx j the rank that has it.
+// Decompositions of a grid: for each cell i + nx j the rank that owns it.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ inline const std::vector<Decomposition>& all_decompositions() {
     return list;
 }
 
-/// Numbers of the cells of `rank`, in an order that is not that of the numbers where `shuffled`.
+/// Numbers of the cells of `rank`; in another order than that of the numbers if `shuffled`.
 inline std::vector<int> cells_of(const Decomposition& decomposition, int nx, int ny, int rank,
                                  int ranks, bool shuffled = false) {
     std::vector<int> cells;

@@ -29,7 +29,7 @@ int apart(int a, int b, int n, bool cyclic) {
     return cyclic ? std::min(distance, n - distance) : distance;
 }
 
-/// By comparing every cell with every own one.
+/// By brute force: compares every cell with every own cell.
 std::set<int> halo_by_force(const CellGrid& grid, const std::vector<int>& own) {
     std::set<int> halo;
     for (int cell = 0; cell < nx * ny; ++cell)
@@ -98,7 +98,7 @@ TEST(HaloExchange, ImportBringsTheOwnersValuesOfSeveralFields) {
     });
 }
 
-/// Export is the transpose of import: <import a, b> = <a, export b>, here with whole numbers, so
+/// Export is the transpose of import: <import a, b> = <a, export b>, here with integers and so
 /// exactly.
 TEST(HaloExchange, ExportIsTheTransposeOfImport) {
     everywhere([](const RankGroup& group, const CellGrid&, Local& local) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every rank runs every test; a rank that fails says which it is.
+// Every rank runs every test; a failing rank reports its number.
 #include <gtest/gtest.h>
 #include <mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Separable solves on several ranks against the solve on one.
+// Separable solves on several ranks against the solve on one rank.
 #include "fluid_adapter/ranks/mpi_pencils.hpp"
 
 #include <gtest/gtest.h>
@@ -46,8 +46,8 @@ void expect_equal_on_all_ranks(const PlaneOperator& plane, const Helmholtz& prob
     const double mean = solve.solve();
 
     const Solved expected = on_one_rank(plane, problem);
-    // The eliminations are the same, mode by mode: what differs is FFTW's order of additions, which
-    // may depend on how many rows a plan has.
+    // The eliminations are the same for each mode. The difference is FFTW's order of additions,
+    // which may depend on the number of rows of a plan.
     rows.scatter(solve.values(), [&](int c, double value) {
         EXPECT_NEAR(value, expected.values[cells[c]], 1e-13);
     });
@@ -72,8 +72,8 @@ TEST(MpiPencils, RanksMayBeLeftWithoutRowsOrModes) {
                                   decomposition);
 }
 
-/// By messages, as between nodes, and in shared memory; several times over, so that a rank that
-/// runs ahead of the others would be seen.
+/// By messages, as between nodes, and by shared memory; repeated, so that a rank that runs ahead of
+/// the others would be detected.
 TEST(MpiPencils, TransposeThereAndBackIsExact) {
     const RankGroup group(MPI_COMM_WORLD);
     const std::vector<Span> rows = even_spans(11, group.size());

@@ -8,7 +8,8 @@
 namespace turbidite {
 namespace {
 
-/// Grains of large, gappy ids; rank r holds those whose bits say so, rank 1 none at all.
+/// Grains with large, non-contiguous ids; rank r holds those whose bits select it, rank 1 none at
+/// all.
 bool holds(int rank, GrainId id) {
     return rank != 1 && ((id >> rank) & 1) != 0;
 }
@@ -26,7 +27,7 @@ double row_of(int rank, GrainId id, int n) {
     return std::sin(1.0 + rank + 7.0 * static_cast<double>(id % 1000) + n);
 }
 
-/// In the order of the ranks, as the class promises, so to the last bit.
+/// In the order of the ranks, as the class promises, and so to the last bit.
 double expected_sum(int ranks, GrainId id, int n) {
     double sum = 0.0;
     for (int rank = 0; rank < ranks; ++rank)

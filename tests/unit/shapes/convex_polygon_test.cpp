@@ -84,7 +84,7 @@ TEST(ConvexPolygon, SurfacePointsKeepTheirDistanceAndIncludeCorners) {
     }
 }
 
-// Side sqrt(3) R = 1.299 with spacing 0.1: 12 parts, so 3 corners and 3 x 11 points between.
+// Side sqrt(3) R = 1.299 with spacing 0.1: 12 parts, so 3 corners and 3 x 11 points between them.
 TEST(Triangle, SurfacePointsFillTheSides) {
     const auto triangle = make_shape({"triangle", {}});
     EXPECT_EQ(triangle->surface_points(0.75, 0.1).size(), 36u);

@@ -40,7 +40,7 @@ TEST(PolygonOutline, IsCentredAndScaled) {
     EXPECT_NEAR(moments.second, 25.0, 1e-10);
 }
 
-// A right triangle has its centre a third of the way up, off the middle of its circumscribed
+// The centre of a right triangle is a third of the way up, not in the middle of its circumscribed
 // circle.
 TEST(PolygonOutline, IsCentredOnTheCentreOfMass) {
     const Outline outline = normalised_outline({0, 0, 3, 0, 0, 3});
@@ -65,11 +65,11 @@ TEST(PolygonOutline, NamesTheOffendingVertex) {
     expect_refused({0, 0, 2, 0, 1, 0.5, 2, 2, 0, 2}, "vertex 3 (1, 0.5) makes it concave");
     expect_refused({0, 0, 1, 0, 2, 0, 1, 2}, "vertex 2 (1, 0) lies in line");
     expect_refused({0, 0, 1, 0, std::nan(""), 1}, "vertex 3");
-    // The same concave outline clockwise: the vertex that the user wrote is the one named.
+    // The same concave outline clockwise: the error names the vertex as the user wrote it.
     expect_refused({0, 0, 0, 2, 2, 2, 1, 0.5, 2, 0}, "(1, 0.5) makes it concave");
 }
 
-// A five-pointed star drawn in one stroke turns left at every corner and is no convex polygon.
+// A five-pointed star drawn in one stroke turns left at every corner, but is not a convex polygon.
 TEST(PolygonOutline, RefusesAStar) {
     std::vector<double> star;
     for (int k = 0; k < 5; ++k) {
