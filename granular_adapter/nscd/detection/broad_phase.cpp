@@ -65,7 +65,7 @@ class Level {
     Level(std::vector<std::int32_t> members, const std::vector<Vec3>& x, double cell,
           const PeriodicBox& box);
 
-    /// Calls visit(j) for all members in cells that touch the cube x +- reach.
+    /// Calls visit(j, place of j) for all members in cells that touch the cube x +- reach.
     template <class Visit>
     void near(const Vec3& x, double reach, Visit&& visit) const;
 
@@ -79,6 +79,7 @@ class Level {
     }
 
     std::vector<std::int32_t> members_;
+    std::vector<Vec3> places_;  ///< of the members
     std::array<Axis, 3> axes_;
     std::vector<std::int32_t> start_;  ///< first member of each cell
 };
@@ -113,22 +114,29 @@ void Level::sort_members(const std::vector<Vec3>& x) {
     std::vector<std::int32_t> next(start_.begin(), start_.end() - 1), sorted(members_.size());
     for (const std::int32_t i : members_) sorted[next[cell_of(x[i])]++] = i;
     members_ = std::move(sorted);
+    places_.reserve(members_.size());
+    for (const std::int32_t i : members_) places_.push_back(x[i]);
 }
 
+// Cells of a row follow each other in memory, and so do their members.
 template <class Visit>
 void Level::near(const Vec3& x, double reach, Visit&& visit) const {
     std::array<CellRange, 3> range;
     for (int axis = 0; axis < 3; ++axis)
         range[axis] = axes_[axis].range(x[axis] - reach, x[axis] + reach);
+    const std::int64_t end = range[0].first + range[0].count;
+    const std::int64_t inside = std::min(end, axes_[0].n), wrapped = end - inside;
+    const auto row = [&](std::int64_t first, std::int64_t last) {
+        for (std::int32_t k = start_[first]; k < start_[last]; ++k) visit(members_[k], places_[k]);
+    };
     for (std::int64_t kz = 0; kz < range[2].count; ++kz)
-        for (std::int64_t ky = 0; ky < range[1].count; ++ky)
-            for (std::int64_t kx = 0; kx < range[0].count; ++kx) {
-                const std::int64_t cx = axes_[0].wrapped(range[0].first + kx);
-                const std::int64_t cy = axes_[1].wrapped(range[1].first + ky);
-                const std::int64_t cz = axes_[2].wrapped(range[2].first + kz);
-                const std::int64_t c = (cz * axes_[1].n + cy) * axes_[0].n + cx;
-                for (std::int32_t k = start_[c]; k < start_[c + 1]; ++k) visit(members_[k]);
-            }
+        for (std::int64_t ky = 0; ky < range[1].count; ++ky) {
+            const std::int64_t cy = axes_[1].wrapped(range[1].first + ky);
+            const std::int64_t cz = axes_[2].wrapped(range[2].first + kz);
+            const std::int64_t first = (cz * axes_[1].n + cy) * axes_[0].n;
+            row(first + range[0].first, first + inside);
+            row(first, first + wrapped);
+        }
 }
 
 /// 0 for bodies larger than half the largest, 1 for those larger than a quarter, ...
@@ -169,12 +177,14 @@ std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<
         const int own = level_of(radii[i], largest);
         for (const auto& [level, sized] : levels) {
             if (level > own) break;  // smaller bodies search for this one
-            sized.grid.near(x[i], radii[i] + sized.largest + alert, [&](std::int32_t j) {
-                if (level == own && j <= i) return;
-                const Vec3 d = box.minimum_image(x[j] - x[i]);
-                const double reach = radii[i] + radii[j] + alert;
-                if (dot(d, d) < reach * reach) pairs.push_back({std::min(i, j), std::max(i, j)});
-            });
+            sized.grid.near(x[i], radii[i] + sized.largest + alert,
+                            [&](std::int32_t j, const Vec3& place) {
+                                if (level == own && j <= i) return;
+                                const Vec3 d = box.minimum_image(place - x[i]);
+                                const double reach = radii[i] + radii[j] + alert;
+                                if (dot(d, d) < reach * reach)
+                                    pairs.push_back({std::min(i, j), std::max(i, j)});
+                            });
         }
     }
     return pairs;

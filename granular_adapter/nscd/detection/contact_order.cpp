@@ -11,16 +11,17 @@
 namespace turbidite::nscd {
 namespace {
 
+// Layers are counted where there are at most this many for each point; beyond, they are sorted.
+constexpr double countable_layers = 8.0;
+
+// Colours of one layer: bits of a word.
+constexpr int colours = 64;
+
 struct Place {
     double layer;        ///< an integer, increasing downwards
     std::int32_t point;  ///< index in the order of detection
-    std::int32_t colour = 0;
+    std::int32_t a, b;   ///< its bodies
 };
-
-bool above(const Place& a, const Place& b) {
-    if (a.layer != b.layer) return a.layer < b.layer;
-    return a.colour != b.colour ? a.colour < b.colour : a.point < b.point;
-}
 
 std::vector<Place> layers(const std::vector<ContactPoint>& points, const Bodies& bodies,
                           const Vec3& down, double band) {
@@ -29,34 +30,67 @@ std::vector<Place> layers(const std::vector<ContactPoint>& points, const Bodies&
     for (const ContactPoint& point : points) {
         const Vec3& centre = bodies.position[static_cast<std::size_t>(point.b)];
         const double depth = dot(down, centre) + dot(down, point.arm_b);
-        places.push_back({std::floor(depth / band), static_cast<std::int32_t>(places.size())});
+        places.push_back(
+            {std::floor(depth / band), static_cast<std::int32_t>(places.size()), point.a, point.b});
     }
     return places;
 }
 
-/// Greedy colouring: the first colour that neither body has in this layer; beyond 63, one shared
-/// colour.
-void colour(std::vector<Place>& places, const std::vector<ContactPoint>& points,
-            std::size_t bodies) {
+/// From the top layer down, in the order of detection within each.
+void sort_by_layer(std::vector<Place>& places) {
+    const auto above = [](const Place& x, const Place& y) { return x.layer < y.layer; };
+    const auto [top, bottom] = std::minmax_element(places.begin(), places.end(), above);
+    const double first = top->layer, count = bottom->layer - first + 1.0;
+    if (!(count <= countable_layers * static_cast<double>(places.size())))
+        return std::stable_sort(places.begin(), places.end(), above);
+    std::vector<std::int32_t> next(static_cast<std::size_t>(count) + 1, 0);
+    const auto layer = [first](const Place& p) {
+        return static_cast<std::size_t>(p.layer - first);
+    };
+    for (const Place& place : places) ++next[layer(place) + 1];
+    for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+    std::vector<Place> sorted(places.size());
+    for (const Place& place : places)
+        sorted[static_cast<std::size_t>(next[layer(place)]++)] = place;
+    places = std::move(sorted);
+}
+
+/// Greedy colouring of places sorted by layer: the first colour that neither body has in this
+/// layer; beyond 63, one shared colour.
+std::vector<std::uint8_t> colour(const std::vector<Place>& places, std::size_t bodies) {
     struct Used {
         double layer = -INFINITY;
         std::uint64_t colours = 0;
     };
     std::vector<Used> used(bodies);
-    for (Place& place : places) {
-        const ContactPoint& point = points[static_cast<std::size_t>(place.point)];
+    std::vector<std::uint8_t> result;
+    result.reserve(places.size());
+    for (const Place& place : places) {
         std::uint64_t taken = 0;
-        for (const std::int32_t body : {point.a, point.b})
+        for (const std::int32_t body : {place.a, place.b})
             if (body >= 0 && used[static_cast<std::size_t>(body)].layer == place.layer)
                 taken |= used[static_cast<std::size_t>(body)].colours;
-        place.colour = std::min(std::countr_one(taken), 63);
-        for (const std::int32_t body : {point.a, point.b}) {
+        const int free = std::min(std::countr_one(taken), colours - 1);
+        result.push_back(static_cast<std::uint8_t>(free));
+        for (const std::int32_t body : {place.a, place.b}) {
             if (body < 0) continue;
             Used& own = used[static_cast<std::size_t>(body)];
             if (own.layer != place.layer) own = {place.layer, 0};
-            own.colours |= std::uint64_t{1} << place.colour;
+            own.colours |= std::uint64_t{1} << free;
         }
     }
+    return result;
+}
+
+/// Calls visit(i) for the places [first, last) of one layer, by colour, then as they come.
+template <class Visit>
+void by_colour(std::size_t first, std::size_t last, const std::vector<std::uint8_t>& colour,
+               const Visit& visit) {
+    std::uint64_t found = 0;
+    for (std::size_t i = first; i < last; ++i) found |= std::uint64_t{1} << colour[i];
+    for (; found != 0; found &= found - 1)
+        for (std::size_t i = first; i < last; ++i)
+            if (colour[i] == std::countr_zero(found)) visit(i);
 }
 
 }  // namespace
@@ -64,20 +98,18 @@ void colour(std::vector<Place>& places, const std::vector<ContactPoint>& points,
 void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, const Vec3& gravity,
                     double band) {
     const double weight = norm(gravity);
-    if (weight == 0.0 || !(band > 0.0)) return;
+    if (points.empty() || weight == 0.0 || !(band > 0.0)) return;
     std::vector<Place> places = layers(points, bodies, (1.0 / weight) * gravity, band);
-    std::sort(places.begin(), places.end(), above);
-    colour(places, points, bodies.size());
-    for (auto first = places.begin(); first != places.end();) {
-        const auto same = [&](const Place& place) { return place.layer == first->layer; };
-        const auto last = std::find_if_not(first, places.end(), same);
-        if (last - first > 2) std::sort(first, last, above);
-        first = last;
-    }
+    sort_by_layer(places);
+    const std::vector<std::uint8_t> colours = colour(places, bodies.size());
     std::vector<ContactPoint> sorted;
     sorted.reserve(points.size());
-    for (const Place& place : places)
-        sorted.push_back(points[static_cast<std::size_t>(place.point)]);
+    for (std::size_t first = 0, last = 0; first < places.size(); first = last) {
+        while (last < places.size() && places[last].layer == places[first].layer) ++last;
+        by_colour(first, last, colours, [&](std::size_t i) {
+            sorted.push_back(points[static_cast<std::size_t>(places[i].point)]);
+        });
+    }
     points = std::move(sorted);
 }
 

@@ -34,8 +34,10 @@ std::vector<ContactPoint> Detection::unordered(const Bodies& bodies, const std::
     const PlacedPolygons polygons = narrow_.place(bodies);
     std::vector<double> wide = bodies.radius;
     for (double& radius : wide) radius *= 1.0 + share;
+    const std::vector<Pair> pairs = candidate_pairs(bodies.position, wide, reach, box_);
     std::vector<ContactPoint> points;
-    for (const Pair& pair : candidate_pairs(bodies.position, wide, reach, box_))
+    points.reserve(pairs.size());
+    for (const Pair& pair : pairs)
         add_pair(bodies, pair, reach + share * (bodies.radius[pair.a] + bodies.radius[pair.b]),
                  polygons, points);
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(bodies.size()); ++i)

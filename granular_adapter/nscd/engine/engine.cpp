@@ -99,8 +99,7 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
 /// Sets up the contact problem of these points under the laws, and the initial guess.
 void Engine::pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt) {
     problem_ = laws_.pose({points_, keys_, bodies_, walls_}, free, std::move(mobilities), dt);
-    guess_.clear();
-    for (const ContactKey& key : keys_) guess_.push_back(memory_.guess(key, dt));
+    guess_ = memory_.guesses(keys_, dt);
 }
 
 /// Solves the problem; if polygons rotate fast, again with gaps reduced by the shortfall
@@ -177,7 +176,7 @@ void Engine::forget_step() {
 std::vector<char> Engine::save() const {
     ByteWriter out;
     write_bodies(out, bodies_);
-    write_memory(out, {memory_.contacts(), laws_.states().saved(), walls_});
+    write_memory(out, {memory_.sorted_by_key(), laws_.states().saved(), walls_});
     return out.take();
 }
 
@@ -193,7 +192,7 @@ void Engine::restore(const std::vector<char>& state) {
 
 std::vector<char> Engine::save_memory() const {
     ByteWriter out;
-    write_memory(out, {memory_.contacts(), laws_.states().saved(), walls_});
+    write_memory(out, {memory_.sorted_by_key(), laws_.states().saved(), walls_});
     return out.take();
 }
 
@@ -249,6 +248,7 @@ void Engine::sum_impulses() {
         sum[2] += moment;
     };
     for (std::size_t k = 0; k < points_.size(); ++k) {
+        if (impulses_[k] == ContactVector{}) continue;
         const Contact& contact = problem_.contacts[k];
         const Vec3 p = world_impulse(contact, impulses_[k]);
         add(contact.b, contact.arm_b, p, impulses_[k].roll);

@@ -84,9 +84,9 @@ bool ContactLaws::is_round(const Bodies& bodies, std::int32_t body) const {
     return body >= 0 && round_[static_cast<std::size_t>(bodies.shape[body])] != 0;
 }
 
-/// One over the number of a pair's points within the range of the law; 1 where this is not used.
+/// One over the number of a pair's points within the range of the law; empty if all are 1.
 std::vector<double> ContactLaws::shares(const std::vector<ContactPoint>& points) const {
-    if (law_.range() == 0.0 || all_round()) return std::vector<double>(points.size(), 1.0);
+    if (law_.range() == 0.0 || all_round()) return {};
     const auto pair_of = [](const ContactPoint& p) { return std::array{p.a, p.wall, p.b}; };
     std::map<std::array<std::int32_t, 3>, double> counts;
     for (const ContactPoint& p : points)
@@ -144,7 +144,6 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
     terms_.clear();
     attraction_.clear();
     const std::vector<double> share = shares(contacts.points);
-    bool pulls = false;
     for (std::size_t k = 0; k < contacts.points.size(); ++k) {
         const ContactPoint& point = contacts.points[k];
         Contact contact = bare_contact(point);
@@ -152,7 +151,7 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         ContactVector approach;
         ContactSituation now = situation(contacts, point);
         now.step = step;
-        now.share = share[k];
+        if (!share.empty()) now.share = share[k];
         if (law_.reads_velocities()) {
             approach = contact_velocity(contact, contacts.bodies.twist) - drive;
             now.approach = magnitudes(approach);
@@ -162,11 +161,13 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
-        attraction_.push_back(step * terms.attraction);
-        pulls = pulls || terms.attraction != 0.0;
+        if (terms.attraction != 0.0) {
+            attraction_.resize(contacts.points.size(), 0.0);
+            attraction_[k] = step * terms.attraction;
+        }
         problem.contacts.push_back(contact);
     }
-    if (pulls) pull(problem);
+    if (!attraction_.empty()) pull(problem);
     return problem;
 }
 
@@ -181,7 +182,7 @@ void ContactLaws::pull(ContactProblem& problem) const {
 
 Impulses ContactLaws::felt(const Impulses& solution) const {
     Impulses result = solution;
-    for (std::size_t k = 0; k < result.size(); ++k) result[k].n -= attraction_[k];
+    for (std::size_t k = 0; k < attraction_.size(); ++k) result[k].n -= attraction_[k];
     return result;
 }
 

@@ -69,7 +69,7 @@ class ContactLaws {
     ContactStates states_;
     std::vector<ContactSituation> situations_;  ///< of the last problem, if the law has states
     std::vector<LawTerms> terms_;               ///< of the last problem, if the law has states
-    std::vector<double> attraction_;            ///< dt c of the last problem [N s]
+    std::vector<double> attraction_;  ///< dt c of the last problem, empty if none attracts [N s]
 };
 
 }  // namespace turbidite::nscd

@@ -11,6 +11,10 @@ bool by_key(const RememberedContact& a, const RememberedContact& b) {
     return a.key < b.key;
 }
 
+// Entries of the table are prefetched this many keys ahead: where they are is unrelated to the
+// order of the contacts, so that each would miss the cache.
+constexpr std::size_t ahead = 16;
+
 // Keys are looked up in the order of a step's contacts, which is unrelated to the order of the
 // keys: a binary search would miss the cache a dozen times per contact.
 std::size_t scrambled(const ContactKey& key) {
@@ -37,6 +41,7 @@ std::vector<std::int32_t> hash_table(const std::vector<RememberedContact>& conta
 void ContactMemory::remember(const std::vector<ContactKey>& keys,
                              const std::vector<ContactVector>& impulses, double step) {
     std::vector<RememberedContact> contacts;
+    contacts.reserve(contacts_.size());
     for (std::size_t k = 0; k < keys.size(); ++k)
         if (impulses[k].n > 0.0) contacts.push_back({keys[k], (1.0 / step) * impulses[k]});
     replace(std::move(contacts));
@@ -52,9 +57,27 @@ ContactVector ContactMemory::guess(const ContactKey& key, double step) const {
     }
 }
 
+std::vector<ContactVector> ContactMemory::guesses(const std::vector<ContactKey>& keys,
+                                                  double step) const {
+    std::vector<ContactVector> result;
+    if (places_.empty()) return std::vector<ContactVector>(keys.size());
+    result.reserve(keys.size());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (k + ahead < keys.size())
+            __builtin_prefetch(&places_[scrambled(keys[k + ahead]) & (places_.size() - 1)]);
+        result.push_back(guess(keys[k], step));
+    }
+    return result;
+}
+
+std::vector<RememberedContact> ContactMemory::sorted_by_key() const {
+    std::vector<RememberedContact> result = contacts_;
+    std::sort(result.begin(), result.end(), by_key);
+    return result;
+}
+
 void ContactMemory::replace(std::vector<RememberedContact> contacts) {
     contacts_ = std::move(contacts);
-    std::sort(contacts_.begin(), contacts_.end(), by_key);
     places_ = hash_table(contacts_);
 }
 

@@ -38,13 +38,15 @@ class ContactMemory {
 
     /// The stored force times the step, zero for a new contact.
     ContactVector guess(const ContactKey& key, double step) const;
+    std::vector<ContactVector> guesses(const std::vector<ContactKey>& keys, double step) const;
 
     void forget() { replace({}); }
     const std::vector<RememberedContact>& contacts() const { return contacts_; }
+    std::vector<RememberedContact> sorted_by_key() const;
     void replace(std::vector<RememberedContact> contacts);
 
  private:
-    std::vector<RememberedContact> contacts_;  ///< sorted by key
+    std::vector<RememberedContact> contacts_;  ///< in the order in which they were given
     std::vector<std::int32_t> places_;  ///< open hash table of indices into contacts_; -1: empty
 };
 

@@ -337,10 +337,22 @@ TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
 }
 
+// Groups at rest are looked at once in many sweeps: their bodies are in no cache by then.
+constexpr int look_ahead = 4;
+
+template <class Rows>
+TURBIDITE_INLINE void fetch_bodies(const Rows& row, const PlaneBody* bodies) {
+    for (int lane = 0; lane < Rows::width; ++lane) {
+        __builtin_prefetch(bodies + row.a[lane]);
+        __builtin_prefetch(bodies + row.b[lane]);
+    }
+}
+
 template <class Rows>
 void sweep_asked(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width>& sums,
                  std::uint8_t* awake) {
     for (Rows* row = begin; row != end; ++row, ++awake) {
+        if (end - row > look_ahead) fetch_bodies(row[look_ahead], bodies);
         *awake = 0;
         if (!needs_update(*row, bodies)) continue;
         update<true>(*row, bodies, sums);

@@ -62,7 +62,7 @@ struct SweepLayout {
         BodySlots slots(problem.bodies.size(), velocities, problem.bodies);
         make_room();
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
-            Rows& row = rows[i / Rows::width];
+            Rows& row = row_of(i);
             const int lane = static_cast<int>(i % Rows::width);
             if (schedule.lanes[i] < 0) {
                 fill_empty(row, lane, slots.meet(-1, false));
@@ -86,7 +86,7 @@ struct SweepLayout {
         schedule = std::move(next);
         make_room();
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
-            Rows& row = rows[i / Rows::width];
+            Rows& row = row_of(i);
             const int lane = static_cast<int>(i % Rows::width);
             if (schedule.lanes[i] < 0) {
                 fill_empty(row, lane, static_cast<std::int32_t>(bodies.size()));
@@ -113,9 +113,13 @@ struct SweepLayout {
 
  private:
     void make_room() {
-        rows = std::vector<Rows>(static_cast<std::size_t>(schedule.all));
+        rows.clear();
+        rows.reserve(static_cast<std::size_t>(schedule.all));
         awake.assign(static_cast<std::size_t>(schedule.all - schedule.active), 0);
     }
+
+    /// Of the i-th lane; rows come one after the other.
+    Rows& row_of(std::size_t i) { return i % Rows::width == 0 ? rows.emplace_back() : rows.back(); }
 
     template <class Visit>
     void each_contact(const Visit& visit) const {
