@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every solution of a small contact problem by exhaustion: each contact open, sticking, or sliding
-// either way makes 4^n linear systems, and those whose answer has the signs it assumed are all
-// solutions there are.
+// All solutions of a small contact problem by exhaustion: with each contact open, sticking, or
+// sliding in either direction there are 4^n linear systems, and the solutions of the problem are
+// those whose signs agree with the assumption.
 #pragma once
 
 #include <Eigen/Dense>
@@ -70,7 +70,7 @@ inline std::vector<Eigen::VectorXd> all_solutions(const SmallProblem& p) {
         for (std::size_t k = 0; k < guess.size(); ++k) guess[k] = code >> (2 * k) & 3;
         const Eigen::VectorXd r = impulses_of_guess(p, guess);
         if (!has_its_signs(p, guess, r)) continue;
-        // On the border of two statuses a solution fits both.
+        // On the boundary between two statuses a solution satisfies both.
         const auto same = [&](const Eigen::VectorXd& other) {
             return (other - r).norm() <= 1e-8 * r.norm();
         };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the tests against Siconos share: our solvers by name, vectors of (n, t) of every contact.
+// Common to the tests against Siconos: our solvers by name, and vectors of (n, t) of all contacts.
 #pragma once
 
 #include <array>
@@ -45,7 +45,8 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
 
 enum Status { open, sticking, sliding };
 
-/// By the impulse of contact k; what is smaller than `share` of the norm of all counts as zero.
+/// Status by the impulse of contact k; less than `share` of the norm of all impulses counts as
+/// zero.
 inline Status status(const nscd::ContactProblem& problem, const std::vector<double>& r,
                      std::size_t k, double share = 1e-7) {
     const double zero = share * norm(r), n = r[2 * k], t = std::abs(r[2 * k + 1]);

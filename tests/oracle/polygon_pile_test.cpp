@@ -21,7 +21,7 @@ using nscd::ContactProblem;
 constexpr double step = 0.01, width = 5.5, height = 16.0;
 constexpr int triangles = 16;
 
-/// In the fall, at landings, and of the pile; dimensionless.
+/// During the fall, at landings, and in the pile; dimensionless.
 std::vector<Named> problems_of_triangles() {
     nscd::EngineSettings settings = nscd::scenes::exact(0.8, 1e-3);
     settings.solver_settings.max_iterations = 2000;
@@ -47,7 +47,7 @@ double coupling(const ContactProblem& problem) {
     return largest;
 }
 
-/// Contacts between bodies that touch at two points.
+/// Number of contact points of pairs that touch at two points.
 int points_of_sides(const ContactProblem& problem) {
     std::map<std::pair<int, int>, int> points;
     for (const nscd::Contact& c : problem.contacts)
@@ -57,12 +57,12 @@ int points_of_sides(const ContactProblem& problem) {
     return count;
 }
 
-/// One problem in both hands.
+/// One problem solved by both codes.
 struct Judgement {
     const Named& named;
     const siconos::Problem judge{named.problem, {}};
     const siconos::Solution theirs = judge.solve("nsgs", 1e-7, 100000);
-    std::vector<double> u;  ///< by Siconos' impulses
+    std::vector<double> u;  ///< for Siconos' impulses
     std::vector<bool> unique;
 
     explicit Judgement(const Named& n) : named(n) {
@@ -90,8 +90,8 @@ struct Judgement {
     }
 };
 
-// Each passes the other's measure; contact velocities are the same, and impulses and statuses of
-// all contacts whose impulse the velocities determine.
+// Each solution passes the other code's measure. The contact velocities agree, and so do impulses
+// and statuses of all contacts whose impulse is determined by the velocities.
 TEST(Triangles, AreSolvedAsBySiconosWithEverySolver) {
     StatusCount seen{};
     int sides = 0, hyperstatic = 0;

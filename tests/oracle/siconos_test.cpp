@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Contact problems of our packings in the hands of Siconos (INRIA), an independent code: it reads
-// our files, judges our answers by its error measure, and solves the same problems; we judge its
-// answers by ours. Impulses of packings are not unique, velocities are.
+// Contact problems of our packings and Siconos (INRIA), an independent code: it reads our files,
+// evaluates our answers by its error measure, and solves the same problems; we evaluate its answers
+// by ours. The impulses of packings are not unique, the velocities are.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -80,7 +80,7 @@ TEST(SiconosReads, OurFilesBitForBit) {
     }
 }
 
-// Our function of the same name as theirs, at points that solve nothing.
+// Our function of the same name agrees with theirs, at points that are not solutions.
 TEST(SiconosMeasure, IsWhatWeTakeItFor) {
     for (const Named& named : problems_of_columns()) {
         nscd::Impulses r(named.problem.contacts.size());
@@ -103,7 +103,7 @@ void compare_with_siconos(const Named& named, const siconos::Problem& judge,
     EXPECT_LT(relative_difference(u_ours, u_theirs), 1e-5);
 }
 
-// Each passes the other's measure, and the contact velocities are the same.
+// Each solution passes the other code's measure, and the contact velocities agree.
 TEST(Columns, HaveTheVelocitiesOfSiconosWithEverySolver) {
     for (const Named& named : problems_of_columns()) {
         const siconos::Problem judge(named.problem, {});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Small problems in which normal and tangent are strongly coupled, mu up to 2. Neither existence
-// nor uniqueness is a theorem there, so all solutions are found by exhaustion first; where there is
-// one, Siconos and we must find it.
+// Small problems with strong coupling of normal and tangent, mu up to 2. Neither existence nor
+// uniqueness is guaranteed there, so all solutions are first found by exhaustion; if there is
+// exactly one, Siconos and our solvers must find it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using namespace judged;
 using nscd::ContactProblem;
 using nscd::operator*;
 
-/// Arms `scale` times as long as packings have them; friction from 0 to 2.
+/// Arms `scale` times as long as in packings; friction from 0 to 2.
 ContactProblem strongly_coupled(unsigned seed, double scale) {
     ContactProblem problem = nscd::problems::random_problem(
         {.bodies = 6, .extra_contacts = 0, .friction = 2.0, .seed = seed});
@@ -27,7 +27,7 @@ ContactProblem strongly_coupled(unsigned seed, double scale) {
     return problem;
 }
 
-/// Largest |W_nt| / sqrt(W_nn W_tt); 1 is where W ends to be regular.
+/// Largest |W_nt| / sqrt(W_nn W_tt); at 1, W becomes singular.
 double coupling(const SmallProblem& p) {
     double largest = 0.0;
     for (Eigen::Index k = 0; k < p.friction.size(); ++k)
@@ -36,10 +36,10 @@ double coupling(const SmallProblem& p) {
     return largest;
 }
 
-/// Counts of one hundred problems.
+/// Counts over one hundred problems.
 struct Tally {
-    int unique = 0;      ///< with one solution
-    int by_siconos = 0;  ///< of these, those that NSGS found
+    int unique = 0;      ///< with exactly one solution
+    int by_siconos = 0;  ///< of these, those solved by NSGS
     std::map<std::string, int> by_us;
     double strongest = 0.0;
 };
@@ -86,8 +86,8 @@ TEST(StrongCoupling, EverySolverFindsTheOnlySolution) {
     }
 }
 
-// Gauss-Seidel need not converge here, neither theirs nor ours: a sweep may go round in circles,
-// and then says that it did not converge. Paths find all.
+// Gauss-Seidel need not converge here, in either code: sweeps may cycle, and the solver then
+// reports that it has not converged. Path following finds every solution.
 TEST(StrongCoupling, SweepsThatConvergedAreRightAndPathsFindAll) {
     const Tally tally = judge_hundred(10.0);
     EXPECT_GT(tally.strongest, 0.95);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which impulses of a packing the contact velocities determine.
+// The impulses of a packing that are determined by the contact velocities.
 //
-// All solutions with the same u = W r + q differ by a d with W d = 0. Where a contact separates,
-// its impulse is zero in all of them; where it slides, r_t = -mu r_n sign(u_t), one unknown; else
-// two. Contacts that no d reaches have one impulse only, however hyperstatic the rest is.
+// All solutions with the same u = W r + q differ by a d with W d = 0. If a contact separates, its
+// impulse is zero in all of them; if it slides, r_t = -mu r_n sign(u_t), which leaves one unknown;
+// otherwise there are two. Contacts at which every such d is zero have a unique impulse, however
+// hyperstatic the rest is.
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,8 +15,8 @@
 
 namespace turbidite::judged {
 
-/// Unknowns that the velocities u leave, as columns over (n, t) of every contact. Speeds below
-/// `rest` count as zero.
+/// Directions in which impulses can vary at the velocities u, as columns over (n, t) of all
+/// contacts. Speeds below `rest` count as zero.
 inline Eigen::MatrixXd free_directions(const siconos::Problem& problem,
                                        const std::vector<double>& u, double rest) {
     const int n = problem.contacts();
@@ -34,7 +35,7 @@ inline Eigen::MatrixXd free_directions(const siconos::Problem& problem,
     return directions.leftCols(used);
 }
 
-/// Per contact: whether its impulse is the same in all solutions with these velocities.
+/// By contact: whether its impulse is the same in all solutions with these velocities.
 inline std::vector<bool> unique_impulses(const siconos::Problem& problem,
                                          const std::vector<double>& u, double rest) {
     const int n = problem.contacts();

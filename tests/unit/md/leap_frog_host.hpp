@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A host of molecular dynamics without YADE: discs on a floor at y = 0 with spring and dashpot and
-// a friction force proportional to the slip, and nothing else. It does in a few lines what a host
-// promises in md_host.hpp.
+// A host of molecular dynamics without YADE: discs on a floor at y = 0 with spring, dashpot and a
+// friction force proportional to the slip, and nothing else. A minimal implementation of
+// md_host.hpp.
 #pragma once
 
 #include <algorithm>

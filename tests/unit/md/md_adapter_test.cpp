@@ -18,7 +18,7 @@ const ShapeTable discs = {{"disc", {}}};
 constexpr double dt = 0.01;
 constexpr double area = std::numbers::pi / 4.0;
 
-// The box in windows of 0.01, each in 8 sub-steps.
+// The box, with windows of 0.01 in 8 sub-steps each.
 Settings md_settings() {
     Settings settings = box_settings();
     settings.set("coupling.md_hold", true);
@@ -41,7 +41,7 @@ Kick kick_of(GrainId id, const Vec3& velocity, double spin, const Vec3& impulse,
     return kick;
 }
 
-/// A fluid of which nothing is known but that it changes with time.
+/// A fluid whose only known property is that it changes with time.
 Kick some_kick(GrainId id, std::int64_t n) {
     const double t = static_cast<double>(n);
     return kick_of(id, {0.3 * std::sin(t), -0.2 - 0.1 * std::cos(t), 0.0}, std::sin(2.0 * t),
@@ -81,8 +81,8 @@ class HeldOrNot : public testing::TestWithParam<bool> {
     }
 };
 
-// The position of the protocol is the contact engine's: q^{n+1} = q^n + dt U^{n+1}, whatever the
-// kicks.
+// The position in the protocol is that of the contact engine: q^{n+1} = q^n + dt U^{n+1}, whatever
+// the kicks.
 TEST_P(HeldOrNot, AGrainThatTouchesNothingMovesAsUnderTheContactEngine) {
     Single md(settings());
     NscdAdapter nscd;
@@ -103,7 +103,7 @@ TEST_P(HeldOrNot, AGrainThatTouchesNothingMovesAsUnderTheContactEngine) {
     }
 }
 
-// M dU = J_c + J_h - weight dt, J_c summed up by the host, on the floor and in flight.
+// M dU = J_c + J_h - weight dt, with J_c summed by the host, on the floor and in flight.
 TEST_P(HeldOrNot, MomentumBalances) {
     Settings with_radius = settings();
     with_radius.set("fluid.hydrodynamic_radius", 0.9);
@@ -124,7 +124,7 @@ TEST_P(HeldOrNot, MomentumBalances) {
     EXPECT_TRUE(pushed);
 }
 
-// Without output the sum is not asked for and follows from the momentum; the two agree.
+// Without output the sum is not requested and follows from the momentum; the two agree.
 TEST_P(HeldOrNot, ContactImpulsesAreTheSameInAnyWindow) {
     Single summed(settings(), 0.499), inferred(settings(), 0.499);
     for (std::int64_t n = 0; n < 10; ++n) {
@@ -168,7 +168,7 @@ TEST(MdAdapter, HoldsNothingWhenTold) {
     EXPECT_NEAR(second.velocity[0], 0.0, 1e-15);
 }
 
-// A kick must not press a grain into the floor behind the spring's back.
+// A kick must not push a grain into the floor without a spring force.
 TEST(MdAdapter, AGrainThatTouchedStaysWhereItIs) {
     Single md(md_settings(), 0.4999);
     const double lead = 0.5 * (dt - dt / 8);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""YADE's bodies and engines for molecular dynamics against what is known of springs, dashpots and friction.
+"""YADE's bodies and engines for molecular dynamics, against known results for springs, dashpots and friction.
 
 usage: yade -n -x -j1 md_scene_test.py FOLDER_OF_MD_SCENE
 """
@@ -32,7 +32,7 @@ def disc(number, x, y, velocity=(0, 0, 0), radius=0.5, spin=0.0):
 
 
 def restitution(zeta):
-    """Schwager and Poeschel 2007: the force ends before the overlap does."""
+    """Schwager and Poeschel 2007: the contact ends when the force vanishes, before the overlap does."""
     if zeta == 1.0:
         return math.exp(-2.0)
     s = math.sqrt(1.0 - zeta**2)
@@ -53,7 +53,7 @@ class MdScene(unittest.TestCase):
             self.scene.step()
 
     def test_undamped_discs_bounce_in_the_contact_time_and_lose_nothing(self):
-        # Head-on at 1; reduced mass m/2, so w is FREQUENCY and the contact lasts pi/w. Deepest: 1/w.
+        # Head-on at speed 1; reduced mass m/2, so w is FREQUENCY and the contact lasts pi/w. Largest overlap: 1/w.
         self.build([disc(5, 3.0, 5.0, (1, 0, 0)), disc(9, 4.0005, 5.0)], run_md_substeps=600)
         touching, deepest = 0, 0.0
         for _ in range(1200):
@@ -76,7 +76,7 @@ class MdScene(unittest.TestCase):
             self.assertAlmostEqual(bounced, restitution(zeta), delta=0.004, msg='zeta %g' % zeta)
 
     def test_discs_of_any_size_and_walls_bounce_alike(self):
-        # k = m_r w^2: same contact time and restitution for a small disc on a large one and on the floor.
+        # k = m_r w^2: the same contact time and restitution for a small disc on a large one and on the floor.
         zeta = 0.3
         self.build([disc(1, 3.0, 5.0, (1, 0, 0), 0.2), disc(2, 4.2005, 5.0, (0, 0, 0), 1.0),
                     disc(3, 10.0, 0.3005, (0, -1, 0), 0.3)], run_md_substeps=1200, run_md_damping=zeta)
@@ -92,12 +92,12 @@ class MdScene(unittest.TestCase):
         weight = count * self.states[0].mass * gravity
         floor = next(wall for wall in self.scene.walls if O.bodies[wall].shape.axis == 1)
         self.assertAlmostEqual(O.forces.f(floor)[1], -weight, delta=1e-9 * weight)
-        # k = m w^2 at the wall
+        # k = m w^2 at the wall.
         self.assertAlmostEqual(self.scene.deepest_overlap(), 2 * (count - 1) * gravity / FREQUENCY**2, delta=1e-8)
         self.assertEqual(self.scene.contacts(), count)
 
     def test_a_disc_pushed_along_the_floor_slides_until_it_rolls(self):
-        # Slides with -mu g; the floor turns it with mu m g R/I = 2 mu g/R; rolls at 2/3 of its speed.
+        # Slides with -mu g; the floor rotates it with mu m g R/I = 2 mu g/R; rolls at 2/3 of its speed.
         self.build([disc(1, 3.0, 0.5 - 1.0 / FREQUENCY**2, (1, 0, 0))], run_gravity=1.0, run_md_damping=1.0)
         self.play(3000)  # t = 0.5 < 1/(3 mu) = 1.11
         self.assertAlmostEqual(self.states[0].vel[0], 1.0 - 0.3 * 0.5, delta=1e-3)
@@ -115,7 +115,7 @@ class MdScene(unittest.TestCase):
         self.assertAlmostEqual(self.states[0].vel[1], O.dt * (0.25 / mass - 1.0), delta=1e-16)
 
     def test_tells_its_contacts_one_by_one(self):
-        # Disc 9 lies under disc 5 on the floor: the pair is told as (5, 9) whatever YADE's order is.
+        # Disc 9 lies under disc 5 on the floor: the pair is reported as (5, 9) whatever YADE's order is.
         gravity = 1.0
         self.build([disc(9, 5.0, 0.5), disc(5, 5.0, 1.5)], run_gravity=gravity, run_md_damping=1.0)
         self.play(12000)
@@ -147,7 +147,7 @@ class MdScene(unittest.TestCase):
         return [(tuple(state.pos), tuple(state.vel), tuple(state.angVel)) for state in self.states]
 
     def test_a_restored_simulation_goes_on_the_same_but_for_rounding(self):
-        # Springs are restored exactly; the order in which YADE adds up forces is not.
+        # Springs are restored exactly; the order in which YADE sums forces is not.
         self.build(self.pile(), run_gravity=1.0, run_md_damping=0.5)
         self.play(700)
         saved = self.scene.save()

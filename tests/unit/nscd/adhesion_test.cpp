@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Laws that pull: a disc (m = pi/4, R = 1/2) beside one that is held, weightless, pulled along +x
+// Attractive laws: a disc (m = pi/4, R = 1/2) beside a fixed one, without weight, pulled along +x
 // by a force. Adhesion c = 2, range 0.05.
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ EngineSettings adhesive(const std::string& law) {
     return settings;
 }
 
-/// The held disc at the origin, the free one at a gap to its right.
+/// The fixed disc at the origin, the free one at a gap to its right.
 Engine pair_at(double gap, const EngineSettings& settings, double radius = 0.5) {
     Engine engine(settings, scenes::discs, {});
     engine.bodies().add(scenes::disc(1, 0.0, 0.0));
@@ -37,7 +37,7 @@ Engine pair_at(double gap, const EngineSettings& settings, double radius = 0.5) 
     return engine;
 }
 
-/// The free disc's speed after some steps under a force.
+/// Velocity of the free disc after some steps under a force.
 Vec3 pulled(Engine& engine, const Vec3& force, int steps) {
     engine.bodies().force[1] = force;
     EXPECT_TRUE(scenes::run(engine, steps * dt, dt));
@@ -48,7 +48,7 @@ double pulled_right(Engine& engine, double force, int steps) {
     return pulled(engine, {force, 0.0, 0.0}, steps)[0];
 }
 
-/// Force on the free disc at a gap, its law's memory being what it is.
+/// Force on the free disc at a gap, with the present state of its law.
 double force_at(Engine& engine, double gap) {
     engine.bodies().position[1] = {0.5 + engine.bodies().radius[1] + gap, 0.0, 0.0};
     engine.bodies().twist[1] = {};
@@ -72,7 +72,8 @@ TEST(Wet, HoldsUpToExactlyItsForce) {
     }
 }
 
-// At a distance it pulls at c/m; the pair closes without overlap and then presses with c alone.
+// At a distance the acceleration is c/m; the pair closes without overlap and then presses with c
+// alone.
 TEST(Wet, PullsWithinItsRange) {
     Engine engine = pair_at(0.04, adhesive("wet"));
     EXPECT_NEAR(pulled_right(engine, 0.0, 1), -dt * c / mass, 1e-13);
@@ -134,7 +135,7 @@ TEST(Cohesion, BreaksInTractionAtItsStrength) {
         << "nothing holds it any more";
 }
 
-// Shear strength 0.5 c; pressed with p it holds 0.5 (c + p).
+// Shear strength 0.5 c; under a pressure p it holds 0.5 (c + p).
 TEST(Cohesion, BreaksInShearAtItsStrength) {
     for (const double pressure : {0.0, 3.0}) {
         const double strength = 0.5 * (c + pressure);
@@ -147,7 +148,7 @@ TEST(Cohesion, BreaksInShearAtItsStrength) {
     }
 }
 
-// A chunk of length 0.3 holds 0.3 c of a face's bond; a corner has none.
+// A face of length 0.3 holds 0.3 of the bond of a unit length; a corner has no bond.
 TEST(Cohesion, OfAFaceGoesWithItsLength) {
     const SurfaceTable surfaces(adhesive("cohesion").surfaces);
     const auto law =
@@ -197,7 +198,7 @@ TEST(Cohesion, AnIntactBondSurvivesARestart) {
     }
 }
 
-// A bond across a gap keeps it.
+// A bond across a gap preserves the gap.
 TEST(Cohesion, KeepsTheGapItWasMadeAt) {
     Engine engine = pair_at(0.01, adhesive("cohesion"));
     EXPECT_NEAR(pulled_right(engine, 0.9 * c, 20), 0.0, 1e-13);
@@ -206,7 +207,7 @@ TEST(Cohesion, KeepsTheGapItWasMadeAt) {
 }
 
 // In a window of `joint` the step is repeated before the move: a bond that broke in the first round
-// is whole again in the second, and breaks for good only in the last.
+// is intact again in the second, and breaks for good only in the last.
 TEST(Adhesion, RoundsOfAStepStartFromTheSameStates) {
     Engine engine = pair_at(0.0, adhesive("cohesion"));
     const std::vector<BodyMobility> mobilities = {{0.0, 0.0}, {0.5, 0.0}};
@@ -217,7 +218,7 @@ TEST(Adhesion, RoundsOfAStepStartFromTheSameStates) {
         engine.step_from(free, mobilities, dt);
         return engine.bodies().twist[1].velocity[0];
     };
-    // W = 1/2: the bond takes away at most c dt/2 = 0.01 of the speed.
+    // W = 1/2: the bond reduces the speed by at most c dt/2 = 0.01.
     EXPECT_NEAR(round(0.015), 0.005, 1e-13);
     EXPECT_NEAR(round(0.0099), 0.0, 1e-13);
     engine.move(dt);
@@ -227,8 +228,8 @@ TEST(Adhesion, RoundsOfAStepStartFromTheSameStates) {
     EXPECT_NEAR(round(0.0099), 0.0099, 1e-13);
 }
 
-// Mobilities of the host with coupled directions: A (U - U^F) is what the grain is told it felt,
-// pull included.
+// Mobilities of the host with coupled directions: A (U - U^F) equals the impulse reported for the
+// grain, attraction included.
 TEST(Adhesion, ImpulsesBalanceUnderTheHostsMobilities) {
     EngineSettings settings = adhesive("wet");
     settings.surfaces[0].friction = 0.3;
@@ -257,7 +258,7 @@ TEST(Adhesion, ImpulsesBalanceUnderTheHostsMobilities) {
     EXPECT_GT(most, 0.1 * c * dt) << "some pair must be pulled, or this tests nothing";
 }
 
-// All slots at once; states are part of what is saved, bit for bit.
+// All slots at once; the saved state includes the law's states, bit for bit.
 TEST(Adhesion, RestartsBitForBitWithStates) {
     EngineSettings settings = adhesive("capillary");
     settings.gravity = {0.0, -1.0, 0.0};

@@ -10,7 +10,7 @@
 namespace turbidite::nscd {
 namespace {
 
-/// What adding the body is refused with.
+/// The message with which adding the body is refused.
 std::string refusal(const Body& body) {
     Bodies bodies;
     try {
@@ -22,7 +22,7 @@ std::string refusal(const Body& body) {
     return "";
 }
 
-// Fixed ones included: a host may set them free.
+// Also for fixed bodies: a host may release them.
 TEST(Bodies, RefuseWhatHasNoMassByNameAndValue) {
     EXPECT_EQ(refusal(scenes::disc(7, 0, 0)), "");
     for (double Body::*field : {&Body::radius, &Body::mass, &Body::inertia}) {

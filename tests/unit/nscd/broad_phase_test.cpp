@@ -16,7 +16,7 @@ struct Cloud {
     std::vector<double> radii;
 };
 
-/// Radii log-uniform over [largest / ratio, largest].
+/// Radii are log-uniform in [largest / ratio, largest].
 Cloud random_cloud(int count, double width, double ratio, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> place(0.0, width), exponent(0.0, 1.0);
@@ -64,7 +64,7 @@ TEST(BroadPhase, FindsTheBruteForcePairsAcrossPeriods) {
             }
 }
 
-// Positions that were not wrapped mean the same as wrapped ones.
+// Positions that are not wrapped give the same pairs as wrapped ones.
 TEST(BroadPhase, TakesPositionsOutsideThePeriod) {
     PeriodicBox box;
     box.length = {9.0, 0.0, 0.0};
@@ -75,7 +75,7 @@ TEST(BroadPhase, TakesPositionsOutsideThePeriod) {
     EXPECT_EQ(brute_force(cloud, 0.1, box), expected);
 }
 
-// One body a million diameters away must not ask for a million cells, nor change the answer.
+// One body a million diameters away must neither require a million cells nor change the result.
 TEST(BroadPhase, SurvivesAFarOutlier) {
     Cloud cloud = random_cloud(300, 20.0, 2.0, 4);
     cloud.x.push_back({1e6, -3e11, 0.0});

@@ -9,8 +9,8 @@
 namespace turbidite::nscd {
 namespace {
 
-/// A driven square spins at 3 under a grain that slides along its upper side at 2; after one step
-/// the overlap.
+/// Overlap after one step of a square that spins at 3 under a grain that slides along its upper
+/// side at 2.
 double overlap_after(double dt, bool disc) {
     const ShapeTable shapes = {scenes::square_record(), {"triangle", {}}, {"disc", {}}};
     EngineSettings settings = scenes::exact(0.0, 1e-12);
@@ -31,15 +31,15 @@ double overlap_after(double dt, bool disc) {
     return engine.max_penetration();
 }
 
-// The side turns towards where the grain slides to: without foresight the overlap is of second
-// order, about dt^2 w v_t = 6 dt^2.
+// The side rotates towards the grain's motion: without the correction the overlap would be of
+// second order, about dt^2 w v_t = 6 dt^2.
 TEST(CornerTurn, OverlapIsOfThirdOrder) {
     for (const bool disc : {false, true})
         for (const double dt : {0.02, 0.01, 0.005})
             EXPECT_LT(overlap_after(dt, disc), 12.0 * dt * dt * dt) << dt;
 }
 
-// Bodies that do not turn keep what they foresee exactly, to rounding.
+// Without rotation the predicted gap is exact, to rounding.
 TEST(CornerTurn, ShortfallIsZeroWithoutTurn) {
     const ShapeTable shapes = {scenes::square_record()};
     Engine engine(scenes::exact(0.3), shapes, {scenes::floor(0.3)});
@@ -56,8 +56,8 @@ TEST(CornerTurn, ShortfallIsZeroWithoutTurn) {
         EXPECT_NEAR(shortfall, 0.0, 1e-16);
 }
 
-// Exact against a second detection: the corner of a falling, spinning triangle over a floor and
-// over a spinning square.
+// Exact compared with a second detection: the corner of a falling, spinning triangle above a floor
+// and above a spinning square.
 TEST(CornerTurn, ForeseesTheGapAtTheEnd) {
     const ShapeTable shapes = {scenes::square_record(), {"triangle", {}}};
     EngineSettings settings = scenes::exact(0.0);

@@ -46,7 +46,7 @@ TEST(Delassus, IsDiagonalForDiscs) {
     EXPECT_TRUE(w.diagonal());
 }
 
-/// Bodies in a chain, arms in any direction: W_nt != 0, as polygons will have it.
+/// Bodies in a chain with arms in any direction: W_nt != 0, as for polygons.
 ContactProblem skew_chain(int length) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> any(-0.4, 0.4);
@@ -70,7 +70,7 @@ PlanarTensor random_inertia(std::mt19937_64& random) {
     return problems::planar(a);
 }
 
-/// The chain with bodies that drag fluid along; `inertia` receives their A.
+/// The same chain with tied fluid at the bodies; `inertia` receives their A.
 ContactProblem wet_chain(int length, std::vector<PlanarTensor>& inertia) {
     ContactProblem problem = skew_chain(length);
     std::mt19937_64 random(11);
@@ -94,7 +94,7 @@ TEST(Mobility, IsTheInverseOfTheInertia) {
     EXPECT_EQ(simple.ss, 1.0 / 7.0);
 }
 
-// Indefinite although every diagonal entry is positive; singular; not a number.
+// Indefinite although every diagonal entry is positive; singular; NaN.
 TEST(Mobility, NeedsAPositiveDefiniteInertia) {
     PlanarTensor coupled(1.0, 1.0);
     coupled.xs = 1.5;
@@ -128,9 +128,8 @@ TEST(Delassus, IsTheDenseProductForAnyMobility) {
     }
 }
 
-// Glued contacts that nothing tries to open or slide have r = -W^-1 (H^T v_free + b): a direct
-// solve. Friction and a closing speed are so large that no contact opens or slides, which the
-// reference confirms.
+// Contacts that neither open nor slide have r = -W^-1 (H^T v_free + b), a direct solve. Friction
+// and closing speed are so large that no contact opens or slides, which the reference confirms.
 TEST(Nlgs, MatchesADirectSolveWhereAllContactsStick) {
     std::vector<PlanarTensor> inertia;
     ContactProblem problem = wet_chain(6, inertia);
@@ -157,7 +156,8 @@ TEST(Nlgs, MatchesADirectSolveWhereAllContactsStick) {
                         1e-10 * reference.norm());
 }
 
-// With slip and lift-off: admissible by the published residual, and A (U - U^F) = J body by body.
+// With slip and separation: admissible by the published residual, and A (U - U^F) = J for every
+// body.
 TEST(Nlgs, BalancesMomentumWithAnyInertia) {
     std::vector<PlanarTensor> inertia;
     const ContactProblem problem = wet_chain(8, inertia);
@@ -165,7 +165,7 @@ TEST(Nlgs, BalancesMomentumWithAnyInertia) {
     settings.tolerance = 1e-10;
     settings.max_iterations = 100000;
     for (const std::int64_t most : {std::int64_t{3}, std::int64_t{100000}}) {
-        settings.max_iterations = most;  // three sweeps do not converge, and balance all the same
+        settings.max_iterations = most;  // three sweeps do not converge, but still balance
         const SolverResult result = make_solver("nlgs")->solve(problem, Impulses(8), settings);
         EXPECT_EQ(result.converged, most > 3);
         EXPECT_EQ(natural_map_residual(problem, result.impulses), result.residual);
@@ -187,7 +187,7 @@ TEST(Nlgs, BalancesMomentumWithAnyInertia) {
     }
 }
 
-/// Discs in a heap that a common speed presses together: arms along n, isotropic bodies.
+/// Discs in a heap, pressed together by a common velocity: arms along n, isotropic mobilities.
 ContactProblem disc_chain(int length) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> any(-0.4, 0.4);
@@ -200,8 +200,8 @@ ContactProblem disc_chain(int length) {
     return problem;
 }
 
-// One more body, which nothing touches and which prefers a direction, sends all contacts through
-// the general rows.
+// One additional body without contacts and with anisotropic mobility makes all contacts use the
+// general rows.
 TEST(Nlgs, GeneralRowsGiveTheAnswerOfTheFastOnes) {
     const ContactProblem fast = disc_chain(10);
     ContactProblem general = fast;
@@ -223,7 +223,8 @@ TEST(Nlgs, GeneralRowsGiveTheAnswerOfTheFastOnes) {
             EXPECT_NEAR(component(a.impulses[k], d), component(b.impulses[k], d), 1e-12);
 }
 
-// Column by column: the diagonal block of contact k is what a unit impulse at k does to k.
+// Column by column: the diagonal block of contact k is the effect of a unit impulse at k on the
+// velocity at k.
 TEST(Delassus, BlocksAgreeWithTheOperator) {
     const ContactProblem problem = skew_chain(5);
     const Delassus w(problem);
@@ -257,7 +258,7 @@ TEST(Delassus, IsSymmetric) {
     EXPECT_NEAR(xwy, ywx, 1e-13);
 }
 
-// The solver's path for W_nt != 0, judged by the residual alone.
+// The solver's code path for W_nt != 0, tested by the residual alone.
 TEST(Nlgs, SolvesContactsThatCoupleNormalAndTangent) {
     const ContactProblem problem = skew_chain(8);
     SolverSettings settings;
@@ -270,8 +271,8 @@ TEST(Nlgs, SolvesContactsThatCoupleNormalAndTangent) {
     EXPECT_LT(change_measures(problem, result.impulses).quad, 1e-8);
 }
 
-// Two sweeps are not enough for eight contacts in a row: the result must say so, with a residual
-// above the tolerance.
+// Two sweeps are not enough for eight contacts in a row: the result must report this, with a
+// residual above the tolerance.
 TEST(Nlgs, SaysThatItDidNotConverge) {
     const ContactProblem problem = skew_chain(8);
     SolverSettings settings;

@@ -15,8 +15,8 @@ Wall belt(double speed, double friction) {
     return wall;
 }
 
-// A disc set on a belt slides at mu g and spins up at 2 mu g/R until the slip V - v - R w is used
-// up: after t = V/(3 mu g) it rolls with v = V/3, for ever.
+// A disc placed on a belt slides at mu g and spins up at 2 mu g/R until the slip V - v - R w
+// vanishes: after t = V/(3 mu g) it rolls with v = V/3, permanently.
 TEST(Belt, DragsADiscToAThirdOfItsSpeed) {
     Engine engine(scenes::exact(0.2), scenes::discs, {belt(0.9, 0.2)});
     engine.bodies().add(scenes::disc(1, 0.0, 0.5));
@@ -30,7 +30,7 @@ TEST(Belt, DragsADiscToAThirdOfItsSpeed) {
     EXPECT_NEAR(engine.walls()[0].point[0], 0.9 * 3.0, 1e-12);
 }
 
-// A block cannot roll: it slides at mu g = 0.2 until it rides along.
+// A block cannot roll: it accelerates at mu g = 0.2 until it moves with the belt.
 TEST(Belt, CarriesABlockAlong) {
     const ShapeTable squares = {scenes::square_record()};
     Engine engine(scenes::exact(0.2), squares, {belt(0.5, 0.2)});
@@ -43,7 +43,8 @@ TEST(Belt, CarriesABlockAlong) {
     }
 }
 
-// A piston from the left gathers three discs with gaps and pushes them at its own speed.
+// A piston from the left collects three discs with gaps between them and pushes them at its own
+// speed.
 TEST(Piston, PushesWhatItMeets) {
     EngineSettings settings = scenes::exact(0.3);
     settings.gravity = {};
@@ -63,8 +64,8 @@ TEST(Piston, PushesWhatItMeets) {
     EXPECT_LT(deepest, 1e-4);
 }
 
-// Between a piston and a wall at rest there is no way out: the overlap grows with the piston's way,
-// and the impulses stay finite and the same on both sides.
+// Between a piston and a fixed wall there is no way out: the overlap grows with the piston's
+// displacement, and the impulses stay finite and equal on both sides.
 TEST(Piston, CompressesAgainstAWall) {
     EngineSettings settings = scenes::exact(0.3);
     settings.gravity = {};
@@ -79,8 +80,8 @@ TEST(Piston, CompressesAgainstAWall) {
     EXPECT_NEAR(engine.max_penetration(), 0.001, 1e-3);
 }
 
-// A paddle spins at 2 about its end; a disc that lies on it at a distance of 0.6 must rise at 1.2,
-// and the paddle has turned by 2 dt after a step.
+// A paddle spins at 2 about its end. A disc that lies on it at a distance of 0.6 must rise at 1.2,
+// and the paddle has rotated by 2 dt after a step.
 TEST(Paddle, LiftsAtSpinTimesArm) {
     EngineSettings settings = scenes::exact(0.0);
     settings.gravity = {};
@@ -121,8 +122,8 @@ Engine stirred_bed(double spin = 1.0) {
 }
 
 struct Stirring {
-    double way = 0.0;      ///< of all discs together, once the bed has settled
-    double deepest = 0.0;  ///< overlap
+    double way = 0.0;      ///< displacement of all discs together, after the bed has settled
+    double deepest = 0.0;  ///< largest overlap
 };
 
 Stirring stir(Engine& engine) {
@@ -137,8 +138,8 @@ Stirring stir(Engine& engine) {
     return result;
 }
 
-// The stirrer keeps its motion whatever it meets, and moves the bed. Below its corners there is
-// room for a disc, so that nothing is crushed.
+// The spinning square keeps its motion whatever it meets, and moves the bed. Below its corners
+// there is room for a disc, so that nothing is crushed.
 TEST(DrivenBody, StirsABed) {
     Engine engine = stirred_bed(), idle = stirred_bed(0.0);
     const Stirring stirred = stir(engine), at_rest = stir(idle);

@@ -21,7 +21,7 @@ std::pair<Vec3, Vec3> momentum(const Bodies& b) {
 }
 
 // Over one step: change = weight dt + impulses at walls, each at the point where the disc touches.
-// Contacts between grains drop out, in force and in moment. Also when not converged.
+// Contacts between grains cancel, in force and in moment. This holds even without convergence.
 TEST(Engine, BalancesMomentumToRoundOff) {
     EngineSettings settings = scenes::exact(0.3, 1e-3);
     settings.solver_settings.max_iterations = 20;
@@ -50,7 +50,7 @@ TEST(Engine, BalancesMomentumToRoundOff) {
     }
 }
 
-// What each grain is told it received is what changed its motion.
+// The impulses reported for each grain are those that changed its motion.
 TEST(Engine, HandsOutTheImpulsesThatMovedTheGrains) {
     Engine engine = scenes::settling_pack(6, 6, scenes::exact(0.3, 1e-3));
     scenes::run(engine, 1.5, 0.01);
@@ -66,7 +66,7 @@ TEST(Engine, HandsOutTheImpulsesThatMovedTheGrains) {
     }
 }
 
-// Mobilities given by the host replace those of the bodies; what each grain is told it received is
+// Mobilities given by the host replace those of the bodies; the impulse reported for each grain is
 // A (U - U^F).
 TEST(Engine, TakesTheHostsMobilities) {
     Engine engine = scenes::settling_pack(6, 6, scenes::exact(0.3, 1e-3));
@@ -100,7 +100,7 @@ TEST(Engine, TakesTheHostsMobilities) {
     EXPECT_THROW(engine.step_from(free, std::vector<BodyMobility>(3), 0.01), std::invalid_argument);
 }
 
-// A second solve of the same problem starts from the first one's impulses: done at the first look.
+// A second solve of the same problem starts from the first solution: converged at the first check.
 TEST(Engine, ARepeatedStepIsWarmStarted) {
     Engine engine = scenes::settling_pack(8, 8, scenes::exact(0.3, 1e-6));
     scenes::run(engine, 1.0, 0.01);
@@ -134,8 +134,9 @@ TEST(Engine, ContactsAreAdmissible) {
 }
 
 // Discs fall into a box and come to rest: the last ones roll down by t = 13. Positions follow the
-// contact velocities, so overlap is what the tolerance leaves: 6e-5 over several packings at dt =
-// 0.02 with this one, up to 1.5e-4 with 1e-3, whatever the order of the sweeps.
+// contact velocities, so the overlap is the error allowed by the tolerance: 6e-5 over several
+// packings at dt = 0.02 with this tolerance, up to 1.5e-4 with 1e-3, whatever the order of the
+// sweeps.
 TEST(Engine, SettlesWithoutOverlap) {
     for (const double dt : {0.02, 0.01, 0.005}) {
         EngineSettings settings = scenes::exact(0.3, 5e-4);
@@ -163,7 +164,8 @@ TEST(Engine, RepeatsItselfBitForBit) {
     EXPECT_EQ(result(), result());
 }
 
-// 100 + 100 steps with a save between equal 200 steps, bit for bit: impulses are part of the state.
+// 100 + 100 steps with a save in between equal 200 steps, bit for bit: impulses are part of the
+// state.
 TEST(Engine, RestartsBitForBit) {
     const EngineSettings settings = scenes::exact(0.3, 1e-3);
     Engine whole = scenes::settling_pack(8, 8, settings);
@@ -194,7 +196,7 @@ TEST(Engine, RefusesBrokenStates) {
     EXPECT_EQ(engine.bodies().size(), 4u) << "a refused state changes nothing";
 }
 
-// Bodies keep their order; contacts of those that stay keep their impulses.
+// Bodies keep their order; contacts of the remaining bodies keep their impulses.
 TEST(Engine, ForgetsOnlyRemovedBodies) {
     Engine engine = scenes::settling_pack(3, 1, scenes::exact(0.3));
     scenes::run(engine, 1.0, 0.01);
@@ -207,8 +209,8 @@ TEST(Engine, ForgetsOnlyRemovedBodies) {
     EXPECT_EQ(engine.memory().contacts().size(), 2u);
 }
 
-// Discs that fall side by side, touching, with nothing to hold them: solved at once, no contact
-// force beyond rounding.
+// Discs that fall side by side, touching, without support: solved at once, with contact forces at
+// rounding level.
 TEST(Engine, FallingLatticeCountsAsSolved) {
     Engine engine(scenes::exact(0.3, 1e-3), scenes::discs, {});
     for (int k = 0; k < 30; ++k)
@@ -236,8 +238,8 @@ TEST(Engine, RefusesBadSettings) {
     EXPECT_THROW(engine.step(0.0), std::invalid_argument);
 }
 
-// Pairs that the step looked at are enough for the overlap after it, unless somebody moves farther
-// than it looked: here a grain with a speed that no body had, through a neighbour that was far
+// The pairs detected by the step suffice for the overlap after it, unless a body moves farther than
+// the step searched: here a grain with a speed that no body had, through a neighbour that was far
 // away.
 TEST(Engine, KnowsTheOverlapAfterTheMoveWithoutLookingAgain) {
     Engine engine = scenes::settling_pack(6, 8, scenes::exact(0.3, 1e-3));

@@ -22,7 +22,7 @@ double mean_speed(const Bodies& bodies) {
     return sum / static_cast<double>(bodies.size());
 }
 
-/// The deepest overlap over a time.
+/// The largest overlap during a time.
 double play(Engine& engine, double time) {
     double deepest = 0.0;
     for (int n = 0; n < std::lround(time / dt); ++n) {
@@ -46,9 +46,9 @@ double largest_displacement(const std::vector<Vec3>& from, const std::vector<Vec
     return largest;
 }
 
-// They fall, tumble and come to rest without overlap; then nothing moves: no grain loses a fifth of
-// its support in any step, and none creeps. Which contacts carry is not asked: the packing is
-// hyperstatic, and loads wander between states that are all in balance.
+// They fall, tumble and come to rest without overlap. Then nothing moves: no grain loses a fifth of
+// its support in any step, and none creeps. Which contacts carry the load is not tested: the
+// packing is hyperstatic, and loads shift between states that are all in equilibrium.
 TEST(FallingTriangles, ComeToRestWithoutOverlapOrJitter) {
     Engine engine = falling_triangles();
     EXPECT_LT(play(engine, 20.0), 1e-4);
@@ -61,10 +61,10 @@ TEST(FallingTriangles, ComeToRestWithoutOverlapOrJitter) {
     EXPECT_LT(largest_displacement(start, engine.bodies().position), 2e-5);
     double lowest = height;
     for (const Vec3& x : engine.bodies().position) lowest = std::min(lowest, x[1]);
-    EXPECT_GE(lowest, 0.375 - 1e-5);  // a triangle that lies on its side
+    EXPECT_GE(lowest, 0.375 - 1e-5);  // height of a triangle that lies on its side
 }
 
-// The same bits twice.
+// Two runs are equal bit for bit.
 TEST(FallingTriangles, AreDeterministic) {
     Engine one = falling_triangles(), two = falling_triangles();
     play(one, 4.0), play(two, 4.0);

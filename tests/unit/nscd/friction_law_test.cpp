@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Static and sliding friction, on a block (a disc that cannot turn) on a tilted plane: mu_s = 0.5,
+// Static and sliding friction of a block (a disc that cannot rotate) on a tilted plane: mu_s = 0.5,
 // mu_d = 0.3, g = 1.
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(StaticDynamic, HoldsUpToTheStaticCoefficient) {
     EXPECT_NEAR(speed_after(engine, 1.0), 0.0, 1e-13);
 }
 
-// Gives way: one step with the static coefficient, all others with the sliding one.
+// It begins to slide: one step with the static coefficient, all others with the sliding one.
 TEST(StaticDynamic, SlidesWithTheLowerOneOnceItGaveWay) {
     const double slope = 1.001 * mu_s, alpha = std::atan(slope);
     Engine engine = block_on_slope(slope, 0.0);
@@ -47,15 +47,15 @@ TEST(StaticDynamic, SlidesWithTheLowerOneOnceItGaveWay) {
     EXPECT_NEAR(speed_after(engine, 1.0), dt * (first + 99 * later), 1e-12);
 }
 
-// The same slope, moving when it comes: it never stops.
+// The same slope with an initial velocity: it never stops.
 TEST(StaticDynamic, AMovingBlockDoesNotStopBetweenTheTwo) {
     const double alpha = std::atan(0.4);
     Engine engine = block_on_slope(0.4, 0.01);
     EXPECT_NEAR(speed_after(engine, 1.0), 0.01 + std::sin(alpha) - mu_d * std::cos(alpha), 1e-12);
 }
 
-// Level: slows down at mu_d g from 0.1, stops after 1/3, and then withstands a push of 0.49
-// weights.
+// On a level plane: decelerates at mu_d g from 0.1, stops after 1/3, and then withstands a force of
+// 0.49 weights.
 TEST(StaticDynamic, SticksAgainAfterItStopped) {
     Engine engine = block_on_slope(0.0, 0.1);
     EXPECT_NEAR(speed_after(engine, 0.2), 0.1 - 0.2 * mu_d, 1e-12);
@@ -66,7 +66,7 @@ TEST(StaticDynamic, SticksAgainAfterItStopped) {
     EXPECT_NEAR(speed_after(engine, 1.0), 0.01 * (0.51 - mu_s) + 0.99 * (0.51 - mu_d), 1e-12);
 }
 
-// Whether it sticks is part of the state.
+// Whether a contact sticks is part of the state.
 TEST(StaticDynamic, StateSurvivesARestart) {
     Engine engine = block_on_slope(0.4, 0.01);
     scenes::run(engine, 0.1, dt);

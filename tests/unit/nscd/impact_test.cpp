@@ -17,7 +17,7 @@ EngineSettings weightless(double friction) {
     return settings;
 }
 
-// Dropped from y = 1 (gap 1/2) with g = 1: lands after t = 1, never rises, ends at rest on the
+// Dropped from y = 1 (gap 1/2) with g = 1: lands after t = 1, never rises, and comes to rest on the
 // floor.
 TEST(Impact, DiscDoesNotRebound) {
     for (const double dt : {0.02, 0.01, 0.005}) {
@@ -32,12 +32,12 @@ TEST(Impact, DiscDoesNotRebound) {
         }
         EXPECT_NEAR(engine.bodies().position[0][1], 0.5, 1e-12);
         EXPECT_NEAR(engine.bodies().twist[0].velocity[1], 0.0, 1e-12);
-        // From rest to rest: the floor gives back all weight, m g 1.5.
+        // From rest to rest: the floor returns the whole weight, m g 1.5.
         EXPECT_NEAR(impulse, std::numbers::pi / 4 * 1.5, std::numbers::pi / 4 * dt);
     }
 }
 
-// A gap of 0.3 u dt closes within the step: velocity 0.3 u carries the disc just to the floor.
+// A gap of 0.3 u dt closes within the step: the velocity 0.3 u moves the disc exactly to the floor.
 TEST(Impact, GapIsUsedUpToTheLast) {
     Engine engine(weightless(0.0), scenes::discs, {scenes::floor(0.0)});
     engine.bodies().add(scenes::disc(1, 0.0, 0.503));
@@ -50,7 +50,7 @@ TEST(Impact, GapIsUsedUpToTheLast) {
     EXPECT_NEAR(engine.bodies().twist[0].velocity[1], 0.0, 1e-12);
 }
 
-// (1, 0, 0) on three touching equal discs, e = 0: they go on together at 1/3.
+// Velocity (1, 0, 0) against three touching equal discs, e = 0: they continue together at 1/3.
 TEST(Impact, ChainSharesItsMomentum) {
     Engine engine(weightless(0.0), scenes::discs, {});
     for (int k = 0; k < 3; ++k) engine.bodies().add(scenes::disc(k, k, 0.0));
@@ -59,7 +59,7 @@ TEST(Impact, ChainSharesItsMomentum) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(engine.bodies().twist[k].velocity[0], 1.0 / 3.0, 1e-11);
 }
 
-// A body held fixed is a wall: the other stops, nobody moves the fixed one.
+// A fixed body acts as a wall: the other one stops, the fixed one does not move.
 TEST(Impact, FixedBodyDoesNotMove) {
     Engine engine(weightless(0.0), scenes::discs, {});
     engine.bodies().add(scenes::disc(1, 0.0, 0.0));
@@ -71,9 +71,9 @@ TEST(Impact, FixedBodyDoesNotMove) {
     EXPECT_EQ(engine.bodies().twist[1].velocity, (Vec3{}));
 }
 
-// A disc that spins at 1 falls on another of the same size at rest; normal impulse p = m/2 (speed
-// 1), friction wants R spin m_t = R/(W_tt m) with W_tt = 2/m + 2 R^2/I = 6/m: R m/6 = m/12 < mu p =
-// m/4: sticks, tangential speeds at the contact become equal.
+// A disc with spin 1 falls on another of the same size at rest; normal impulse p = m/2 (speed 1).
+// To stop the slip friction needs R spin m_t = R/(W_tt m), with W_tt = 2/m + 2 R^2/I = 6/m: R m/6 =
+// m/12 < mu p = m/4. It sticks, and the tangential speeds at the contact become equal.
 TEST(Impact, FrictionStopsSlipAtTheContact) {
     Engine engine(weightless(0.5), scenes::discs, {});
     engine.bodies().add(scenes::disc(1, 0.0, 0.0));

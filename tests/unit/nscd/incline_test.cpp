@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // One disc (R = 1/2, g = 1) on a plane tilted by alpha, friction mu = 0.3, from rest over t = 1.
-// The plane is level here and gravity tilted, downhill = +x. All motions are uniformly accelerated,
-// so velocities are exact at every time step.
+// Here the plane is level and gravity is tilted, with downhill = +x. All motions are uniformly
+// accelerated, so velocities are exact for any time step.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"

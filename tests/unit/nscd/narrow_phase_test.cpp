@@ -48,8 +48,8 @@ TEST(NarrowPhase, MeasuresOverlapWithAWall) {
     expect_near(points[0].arm_b, {0.0, -0.5, 0.0});
 }
 
-// Segment |x| <= 1 on y = 0: at x = 1.3, y = 0.4 the corner is 0.5 away: gap 0, normal (0.6, 0.8).
-// The side on which the centre is holds it.
+// Segment |x| <= 1 on y = 0: at x = 1.3, y = 0.4 the corner is at distance 0.5: gap 0, normal (0.6,
+// 0.8). The disc is held on the side on which its centre is.
 TEST(NarrowPhase, TouchesTheCornersOfASegment) {
     Wall segment = scenes::floor(0.0);
     segment.half_length = 1.0;

@@ -23,7 +23,7 @@ class Problems {
         return std::uniform_real_distribution<double>(low, high)(random_);
     }
 
-    /// One body of mass 1 touched at the end of an arm: W_dd' = 1 + (arm x d)(arm x d')/I.
+    /// One body of mass 1, touched at the end of an arm: W_dd' = 1 + (arm x d)(arm x d')/I.
     Block one_body() {
         const double n = uniform(-1, 1), t = uniform(-1, 1), i = uniform(0.05, 0.5);
         return {1 + n * n / i, n * t / i, 1 + t * t / i};
@@ -42,9 +42,9 @@ class Problems {
     std::mt19937_64 random_{20111};
 };
 
-/// A rule in wide use: the side of the slide is the sign of r_t + mu r_n of the stick trial. Right
-/// while the trial presses; where strong coupling makes the trial pull, r_n < 0, a small r_t > 0 is
-/// taken for a slide to the other side.
+/// A widely used rule: the direction of sliding is the sign of r_t + mu r_n of the stick trial. It
+/// is right if the trial's r_n is positive. If strong coupling makes it negative, a small r_t > 0
+/// is taken for sliding in the other direction.
 Plane customary_rule(const Block& w, const Plane& b, double friction) {
     if (b[0] >= 0.0) return {0.0, 0.0};
     const double det = w.nn * w.tt - w.nt * w.nt;
@@ -55,11 +55,11 @@ Plane customary_rule(const Block& w, const Plane& b, double friction) {
     return {slide, s * friction * slide};
 }
 
-/// What a million problems with friction up to `most` are made of and how the rules fare.
+/// Statistics of a million problems with friction up to `most`, and the success of both rules.
 struct Census {
     int failures = 0, customary_failures = 0;
     int coupled = 0;  ///< |W_nt| above half of sqrt(W_nn W_tt)
-    int pulling = 0;  ///< closing contacts whose stick trial pulls
+    int pulling = 0;  ///< closing contacts with r_n < 0 in the stick trial
 };
 
 template <class MakeBlock>
@@ -79,9 +79,9 @@ Census census(double most, MakeBlock make_block) {
     return count;
 }
 
-// The natural map is zero at solutions only. Rounding: conditions of W up to 1e4, slopes W_nn + s
-// mu W_nt down to about 1e-4 of W_nn: 1e-16 * 1e4 * 1e4 = 1e-8. A customary rule fails where the
-// trial pulls, so these problems reach the branch that matters.
+// The natural map is zero only at solutions. Rounding: condition numbers of W up to 1e4, slopes
+// W_nn + s mu W_nt down to about 1e-4 of W_nn: 1e-16 * 1e4 * 1e4 = 1e-8. The customary rule fails
+// where the trial has r_n < 0, so these problems reach the branch that matters.
 TEST(OneContact, SolvesAMillionProblemsOfAnyCoupling) {
     const Census count = census(2.0, [](Problems& p, int) { return p.any(); });
     EXPECT_EQ(count.failures, 0);
@@ -90,7 +90,7 @@ TEST(OneContact, SolvesAMillionProblemsOfAnyCoupling) {
     EXPECT_GT(count.customary_failures, 1000);
 }
 
-// One body alone: the W that polygons have.
+// A single body: the W of polygons.
 TEST(OneContact, SolvesAMillionProblemsOfOneBody) {
     const Census rough = census(2.0, [](Problems& p, int) { return p.one_body(); });
     EXPECT_EQ(rough.failures, 0);
@@ -101,17 +101,16 @@ TEST(OneContact, SolvesAMillionProblemsOfOneBody) {
 }
 
 // By hand: W = (1, 1.5; 1.5, 4), b = (-1, -4), mu = 2. The trial (1.5 (-4) + 4, 1.5 (-1) + 4)/1.75
-// =
-// (-2, 2.5)/1.75 pulls. Slide with s = +1: r_n = 1/(1 + 3) = 0.25, r_t = 0.5, u_t = 0.375 + 2 - 4 <
-// 0, opposite to r_t. The customary rule takes s = -1, since 2.5 < 2 * 2, and then pulls: r_n =
-// 1/(1 - 3).
+// = (-2, 2.5)/1.75 has r_n < 0. Sliding with s = +1: r_n = 1/(1 + 3) = 0.25, r_t = 0.5, u_t = 0.375
+// + 2 - 4 < 0, opposite to r_t. The customary rule takes s = -1, since 2.5 < 2 * 2, and gets r_n =
+// 1/(1 - 3) < 0.
 TEST(OneContact, SlidesAlthoughTheTrialPulls) {
     const Block w{1.0, 1.5, 4.0};
     EXPECT_EQ(solve_contact(w, {-1.0, -4.0}, 2.0), (Plane{0.25, 0.5}));
     EXPECT_EQ(customary_rule(w, {-1.0, -4.0}, 2.0)[0], -0.5);
 }
 
-// The check above must be able to fail: a slide to the wrong side is no solution.
+// The check above must be able to fail: sliding in the wrong direction is not a solution.
 TEST(OneContact, NaturalMapSeesAWrongBranch) {
     const Block w{1.0, 0.5, 1.0};
     const Plane b{-1.0, 1.0};
@@ -144,15 +143,16 @@ TEST(OneContact, TakesNoImpulseInThePainleveCase) {
     EXPECT_EQ(solve_contact({1.6, -1.2, 3.4}, {0.1, -2.0}, 2.0), (Plane{0.0, 0.0}));
 }
 
-// mu = 1: cone |t| <= n. Inside stays; the polar cone goes to 0; else the foot on the edge.
+// mu = 1: cone |t| <= n. Points inside stay; the polar cone is projected to 0; other points onto
+// the edge.
 TEST(OneContact, ProjectsOnTheCone) {
     EXPECT_EQ(project_on_cone({2.0, -1.0}, 1.0), (Plane{2.0, -1.0}));
     EXPECT_EQ(project_on_cone({-2.0, 1.0}, 1.0), (Plane{0.0, 0.0}));
     EXPECT_EQ(project_on_cone({0.0, -2.0}, 1.0), (Plane{1.0, -1.0}));
 }
 
-// mu = 0: the cone is the half-line t = 0, n >= 0. An open contact without tangential velocity is
-// solved by no impulse, however fast it opens.
+// mu = 0: the cone is the half-line t = 0, n >= 0. For an opening contact without tangential
+// velocity the zero impulse is a solution, however fast it opens.
 TEST(OneContact, TheSmoothConeIsAHalfLine) {
     EXPECT_EQ(project_on_cone({-2.0, 0.0}, 0.0), (Plane{0.0, 0.0}));
     EXPECT_EQ(project_on_cone({2.0, 0.0}, 0.0), (Plane{2.0, 0.0}));

@@ -6,8 +6,8 @@
 //     W_nn = 1 + 3 cos^2,   W_nt = -3 sin cos,   so W_nn + s mu W_nt < 0 needs
 //     mu > (tan^2 + 4)/(3 tan), least at tan = 2: mu = 4/3
 //
-// Beyond it the contact of a sliding rod has no force that keeps it from sinking in; as an impulse
-// problem it always has a solution.
+// Beyond it no force at the contact of a sliding rod prevents penetration; as an impulse problem it
+// always has a solution.
 #include <gtest/gtest.h>
 
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
@@ -17,7 +17,7 @@
 namespace turbidite::nscd {
 namespace {
 
-/// The rod on the floor; downward by `fall`, its foot sliding at `slip`.
+/// The rod on the floor, moving downwards at `fall`, with its lower end sliding at `slip`.
 ContactProblem rod(double tangent, double friction, double fall, double slip) {
     const double phi = std::atan(tangent);
     ContactProblem problem;
@@ -45,10 +45,11 @@ TEST(Painleve, BeginsAtFourThirds) {
         EXPECT_GT(slope(tangent, 4.0 / 3.0), 0.0) << "2 is where it begins";
 }
 
-// Falling or rising, sliding to either side, below and far beyond the critical friction.
+// Falling or rising, sliding in either direction, with friction below and far beyond the critical
+// value.
 TEST(Painleve, AlwaysHasAnAnswer) {
     SolverSettings settings;
-    // At rest on the edge of closing only rounding is left: 1e-16 beside a floor of 1e-12.
+    // At the limit of closing only rounding is left: 1e-16 against a floor of 1e-12.
     settings.tolerance = 1e-3;
     for (const double friction : {1.0, 4.0 / 3.0, 1.5, 10.0})
         for (const double fall : {-1.0, -1e-6, 0.0, 1e-6, 0.01, 1.0})

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// One disc on two that touch each other. The lines of contact make 30 degrees with gravity; each
-// lower disc, held at two points (floor, upper disc) that friction must serve alike, is in balance
-// iff the upper contact's force lies 15 degrees off its normal: mu >= tan 15 = 2 - sqrt 3 =
-// 0.26795. The floor carries 3/2 weights and the same tangential force: mu_floor >= 0.0893.
+// One disc on two that touch each other. The lines of contact are at 30 degrees to gravity. Each
+// lower disc has two contacts (floor, upper disc) with the same tangential force, and is in
+// equilibrium iff the force of the upper contact is at 15 degrees to its normal: mu >= tan 15 = 2 -
+// sqrt 3 = 0.26795. The floor carries 3/2 weights and the same tangential force: mu_floor >=
+// 0.0893.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
@@ -11,7 +12,7 @@
 namespace turbidite::nscd {
 namespace {
 
-/// How far the upper disc has sunk at t = 2 [D].
+/// Displacement of the upper disc downwards at t = 2 [D].
 double sinking(double friction, double dt) {
     Engine engine(scenes::exact(friction, 1e-10), scenes::discs, {scenes::floor(0.5)});
     engine.bodies().add(scenes::disc(1, -0.5, 0.5));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Contact vectors of the plane as matrices count them: 0 normal, 1 tangent, 2 roll.
+// Components of contact vectors in the plane by matrix index: 0 normal, 1 tangent, 2 roll.
 #pragma once
 
 #include "granular_adapter/nscd/problem/contact_vector.hpp"

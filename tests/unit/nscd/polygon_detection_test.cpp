@@ -12,7 +12,7 @@ namespace {
 
 using scenes::between;
 
-constexpr double everything = 1e3;  // alert distance that reports all points
+constexpr double everything = 1e3;  // alert distance for which all points are reported
 
 ShapeTable squares() {
     return {scenes::square_record()};
@@ -35,7 +35,7 @@ std::set<int> features(const std::vector<ContactPoint>& points) {
     return result;
 }
 
-/// Two random polygons, the second somewhere around the first.
+/// Two random polygons, the second at a random place around the first.
 struct RandomPair {
     ShapeTable shapes;
     Bodies bodies;
@@ -58,8 +58,8 @@ struct RandomPair {
     long double gap() const { return reference::gap(outline(0), outline(1)); }
 };
 
-// The manifold's smallest gap is the distance; when they overlap, the least way apart. Ties of
-// sides are decided within 1e-9 of the radii, hence 1e-8.
+// The smallest gap of the manifold is the distance; for overlapping polygons, minus the smallest
+// separating displacement. Ties between sides are decided within 1e-9 of the radii, hence 1e-8.
 TEST(PolygonDetection, AgreesWithExhaustion) {
     std::mt19937_64 random(5);
     int apart = 0, overlapping = 0, by_corners = 0;
@@ -82,7 +82,8 @@ TEST(PolygonDetection, AgreesWithExhaustion) {
     EXPECT_GT(by_corners, 1000);
 }
 
-/// Where the surface of `body` meets the contact: half a gap back along the normal.
+/// The point of the surface of `body` at the contact: half a gap from the contact point along the
+/// normal.
 reference::Point surface_point(const RandomPair& pair, const ContactPoint& point, int body) {
     const Vec3 arm = body == 0 ? point.arm_a - 0.5 * point.gap * point.normal
                                : point.arm_b + 0.5 * point.gap * point.normal;
@@ -90,8 +91,8 @@ reference::Point surface_point(const RandomPair& pair, const ContactPoint& point
     return {x[0], x[1]};
 }
 
-// Both arms end at the same point, so that an impulse and its reaction have no moment, and half a
-// gap to either side lie the two surfaces.
+// Both arms end at the same point, so that an impulse and its reaction have no net moment, and the
+// two surfaces are half a gap away on either side.
 TEST(PolygonDetection, ArmsMeetBetweenTheSurfaces) {
     std::mt19937_64 random(6);
     for (int n = 0; n < 20000; ++n) {
@@ -134,7 +135,7 @@ TEST(PolygonDetection, DoesNotDependOnWhoIsAsked) {
     }
 }
 
-/// The pair turned about the origin.
+/// The pair rotated about the origin.
 RandomPair turned(RandomPair pair, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -165,8 +166,9 @@ TEST(PolygonDetection, TurnsWithTheBodies) {
     }
 }
 
-// Unit squares, the upper 0.01 above and 0.3 to the right: sides share 0.7, from x = -0.2 (corner
-// of the upper) to 0.5 (corner of the lower); seen from the lower centre, half-way at y = 0.505.
+// Unit squares, the upper one 0.01 above and 0.3 to the right: their sides overlap by 0.7, from x =
+// -0.2 (corner of the upper square) to 0.5 (corner of the lower); relative to the lower centre, the
+// points are half-way across the gap at y = 0.505.
 TEST(PolygonDetection, PutsTwoPointsOnSharedSides) {
     const Bodies bodies = two_squares(0.3, 1.01);
     const auto points = between(squares(), bodies, 0, 1, 0.05);
@@ -184,7 +186,7 @@ TEST(PolygonDetection, PutsTwoPointsOnSharedSides) {
     EXPECT_NEAR(places[1], 0.5, 1e-14);
 }
 
-// Turned by 45 degrees with its corner 0.02 above the side: one point without length.
+// Rotated by 45 degrees with its corner 0.02 above the side: one point without length.
 TEST(PolygonDetection, PutsOnePointUnderACorner) {
     const Bodies bodies = two_squares(0.1, 0.5 + 0.02 + std::sqrt(0.5), std::numbers::pi / 4.0);
     const auto points = between(squares(), bodies, 0, 1, 0.1);
@@ -213,7 +215,8 @@ TEST(PolygonDetection, PartsBodiesInTheSamePlace) {
     }
 }
 
-// Rounding decides which of two flat sides is the reference; names, gaps and normals stay.
+// Rounding decides which of two sides that lie flat on each other is the reference; names, gaps and
+// normals stay.
 TEST(PolygonDetection, NamesStayWhenTheReferenceChanges) {
     const auto expected = between(squares(), two_squares(0.3, 1.0), 0, 1, 0.05);
     ASSERT_EQ(expected.size(), 2u);
@@ -229,8 +232,8 @@ TEST(PolygonDetection, NamesStayWhenTheReferenceChanges) {
         }
 }
 
-// Squares stacked exactly above each other: corners decide by rounding whether they are above a
-// side or beyond it, and both points must be there all the same.
+// Squares stacked exactly: rounding decides whether corners are above a side or beyond it, and both
+// points must exist in either case.
 TEST(PolygonDetection, KeepsBothPointsOfAlignedSides) {
     for (const double shift : {-1e-13, -1e-16, 0.0, 1e-16, 1e-13})
         for (const double gap : {-1e-6, 0.0, 1e-16, 1e-6})
@@ -244,8 +247,8 @@ TEST(PolygonDetection, KeepsBothPointsOfAlignedSides) {
             }
 }
 
-// Sides that end together: whichever corner is the inner one by rounding, the names stay, and the
-// two points have different ones.
+// Sides with common ends: whichever corner is the inner one by rounding, the names stay, and the
+// two points have different names.
 TEST(PolygonDetection, NamesStayWhereCornersMeet) {
     const auto expected = features(between(squares(), two_squares(0.0, 1.0), 0, 1, 0.05));
     ASSERT_EQ(expected.size(), 2u);
@@ -256,7 +259,7 @@ TEST(PolygonDetection, NamesStayWhereCornersMeet) {
         }
 }
 
-// A common part so short that both of its ends are at the same corner: two points, two names.
+// An overlap of sides so short that both of its ends are at the same corner: two points, two names.
 TEST(PolygonDetection, NamesDifferOnShortCommonParts) {
     for (const double shared : {1e-6, 1e-4, 1e-3, 5e-3, 2e-2})
         for (const double side : {-1.0, 1.0})
@@ -270,7 +273,7 @@ TEST(PolygonDetection, NamesDifferOnShortCommonParts) {
                 }
 }
 
-// The least gap of a body that moves by less than d changes by less than d.
+// If a body moves by less than d, the smallest gap changes by less than d.
 TEST(PolygonDetection, GapIsContinuous) {
     std::mt19937_64 random(9);
     for (int n = 0; n < 300; ++n) {

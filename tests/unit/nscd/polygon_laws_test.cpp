@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Laws between faces: unit squares of mass 1 on each other, the lower one held, weightless.
+// Laws between faces: unit squares of mass 1 on each other, the lower one fixed, without weight.
 #include <gtest/gtest.h>
 
 #include "granular_adapter/nscd/problem/vec3.hpp"
@@ -37,8 +37,8 @@ double lifted(Engine& engine, double force, int steps) {
     return engine.bodies().twist[1].velocity[1];
 }
 
-// Two points, one force: both share what a pair of discs has in one, and a bond of a face of
-// length 1 holds sigma_n.
+// Two points, one force: together they have the force that a pair of discs has at its single point,
+// and the bond of a face of length 1 holds sigma_n.
 TEST(FaceLaws, PointsShareTheForceOfAPair) {
     Surface sticky;
     sticky.friction = 0.0;
@@ -56,8 +56,8 @@ TEST(FaceLaws, PointsShareTheForceOfAPair) {
     }
 }
 
-// A bond of faces carries a moment: pulled at one side it holds while the farther corner is
-// pressed, F (1/2 + x) <= c/2 with its points at the corners, x = 1/2 the pull's distance.
+// The bond of a face carries a moment. With a force F at a distance x = 1/2 it holds while the
+// farther corner is under pressure, F (1/2 + x) <= c/2, with its points at the corners.
 TEST(FaceLaws, BondsOfFacesCarryMoments) {
     Surface sticky;
     sticky.friction = 0.0;
@@ -72,7 +72,7 @@ TEST(FaceLaws, BondsOfFacesCarryMoments) {
     }
 }
 
-// Flat on the floor with speed 1: e, without a spin; friction does not matter.
+// Falls flat on the floor with speed 1: rebounds with e, without spin; friction has no effect.
 TEST(FaceLaws, AFlatFallBouncesFlat) {
     for (const char* impact : {"newton", "moreau"}) {
         Surface surface;
@@ -89,7 +89,7 @@ TEST(FaceLaws, AFlatFallBouncesFlat) {
     }
 }
 
-// A floor that rises at 1 under a square at rest: it leaves at 1 + e.
+// A floor that rises at 1 under a square at rest: the square leaves at 1 + e.
 TEST(FaceLaws, RestitutionIsRelativeToAMovingWall) {
     Surface surface;
     surface.restitution = 0.5;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Distance and penetration of convex polygons by exhaustion, in long double: the yardstick of the
-// detection.
+// Distance and penetration of convex polygons by exhaustion, in long double: the reference for
+// contact detection.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline long double to_segment(const Point& a, const Point& b, const Point& p) {
     return std::hypot(a.x + t * dx - p.x, a.y + t * dy - p.y);
 }
 
-/// Least distance of a point to the sides.
+/// Smallest distance of a point from the sides.
 inline long double to_sides(const Outline& a, const Point& p) {
     long double least = INFINITY;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -55,7 +55,7 @@ inline long double separation(const Outline& a, const Outline& b) {
     return largest;
 }
 
-/// Distance, or minus the least displacement that parts them.
+/// Distance, or minus the smallest displacement that separates the polygons.
 inline long double gap(const Outline& a, const Outline& b) {
     const long double depth = std::max(separation(a, b), separation(b, a));
     if (depth <= 0.0L) return depth;

@@ -19,7 +19,7 @@ Engine block_on_incline(double friction, double alpha) {
     return engine;
 }
 
-// A block sticks as long as tan(alpha) <= mu, and slides at g (sin - mu cos) beyond.
+// A block sticks as long as tan(alpha) <= mu, and beyond slides at g (sin - mu cos).
 TEST(Block, SticksOrSlidesOnAnIncline) {
     Engine stuck = block_on_incline(0.3, std::atan(0.299));
     scenes::run(stuck, 1.0, dt);
@@ -32,7 +32,7 @@ TEST(Block, SticksOrSlidesOnAnIncline) {
     EXPECT_NEAR(sliding.bodies().twist[0].spin[2], 0.0, 1e-9);
 }
 
-// With enough friction a square tips where the weight leaves its base: tan(alpha) > 1.
+// With enough friction a square tips when the line of its weight leaves its base: tan(alpha) > 1.
 TEST(Block, TipsBeyondItsBase) {
     Engine standing = block_on_incline(5.0, std::atan(0.99));
     scenes::run(standing, 0.5, dt);
@@ -59,8 +59,8 @@ TEST(Block, StackStandsStill) {
     EXPECT_LT(engine.max_penetration(), 1e-8);
 }
 
-// Names of contact points last: a standing stack that begins with the last impulses needs a small
-// part of the sweeps of one that begins with none.
+// Names of contact points persist: a standing stack that starts from the last impulses needs a
+// small fraction of the sweeps of one that starts from zero.
 TEST(Block, WarmStartSurvives) {
     Engine engine(scenes::exact(0.3, 1e-6), squares, {scenes::floor(0.3)});
     for (int i = 0; i < 5; ++i)
@@ -85,7 +85,7 @@ ShapeTable six_shapes(unsigned seed) {
     return shapes;
 }
 
-/// Grains with radii over two decades, strewn without care.
+/// Grains with radii over two decades, at random positions that may overlap.
 Engine strewn(unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> place(0.0, 6.0), exponent(0.0, 2.0), turn(0.0, 6.2);
@@ -103,7 +103,7 @@ Engine strewn(unsigned seed) {
     return engine;
 }
 
-/// Of all pairs of polygons.
+/// Over all pairs of polygons.
 double deepest_overlap(const Engine& engine, const PlacedPolygons& polygons) {
     const Bodies& bodies = engine.bodies();
     double deepest = 0.0;
@@ -117,7 +117,7 @@ double deepest_overlap(const Engine& engine, const PlacedPolygons& polygons) {
     return deepest;
 }
 
-// The broad phase works on circumscribed circles, the narrow one on the shapes: no overlap escapes.
+// The broad phase uses circumscribed circles, the narrow phase the shapes: no overlap is missed.
 TEST(StrewnPolygons, NoOverlapOfAnySizeEscapes) {
     for (unsigned seed = 0; seed < 5; ++seed) {
         Engine engine = strewn(seed);
@@ -131,7 +131,7 @@ TEST(StrewnPolygons, NoOverlapOfAnySizeEscapes) {
     }
 }
 
-// Momentum and angular momentum come from gravity alone, whatever the contacts do.
+// Momentum and angular momentum change by gravity alone, whatever the contacts do.
 TEST(StrewnPolygons, ContactsConserveMomentum) {
     Engine engine = strewn(11);
     const Bodies& bodies = engine.bodies();

@@ -20,7 +20,8 @@ void expect_near(const Vec3& a, const Vec3& b) {
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], 1e-14);
 }
 
-// A unit square 0.01 above the floor: both lower corners, half the side each.
+// A unit square 0.01 above the floor: contact points at both lower corners, with half the side
+// each.
 TEST(PolygonWall, HoldsASideByItsCorners) {
     const auto points = scenes::at_wall(squares, one_square(3.0, 0.51), scenes::floor(0.0), 0.1);
     ASSERT_EQ(points.size(), 2u);
@@ -49,7 +50,8 @@ Wall plate(double half_length) {
     return wall;
 }
 
-// A plate |x| <= 0.2 under a square that spans |x| <= 0.5: its two ends hold the side.
+// A plate |x| <= 0.2 under a square that spans |x| <= 0.5: contact points at both ends of the
+// plate.
 TEST(PolygonWall, EndsOfAPlateHoldASide) {
     for (const double side : {1.0, -1.0}) {
         const auto points = scenes::at_wall(squares, one_square(0.1, side * 0.51), plate(0.2), 0.1);
@@ -76,7 +78,7 @@ TEST(PolygonWall, EndOfAPlateMeetsACorner) {
     expect_near(points[0].arm_b, {-0.5, -0.5, 0.0});
 }
 
-// The names of a plate's ends do not depend on the side from which they are met.
+// The names of a plate's ends do not depend on the side from which they are touched.
 TEST(PolygonWall, EndsOfAPlateKeepTheirNames) {
     const auto feature_at_right = [](double side) {
         const auto points = scenes::at_wall(squares, one_square(0.4, side * 0.51), plate(0.2), 0.1);
@@ -88,7 +90,7 @@ TEST(PolygonWall, EndsOfAPlateKeepTheirNames) {
     EXPECT_EQ(feature_at_right(1.0), feature_at_right(-1.0));
 }
 
-// Random polygons around a plate, apart from it: the least gap is the distance.
+// Random polygons around a plate, without overlap: the smallest gap is the distance.
 TEST(PolygonWall, PlateAgreesWithExhaustion) {
     std::mt19937_64 random(4);
     std::uniform_real_distribution<double> place(-2.0, 2.0), turn(0.0, 6.2);
@@ -106,7 +108,7 @@ TEST(PolygonWall, PlateAgreesWithExhaustion) {
         for (const auto& end : ends) least = std::min(least, reference::to_sides(outline, end));
         for (const auto& corner : outline)
             least = std::min(least, reference::to_segment(ends[0], ends[1], corner));
-        bool apart = true;  // nothing of it on both sides of the plate
+        bool apart = true;  // the polygon does not extend to both sides of the plate
         for (std::size_t k = 0; k < outline.size(); ++k)
             apart = apart && outline[k].y * outline[0].y > 0.0L;
         if (!apart) continue;

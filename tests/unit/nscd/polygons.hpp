@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Polygons for tests: a few by name, and random convex ones.
+// Polygons for tests: some named ones, and random convex ones.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,8 @@ inline Body unit_square(const ShapeTable& shapes, GrainId id, double x, double y
     return polygon(shapes, 0, id, x, y, std::numbers::sqrt2 / 2.0, angle);
 }
 
-/// Triangles (R = 0.75) at random places and angles in a box with a floor and two walls, apart.
+/// Triangles (R = 0.75) at random positions and angles in a box with a floor and two walls, without
+/// overlap.
 inline Engine falling_triangles(int count, double width, double height,
                                 const EngineSettings& settings) {
     const ShapeTable shapes = {{"triangle", {}}};
@@ -91,7 +92,7 @@ inline Engine falling_triangles(int count, double width, double height,
     return engine;
 }
 
-/// Points of bodies a and b of a configuration.
+/// Contact points between bodies a and b of a configuration.
 inline std::vector<ContactPoint> between(const ShapeTable& shapes, const Bodies& bodies, int a,
                                          int b, double alert) {
     const NarrowPhase narrow(shapes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Contact problems made of random numbers, harder than packings of discs: arms in any direction
-// (W_nt != 0), several contacts per pair of bodies, bodies that drag fluid along.
+// Random contact problems, harder than packings of discs: arms in any direction (W_nt != 0),
+// several contacts per pair of bodies, bodies with tied fluid.
 #pragma once
 
 #include <Eigen/Dense>
@@ -28,16 +28,16 @@ inline Eigen::Matrix3d dense(const PlanarTensor& t) {
 
 struct Recipe {
     int bodies = 12;
-    int extra_contacts = 8;  ///< beside one per body with the body before it
+    int extra_contacts = 8;  ///< in addition to one contact of each body with the one before
     bool dragging = true;    ///< full mobilities instead of diagonal ones
-    double friction = 1.0;   ///< up to
-    double rolling = 0.0;    ///< up to [m]
+    double friction = 1.0;   ///< upper limit
+    double rolling = 0.0;    ///< upper limit [m]
     unsigned seed = 1;
 };
 
-/// Bodies that fall onto each other and onto a floor. Body 0 is fixed, body 1 cannot turn. Normals
-/// lean by 0.7 at most and tan 0.7 < 1: bodies that rise the faster the higher they are open all
-/// contacts with u_n > mu |u_t|, so that a solution exists for every friction up to 1.
+/// Bodies that fall onto each other and onto a floor. Body 0 is fixed, body 1 cannot rotate.
+/// Normals are tilted by at most 0.7, with tan 0.7 < 1. If bodies rise faster the higher they are,
+/// all contacts open with u_n > mu |u_t|; a solution therefore exists for every friction up to 1.
 inline ContactProblem random_problem(const Recipe& recipe) {
     std::mt19937_64 random(recipe.seed);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

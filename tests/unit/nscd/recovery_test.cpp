@@ -26,7 +26,7 @@ TEST(Recovery, IsAShareOfTheOverlapAndCapped) {
     EXPECT_NEAR(bias(-0.026), -0.5, 1e-15);
 }
 
-/// Overlap of a weightless disc with the floor after each of some steps.
+/// Overlap of a weightless disc with the floor after each step.
 std::vector<double> overlaps(double start, double dt, int steps) {
     EngineSettings settings = scenes::exact(0.0);
     Engine engine(settings, scenes::discs, {scenes::floor(0.0)});
@@ -41,7 +41,7 @@ std::vector<double> overlaps(double start, double dt, int steps) {
     return result;
 }
 
-// Each step leaves 80 % of a small overlap, whatever the time step; a deep one (0.1 D) shrinks by
+// Each step leaves 80 % of a small overlap, whatever the time step; a deep one (0.1 D) decreases by
 // 0.5 dt.
 TEST(Recovery, TakesOverlapBackSlowly) {
     for (const double dt : {0.02, 0.01, 0.005}) {

@@ -47,10 +47,9 @@ std::vector<double> bounces(double restitution, double dt, std::size_t count) {
     return heights;
 }
 
-// Apex after k bounces: e^2k. A bounce comes up to one step before the floor, at a gap below
-// n dt^2 with n dt = sqrt(2 h); from the sums of the steps, each bounce adds at most
-// (1 - e^2) (n + 1) dt^2 + (e - e^2) n dt^2/2 to the next height, and an apex between two steps
-// hides dt^2/8.
+// Height after k bounces: e^2k. A rebound occurs up to one step before the floor, at a gap below n
+// dt^2 with n dt = sqrt(2 h). Summed over the steps, each rebound adds at most (1 - e^2) (n + 1)
+// dt^2 + (e - e^2) n dt^2/2 to the next height, and an apex between two steps is missed by dt^2/8.
 TEST(Restitution, HeightsFallByTheSquareOfRestitution) {
     for (const double e : {0.9, 0.5})
         for (const double dt : {0.01, 0.005, 0.0025}) {
@@ -65,7 +64,7 @@ TEST(Restitution, HeightsFallByTheSquareOfRestitution) {
         }
 }
 
-// e = 1 and theta = 1/2 on the discrete heights themselves: n(n + 1)/2 dt^2 comes back exactly.
+// e = 1 and theta = 1/2 on the discrete heights: n(n + 1)/2 dt^2 is recovered exactly.
 TEST(Restitution, FullRestitutionKeepsTheHeight) {
     for (const double height : bounces(1.0, 0.01, 20)) EXPECT_NEAR(height, 1.0, 2e-4);
 }
@@ -85,7 +84,7 @@ TEST(Restitution, RestingOnAFloorGainsNothing) {
     }
 }
 
-/// Velocities of three equal discs in a row, the first at speed 1, once `time` is over.
+/// Velocities of three equal discs in a row after `time`, the first one initially at speed 1.
 std::vector<double> chain(double restitution, double gap, double time) {
     EngineSettings settings = bouncing(restitution);
     settings.gravity = {};
@@ -98,8 +97,8 @@ std::vector<double> chain(double restitution, double gap, double time) {
     return speeds;
 }
 
-// Touching: both contacts answer at once, (-1/3, 2/3, 2/3), which is Newton's law and not the
-// cradle's. With gaps of several steps one collision follows the other: (0, 0, 1).
+// Touching: both contacts act at once, (-1/3, 2/3, 2/3), which is Newton's law and not Newton's
+// cradle. With gaps of several steps the collisions follow each other: (0, 0, 1).
 TEST(Restitution, ChainOfThreeDiscs) {
     const std::vector<double> all_at_once = chain(1.0, 0.0, 0.01);
     EXPECT_NEAR(all_at_once[0], -1.0 / 3.0, 1e-11);
@@ -112,8 +111,8 @@ TEST(Restitution, ChainOfThreeDiscs) {
     EXPECT_NEAR(one_by_one[2], 1.0, 1e-12);
 }
 
-// e = e_t = 1 under much friction: both components of the contact's velocity turn round, no energy
-// is lost. Moreau's law with e = 1 does the same.
+// e = e_t = 1 under high friction: both components of the contact velocity are reversed, and no
+// energy is lost. Moreau's law with e = 1 does the same.
 TEST(Restitution, SuperballTurnsItsSlipRound) {
     for (const char* law : {"newton", "moreau"}) {
         EngineSettings settings = bouncing(1.0, 10.0);
@@ -127,13 +126,13 @@ TEST(Restitution, SuperballTurnsItsSlipRound) {
         engine.step(0.01);
         const Twist& after = engine.bodies().twist[0];
         EXPECT_NEAR(after.velocity[1], 1.0, 1e-12);
-        // Before: 0.5 + R spin = 2.
+        // Initially 0.5 + R spin = 2.
         EXPECT_NEAR(after.velocity[0] + 0.5 * after.spin[2], -2.0, 1e-12);
         EXPECT_NEAR(kinetic_energy(engine.bodies()), before, 1e-12);
     }
 }
 
-// Slower than the threshold: no rebound.
+// Approach slower than the threshold: no rebound.
 TEST(Restitution, SlowApproachesDoNotBounce) {
     EngineSettings settings = bouncing(0.8);
     settings.gravity = {};
@@ -164,8 +163,8 @@ Engine gas(const EngineSettings& base) {
     return engine;
 }
 
-// Moreau's law with any friction; Newton's without (with friction it may, where several contacts of
-// a body answer at once: 2e-4 in one step of this gas with mu = 0.4 and e = 1).
+// Moreau's law with any friction; Newton's without friction (with friction it may gain energy if
+// several contacts of a body act at once: 2e-4 in one step of this gas with mu = 0.4 and e = 1).
 TEST(Restitution, GasNeverGainsEnergy) {
     for (const char* law : {"newton", "moreau"})
         for (const double e : {0.5, 1.0}) {
@@ -186,8 +185,8 @@ TEST(Restitution, GasNeverGainsEnergy) {
         }
 }
 
-// theta = 1/2: kinetic and potential energy, the latter of x (Eq. 17), change by the work of the
-// contact impulses, r . (u^k + u^{k+1})/2, and by nothing else.
+// theta = 1/2: the sum of kinetic and potential energy, the latter at x (Eq. 17), changes by the
+// work of the contact impulses, r . (u^k + u^{k+1})/2, and by nothing else.
 TEST(Restitution, EnergyChangesByTheWorkOfImpulses) {
     const double dt = 0.01;
     Engine engine = scenes::settling_pack(6, 6, bouncing(0.5, 0.3));

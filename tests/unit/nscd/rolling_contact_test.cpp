@@ -22,7 +22,7 @@ ContactVector velocity(const Block& w, const ContactVector& b, const ContactVect
                     b.roll + w.nr * r.n + w.tr * r.t + w.rr * r.roll);
 }
 
-/// The law itself, term by term; relative to what the numbers allow.
+/// The law itself, term by term, relative to the rounding error of its terms.
 void expect_solved(const Block& w, const ContactVector& b, const ContactVector& r, double mu,
                    double rho) {
     const ContactVector u = velocity(w, b, r);
@@ -42,7 +42,7 @@ class RollingContact : public ::testing::Test {
  protected:
     double any() { return uniform_(random_); }
 
-    /// Positive definite; discs: n apart.
+    /// Positive definite; for discs, n is uncoupled.
     Block random_block(bool disc) {
         Eigen::Matrix3d a;
         for (int i = 0; i < 9; ++i) a(i) = any();
@@ -75,7 +75,7 @@ TEST_F(RollingContact, AnyWIsSolvedExactly) {
     }
 }
 
-// Without friction of either kind, without rolling resistance: what the other routine says.
+// Without friction or without rolling resistance: equals the other function.
 TEST_F(RollingContact, IsCoulombWithoutResistance) {
     for (int i = 0; i < 1000; ++i) {
         const Block w = random_block(i % 2 == 0);
@@ -83,14 +83,15 @@ TEST_F(RollingContact, IsCoulombWithoutResistance) {
         const double mu = 1.0 + any();
         const Plane plane = solve_contact(w, {b.n, b.t}, mu);
         const ContactVector r = solve_rolling_contact(w, b, mu, 0.0);
-        // With strong coupling two solutions may exist: then this one must be as good.
+        // With strong coupling two solutions may exist; then this one must satisfy the law equally
+        // well.
         if (std::abs(r.n - plane[0]) > 1e-9 * (1.0 + plane[0]))
             expect_solved({w.nn, w.nt, w.tt}, in_plane(b.n, b.t), in_plane(r.n, r.t), mu, 0.0);
         EXPECT_EQ(r.roll, 0.0);
     }
 }
 
-// The projection is the nearest point: no other point of the pyramid is closer.
+// The projection is the closest point: no other point of the pyramid is closer.
 TEST_F(RollingContact, ProjectionIsTheNearestPoint) {
     for (int i = 0; i < 20000; ++i) {
         const ContactVector x = in_plane(2.0 * any(), 2.0 * any(), 2.0 * any());
@@ -98,14 +99,14 @@ TEST_F(RollingContact, ProjectionIsTheNearestPoint) {
         const ContactVector p = project_on_pyramid(x, mu, rho);
         EXPECT_LE(std::abs(p.t), mu * p.n * (1 + 1e-15) + 1e-300);
         EXPECT_LE(std::abs(p.roll), rho * p.n * (1 + 1e-15) + 1e-300);
-        // Moreau: x - p is normal to p and in the polar cone.
+        // Moreau's decomposition: x - p is orthogonal to p and in the polar cone.
         const ContactVector q = x - p;
         EXPECT_NEAR(dot(p, q), 0.0, 1e-12);
         EXPECT_LE(q.n + mu * std::abs(q.t) + rho * std::abs(q.roll), 1e-12);
     }
 }
 
-// A disc on a plane with friction that holds: it rolls iff tan(alpha) > rho/R.
+// A disc on an incline with enough friction rolls iff tan(alpha) > rho/R.
 TEST(RollingResistance, HoldsADiscOnASlopeBelowItsAngle) {
     for (const double tangent : {0.09, 0.11}) {
         const double lever = 0.05;  // R = 1/2: limit 0.1

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Rolling resistance as a law: the lever it gives the solver, and a disc (R = 1/2, g = 1) on a
+// Rolling resistance as a law: the lever it passes to the solver, and a disc (R = 1/2, g = 1) on a
 // tilted plane.
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(RollingResistance, IsRefusedForShapesWithCorners) {
     EXPECT_NO_THROW(ContactLaws({}, {}, SurfaceTable(settings.surfaces), triangles));
 }
 
-/// Velocity and spin after 1 on a slope, from rest.
+/// Velocity and spin after t = 1 on a slope, from rest.
 Twist on_slope(double slope) {
     EngineSettings settings = resisting();
     settings.gravity = scenes::tilted(std::atan(slope));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Small scenes that several tests share: dry discs of density 1, g = 1 unless tilted.
+// Small scenes shared by several tests: dry discs of density 1, g = 1 unless tilted.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,7 @@ inline Wall floor(double friction) {
     return wall(1, {0, 0, 0}, {0, 1, 0}, friction);
 }
 
-/// Gravity seen from a plane tilted by alpha: downhill is +x.
+/// Gravity in the axes of a plane tilted by alpha: downhill is +x.
 inline Vec3 tilted(double alpha) {
     return {std::sin(alpha), -std::cos(alpha), 0.0};
 }
@@ -53,7 +53,7 @@ inline EngineSettings exact(double friction, double tolerance = 1e-10) {
     return settings;
 }
 
-/// Discs that fall into a box: columns x rows, jittered, none overlapping.
+/// Discs that fall into a box: columns x rows, with random offsets, without overlap.
 inline Engine settling_pack(int columns, int rows, const EngineSettings& settings) {
     const double width = 1.1 * columns;
     Engine engine(settings, discs,
@@ -68,7 +68,7 @@ inline Engine settling_pack(int columns, int rows, const EngineSettings& setting
     return engine;
 }
 
-/// Runs for `time`; says whether every step converged.
+/// Runs for `time`; returns whether every step converged.
 inline bool run(Engine& engine, double time, double dt) {
     bool converged = true;
     for (std::int64_t n = std::llround(time / dt); n > 0; --n) {

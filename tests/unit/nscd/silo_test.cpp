@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A silo: discs between two walls on a floor that sinks slowly, so that friction acts upwards all
-// along the walls. Janssen: stress s over the width obeys s' = w - 2 mu K s / width, hence the
+// along the walls. By Janssen the vertical stress s obeys s' = w - 2 mu K s / width, hence the
 // floor carries
 //
 //     F / weight = (l/h) (1 - exp(-h/l)),    l = width / (2 mu K)
 //
-// however high the filling, never more than l/h of it.
+// and never more than l/h of the weight, however high the filling.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
@@ -16,13 +16,13 @@ namespace {
 
 constexpr double dt = 0.01, friction = 0.5;
 
-/// Mean forces over a while of sinking, in weights of the filling.
+/// Mean forces during a period of sinking, in weights of the filling.
 struct Loads {
     double height = 0.0;       ///< of the filling [D]
     double floor = 0.0;        ///< upwards
-    double walls_shear = 0.0;  ///< upwards, of both
-    double walls_push = 0.0;   ///< inwards, of both
-    double inertia = 0.0;      ///< what slows the filling down, or speeds it up, upwards
+    double walls_shear = 0.0;  ///< upwards, both walls
+    double walls_push = 0.0;   ///< inwards, both walls
+    double inertia = 0.0;      ///< upwards; rate of change of the filling's momentum
 };
 
 double weight(const Bodies& bodies) {
@@ -81,7 +81,7 @@ double janssen(double height, double length) {
     return length / height * (1.0 - std::exp(-height / length));
 }
 
-/// The length with which the law gives this share, by bisection.
+/// The decay length at which the floor carries this share, by bisection.
 double janssen_length(double height, double share) {
     double low = 1e-3 * height, high = 1e3 * height;
     for (int n = 0; n < 60; ++n)
@@ -89,7 +89,7 @@ double janssen_length(double height, double share) {
     return low;
 }
 
-// Nothing but the floor holds the filling: its load is the weight, and the walls push all the same.
+// Only the floor supports the filling: its load is the weight, and the walls still exert pressure.
 TEST(Silo, FloorCarriesAllBetweenSmoothWalls) {
     const Loads smooth = silo(6, 20, 0.0);
     EXPECT_NEAR(smooth.floor, 1.0 + smooth.inertia, 1e-9);
@@ -98,9 +98,9 @@ TEST(Silo, FloorCarriesAllBetweenSmoothWalls) {
     EXPECT_GT(smooth.walls_push, 0.5);
 }
 
-// The decay length is taken from one silo; it must hold in one twice as high, and three times as
-// long in one three times as wide. Fillings are of a hundred to four hundred discs: the share of
-// one and the same silo scatters by some percent.
+// The decay length is determined in one silo; it must hold in one twice as high, and be three times
+// as long in one three times as wide. Fillings have a hundred to four hundred discs: the share
+// carried in repeated fillings of one silo scatters by a few per cent.
 TEST(Silo, RoughWallsCarryWhatJanssenSays) {
     const Loads low = silo(6, 20, friction), high = silo(6, 40, friction),
                 wide = silo(18, 20, friction);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What every solver of solver_list must do.
+// Requirements on every solver of solver_list.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -33,7 +33,7 @@ bool same_bits(const Impulses& a, const Impulses& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
-/// Weight on a floor and against two walls, at rest: hyperstatic, W is singular.
+/// A load on a floor and against two walls, at rest: hyperstatic, W is singular.
 ContactProblem settled_problem() {
     EngineSettings settings = scenes::exact(0.3, 1e-6);
     Engine engine = scenes::settling_pack(8, 8, settings);
@@ -42,7 +42,7 @@ ContactProblem settled_problem() {
     return engine.problem();
 }
 
-/// The dry column after `steps` of 0.01: discs D = 1 that touch, a left wall and a floor, mu = 0.3.
+/// The dry column after `steps` of 0.01: touching discs D = 1, a left wall and a floor, mu = 0.3.
 ContactProblem young_lattice(int columns, int rows, int steps) {
     EngineSettings settings = scenes::exact(0.3, 1e-3);
     settings.solver_settings.max_iterations = 5000;
@@ -205,7 +205,7 @@ TEST(NlgsStored, RefusesRollingByName) {
     }
 }
 
-// Sweeps stall on this packing between 1e-7 and 1e-8.
+// On this packing sweeps stall between 1e-7 and 1e-8.
 TEST(CentralPath, SolvesASettledPackingToEightDigits) {
     const ContactProblem problem = settled_problem();
     const SolverResult result = solve("central-path", problem, tight(1e-8));
@@ -213,9 +213,9 @@ TEST(CentralPath, SolvesASettledPackingToEightDigits) {
     EXPECT_LE(natural_map_residual(problem, result.impulses), 1e-8);
 }
 
-// A perfect triangular lattice against a wall that has just begun to fall: sweeps, and Newton
-// methods from where they stall, wander at 1e-3 for ever, since the path to the solution turns back
-// in z several times.
+// A perfect triangular lattice against a wall that has just begun to fall. Sweeps, and Newton
+// methods started where they stall, remain at 1e-3, since the path to the solution has several
+// turning points in z.
 TEST(CentralPath, SolvesPerfectLatticesThatHaveHardlyMoved) {
     for (const int steps : {2, 20, 40}) {
         const ContactProblem problem = young_lattice(8, 17, steps);
@@ -230,8 +230,8 @@ TEST(CentralPath, SolvesPerfectLatticesThatHaveHardlyMoved) {
     }
 }
 
-// The paper's column at 14 x 28 D after 0.1 t_c. A path that starts under Coulomb's law turns back
-// about a hundred times here and is not through after 10,000 iterations, nor after 30,000 on the
+// The paper's column at 14 x 28 D after 0.1 t_c. A path that starts at Coulomb's law has about a
+// hundred turning points here and is not complete after 10,000 iterations, nor after 30,000 on the
 // column of bench/tight_column.cpp.
 TEST(CentralPath, TakesFewIterationsOnALargerYoungLattice) {
     const ContactProblem problem = young_lattice(14, 32, 11);
@@ -262,7 +262,7 @@ TEST(CentralPath, SolvesRollingResistance) {
     EXPECT_TRUE(result.converged) << result.residual;
 }
 
-// Blocks of contacts that share one body, two bodies, or none that moves.
+// Blocks of contacts that share one body, two bodies, or no movable body.
 TEST(DelassusMatrix, IsTheDenseProduct) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const ContactProblem problem =

@@ -39,8 +39,8 @@ TEST(Stack, ReactionsEqualTheWeightsAbove) {
     }
 }
 
-// At rest the floor carries everything: momentum balance leaves only the velocities that are not
-// zero.
+// At rest the floor carries everything: the momentum balance differs only by the velocities that
+// are not exactly zero.
 TEST(Stack, FloorCarriesTheTotalWeight) {
     Engine engine = stack(1e-12);
     EXPECT_TRUE(engine.step(0.01).converged);
@@ -54,8 +54,8 @@ TEST(Stack, FloorCarriesTheTotalWeight) {
     EXPECT_NEAR(floor, height * weight, 1e-8 * height * weight);
 }
 
-// Quad, the usual criterion, looks at the change of one update; the natural map must not be smaller
-// than what it says by orders.
+// Quad, the customary criterion, is the change by one update; the natural map must not be smaller
+// by orders of magnitude.
 TEST(Stack, LooseToleranceIsReportedAsSuch) {
     Engine engine = stack(1e-2);
     const StepReport report = engine.step(0.01);

@@ -53,7 +53,7 @@ TEST(SurfaceTable, RefusesByName) {
     EXPECT_EQ(refusal({rough(0.1)}), "");
 }
 
-/// Speed after 1 of a block of a material on a slope of 0.35, g = 1.
+/// Speed after t = 1 of a block of a material on a slope of 0.35, g = 1.
 double speed_on_slope(std::int32_t body, std::int32_t wall, double wall_friction = 0.0) {
     EngineSettings settings = scenes::exact(0.0, 1e-13);
     settings.gravity = scenes::tilted(std::atan(0.35));
@@ -69,8 +69,8 @@ double speed_on_slope(std::int32_t body, std::int32_t wall, double wall_friction
     return engine.bodies().twist[0].velocity[0];
 }
 
-// A slope of 0.35 holds what rubs with 0.4 and loses the rest at sin - 0.3 cos. A wall without
-// material has a friction of its own.
+// On a slope of 0.35 a friction of 0.4 holds, and a friction of 0.3 gives an acceleration of sin -
+// 0.3 cos. A wall without material has its own friction.
 TEST(Surfaces, MaterialsOfBodyAndWallDecide) {
     const double alpha = std::atan(0.35), slides = std::sin(alpha) - 0.3 * std::cos(alpha);
     EXPECT_NEAR(speed_on_slope(1, 1), 0.0, 1e-13);
@@ -91,7 +91,7 @@ TEST(Surfaces, MayComeLate) {
     EXPECT_EQ(engine.surfaces().size(), 2) << "a refused table changes nothing";
 }
 
-// Materials are state: they come back with the bodies.
+// Materials are part of the state, restored with the bodies.
 TEST(Surfaces, MaterialsSurviveRemovalAndRestart) {
     EngineSettings settings = scenes::exact(0.3);
     settings.surfaces = {rough(0.3), rough(0.4), rough(0.5)};

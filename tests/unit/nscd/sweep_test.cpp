@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// However a sweep is done (in groups, by the vector unit, several at once, on threads), its bits
-// are those of one contact after the other in the order given.
+// However a sweep is executed (in groups, vectorised, several at once, by threads), the result is
+// bitwise that of one contact after the other in the given order.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -21,8 +21,8 @@ namespace {
 
 enum class Kind { discs, rolling_discs, general, general_rolling };
 
-/// Bodies of a triangular lattice that random velocities press together; some immovable ones, some
-/// contacts with a wall, some that cannot turn.
+/// Bodies of a triangular lattice pressed together by random velocities; some are immovable, some
+/// have contacts with a wall, some cannot rotate.
 ContactProblem lattice(int columns, int rows, Kind kind) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -63,7 +63,7 @@ ContactProblem lattice(int columns, int rows, Kind kind) {
     return problem;
 }
 
-/// Two thirds of the contacts are expected to act, mixed with the others.
+/// Two thirds of the contacts are active, mixed with the others.
 std::vector<std::uint8_t> two_thirds(std::size_t contacts) {
     std::vector<std::uint8_t> active(contacts);
     for (std::size_t k = 0; k < contacts; ++k) active[k] = (k / 5) % 3 != 0 ? 1 : 0;
@@ -107,7 +107,7 @@ Impulses after_runs(const ContactProblem& problem, Instructions instructions,
     return r;
 }
 
-/// What pipelines should do, one contact after the other.
+/// The reference for pipelines: one contact after the other.
 template <class Rows>
 class OneByOne {
  public:
@@ -128,7 +128,7 @@ class OneByOne {
     }
 
  private:
-    /// Memory in the order of contacts, all active.
+    /// Memory in the order of the contacts, all of them active.
     static Schedule single_lanes(const ContactProblem& problem, const Schedule& grouped) {
         Schedule schedule;
         for (std::size_t k = 0; k < problem.contacts.size(); ++k)
@@ -185,7 +185,7 @@ std::vector<Instructions> all_instructions() {
     return {Instructions::portable};
 }
 
-/// The same through every way of doing it.
+/// The same in every way of execution.
 template <class Grouped, class Single>
 void expect_the_bits_of_one_after_the_other(Kind kind) {
     const ContactProblem problem = lattice(30, 40, kind);
@@ -221,7 +221,7 @@ TEST(Sweep, GeneralRollingRowsHaveTheBitsOfOneAfterTheOther) {
         Kind::general_rolling);
 }
 
-/// Position of every contact in a schedule; fails on a contact twice or missing.
+/// Position of every contact in a schedule; fails if a contact is missing or occurs twice.
 std::vector<std::int32_t> groups_of(const Schedule& schedule, std::size_t contacts, int width) {
     std::vector<std::int32_t> group(contacts, -1);
     for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
@@ -253,12 +253,12 @@ TEST(Schedule, KeepsTheOrderOfContactsThatShareABodyAndTheirDistance) {
             }
         }
     }
-    // Discs have six neighbours: there is enough to do side by side.
+    // Discs have six neighbours: enough independent contacts exist.
     EXPECT_GT(pairs.size(), 0.7 * schedule.lanes.size());
 }
 
-// A sweep that waits for `after` stretches of the one before finds all that these did to its
-// bodies, and nothing that they have still to do.
+// A sweep that waits for `after` stretches of the one before sees everything these do to its
+// bodies, and nothing of what the others will do.
 TEST(Schedule, StretchesCoverAllGroupsAndKnowWhatTheyWaitFor) {
     const ContactProblem problem = lattice(25, 25, Kind::discs);
     const std::vector<MovedPair> pairs = moved_pairs(problem);
@@ -291,7 +291,7 @@ TEST(Schedule, StretchesCoverAllGroupsAndKnowWhatTheyWaitFor) {
     }
 }
 
-// A body that everything touches: one contact per group, whatever the width.
+// One body in all contacts: one contact per group, whatever the width.
 TEST(Schedule, AHubIsServedOneContactAtATime) {
     std::vector<MovedPair> pairs;
     for (std::int32_t k = 1; k <= 200; ++k) pairs.push_back({0, k});
@@ -300,15 +300,15 @@ TEST(Schedule, AHubIsServedOneContactAtATime) {
     for (std::size_t k = 1; k < group.size(); ++k) EXPECT_EQ(group[k], group[k - 1] + 3);
 }
 
-// Many contacts with immovable things only depend on nothing: all lanes are full.
+// Many contacts with only immovable partners are independent: all lanes are used.
 TEST(Schedule, ImmovablePartnersDoNotBind) {
     std::vector<MovedPair> pairs;
     for (std::int32_t k = 0; k < 200; ++k) pairs.push_back({-1, k});
     EXPECT_EQ(make_schedule(pairs, std::vector<std::uint8_t>(200, 1), 200, {4, 3}).all, 50);
 }
 
-// A row of discs at one height, then one a radius lower: the upper row first, its even contacts
-// before its odd ones, so that no body is met twice within a colour.
+// A layer of discs at one height, and another one a radius lower: the upper layer comes first, its
+// even contacts before its odd ones, so that no body occurs twice within a colour.
 TEST(ContactOrder, TakesARowByColoursFromTheTopDown) {
     Bodies bodies;
     std::vector<ContactPoint> points;
@@ -329,7 +329,7 @@ TEST(ContactOrder, TakesARowByColoursFromTheTopDown) {
 
 TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
     for (const Kind kind : {Kind::discs, Kind::rolling_discs}) {
-        // Contacts that share no body: the state that each meets is the start.
+        // Contacts that share no body: each one sees the initial state.
         ContactProblem problem = lattice(20, 20, kind);
         std::set<std::int32_t> met;
         std::erase_if(problem.contacts, [&](const Contact& c) {
@@ -381,7 +381,8 @@ void expect_state_survives_rearrangement(Kind kind) {
                                    {.width = Rows::width, .distance = 3, .stretch = 70}));
     layout.collect(after);
     EXPECT_TRUE(same_bits(before, after));
-    // Rows came along: a layout from scratch goes on the same way but for its rounded velocities.
+    // The rows were moved to the new layout: a layout made from scratch gives the same result apart
+    // from rounded velocities.
     SweepLayout<Rows> fresh(problem, w, pairs, before, body_velocities(problem, before),
                             layout.schedule);
     SweepPipeline<Rows> other(sweeps<Rows>(best_instructions()), fresh);
@@ -403,7 +404,7 @@ TEST(SweepLayout, GoesOnFromTheSameStateInOtherGroups) {
     expect_state_survives_rearrangement<GeneralRollingRows<1>>(Kind::general_rolling);
 }
 
-// A contact at rest is not swept until a measuring sweep finds that it closes.
+// An inactive contact is not swept until a measuring sweep finds that it closes.
 TEST(SweepPipeline, WakesWhatCloses) {
     ContactProblem problem;
     problem.bodies.push_back(BodyMobility(1.0, 2.0));
@@ -437,7 +438,7 @@ SolverSettings few_sweeps(std::int64_t threads) {
     return settings;
 }
 
-// Large enough for threads, the tail and a second layout on the way.
+// Large enough for threads, for incomplete groups, and for a second layout during the solve.
 TEST(Nlgs, DependsOnNeitherThreadsNorInstructions) {
     for (const Kind kind : {Kind::discs, Kind::rolling_discs, Kind::general}) {
         const ContactProblem problem = lattice(50, 60, kind);
@@ -462,12 +463,12 @@ TEST(Nlgs, RefusesNoThreads) {
                  std::invalid_argument);
 }
 
-// Whatever the kind of rows, the published residual says that the contacts are solved.
+// For every kind of rows, the published residual shows that the contacts are solved.
 TEST(Nlgs, SolvesEveryKindOfContact) {
     for (const Kind kind :
          {Kind::discs, Kind::rolling_discs, Kind::general, Kind::general_rolling}) {
         ContactProblem problem = lattice(8, 8, kind);
-        // All of them jam the lattice, and need very many sweeps.
+        // With all of them the lattice jams, and needs very many sweeps.
         problem.contacts.resize(problem.contacts.size() / 2);
         SolverSettings settings;
         settings.tolerance = 1e-9;

@@ -56,7 +56,7 @@ TEST(ThetaScheme, RespectsFlags) {
     EXPECT_EQ(free[1].spin, (Vec3{}));
 }
 
-// Spin pi/2 per unit time for 1 in 100 steps: a quarter turn, (cos 45, 0, 0, sin 45).
+// Spin pi/2 per unit time for 1 in 100 steps: a quarter revolution, (cos 45, 0, 0, sin 45).
 TEST(ThetaScheme, TurnsTheOrientation) {
     Bodies bodies;
     bodies.add(scenes::disc(1, 0.0, 0.0));
@@ -66,7 +66,7 @@ TEST(ThetaScheme, TurnsTheOrientation) {
     EXPECT_NEAR(bodies.orientation[0][3], std::sqrt(0.5), 1e-13);
 }
 
-// A quarter turn about x, then about y: e_z goes to -e_y, which y leaves alone.
+// A quarter revolution about x, then about y: e_z goes to -e_y, which y leaves unchanged.
 TEST(ThetaScheme, ComposesTurnsInWorldAxes) {
     const double quarter = std::numbers::pi / 2;
     const Quaternion q = rotated(rotated({1, 0, 0, 0}, {quarter, 0, 0}), {0, quarter, 0});

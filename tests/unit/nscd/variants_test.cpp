@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a new contact law and a new contact solver cost: the part itself, one entry of a list, this
-// test. Both are played through the engine by their names, as the case would.
+// The cost of a new contact law and a new contact solver: the part itself, one entry of a list, and
+// this test. Both are used by the engine through their names, as in a case.
 #include <gtest/gtest.h>
 
 #include "granular_adapter/nscd/laws/law_list.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using scenes::disc, scenes::discs, scenes::exact;
 
-/// Friction of fast contacts only: below the speed nothing holds.
+/// Friction of fast contacts only: below the speed there is none.
 class FastFriction final : public LawPart {
  public:
     void add(const ContactSituation& situation, LawTerms& terms) const override {
@@ -27,7 +27,7 @@ std::unique_ptr<const LawPart> make_fast_friction(const LawSettings&, const Surf
     return std::make_unique<FastFriction>();
 }
 
-/// Every contact alone, as if there were no others: exact for contacts that share no body.
+/// Every contact solved alone, as if there were no others: exact for contacts that share no body.
 class OneByOne final : public ContactSolver {
  public:
     SolverResult solve(const ContactProblem& problem, const Impulses&,
@@ -62,7 +62,7 @@ std::vector<SolverEntry> with_one_by_one() {
     return solvers;
 }
 
-/// Speed along a floor after one step of a disc that lies on it.
+/// Speed along a floor after one step, of a disc that lies on it.
 double slide(double speed, const EngineSettings& settings) {
     Engine engine(settings, discs, {scenes::floor(settings.friction)});
     engine.bodies().add(disc(1, 0.0, 0.5));
@@ -103,7 +103,7 @@ TEST(Variants, OthersDoNotKnowThem) {
                  std::invalid_argument);
 }
 
-// The names that the case offers are those that the engine knows, in the same order.
+// The names offered by the case are those of the engine's lists, in the same order.
 TEST(ContactNames, AreTheEntriesOfTheLists) {
     std::vector<std::string> offered, known;
     for (std::size_t slot = 0; slot < law_slots; ++slot)

@@ -45,7 +45,7 @@ class WarmStart : public ::testing::Test {
     std::vector<char> at_rest_;
 };
 
-// At rest the last step's forces are the answer: less than half the sweeps, also with a shorter
+// At rest the last step's forces are the solution: less than half the sweeps, also with a shorter
 // step.
 TEST_F(WarmStart, SavesSweeps) {
     for (const double dt : {0.01, 0.005, 0.0025})

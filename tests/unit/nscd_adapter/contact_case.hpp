@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Settings and grains that tests of granular adapters share. Keys that are not set here have the
+// Settings and grains shared by the tests of granular adapters. Keys not set here have the
 // adapters' own defaults or belong to one test.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace turbidite {
 
-/// Keys that every contact case has.
+/// Keys required by every contact case.
 inline void set_contact_keys(Settings& settings) {
     settings.set("contact.friction", 0.3);
     settings.set("contact.theta", 0.5);
@@ -23,7 +23,7 @@ inline void set_contact_keys(Settings& settings) {
     settings.set("contact.recovery_speed", 0.5);
 }
 
-/// Box of 10 x 20 with walls all round, g = 1, rho_f = 1, u_c = 1; scheme split.
+/// Box of 10 x 20 with walls on all sides, g = 1, rho_f = 1, u_c = 1; scheme split.
 inline Settings box_settings() {
     Settings settings = run_settings();
     settings.set("coupling.positions", std::string("corrected"));

@@ -46,7 +46,7 @@ TEST(ContactRecords, SayWhoPushesWhomAndHow) {
     EXPECT_EQ(base.point, (Vec3{0, 0, 0}));
 }
 
-// The sum over a body's contacts is what the engine handed it.
+// The sum over a body's contacts is the impulse that the engine reports for it.
 TEST(ContactRecords, AddUpToTheBodysImpulse) {
     const Engine engine = tower(0.3);
     Vec3 upper{}, lower{};
@@ -76,8 +76,8 @@ TEST(ContactRecords, TellSlidingFromSticking) {
     EXPECT_EQ(contacts[1].status, 0);
 }
 
-// A pull of one weight presses a block of weight w with 2 w: a push of 0.4 w does not make it slide
-// at mu = 0.3. Pulled off by half a weight more than w it hangs: nothing slides there.
+// An attraction of one weight w presses a block of weight w with 2 w: a force of 0.4 w does not
+// make it slide at mu = 0.3. Pulled upwards with 1.5 w it hangs: no contact slides.
 TEST(ContactRecords, StatusKnowsWhatALawPulls) {
     nscd::EngineSettings settings = exact(0.3);
     const double weight = disc(1, 0.0, 0.5).mass;
@@ -98,7 +98,7 @@ TEST(ContactRecords, StatusKnowsWhatALawPulls) {
     }
 }
 
-// A slope of 0.2: the disc holds on to it (mu = 0.5) and rolls against a resistance of 0.1.
+// A slope of 0.2: the disc does not slide (mu = 0.5), and rolls against a resistance of 0.1.
 TEST(ContactRecords, TellRolling) {
     nscd::EngineSettings settings = exact(0.5);
     settings.surfaces = {nscd::Surface{}};
@@ -115,7 +115,7 @@ TEST(ContactRecords, TellRolling) {
         << "against the spin, which is negative downhill to the right";
 }
 
-// Two discs at a small gap, held together by a liquid that pulls with 2.
+// Two discs at a small gap, held together by a liquid with an attraction of 2.
 TEST(ContactRecords, APullHasANegativeNormalForce) {
     nscd::EngineSettings settings = exact(0.0);
     settings.gravity = {};
@@ -143,7 +143,7 @@ TEST(ContactRecords, LeaveOutWhatCarriesNothing) {
     EXPECT_TRUE(contact_records(engine).empty());
 }
 
-// Period 4: the discs at 0.4 and 3.5 push through the border, 0.9 apart.
+// Period 4: the discs at 0.4 and 3.5 press each other across the border, at a distance of 0.9.
 TEST(ContactRecords, BranchesAreNearestImages) {
     nscd::EngineSettings settings = exact(0.3);
     settings.box.length = {4.0, 0.0, 0.0};
@@ -161,7 +161,7 @@ TEST(ContactRecords, OfGrainsThatLeftAreDropped) {
     auto contacts = contact_records(tower(0.3));
     drop_contacts_of({}, contacts);
     EXPECT_EQ(contacts.size(), 2u);
-    drop_contacts_of({0, 9}, contacts);  // 0 is what a wall has for `a`
+    drop_contacts_of({0, 9}, contacts);  // 0 is the `a` of contacts with a wall
     ASSERT_EQ(contacts.size(), 1u);
     EXPECT_EQ(contacts[0].wall, 1);
 }

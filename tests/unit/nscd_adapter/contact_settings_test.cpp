@@ -80,7 +80,7 @@ std::vector<std::string> laws(nscd::LawSlot slot) {
     return names;
 }
 
-// A law that is new in the list needs its name among the choices of its key, and the other way.
+// A law added to the list must be among the choices of its key, and conversely.
 TEST(ContactSettings, KeysOfferTheLawsThatThereAre) {
     EXPECT_EQ(choices("contact.law"), laws(nscd::LawSlot::friction));
     EXPECT_EQ(choices("contact.adhesion"), laws(nscd::LawSlot::adhesion));

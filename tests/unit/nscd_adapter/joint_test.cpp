@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Scheme joint with the contact engine: the coupler, the NSCD adapter and a scripted fluid, in
-// threads. The fluid is exact or misjudges the inertia it tells; the motion must be the same.
+// threads. The fluid is exact or announces a wrong inertia; the motion must be the same.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Settings heap_settings() {
     return s;
 }
 
-/// Four columns of three discs above the floor of a narrow box, staggered so that they lean on each
+/// Four columns of three discs above the floor of a narrow box, staggered so that they support each
 /// other.
 std::vector<GrainState> heap() {
     std::vector<GrainState> grains;
@@ -87,9 +87,9 @@ Result settle(double inertia_error) {
     return result;
 }
 
-// What the scheme promises: nothing overlaps (the start is free of overlap and positions follow
-// admissible velocities, so only the contact tolerance is left), momentum balances to round-off,
-// and every window agrees.
+// The properties of the scheme: nothing overlaps (the start is free of overlap and positions follow
+// admissible velocities, so only the contact tolerance is left), momentum balances to rounding, and
+// fluid and contacts agree in every window.
 TEST(JointHeap, AnExactFluidSettlesItInOneRoundPerWindow) {
     const RunMaxima maxima = settle(0.0).status.statistics.maxima;
     EXPECT_LT(maxima.penetration, 1e-9);
@@ -101,7 +101,7 @@ TEST(JointHeap, AnExactFluidSettlesItInOneRoundPerWindow) {
 }
 
 // Velocities agree to 1e-8 u_c in each of 80 windows of 0.02: positions may differ by 1e-8 * 1.6
-// times what impacts amplify; 1e-6 is far below the motion (0.05 D of fall).
+// times the amplification by impacts; 1e-6 is far below the motion (a fall of 0.05 D).
 TEST(JointHeap, AnApproximateFluidGivesTheSameMotion) {
     const Result exact = settle(0.0);
     for (const double error : {0.1, -0.1}) {

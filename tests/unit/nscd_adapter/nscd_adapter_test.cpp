@@ -28,7 +28,7 @@ Window window(std::int64_t index, double step = 0.01) {
     return result;
 }
 
-/// A fluid that leaves all velocities as they are.
+/// A fluid that does not change velocities.
 std::vector<Kick> same_velocities(const Motion& motion) {
     std::vector<Kick> kicks;
     for (const GrainState& grain : motion.grains) {
@@ -41,7 +41,7 @@ std::vector<Kick> same_velocities(const Motion& motion) {
     return kicks;
 }
 
-/// The text of the error that `call` throws.
+/// The text of the error thrown by `call`.
 template <class Error>
 std::string refusal(const std::function<void()>& call) {
     try {
@@ -57,7 +57,8 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// Effective mass and weight carry the same c = 1 - rho_f/rho_s: one window from rest gives -g dt.
+// Effective mass and weight have the same factor c = 1 - rho_f/rho_s: one window from rest gives -g
+// dt.
 TEST(NscdAdapter, ImmersedGrainFallsWithGravity) {
     for (const double dt : {0.02, 0.01, 0.005}) {
         NscdAdapter adapter;
@@ -109,7 +110,7 @@ TEST(NscdAdapter, ReportsTheAngularImpulse) {
                 -0.5 * 0.3 * 0.5 * std::numbers::pi / 4 * 0.01, 1e-14);
 }
 
-/// One window of a falling grain whose kick says (0.3, -0.2) and spin 2.
+/// One window of a falling grain whose kick has velocity (0.3, -0.2) and spin 2.
 Motion kicked(const std::string& positions) {
     Settings settings = box_settings();
     settings.set("coupling.positions", positions);
@@ -121,8 +122,8 @@ Motion kicked(const std::string& positions) {
     return adapter.apply_kick(window(0), kicks);
 }
 
-// `corrected`: q + dt U^{n+1}; `contact`: q + dt U^{n+4/5} = (0, -g dt) dt. Velocities are the
-// kick's.
+// `corrected`: q + dt U^{n+1}; `contact`: q + dt U^{n+4/5} = (0, -g dt) dt. The velocities are
+// those of the kick.
 TEST(NscdAdapter, MovesWithTheVelocitiesOfTheCase) {
     const GrainState corrected = kicked("corrected").grains[0];
     EXPECT_NEAR(corrected.position[0], 5.003, 1e-14);
@@ -175,7 +176,7 @@ TEST(NscdAdapter, KicksMayComeInAnyOrder) {
     EXPECT_EQ(motion.grains[0].velocity, (Vec3{1.0, 0.0, 0.0}));
 }
 
-// Kicked down at 100 over dt = 0.01 from y = 0.5: the centre is at -0.5.
+// A kick with speed 100 downwards over dt = 0.01 from y = 0.5: the centre reaches -0.5.
 TEST(NscdAdapter, RefusesAGrainThroughAWall) {
     NscdAdapter adapter;
     adapter.initialise(box_settings(), discs, {grain_at(17, 5, 0.5)});
@@ -219,7 +220,7 @@ TEST(NscdAdapter, RemovesAndCountsGrainsPastAFreeSide) {
 }
 
 // Two discs on top of each other, the upper one thrown out through the right side: contacts are
-// told when output is due, as they were solved, and without the one that left.
+// reported when output is due, as they were solved, and without those of the grain that left.
 TEST(NscdAdapter, TellsContactsInWindowsWithOutput) {
     Settings settings = box_settings();
     settings.set("domain.right", std::string("free"));
@@ -262,8 +263,7 @@ TEST(NscdAdapter, WrapsCyclicSides) {
     EXPECT_NEAR(adapter.apply_kick(window(0), kicks).grains[0].position[0], 0.01, 1e-13);
 }
 
-// One cyclic side without the other means nothing; a period of 1.5 lets two discs touch on both
-// sides.
+// A single cyclic side is meaningless; with a period of 1.5 two discs would touch on both sides.
 TEST(NscdAdapter, RefusesImpossibleCyclicSides) {
     Settings settings = box_settings();
     settings.set("domain.right", std::string("cyclic"));
@@ -278,7 +278,7 @@ TEST(NscdAdapter, RefusesImpossibleCyclicSides) {
     EXPECT_TRUE(contains(narrow, "at least 2")) << narrow;
 }
 
-// Discs 0.95 apart overlap by 0.05; the wall at 0 is overlapped by 0.02.
+// Discs at distance 0.95 overlap by 0.05; the wall at 0 is overlapped by 0.02.
 TEST(NscdAdapter, ReportsTheDeepestOverlapOfWhatItReturns) {
     NscdAdapter adapter;
     const Motion start =
@@ -315,7 +315,7 @@ TEST(NscdAdapter, RestartsBitForBit) {
     EXPECT_EQ(whole.save(), second.save());
 }
 
-// A host that keeps bodies in its own files copies them and hands over the contact impulses.
+// A host that stores bodies in its own files copies them, and passes the contact impulses on.
 TEST(NscdAdapter, HostMayKeepBodiesItself) {
     NscdAdapter whole, second;
     whole.initialise(box_settings(), discs, column());
@@ -343,8 +343,8 @@ TEST(NscdAdapter, SaysWhatItIs) {
     EXPECT_TRUE(hello.capabilities.effective_inertia);
 }
 
-/// A grain that falls at `speed` and feels mass 2 along x, 3 along y, moment 1, coupled by 0.5
-/// between y and spin.
+/// A grain that falls at `speed`, with mass 2 along x, 3 along y and moment of inertia 1, and a
+/// coupling of 0.5 between y and spin.
 FreeResponse falling_at(GrainId id, double speed) {
     FreeResponse response;
     response.id = id;
@@ -370,8 +370,8 @@ TEST(NscdAdapter, JointSolvesContactsWithTheFluidsInertia) {
     EXPECT_NEAR(grain.angular_velocity[2], -0.055, 1e-12);
 }
 
-// The kick sets the velocity, the contact solve moves: U = (0, 0) there, whatever
-// coupling.positions says.
+// The kick sets the velocity; the contact solve determines the displacement: U = (0, 0) in it,
+// whatever coupling.positions is.
 TEST(NscdAdapter, JointMovesWithTheContactVelocity) {
     Settings settings = box_settings();
     settings.set("contact.friction", 0.0);
@@ -385,7 +385,7 @@ TEST(NscdAdapter, JointMovesWithTheContactVelocity) {
     EXPECT_NEAR(grain.position[0], 5.0, 1e-13);
 }
 
-// Rounds: the second solve knows the first one's impulses and nothing else of it.
+// Rounds: the second solve starts from the first one's impulses and depends on nothing else of it.
 TEST(NscdAdapter, JointMayRepeatAdvanceWithinAWindow) {
     std::vector<GrainState> grains;
     std::vector<FreeResponse> first, second;
@@ -439,7 +439,7 @@ TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
     EXPECT_TRUE(contains(held, "grain 11 is held")) << held;
 }
 
-// Without responses and kicks contact velocities are final.
+// Without responses and kicks the contact velocities are final.
 TEST(NscdAdapter, WithoutFluidItFallsFreely) {
     Settings settings = box_settings();
     settings.set("fluid.enabled", false);
@@ -460,9 +460,9 @@ Settings wet_settings() {
     return settings;
 }
 
-// Thresholds are physical forces of the system that the contact problem has, (cM, cMg): under a
-// grain that is held hangs another one of buoyant weight 1/3 m g. A pull of 0.6 m g holds it, one
-// of 0.33 does not; what it felt balances its weight.
+// Thresholds are physical forces in the system of the contact problem, (cM, cMg). A grain of
+// buoyant weight 1/3 m g hangs below a fixed one: an attraction of 0.6 m g holds it, one of 0.33
+// does not; the impulse reported for it balances its weight.
 TEST(NscdAdapter, AdhesionHoldsBuoyantWeights) {
     for (const double strength : {0.34, 0.33}) {
         Settings settings = wet_settings();
@@ -478,7 +478,8 @@ TEST(NscdAdapter, AdhesionHoldsBuoyantWeights) {
     }
 }
 
-// Rounds of a window repeat the solve: what was found in one counts for the next window only.
+// Rounds of a window repeat the solve: the states found in a round apply only from the next window
+// on.
 TEST(NscdAdapter, JointBalancesWhatGrainsFeelUnderAdhesion) {
     Settings settings = wet_settings();
     NscdAdapter adapter;
@@ -507,7 +508,7 @@ TEST(NscdAdapter, RefusesTheSameIdTwice) {
     EXPECT_TRUE(contains(text, "grain 5")) << text;
 }
 
-/// The files of contact problems that a run of `windows` leaves, and the text of the last.
+/// The files of contact problems written in a run of `windows`, and the text of the last one.
 std::vector<std::string> dumps(const Settings& settings, std::int64_t windows, std::string& text) {
     const std::filesystem::path folder =
         std::filesystem::path(testing::TempDir()) / ("dumps-" + std::to_string(::getpid()));
@@ -533,8 +534,8 @@ std::vector<std::string> dumps(const Settings& settings, std::int64_t windows, s
     return names;
 }
 
-// Every second window, named by the step of history.csv. Two contacts in the plane: the floor's and
-// that of the discs.
+// Every second window, named by the step of history.csv. Two plane contacts: with the floor, and
+// between the discs.
 TEST(NscdAdapter, WritesContactProblemsWhenAsked) {
     std::string text;
     EXPECT_TRUE(dumps(box_settings(), 4, text).empty());

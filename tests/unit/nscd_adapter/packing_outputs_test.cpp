@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a dry run writes about a packing at rest: the coupler and the NSCD adapter in two threads. A
-// perfect triangular lattice of smooth discs stands between walls that just hold it.
+// The output of a dry run for a packing at rest: the coupler and the NSCD adapter in two threads. A
+// perfect triangular lattice of smooth discs stands between walls that exactly confine it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Settings lattice_settings() {
     return s;
 }
 
-/// Rows of four and of three in turn, five of them: 18 discs.
+/// Alternate rows of four and of three, five in all: 18 discs.
 std::vector<GrainState> lattice() {
     std::vector<GrainState> grains;
     for (int row = 0; row < 5; ++row)
@@ -77,7 +77,7 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// Cells of a row of the history by column, the header being row 0.
+/// The cells of a row of the history, by column name; the header is row 0.
 std::map<std::string, std::string> row(const TestFolder& folder, int index) {
     std::ifstream in(folder.files().history);
     std::string names, line;
@@ -107,13 +107,14 @@ TEST(PackingOutputs, StressAndPoresOfALatticeAtRest) {
     // D) at the walls beside the rows of three.
     const double pores = 24 * (row_height / 2.0 - std::numbers::pi / 8.0);
     EXPECT_NEAR(std::stod(cells["pore_volume"]), pores, 1e-6);
-    // Smooth walls carry nothing upwards: every weight times its height.
+    // Smooth walls carry no weight: the moment is the sum of every weight times its height.
     double moment = 0.0;
     for (const GrainState& grain : lattice()) moment += weight * grain.position[1];
     const double area = 18 * std::numbers::pi / 4.0 + pores;
     EXPECT_NEAR(std::stod(cells["sigma_yy"]), moment / area / 1.5, 1e-6);
     EXPECT_GT(std::stod(cells["sigma_xx"]), 0.0);
-    // Which of many solutions is found decides how high the walls push; the shear balances that.
+    // The height at which the walls push depends on which of many solutions is found; the shear
+    // balances it.
     const std::string text = text_of(folder.path() / "grains/contacts_00000004.vtp");
     const auto walls = numbers(text, "id_a"), forces = numbers(text, "normal_force");
     const auto points = numbers(text, "point");
@@ -151,7 +152,7 @@ TEST(PackingOutputs, TheFloorCarriesTheWeight) {
         << "no output was due";
 }
 
-// One sweep is never enough for this lattice: every window is counted, shown and told.
+// One sweep is never enough for this lattice: every window is counted, shown and reported.
 TEST(PackingOutputs, UnconvergedWindowsAreNotHidden) {
     const TestFolder folder("lattice-unconverged");
     Settings settings = lattice_settings();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls and grains that move as the case says, and grains of several materials, against motions
-// that follow by hand. Dry, g = 1, discs of diameter 1.
+// Walls and grains with the prescribed motions of a case, and grains of several materials, against
+// motions derived by hand. Dry, g = 1, discs of diameter 1.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ TEST(WallMotion, TextThatIsNoMotionIsRefused) {
     }
 }
 
-// A sin(w t) with A w^2 = 0.41 g: the disc never loses the floor.
+// A sin(w t) with A w^2 = 0.41 g: the disc never leaves the floor.
 TEST(WallMotion, AGrainRidesAShakenFloor) {
     Settings settings = dry_box();
     const double period = 2.0 * std::numbers::pi / 2.03;
@@ -78,7 +78,7 @@ TEST(WallMotion, AGrainRidesAShakenFloor) {
     EXPECT_GT(highest, 0.05);
 }
 
-// The right side comes in by 2 D and rests: what stands in the way goes along, and no further.
+// The right side moves in by 2 D and stops: what is in its way moves with it, and no farther.
 TEST(WallMotion, ASideOfTheBoxPushesAsItsTableSays) {
     Settings settings = dry_box();
     settings.set("contact.friction", 0.0);
@@ -88,7 +88,7 @@ TEST(WallMotion, ASideOfTheBoxPushesAsItsTableSays) {
     EXPECT_NEAR(pushed.velocity[0], -2.0, 1e-6);
 }
 
-// A fixed grain cannot give way.
+// A fixed grain cannot move out of the way.
 TEST(WallMotion, AGrainBeyondAMovedSideEndsTheRun) {
     Settings settings = dry_box();
     settings.set("run.wall_motions", std::string("1 table 0 0 0 0 1 -2 0 0"));
@@ -107,13 +107,13 @@ TEST(PrescribedGrain, KeepsItsVelocityAndPushesOthers) {
     const auto grains = play(settings, {driven, grain_at(2, 3.5, 0.5), fixed}, 400);
     EXPECT_NEAR(grains[0].position[0], 4.0, 1e-12);
     EXPECT_NEAR(grains[0].position[1], 0.5, 1e-12);
-    EXPECT_NEAR(grains[1].position[0], 5.0, 1e-4);  // in touch since t = 0.5
+    EXPECT_NEAR(grains[1].position[0], 5.0, 1e-4);  // in contact since t = 0.5
     EXPECT_TRUE(grains[0].prescribed);
     EXPECT_FALSE(grains[1].prescribed);
-    EXPECT_EQ(grains[2].position[1], 10.0);  // hangs where it was put
+    EXPECT_EQ(grains[2].position[1], 10.0);  // stays where it was placed
 }
 
-/// Speed after 0.5 of a disc that slides over the floor from speed 1.
+/// Speed after t = 0.5 of a disc that slides over the floor from speed 1.
 double speed_after_sliding(const Settings& settings, std::int32_t material) {
     GrainState grain = grain_at(1, 2.0, 0.5);
     grain.velocity = {1.0, 0.0, 0.0};
