@@ -17,7 +17,7 @@ Vec3 array(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-// Inertia tensors are given in the body frame.
+// R I R^T with R the rotation matrix of q; inertia tensors are given in the body frame.
 Eigen::Matrix3d in_space(const Eigen::Matrix3d& inertia, const Quaternion& q) {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
     Eigen::Matrix3d rotation;
@@ -59,6 +59,7 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);
+        // F_h = (J_lambda + rho_f V dU) / dt, T_h = (K_lambda + I_f domega) / dt
         kick.force = array(
             (vector(kick.multiplier_impulse) + immersed.displaced_mass * velocity_change) / step);
         kick.torque =
@@ -80,6 +81,7 @@ double KickRule::defect(const std::vector<Kick>& kicks, const Motion& before, co
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);
+        // M dU - (M - m_f) g dt - J_c - F_h dt; the same for the spin, divided by R
         linear.add({immersed.mass * velocity_change,
                     Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
                     -vector(with_contact.contact_impulse), -step * vector(kick.force)});

@@ -23,7 +23,7 @@ class Sums {
     void add_point(const ContactRecord& contact) {
         const Vec3& p = contact.impulse;
         const Vec3& l = contact.branch;
-        network_.virial.xx += p[0] * l[0] / step_;
+        network_.virial.xx += p[0] * l[0] / step_;  // f l^T, f = p/dt
         network_.virial.yy += p[1] * l[1] / step_;
         network_.virial.xy += 0.5 * (p[0] * l[1] + p[1] * l[0]) / step_;
         ++points_;
@@ -40,8 +40,8 @@ class Sums {
         touched_.insert(contact.a);
         ++network_.grain_links;
         const Vec3& n = contact.normal;
-        cos2_ += n[0] * n[0] - n[1] * n[1];
-        sin2_ += 2.0 * n[0] * n[1];
+        cos2_ += n[0] * n[0] - n[1] * n[1];  // cos 2 theta
+        sin2_ += 2.0 * n[0] * n[1];          // sin 2 theta
     }
 
     ContactNetwork finished(std::size_t grains) {
@@ -53,7 +53,7 @@ class Sums {
         if (points_ > 0)
             network_.sliding_share = static_cast<double>(sliding_) / static_cast<double>(points_);
         if (network_.grain_links == 0) return network_;
-        // F_1 - F_2 = |(mean cos 2 theta, mean sin 2 theta)|.
+        // a = 2 (F_1 - F_2) with F_1 - F_2 = |(mean cos 2 theta, mean sin 2 theta)|
         network_.fabric =
             Fabric{2.0 * std::hypot(cos2_, sin2_) / links, 0.5 * std::atan2(sin2_, cos2_)};
         network_.normal_force = force_ / links;

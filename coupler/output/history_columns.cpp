@@ -21,7 +21,7 @@ std::string number(const std::optional<double>& value) {
     return value ? number(*value) : "";
 }
 
-// Empty unless there are grains, or a window with contacts, a fluid, or timings.
+// Each is empty unless there are grains, contact results, a fluid, or wall times, respectively.
 std::string mean(Cell c, double value) {
     return c.row.state->grains.empty() ? "" : number(value);
 }
@@ -51,7 +51,7 @@ std::string fabric(Cell c, double Fabric::*value) {
 double pressure_unit(Cell c) {
     return c.mean.mass / c.mean.solid * c.run.gravity * c.run.diameter;
 }
-/// Area of the packing: the grains and the pores between them.
+/// sigma = virial / A over rho_s g D, A the area of the grains and the pores between them.
 std::string stress(Cell c, double PlaneTensor::*part) {
     if (!c.network || c.row.state->grains.empty()) return "";
     return number(c.network->virial.*part / (c.mean.solid + c.pores) / pressure_unit(c));

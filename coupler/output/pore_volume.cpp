@@ -103,6 +103,7 @@ double pore(const Corners& corner, double diameter) {
     const auto& [a, b, c] = corner;
     const double area =
         0.5 * std::abs((b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x));
+    // Circumradius abc/(4 area) <= D.
     const double sides = distance(*a, *b) * distance(*b, *c) * distance(*c, *a);
     if (!(sides <= 4.0 * area * diameter * slack) || area == 0.0) return 0.0;
     double solid = 0.0;

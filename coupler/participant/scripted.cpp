@@ -173,6 +173,7 @@ ScriptedFluid::DraggedGrain ScriptedFluid::dragged(const GrainState& grain, doub
     motion.id = grain.id;
     motion.mass = body.effective_mass + drag_ * step;
     motion.inertia = body.effective_inertia(2, 2);
+    // (M_eff + gamma dt) U = M_eff U^n + J
     const Vec3 coasting = plus({}, body.effective_mass / motion.mass, grain.velocity);
     motion.velocity = plus(coasting, 1.0 / motion.mass, impulse);
     motion.angular_velocity = grain.angular_velocity;

@@ -100,6 +100,7 @@ AreaMoments area_moments(const std::vector<Point2>& vertices) {
         twice_area += w;
         x += w * (a[0] + b[0]);
         y += w * (a[1] + b[1]);
+        // integral of |x|^2 over the triangle: w (|a|^2 + a . b + |b|^2) / 12
         second +=
             w * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0] + a[1] * a[1] + a[1] * b[1] + b[1] * b[1]);
     }
@@ -107,7 +108,7 @@ AreaMoments area_moments(const std::vector<Point2>& vertices) {
     moments.area = 0.5 * twice_area;
     const double cx = x / (3.0 * twice_area), cy = y / (3.0 * twice_area);
     moments.centre = {vertices[0][0] + cx, vertices[0][1] + cy};
-    moments.second = second / 12.0 - moments.area * (cx * cx + cy * cy);
+    moments.second = second / 12.0 - moments.area * (cx * cx + cy * cy);  // parallel axes
     return moments;
 }
 

@@ -14,6 +14,7 @@ double distance(const Point2& a, const Point2& b) {
     return std::hypot(b[0] - a[0], b[1] - a[1]);
 }
 
+/// Distance to the segment a + t (b - a), 0 <= t <= 1.
 double distance_to_side(const Point2& a, const Point2& b, const Point2& point) {
     const double dx = b[0] - a[0], dy = b[1] - a[1];
     const double place = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / (dx * dx + dy * dy);

@@ -27,7 +27,7 @@ Scales sedimentation(const Settings& settings) {
     Scales scales{.kind = "sedimentation"};
     const double unit_gravity = sedimentation_velocity(
         1.0, 1.0, settings.real("grains.density_ratio"), settings.real("scales.compacity"));
-    scales.gravity = 1.0 / (unit_gravity * unit_gravity);
+    scales.gravity = 1.0 / (unit_gravity * unit_gravity);  // Eq. 21: u_c ~ sqrt(g), and u_c = 1
     scales.viscosity = reynolds_velocity_viscosity(settings, scales);
     return scales;
 }

@@ -7,9 +7,9 @@
 
 namespace turbidite {
 
-// x'' + 2 zeta x' + x = 0 from x = 0, x' = 1, time in 1/w, s = sqrt(1 - zeta^2): the force of
-// spring and dashpot ends where x'' = 0, at s t = atan2(2 zeta s, 2 zeta^2 - 1), and there x' =
-// -exp(-zeta t).
+// x'' + 2 zeta x' + x = 0 from x = 0, x' = 1, time in 1/w, s = sqrt(1 - zeta^2). The force of
+// spring and dashpot vanishes where x'' = 0, at s t = atan2(2 zeta s, 2 zeta^2 - 1); there
+// x' = -exp(-zeta t), so e = exp(-zeta t).
 double restitution_of(double damping) {
     if (damping >= 1.0) return std::exp(-2.0);
     const double s = std::sqrt(1.0 - damping * damping);
@@ -27,7 +27,7 @@ double damping_of(double restitution) {
     return 0.5 * (low + high);
 }
 
-// At x' = 0: s t = atan2(s, zeta), x = exp(-zeta t).
+// Largest x, where x' = 0: s t = atan2(s, zeta), x = exp(-zeta t).
 double deepest_of(double damping) {
     if (damping >= 1.0) return std::exp(-1.0);
     const double s = std::sqrt(1.0 - damping * damping);
@@ -62,6 +62,7 @@ SoftContact soft_contact(const Settings& settings, double height) {
     SoftContact contact;
     contact.damping = damping_of(settings.real("contact.restitution"));
     contact.stiffness = stiffness(settings, contact.damping, height);
+    // w^2 = 2 stiffness g/D
     contact.frequency = std::sqrt(2.0 * contact.stiffness * settings.real("run.gravity") /
                                   settings.real("run.diameter"));
     contact.contact_time = std::numbers::pi / contact.frequency;
