@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Which layer may include what.
 
-Follows project includes ("coupler/...") to the end, so that a forbidden header is found however it is
-reached. usage: includes_test.py PROJECT_FOLDER
+Follows project includes ("coupler/...") transitively, so that a forbidden header is found however it is reached.
+usage: includes_test.py PROJECT_FOLDER
 """
 import re
 import sys
@@ -44,7 +44,7 @@ RULES = [
     ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
     ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "what is written knows nothing of who played it"),
     ("coupler/hub/**/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM, LAUNCHER], "the hub sees channels, and no host"),
-    # The arrows between the houses: launcher -> adapters -> coupler, never back.
+    # Dependencies between the top folders: launcher -> adapters -> coupler, never the reverse.
     ("coupler/**/*.[hc]pp", [LAUNCHER, BENCH, ADAPTERS, PYTHON, YADE], "the ground floor knows no adapter and no roof"),
     ("coupler/keys/*.[hc]pp", [MPI, TRANSPORT, EIGEN, YAML], "keys are described and checked without a file format"),
     ("granular_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, FLUID, HUB, OUTPUT], "adapters stand below the roof and beside the fluid"),
@@ -65,7 +65,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def includes_of(root, file):
-    """Every (header, chain of files that leads to it) reached from a file through project includes."""
+    """Every (header, chain of files leading to it) reached from a file through project includes."""
     found, pending, seen = [], [(file, (file,))], {file}
     while pending:
         current, chain = pending.pop()
@@ -96,7 +96,7 @@ def source_folders(root):
 
 
 def is_described(folder, root, table):
-    """The folder, or one that it lies in below a house, has a line of the README's table or a README."""
+    """True if the folder or one of its parents has a line in the README's table or a README of its own."""
     path = Path(folder)
     lines = [p for p in (path, *path.parents) if str(p) != "."]
     return any(f"`{p}`" in table or (root / p / "README.md").is_file() for p in lines)

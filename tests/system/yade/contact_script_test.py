@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contact engine in scripts of YADE users: `turbidite yade contact_script_test.py`.
 
-Every test builds its own scene, mostly of two or three bodies, whose motion is known.
+Every test builds its own scene, usually of two or three bodies whose motion is known.
 """
 import glob
 import math
@@ -63,7 +63,7 @@ class SceneTest(unittest.TestCase):
         O.reset()
 
     def refused(self, *parts):
-        """The next step is refused with these words."""
+        """The next step is refused with this message."""
         with self.assertRaises(turbidite_contact.Refused) as caught:
             turbidite_contact.step()
         for part in parts:
@@ -100,7 +100,7 @@ class Motion(SceneTest):
         self.assertAlmostEqual(O.bodies[on_rough].state.vel[0], before - 0.1 * G * 100 * DT, delta=1e-3)
 
     def test_forces_of_the_script_are_loads(self):
-        """m v = F n dt for a force of every step and for a permanent one; a torque likewise."""
+        """m v = F n dt for a force set in every step and for a permanent one; likewise for a torque."""
         material(0.3)
         pushed, pulled, turned = discs([(0, 0), (5, 0), (10, 0)])
         start(gravity=(0, 0, 0))
@@ -133,7 +133,7 @@ class Motion(SceneTest):
         self.assertEqual({(c.id1, c.id2) for c in turbidite_contact.contacts()}, {(high, added), (2, high)})
 
     def test_driven_bodies_and_moving_walls(self):
-        """A lift carries a disc up, a belt brings one to its speed."""
+        """A lift raises a disc, a belt accelerates one to its own speed."""
         material(0.5)
         lifted, carried = discs([(0, 0.5), (10, 0.5)])
         lift = O.bodies.append(utils.box((0, -0.5, 0), (2, 0.5, 1), fixed=True))
@@ -149,7 +149,7 @@ class Motion(SceneTest):
         self.assertAlmostEqual(state.vel[0], -1 / 3, delta=1e-6)
 
     def test_a_periodic_cell_joins_its_ends(self):
-        """A smooth disc runs through the end of the cell into the other: both go on with half its speed."""
+        """A smooth disc moves across the periodic boundary into the other one: both continue at half its speed."""
         material(0)
         O.periodic = True
         O.cell.hSize = Matrix3(4, 0, 0, 0, 50, 0, 0, 0, 50)
@@ -189,7 +189,7 @@ class Results(SceneTest):
         self.assertTrue(written)
         self.assertIn('forceN', open(written[-1], 'rb').read().decode('latin-1'))
         O.step()
-        self.assertEqual(len(O.interactions), 0)  # nothing rather than contacts of another time
+        self.assertEqual(len(O.interactions), 0)  # no contacts rather than outdated ones
 
     def test_a_contact_says_what_it_is(self):
         """Two discs pressed together between fixed ones: normal from id1 to id2, force on id2."""
@@ -224,7 +224,7 @@ class SaveAndLoad(SceneTest):
         for file in (None, *files):
             O.load(file) if file else O.loadTmp('there')
             O.saveTmp('again')
-            O.loadTmp('again')  # at once: other bodies, the same impulses
+            O.loadTmp('again')  # immediately: other bodies, the same impulses
             self.assertNotEqual(states(), expected)
             O.run(100, True)
             self.assertEqual(states(), expected, file)
@@ -236,7 +236,7 @@ class SaveAndLoad(SceneTest):
         result = subprocess.run(['/usr/bin/yade', '-n', '-x', sys.argv[0], files[1]], capture_output=True, text=True,
                                 check=True)
         self.assertIn(repr(expected), result.stdout)
-        # Without the impulses the way is another one: this is what the files keep.
+        # Without the impulses the motion differs: the files must contain them.
         O.load(files[0])
         from turbidite_contact import memory
         settings, _ = memory.read(memory.find())
@@ -289,7 +289,7 @@ class Refusals(SceneTest):
         self.scene()
         discs([(0.9, 0.5)])
         self.refused('bodies 0 and 1 overlap by 0.1, 0.2 of the smaller radius', 'Move them apart')
-        O.bodies[1].state.pos = Vector3(0.98, 0.5, 0)  # taken back slowly
+        O.bodies[1].state.pos = Vector3(0.98, 0.5, 0)  # removed slowly
         turbidite_contact.step()
         O.bodies.append(turbidite_contact.polygon([(-0.4, 0.6), (-0.4, 1.6), (-1.2, 1)]))
         self.refused('bodies 0 and 2 overlap')

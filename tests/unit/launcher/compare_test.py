@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""compare on made-up histories whose differences are known."""
+"""compare on synthetic histories whose differences are known."""
 import contextlib
 import csv
 import io
@@ -17,7 +17,7 @@ from differences import common_span, difference
 
 class Differences(unittest.TestCase):
     def test_of_two_straight_lines_sampled_differently(self):
-        # q1 = 2 t on [0, 4], q2 = 3 t on [1, 3]: apart by t there, rms^2 = int_1^3 t^2 dt / 2 = 13/3.
+        # q1 = 2 t on [0, 4], q2 = 3 t on [1, 3]: the difference is t there, rms^2 = int_1^3 t^2 dt / 2 = 13/3.
         coarse = np.linspace(0, 4, 5), 2 * np.linspace(0, 4, 5)
         fine = np.linspace(1, 3, 401), 3 * np.linspace(1, 3, 401)
         apart = difference(coarse, fine)
@@ -94,7 +94,7 @@ class Compare(RunFolderTest):
         velocity = self.result()['runs'][1]['quantities']['mean_velocity_y']
         self.assertEqual((velocity['begin'], velocity['end']), (0.0, 2.0))
         self.assertAlmostEqual(velocity['max'], 2.0)
-        self.assertAlmostEqual(velocity['max_relative'], 1.0)  # of the first run's 2 within that time
+        self.assertAlmostEqual(velocity['max_relative'], 1.0)  # relative to the first run's 2 within that time
 
     def test_equal_cases_and_equal_names(self):
         self.write_run('a/run', 1.0)
@@ -150,10 +150,10 @@ class Compare(RunFolderTest):
         self.assertEqual(len(mean['folders']), 3)
         self.assertEqual(mean['peak'], {'mean': {'value': 2.0, 'time': 2.0}, 'single': [
             {'value': value, 'time': 2.0} for value in (1.0, 2.0, 3.0)]})
-        self.assertAlmostEqual(mean['penetration'], 3e-4)  # the worst of the three
+        self.assertAlmostEqual(mean['penetration'], 3e-4)  # the largest of the three
         self.assertEqual(mean['unconverged_windows'], 3)
         self.assertEqual(mean['quantities']['contact_iterations']['end_value'], 7)
-        # Mean: a triangle of height 2; the other: of height 1. Apart by half the peak, by 1/4 on average.
+        # Mean: a triangle of height 2; the other: of height 1. The difference is half the peak, 1/4 on average.
         pair, = result['mean_velocity_pairs']
         self.assertEqual((pair['first'], pair['second']), ('dense', 'other'))
         self.assertAlmostEqual(pair['largest'], 0.5)

@@ -29,7 +29,7 @@ def network(forces, normals=None, between=None):
 class ForceNetwork(RunFolderTest):
     def test_lines_are_as_wide_as_their_force(self):
         drawn = force_network.lines(network([4.0, 1.0, -2.0, 0.1]), scale=4.0)
-        # Sorted by |f|; 0.1 of 4 is too thin to be seen.
+        # Sorted by |f|; 0.1 of 4 is too thin to be visible.
         np.testing.assert_allclose(np.array(drawn.get_linewidths()) / force_network.WIDEST,
                                    [0.25, 0.5, 1.0])
         self.assertEqual([line[0][0] for line in drawn.get_segments()], [1.0, 2.0, 0.0])
@@ -41,7 +41,7 @@ class ForceNetwork(RunFolderTest):
         self.assertEqual(list(drawn.get_linewidths()), [force_network.WIDEST])
 
     def test_distribution_is_a_density_over_the_mean(self):
-        # 900 contacts of 0.5 and 100 of 5.5: mean 1; pulls and walls do not count.
+        # 900 contacts of 0.5 and 100 of 5.5: mean 1; attractive contacts and walls are not counted.
         forces = [0.5] * 900 + [5.5] * 100 + [-3.0, 50.0]
         between = np.ones(1002, bool)
         between[-1] = False

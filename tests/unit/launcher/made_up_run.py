@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A made-up run folder for the tests of report and compare."""
+"""A synthetic run folder for the tests of report and compare."""
 import json
 import sys
 import tempfile
@@ -42,7 +42,7 @@ COLUMNS, ROWS = 8, 12  # 4 x 6 D at 2 cells per D
 
 
 def velocities():
-    """Cell (i, j) moves with (i, j / 100, 0), so that a swapped order is seen."""
+    """Cell (i, j) has the velocity (i, j / 100, 0), so that a swapped order is detected."""
     j, i = np.mgrid[0:ROWS, 0:COLUMNS]
     return np.stack([i, j / 100.0, 0.0 * i], axis=-1).reshape(-1, 3).astype(float)
 
@@ -72,7 +72,7 @@ class RunFolderTest(unittest.TestCase):
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
 
     def write_all(self):
-        """A whole run of two outputs, t = 0 and 1 t_c, ten windows apart."""
+        """A complete run of two outputs, t = 0 and 1 t_c, ten windows apart."""
         self.write('case.yaml', CASE)
         self.write('run.json', json.dumps({
             'case': 'made-up', 'status': 'done', 'exit_code': 0, 'error': '', 'D': 1, 'u_c': 1,

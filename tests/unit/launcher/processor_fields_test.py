@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fields that several ranks wrote, put together: which value goes where, and what is refused."""
+"""Merging fields written by several ranks: where each value goes, and what is refused."""
 import sys
 import tempfile
 import unittest
@@ -33,7 +33,7 @@ class ProcessorFields(unittest.TestCase):
             (self.fluid / f'processor{n}/0.5').mkdir(exist_ok=True)
 
     def read(self, count=6):
-        """Every cell's value is its number; a processor knows only its own, by the folder's name."""
+        """The value of a cell is its number; a processor has only its own cells, by the name of the folder."""
         def part(folder, n):
             cells = PARTS[int(folder.parent.name[-1])]
             return np.array(cells, float)[:, None]

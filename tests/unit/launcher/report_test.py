@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The report on made-up run folders: whole, half empty, broken."""
+"""The report on synthetic run folders: complete, partly empty, damaged."""
 import json
 import unittest
 
@@ -82,7 +82,7 @@ class Report(RunFolderTest):
         page = self.make()
         self.assertIn('history.csv is missing', page)
         self.assertIn('holds no velocity field', page)
-        self.assertEqual(page.count('src="data:image/png;base64,'), 1)  # grains alone
+        self.assertEqual(page.count('src="data:image/png;base64,'), 1)  # grains only
         self.assertEqual(self.pictures(), ['sequence.png'])
 
     def test_empty_folder(self):
@@ -147,7 +147,7 @@ class Report(RunFolderTest):
         shown = [pictures.load(run, instant) for instant in pictures.instants(run)]
         self.assertEqual(shown[0].grains.speeds().tolist(), [0.5, 2.0])
         self.assertAlmostEqual(pictures.speed_limit(run, shown), 2.0, places=2)
-        # Grains reach x = 2.9 and y = 4.5: rounded up with one D to spare, within the box of 4 x 6.
+        # Grains reach x = 2.9 and y = 4.5: rounded up with a margin of one D, within the box of 4 x 6.
         self.assertEqual(pictures.view(run, [picture.grains for picture in shown]), (4, 6))
         page = self.make()
         self.assertIn('Colour: speed of the grains', page)
