@@ -11,7 +11,7 @@ namespace {
 // A projection that leaves more than this [u_c/D] has failed.
 constexpr double divergence_limit = 1e-4;
 
-// A single failure, in a window with violent motion, is tolerated; this many in succession are not.
+// Fewer failures in succession, as in windows with violent motion, are tolerated.
 constexpr int windows_until_refused = 3;
 
 /// Advice on reducing overlaps; for springs, their own keys set the stiffness and with it the

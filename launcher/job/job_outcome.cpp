@@ -87,8 +87,8 @@ std::string first_to_end(const std::filesystem::path& log, const std::vector<std
     return "";
 }
 
-/// The last line of the coupler's log, in case the disk was too full for its record; otherwise
-/// empty.
+/// The last error message in the coupler's log, in case the disk was too full for its record; empty
+/// if there is none.
 std::string last_word(const std::filesystem::path& log) {
     const std::string sign = "turbidite: ";
     std::ifstream input(log);
