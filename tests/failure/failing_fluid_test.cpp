@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A fluid that answers nonsense, throws or leaves: runs of an installation whose turbidite-fluid is
-// faulty_fluid.
+// A fluid that sends invalid answers, throws or exits: runs of an installation whose
+// turbidite-fluid is faulty_fluid.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class FailingFluid : public FailingRun {
  protected:
-    // `turbidite` looks for the programs beside itself, links followed.
+    // `turbidite` looks for its programs in its own folder, after following links.
     void SetUp() override {
         FailingRun::SetUp();
         const fs::path program = TURBIDITE_PROGRAM;
@@ -55,7 +55,7 @@ TEST_F(FailingFluid, ProjectionThatFails) {
     EXPECT_EQ(answer.code, 6);
     EXPECT_SAYS(answer.err, "the projection fails: max |div phi| = nan u_c/D in 3 windows running");
     expect_good_output_is_kept(ExitCode::physics_refused);
-    EXPECT_EQ(rows_of_history(), 8);  // windows 5 and 6 are still borne, 7 is not
+    EXPECT_EQ(rows_of_history(), 8);  // windows 5 and 6 are tolerated, 7 is not
     expect_nothing_left();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A small run that is to fail: six discs in a 6 x 6 D box, 24 x 24 cells, some milliseconds per
-// window, a row of history.csv for every one of them.
+// A small run that is meant to fail: six discs in a 6 x 6 D box, 24 x 24 cells, some milliseconds
+// per window, and a row of history.csv for every window.
 #pragma once
 
 #include <signal.h>
@@ -33,7 +33,7 @@ class FailingRun : public ShellTest {
         return "timeout 60 " + program + " run small.yaml" + into_run_folder() + " " + options;
     }
 
-    /// Starts the run and returns its process once it has `rows` rows of history.
+    /// Starts the run and returns its process when it has written `rows` rows of history.
     pid_t start(long rows, const std::string& options = "") const {
         const pid_t child = fork();
         if (child == 0) {
@@ -56,7 +56,7 @@ class FailingRun : public ShellTest {
                 text(scratch.path() / "out"), text(scratch.path() / "err")};
     }
 
-    /// Processes that have the run folder and `what` on their command line.
+    /// Processes with the run folder and `what` on their command line.
     std::vector<pid_t> processes(const std::string& what) const {
         std::vector<pid_t> found;
         for (const auto& entry : std::filesystem::directory_iterator("/proc")) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// faulty_fluid -case RUN/fluid, in the place of turbidite-fluid: a scripted fluid that commits the
-// fault named by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, exit, throw.
+// faulty_fluid -case RUN/fluid, in place of turbidite-fluid: a scripted fluid with the fault named
+// by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, exit, throw.
 #include <unistd.h>
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The disk fills up during a run: a 1 MB file system in a mount namespace of its own, which ends
-// with the shell that made it.
+// The disk becomes full during a run: a 1 MB file system in its own mount namespace, which ends
+// with the shell that created it.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {
@@ -29,7 +29,7 @@ TEST_F(FullDisk, IsToldAndWhatWasGoodIsKept) {
     EXPECT_SAYS(answer.out, "code 4\n");
     EXPECT_SAYS(answer.err, "The run failed: ");
     EXPECT_SAYS(answer.err, "is the disk full?");
-    // Neither half a record nor half a row: the header, t = 0 and at least one window, all of as
+    // No partial record and no partial row: the header, t = 0 and at least one window, all with as
     // many columns as the header.
     EXPECT_TRUE(nlohmann::json::parse(text(scratch.path() / "run.json")).contains("case"));
     const std::string history = text(scratch.path() / "history.csv");

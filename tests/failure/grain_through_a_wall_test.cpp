@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// One sweep of the contact solver and steps in which a grain falls several diameters: contacts are
-// left unsolved, grains go into each other and out of the box.
+// One sweep of the contact solver, and steps in which a grain falls several diameters: contacts are
+// not solved, and grains move into each other and out of the box.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Each program of a run dies without a word, as it does when memory runs out.
+// Each program of a run is killed without a message, as when memory runs out.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A program of a run stops answering: the others do not wait for ever.
+// A program of a run stops answering: the others must not wait for ever.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {
@@ -28,8 +28,8 @@ TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
 INSTANTIATE_TEST_SUITE_P(Roles, SilentPartner, ::testing::Values("fluid", "grains"),
                          [](const auto& info) { return std::string(info.param); });
 
-// The participants give up after 1.5 times limits.stall_hard; the host code must not hang at its
-// exit.
+// The participants give up after 1.5 times limits.stall_hard; the host code must not hang when it
+// exits.
 class SilentCoupler : public FailingRun, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(SilentCoupler, IsLeftByTheParticipants) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a user meets when things go right and wrong, in real jobs with real intercommunicators. Every job runs under
-// `timeout`: a hang is a failure (code 124), not a wait.
+// Success and failure as seen by the user, in real jobs with real intercommunicators. Every job
+// runs under `timeout`: a hang is a failure (code 124), not a wait.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -70,7 +70,8 @@ TEST_F(Job, ManyRanksOnBothSidesGiveTheSameHistory) {
         std::string kept;
         std::istringstream lines(history);
         for (std::string line; std::getline(lines, line);)
-            kept += line.substr(0, line.find(",,")) + "\n";  // pore_volume is empty: clocks follow
+            // pore_volume is empty; times follow it
+            kept += line.substr(0, line.find(",,")) + "\n";
         return kept;
     };
     const std::string one = without_clock(slurp(folder_ / "history.csv"));
@@ -80,15 +81,16 @@ TEST_F(Job, ManyRanksOnBothSidesGiveTheSameHistory) {
     EXPECT_NE(slurp(folder_ / "logs/coupler.log").find("fluid rank 2"), std::string::npos);
 }
 
-// Grains land in window 2 (from 0); from then on a window takes several rounds, on two fluid and two grains ranks. The
-// answer is that of one rank each.
+// Grains land in window 2 (counted from 0); from then on a window takes several rounds, on two
+// fluid and two grains ranks. The result equals that with one rank each.
 TEST_F(Job, JointPlaysItsRoundsOnManyRanks) {
     ASSERT_EQ(run(1, 1, "", "", "joint").code, 0);
     const auto physics = [](const std::string& history) {
         std::string kept;
         std::istringstream lines(history);
         for (std::string line; std::getline(lines, line);)
-            kept += line.substr(0, line.find(",,")) + "\n";  // pore_volume is empty: clocks follow
+            // pore_volume is empty; times follow it
+            kept += line.substr(0, line.find(",,")) + "\n";
         return kept;
     };
     const std::string one = physics(slurp(folder_ / "history.csv"));

@@ -6,8 +6,8 @@
 //     scripted_job fluid   FOLDER [FAULT]
 //     scripted_job grains  FOLDER [FAULT]
 //
-// FAULT happens in window 2: throw, exit, kill, silence. SCHEME is split unless said otherwise;
-// under joint the grains land on a floor and the fluid misjudges their inertia by 20 %, so that
+// FAULT occurs in window 2: throw, exit, kill, silence. SCHEME is split by default; under joint the
+// grains land on a floor and the fluid announces an inertia that is 20 % wrong, so that several
 // rounds are needed.
 #include <csignal>
 #include <cstdlib>
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
         if (joint) adapter.lay_floor(4.4995);
         return run_grains(adapter, launch);
     }
-    // Slices of the domain follow the rank that mpirun gives within its own program.
+    // Each rank's slice of the domain follows from its rank within its own program.
     const char* rank = std::getenv("SCRIPTED_FLUID_RANKS");
     const int ranks = rank ? std::atoi(rank) : 1;
     const char* local = std::getenv("OMPI_COMM_WORLD_RANK");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a new grains adapter costs: its program, one entry of the table, this test. `turbidite` and
-// `turbidite-coupler` are linked with the longer table and otherwise the shipped ones.
+// The cost of a new grains adapter: its program, one entry in the table, and this test. `turbidite`
+// and `turbidite-coupler` are linked with the longer table, and are otherwise those shipped.
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
 

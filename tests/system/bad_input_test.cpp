@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Cases that no contact engine could play: `check` and `run` refuse them by name, and `run` starts
+// Cases that no contact engine can run: `check` and `run` refuse them by name, and `run` starts
 // nothing.
 #include <vector>
 
@@ -19,7 +19,7 @@ class BadInput : public ShellTest {
  protected:
     void SetUp() override { scratch.write("case.yaml", dry_case); }
 
-    /// Both commands refuse the case with these keys set, in these words.
+    /// Both commands refuse the case with these keys set, with these words.
     void expect_refused(const std::vector<std::string>& set,
                         const std::vector<std::string>& words) const {
         std::string arguments = " case.yaml";
@@ -71,7 +71,7 @@ TEST_F(BadInput, WallsThatNobodyCouldBuild) {
                    {"walls.csv line 2: wall 1 has length 0", "friction = -1"});
 }
 
-// Not one after the other: a user sees all of them at once.
+// All errors are reported at once, not one after the other.
 TEST_F(BadInput, IsToldTogether) {
     expect_refused(
         {"contact.friction=-0.1", "grains.density_ratio=0", "contact.law=static-dynamic"},

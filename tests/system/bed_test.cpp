@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The programs of the shipped cases (OpenFOAM, YADE with the contact engine, `joint`) through a bed
-// in which contacts carry the weight: a column of 102 discs slumps in a box hardly wider than
-// itself and comes to rest. Pores are open (hydrodynamic radius 0.85 R), so that water leaves them
-// and rest is rest; with closed pores the bed creeps (docs/decisions.md).
+// The programs of the shipped cases (OpenFOAM, YADE with the contact engine, `joint`) on a bed
+// whose weight is carried by contacts: a column of 102 discs slumps in a box only slightly wider
+// than itself and comes to rest. Pores are open (hydrodynamic radius 0.85 R), so that water can
+// leave them and the bed comes to rest; with closed pores it creeps (docs/decisions.md).
 #include <cmath>
 
 #include "tests/system/history_columns.hpp"
@@ -30,7 +30,7 @@ output: {interval: 0.25}
 )";
 
 constexpr double grains = 102;
-/// Rows per t_c of the history.
+/// Rows of the history per t_c.
 constexpr std::size_t rows_per_time = 4;
 
 class BedUnderJoint : public ShellTest {
@@ -43,7 +43,7 @@ class BedUnderJoint : public ShellTest {
         return columns_of(text(run_folder() / "history.csv"));
     }
 
-    /// Momentum of grains and of fluid, overlap, and what was left unsolved.
+    /// Checks the momentum of grains and fluid, the overlap, and that everything was solved.
     void expect_sound() const {
         const nlohmann::json maxima = record().at("maxima");
         EXPECT_LT(maxima.at("penetration").get<double>(), 1e-4);  // D
@@ -63,7 +63,7 @@ TEST_F(BedUnderJoint, SlumpsThroughItsContactsAndComesToRest) {
     expect_sound();
     EXPECT_EQ(smallest_after(history.at("grains"), 0), grains);
     EXPECT_GT(smallest_after(history.at("contacts"), rows_per_time), 1.3 * grains);
-    // Moving first: water leaves the pores and the column sinks by half a diameter.
+    // Moving at first: water leaves the pores and the column sinks by half a diameter.
     EXPECT_GT(largest(history.at("mean_velocity_y")), 0.05);
     EXPECT_LT(history.at("mean_position_y").back(), history.at("mean_position_y").front() - 0.5);
     // Then at rest, on contacts that carry it.
@@ -73,8 +73,9 @@ TEST_F(BedUnderJoint, SlumpsThroughItsContactsAndComesToRest) {
     EXPECT_LE(record().at("maxima").at("unconverged_windows").get<int>(), 5);
 }
 
-/// Contacts by hundreds couple all grains: what two ranks round otherwise comes back within
-/// contact.tolerance (3e-11 at 0.5 t_c, 3e-8 at 0.75, 1e-4 at 1.25 on two ranks measured).
+/// Hundreds of contacts couple all grains: differences in rounding between numbers of ranks are
+/// amplified up to contact.tolerance (measured on two ranks: 3e-11 at 0.5 t_c, 3e-8 at 0.75, 1e-4
+/// at 1.25).
 TEST_F(BedUnderJoint, OnTwoFluidRanksItIsTheSameBed) {
     const std::string start = " --set time.end=1.25 --set fluid.multiplier_tolerance=1e-9";
     const Columns one = play(start + " --set fluid.ranks=1");
@@ -82,7 +83,8 @@ TEST_F(BedUnderJoint, OnTwoFluidRanksItIsTheSameBed) {
     expect_sound();
     ASSERT_EQ(two.at("time").size(), one.at("time").size());
     EXPECT_GT(one.at("contacts").back(), 1.3 * grains);
-    // The ranks meet at half the height, with discs across it that touch discs of either side.
+    // The ranks' common boundary is at half the height, and is crossed by discs that touch discs on
+    // either side.
     const std::vector<double> xyz = centres("00000100");
     ASSERT_EQ(xyz.size(), 3 * static_cast<std::size_t>(grains));
     std::size_t across = 0;

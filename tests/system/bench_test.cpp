@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `turbidite bench --quick`: every contender runs and every figure comes out; how large they are is
-// nobody's test.
+// `turbidite bench --quick`: every contender runs and every figure is produced; their values are
+// not tested.
 #include <cmath>
 
 #include "tests/system/shell_test.hpp"

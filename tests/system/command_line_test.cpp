@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The program as a user meets it: exit codes, what is printed where, what a run leaves behind.
+// The program as seen by the user: exit codes, what is printed where, what a run leaves behind.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 const std::string program = TURBIDITE_PROGRAM;
 const std::string quickstart = TURBIDITE_SOURCE_DIR "/configs/quickstart.yaml";
-// A wet job of small windows without YADE.
+// An immersed job with small windows, without YADE.
 const std::string small = " --set grains.adapter=standalone-nscd --set fluid.cells_per_diameter=4";
-// Dry grains without YADE: the quickest whole job.
+// Dry grains without YADE: the fastest complete job.
 const std::string quick = " --set fluid.enabled=false --set grains.adapter=standalone-nscd";
 
 class CommandLine : public ShellTest {
@@ -136,7 +136,7 @@ TEST_F(CommandLine, OccupiedFolderIsRefused) {
     EXPECT_SAYS(answer.err, "already holds something");
 }
 
-/// history.csv without the columns of the wall clock.
+/// history.csv without the columns of wall time.
 std::string physics_of(const std::string& history) {
     std::istringstream lines(history);
     std::vector<bool> kept;
@@ -153,7 +153,7 @@ std::string physics_of(const std::string& history) {
     return result;
 }
 
-// The CSV holds every digit, so the two runs do the same arithmetic.
+// The CSV has all digits, so the two runs perform the same arithmetic.
 TEST_F(CommandLine, GrainsFromTheFileOfARunGiveThatRunAgain) {
     const std::string line =
         "run " + quickstart + small + " --set time.end=0.5 --set output.interval=0.1 --out ";
@@ -181,13 +181,14 @@ TEST_F(CommandLine, CompareWritesOnePageAndItsNumbers) {
     EXPECT_SAYS(text(page), "time.end");
     const auto numbers = nlohmann::json::parse(text(scratch.path() / "page.json"));
     const auto velocity = numbers.at("runs").at(1).at("quantities").at("mean_velocity_y");
-    EXPECT_EQ(velocity.at("max"), 0.0);  // the same case, as long as both run
+    EXPECT_EQ(velocity.at("max"), 0.0);  // the same case, over the common time
     EXPECT_EQ(velocity.at("end"), 0.3);
     EXPECT_TRUE(fs::exists(scratch.path() / "page.csv"));
 }
 
 TEST_F(CommandLine, SeedsOfADryColumnAreAveraged) {
-    // A small column of the shipped case: rows of 4, 3, ... in 4 x 6 D, all with room to move.
+    // A small column of the shipped case: rows of 4, 3, ... in 4 x 6 D, with space around every
+    // grain.
     const std::string line = "run " TURBIDITE_SOURCE_DIR
                              "/configs/avalanche-dry.yaml --set grains.adapter=standalone-nscd "
                              "--set grains.region=[4,6] --set domain.size=[12,8] "
@@ -229,7 +230,7 @@ TEST_F(CommandLine, CompareRefusesWhatItCannotCompare) {
     EXPECT_EQ(turbidite("compare " + run + " " + run).code, 2);  // no history
 }
 
-/// A run of 160,000 windows, which would not end by itself within a test, stopped by a signal.
+/// A run of 160,000 windows, too long to end within a test, stopped by a signal.
 class Interrupted : public CommandLine {
  protected:
     int stop_by(int signal, const std::string& options) const {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Contact laws in whole runs, dry and coupled: a column of touching discs collapses in a wider box,
-// slower with every law that pulls; what grains feel from a law that pulls or remembers is what
-// their momentum changes by, in every window (column grain_balance, checked by the hub).
+// more slowly with every attractive law. With a law that attracts or has states, the impulses on
+// the grains balance their change of momentum in every window (column grain_balance, checked by the
+// hub).
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
 
@@ -71,8 +72,8 @@ TEST_F(LawsInRuns, DryWithEveryAdhesion) {
         heights.push_back(history.at("mean_position_y")[5]);  // 2.5 t_c
         speeds.push_back(history.at("mean_velocity_x").back());
     }
-    // Each pull holds the column back, and no two act alike: with a range that contacts enter later
-    // `wet` ends up elsewhere than `wet-irreversible`.
+    // Every attraction slows the column down, and no two laws act alike: with a range that contacts
+    // enter later, `wet` gives another result than `wet-irreversible`.
     for (std::size_t i = 1; i < adhesions.size(); ++i) {
         EXPECT_GT(heights[i], heights[0] + 0.015) << adhesions[i];  // D
         for (std::size_t k = 0; k < i; ++k)

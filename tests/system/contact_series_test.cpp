@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Contacts of whole runs: three discs at rest, read back from the files the way a viewer does.
+// Contacts of whole runs: three discs at rest, read from the files as a viewer reads them.
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
@@ -15,10 +15,10 @@ class ContactSeriesOfARun : public ShellTest, public ::testing::WithParamInterfa
         "contact: {tolerance: 1e-8}\n"
         "time: {step: 0.01, end: 0.2}\n"
         "output: {interval: 0.1}\n";
-    // A tower of two and one beside it, which touches neither it nor a wall.
+    // A tower of two discs, and one beside it that touches neither the tower nor a wall.
     static constexpr auto still_grains = "id,x,y\n5,2,0.5\n6,2,1.5\n9,4,0.5\n";
 
-    // Every file of the series is parsed; what acts on the floor (wall 2) at the last instant.
+    // Parses every file of the series; sums the forces on the floor (wall 2) at the last time.
     static constexpr auto read_back =
         "import xml.etree.ElementTree as E, pathlib\n"
         "folder = pathlib.Path('run/grains')\n"

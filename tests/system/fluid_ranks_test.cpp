@@ -3,10 +3,10 @@
 // One case on one fluid rank and on several: a column of touching discs that slumps, rolls and
 // presses on itself across the ranks' boundaries, over 200 windows with up to 39 contacts.
 //
-// Multipliers stop at 1e-9 u_c. Where grains end differs by up to 1e-9 D then (measured over both
-// kinds of points, closed, cyclic and free sides, two to four ranks, rows and columns; it is the
-// last digit written), and u by up to 3e-9 u_c. Without the margin by which grains are sent to
-// ranks beyond their boxes, the run does not get through its first window.
+// Multipliers stop at 1e-9 u_c. The final positions of grains then differ by up to 1e-9 D, the last
+// digit written (measured for both kinds of points, closed, cyclic and free sides, two to four
+// ranks, split along x or y), and u by up to 3e-9 u_c. Without the margin by which grains are sent
+// to ranks beyond their boxes, the run fails in its first window.
 
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
@@ -36,7 +36,7 @@ constexpr std::size_t grains = 24;
 
 class FluidRanks : public ShellTest {
  protected:
-    /// Plays the case and returns the numbers of a grains file's `Points`, at the end.
+    /// Runs the case and returns the numbers of a grains file's `Points` at the end.
     std::vector<double> places(const std::string& changes) {
         scratch.write("case.yaml", the_case);
         const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `turbidite run CASE --from DIR[@time]`: a run that begins with the grains of another one.
+// `turbidite run CASE --from DIR[@time]`: a run that starts from the grains of another one.
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
 
@@ -39,10 +39,10 @@ TEST_F(FromRun, BeginsWithTheGrainsOfThatTime) {
     EXPECT_SAYS(answer.out + answer.err, "at 2 t_c");
     const Columns whole = history("whole"), rest = history("rest");
     EXPECT_EQ(rest.at("time").front(), 0.0);
-    EXPECT_GT(whole.at("mean_speed")[2], 0.1);  // in full motion
+    EXPECT_GT(whole.at("mean_speed")[2], 0.1);  // in motion
     for (const char* column : state) {
         EXPECT_NEAR(rest.at(column).front(), whole.at(column)[2], 1e-8) << column;
-        // Only the impulses that contacts start from are forgotten.
+        // Only the initial guess of the contact impulses is lost.
         EXPECT_NEAR(rest.at(column).back(), whole.at(column)[3], 0.02) << column;
     }
 }

@@ -16,7 +16,7 @@ namespace turbidite {
 
 using Columns = std::map<std::string, std::vector<double>>;
 
-/// Empty cells are not-a-number.
+/// Empty cells become NaN.
 inline Columns columns_of(const std::string& history) {
     std::istringstream lines(history);
     std::string line, cell;

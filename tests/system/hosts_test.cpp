@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The same case with both hosts of the contact engine: what YADE does to bodies (axes of its own,
-// orientations that go through it) changes no bit.
+// The same case with both hosts of the contact engine: YADE's treatment of bodies (its own axes,
+// through which orientations are converted) changes no bit.
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -24,7 +24,7 @@ output: {interval: 0.5}
 
 class Hosts : public ShellTest {
  protected:
-    /// The rows of history.csv up to pore_volume: what follows are times.
+    /// The rows of history.csv up to pore_volume; the columns after it are times.
     std::vector<std::string> physics(const std::string& adapter) {
         const Answer answer =
             shell(program + " run case.yaml --set grains.adapter=" + adapter + " --out " + adapter);
@@ -48,7 +48,7 @@ TEST_F(Hosts, TrianglesFallTheSameInYadeAndAlone) {
     EXPECT_EQ(in_yade, alone);
 }
 
-// One plate at rest, one that turns about its middle.
+// One plate at rest, one that rotates about its middle.
 TEST_F(Hosts, PlatesInsideTheBoxActTheSame) {
     scratch.write("walls.csv",
                   "id,x1,y1,x2,y2,vx,vy,spin,px,py\n1,1,3,5,2,0,0,0,3,2.5\n"
@@ -68,7 +68,7 @@ TEST_F(Hosts, PlatesInsideTheBoxActTheSame) {
     EXPECT_EQ(in_yade, alone);
 }
 
-/// The named column of a history at each of its rows.
+/// A column of a history by name, at each of its rows.
 std::vector<double> column(const std::string& history, const std::string& name) {
     std::istringstream rows(history);
     std::string row, cell;
@@ -137,7 +137,7 @@ output: {interval: 0.5}
     EXPECT_EQ(in_yade, alone);
     EXPECT_NE(alone[1], alone[7]);  // the floor drags some of them along
     with_friction("0.5");
-    EXPECT_NE(physics("standalone-nscd --force"), alone);  // ice is ice
+    EXPECT_NE(physics("standalone-nscd --force"), alone);  // the friction of ice matters
 }
 
 }  // namespace

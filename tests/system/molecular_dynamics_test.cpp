@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// grains.adapter: yade-md as a user meets it, beside yade-nscd where both must agree.
+// grains.adapter: yade-md as seen by the user, compared with yade-nscd where both must agree.
 #include <cmath>
 
 #include "tests/system/history_columns.hpp"
@@ -15,7 +15,7 @@ const std::string program = TURBIDITE_PROGRAM;
 
 class MolecularDynamics : public ShellTest {
  protected:
-    /// Plays the case and returns its history.
+    /// Runs the case and returns its history.
     Columns play(const std::string& name, const std::string& options) const {
         const fs::path out = scratch.path() / name;
         const Answer answer = shell(program + " run " + (scratch.path() / "case.yaml").string() +
@@ -76,8 +76,8 @@ TEST_F(MolecularDynamics, StepsAsItsStiffnessAsks) {
                 "contact time 0.00702 t_c, 36 sub-steps per window");
 }
 
-// Without contacts both move a grain alike, whether or not the last hydrodynamic impulse is held
-// over the sub-steps: what was announced is not counted twice.
+// Without contacts both adapters move a grain alike, whether or not the last hydrodynamic impulse
+// is held over the sub-steps: an announced impulse is not counted twice.
 TEST_F(MolecularDynamics, ASettlingDiscMovesAsUnderContactDynamics) {
     wet("[4, 5]", "1,2.03,3.4\n", "0.6");
     const Columns nscd = play("nscd", " --set grains.adapter=yade-nscd");
@@ -94,8 +94,8 @@ TEST_F(MolecularDynamics, ASettlingDiscMovesAsUnderContactDynamics) {
     }
 }
 
-// Three discs above each other at rest: they sink into their springs and stay, and what holds them
-// is balanced in every window with output, where YADE's forces are summed up body by body.
+// Three discs above each other at rest: they compress their springs and stay, and their forces
+// balance in every window with output, in which YADE's forces are summed body by body.
 TEST_F(MolecularDynamics, ABedAtRestIsQuietAndBalanced) {
     wet("[4, 5]", "1,2,0.5\n2,2,1.5\n3,2,2.5\n", "1");
     const Columns md = play("md", "");
@@ -113,8 +113,8 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-// A small column without fluid collapses by both: alike until grains have bounced on each other for
-// a while, after that, as chaotic motion does, in the mean.
+// A small column without fluid collapses with both adapters: equally until grains have collided for
+// a while; after that only in the mean, since the motion is chaotic.
 TEST_F(MolecularDynamics, ADryColumnCollapsesAsUnderContactDynamics) {
     std::string grains = "id,x,y\n";
     for (int row = 0, id = 0; row < 8; ++row)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What tests of whole commands share: a scratch folder, a shell in it, what a run left behind.
+// Common to tests of whole commands: a scratch folder, a shell in it, and access to the files of a
+// run.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,7 +50,8 @@ class ShellTest : public ::testing::Test {
 
     nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }
 
-    /// x, y, z of every grain's centre at a step of eight digits, from the `Points` of the series.
+    /// x, y, z of every grain's centre at a step given by eight digits, from the `Points` of the
+    /// series.
     std::vector<double> centres(const std::string& step) const {
         const std::string file = text(run_folder() / ("grains/grains_" + step + ".vtp"));
         const std::size_t points = file.find('>', file.find("<DataArray", file.find("<Points>")));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// grains.script: what a user adds to YADE's scene of a coupled run, with both hosts, and what is refused.
+// grains.script: additions of a user to YADE's scene of a coupled run, with both hosts, and what is
+// refused.
 #include <sstream>
 
 #include "tests/system/shell_test.hpp"
@@ -19,7 +20,8 @@ time: {step: 0.0125, end: 0.25}
 output: {interval: 0.125}
 )";
 
-/// Notes where grain 0 (the last body but one) is, five times, and saves the scene in window 15.
+/// Records the position of grain 0 (the last body but one) five times, and saves the scene in
+/// window 15.
 constexpr auto recorder = R"(
 heights = []
 def note():
@@ -51,7 +53,8 @@ class UsersScript : public ShellTest {
         return shell(program + " run case.yaml" + into_run_folder() + options);
     }
 
-    /// The script's doing ends the run with this code; the words name the file and the deed.
+    /// The run ends with this code because of what the script did; the message names the file and
+    /// the action.
     void expect_refused(const std::string& text, const std::string& deed, const std::string& options = "") const {
         script(text);
         const Answer answer = run(" --force" + options);
@@ -80,7 +83,7 @@ TEST_F(UsersScript, RecordsAndSavesBesideTheContactEngine) {
     EXPECT_LT(seen.back(), seen.front()) << "the grain falls";
     EXPECT_TRUE(std::filesystem::exists(run_folder() / "grains/mine.py")) << "the run folder holds a copy";
 
-    // Both scenes load in YADE; the one of the run goes on without the fluid.
+    // Both scenes can be loaded in YADE; that of the run continues without the fluid.
     scratch.write("load.py", R"(
 import turbidite_contact
 for name in ('first', 'saved'):
@@ -115,7 +118,7 @@ print(len(O.bodies), 'falls' if O.bodies[len(O.bodies) - 2].state.pos[1] < befor
     EXPECT_SAYS(loaded.out, "6 falls");
 }
 
-// What a recorder sees must not depend on its being there.
+// The run must not depend on the presence of a recorder.
 TEST_F(UsersScript, ChangesNoDigitOfTheRun) {
     script(recorder);
     const auto physics = [&](const std::string& options) {
@@ -145,7 +148,7 @@ TEST_F(UsersScript, WhatBelongsToTheCaseIsRefusedByName) {
     expect_refused("O.engines = O.engines[::-1]\n", "put the engines of the case into another order", md);
 }
 
-// Later on as well, before the next window.
+// Also checked later, before the next window.
 TEST_F(UsersScript, WhatAnEngineOfTheScriptDoesIsLookedAtInEveryWindow) {
     const std::string every = "O.engines = O.engines + [PyRunner(command='meddle()', iterPeriod=1)]\n";
     expect_refused("def meddle():\n    if O.iter > 3: O.dt = 1.0\n" + every, "changed O.dt");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `turbidite yade SCRIPT`: a script of a YADE user that attaches the contact engine in two lines
-// moves its bodies exactly as the engine alone does.
+// `turbidite yade SCRIPT`: a YADE user's script that attaches the contact engine in two lines moves
+// its bodies exactly as the engine alone does.
 #include <cmath>
 #include <sstream>
 
@@ -16,7 +16,7 @@ const std::string program = TURBIDITE_PROGRAM;
 constexpr int rows = 6, columns = 5, steps = 400;
 constexpr double step = 4e-3, density = 2500.0, rough = 0.6, smooth = 0.1;
 
-// Discs of two sizes and materials fall on a fixed and a driven one, between three walls.
+// Discs of two sizes and materials fall on a fixed and a driven disc, between three walls.
 constexpr const char* script = R"(
 import math
 import turbidite_contact

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-falling-grains RUN: a grains adapter of a test's own, whose grains fall and touch
-// nothing.
+// turbidite-falling-grains RUN: a grains adapter for one test, whose grains fall without contacts.
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/scripted.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The table of grains adapters with one entry more, for programs that link this file in place of
-// the case library's own.
+// The table of grains adapters with one additional entry, for programs that link this file instead
+// of the case library's table.
 #include "launcher/case/grains_adapters.hpp"
 
 namespace turbidite {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Every kind of mistake in a case has a text that names the place, the value and the way out; a
-// good case resolves to a text that loads to itself.
+// Every kind of mistake in a case has a message with the place, the value and the remedy; a valid
+// case resolves to a text that loads to itself.
 #include "launcher/case/case_file.hpp"
 
 #include <gtest/gtest.h>
@@ -250,8 +250,8 @@ TEST_F(CaseFile, CyclicSidesComeInPairs) {
     EXPECT_EQ(refusal("", {"domain.left=cyclic", "domain.right=cyclic"}), "");
 }
 
-// A window's transport is cut into up to 1000 parts of 2/3 of a cell for jets of 8 u_c: at 16 cells
-// per diameter up to 1000 2/3 / (8 16) = 5.21 t_c.
+// The transport of a window is divided into up to 1000 sub-steps of 2/3 of a cell for jets of 8
+// u_c: at 16 cells per diameter up to 1000 2/3 / (8 16) = 5.21 t_c.
 TEST_F(CaseFile, ExplicitTransportLimitsTheStep) {
     EXPECT_EQ(refusal("", {"time.step=0.07", "time.end=20"}), "");
     EXPECT_EQ(refusal("", {"time.step=5.2", "time.end=20"}), "");
@@ -289,7 +289,7 @@ TEST_F(CaseFile, CentralTransportIsRefusedBeyondItsStep) {
     EXPECT_EQ(refusal("", {scheme, "time.step=0.0016", "fluid.enabled=false"}), "");
 }
 
-// Parts of 2/3 of a cell at 6 u_c: 0.00154 t_c with 72 cells per diameter, whatever the window.
+// Sub-steps of 2/3 of a cell at 6 u_c: 0.00154 t_c with 72 cells per diameter, whatever the window.
 TEST_F(CaseFile, CentralTransportMayTakeAnyStepWhereItIsCutFinely) {
     const std::string scheme = "fluid.transport_scheme=Gauss linear";
     EXPECT_EQ(refusal("", {scheme, "time.step=0.05", "fluid.cells_per_diameter=75"}), "");
@@ -340,7 +340,7 @@ TEST_F(CaseFile, OverlapInAGrainsFile) {
 }
 
 TEST_F(CaseFile, GrainOutsideTheBox) {
-    // It reaches 12.25 of 12.
+    // Its upper end is at 12.25, the box ends at 12.
     EXPECT_SAYS(refusal_of_grains("id,x,y\n4,6,6\n5,11.75,6\n"),
                 "g.csv line 3: grain 5 at (11.75, 6) is outside the box: 0.25 D beyond its right");
 }
@@ -369,7 +369,7 @@ TEST_F(CaseFile, RegionOfTheGenerator) {
     const std::string larger = with("[25, 61]");
     EXPECT_SAYS(larger, "grains.region = [25, 61]");
     EXPECT_SAYS(larger, "domain.size = [60, 60]");
-    EXPECT_EQ(larger.find("outside the box"), std::string::npos);  // said once
+    EXPECT_EQ(larger.find("outside the box"), std::string::npos);  // reported once
     EXPECT_SAYS(with("[0.5, 50]"), "each at least one grain");
     EXPECT_SAYS(with("25"), "Write for example region: [25, 50]");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What a case is refused with, and files beside it.
+// The messages with which cases are refused, and files beside them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace turbidite {
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-/// Cases made of a fixed beginning and what a test adds.
+/// Cases that consist of a fixed beginning and additions of the test.
 class CaseTest : public ::testing::Test {
  protected:
     explicit CaseTest(std::string beginning) : beginning_(std::move(beginning)) {}
@@ -28,7 +28,7 @@ class CaseTest : public ::testing::Test {
         return load_case(folder.write("box.yaml", beginning_ + more), set);
     }
 
-    /// The text shown; empty where the case is accepted.
+    /// The message; empty if the case is accepted.
     std::string refusal(const std::string& more, const std::vector<std::string>& set = {}) const {
         try {
             load(more, set);
@@ -39,7 +39,7 @@ class CaseTest : public ::testing::Test {
         return "";
     }
 
-    /// The same with a grains file g.csv of this content.
+    /// The same with a grains file g.csv with this content.
     std::string refusal_of_grains(const std::string& csv) const {
         folder.write("g.csv", csv);
         return refusal("", {"grains.file=g.csv"});

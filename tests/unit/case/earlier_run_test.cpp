@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A case that starts from the grains of another run, which is written here as the coupler would.
+// A case that starts from the grains of another run, written here in the coupler's format.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ std::string array(const char* name, const std::string& numbers) {
         numbers);
 }
 
-/// Two discs of material default and steel, the first moved by `shift`.
+/// Two discs of the materials default and steel, the first one moved by `shift`.
 std::string points(double shift) {
     return array("position", fmt::format("{} 2 0\n5 5 0", 2.0 + shift)) + array("id", "7\n9") +
            array("shape", "0\n0") + array("material", "0\n1") + array("prescribed", "0\n1") +
@@ -44,7 +44,7 @@ class EarlierRuns : public CaseTest {
         folder.write("old/grains/b.vtp", points(1.5));
     }
 
-    /// Without grains of its own it is a case only with --from.
+    /// A case without grains of its own, which is valid only with --from.
     void write_case() const { EXPECT_SAYS(refusal(""), "grains.count is missing"); }
 
     ResolvedCase start(const std::string& time, const std::vector<std::string>& set = {}) const {
@@ -62,7 +62,7 @@ class EarlierRuns : public CaseTest {
     }
 };
 
-// The case itself says no number of grains: it need not.
+// The case itself gives no number of grains, and need not.
 TEST_F(EarlierRuns, GrainsAreThoseOfTheEnd) {
     write_case();
     const ResolvedCase later = start("");
@@ -87,7 +87,7 @@ TEST_F(EarlierRuns, ATimeBeforeTheEndIsChosenWithAt) {
     EXPECT_EQ(start("@0.5").population.at(0).position[0], 3.5);
 }
 
-// What `turbidite run` writes of it is what the coupler reads.
+// The coupler reads what `turbidite run` writes.
 TEST_F(EarlierRuns, TheNewRunFolderHoldsThem) {
     write_case();
     const ResolvedCase later = start("");

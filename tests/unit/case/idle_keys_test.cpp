@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Keys that are given and have no effect are named with the reason; those that have are not.
+// Keys that are given but have no effect are reported with the reason; keys with an effect are not.
 #include <gtest/gtest.h>
 
 #include "tests/unit/case/case_test.hpp"
@@ -60,7 +60,7 @@ TEST_F(IdleKeys, AreNamedWithTheReason) {
          "contact.theta has no effect with grains.adapter: yade-md"},
         {{"scales.compacity=0.1"}, "scales.compacity has no effect with scales.kind: avalanche"},
         {{"scales.viscosity=0.1"}, "scales.viscosity has no effect without scales.kind: physical"},
-        // Also where the value is the default: somebody meant it.
+        // Also if the value is the default, since it was given on purpose.
         {{"coupling.iterations=10"}, "coupling.iterations has no effect"},
     };
     for (const auto& one : cases) EXPECT_SAYS(notes(one.set), one.note);
@@ -77,7 +77,7 @@ TEST_F(IdleKeys, AreNotNamedWhereTheyHaveOne) {
     EXPECT_TRUE(quiet({"scales.kind=sedimentation", "scales.compacity=0.1"}));
 }
 
-// The case of a run folder gives every key, as nobody who wrote one means it.
+// The case of a run folder contains every key; none of them was given on purpose.
 TEST_F(IdleKeys, AResolvedCaseIsQuiet) {
     const ResolvedCase first = load("", {"grains.adapter=standalone-nscd"});
     folder.write("case.yaml", first.yaml);

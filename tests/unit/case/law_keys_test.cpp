@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Keys of contact laws: what is missing or impossible is refused by name before anything starts.
+// Keys of contact laws: missing or impossible values are refused by name before anything starts.
 #include <gtest/gtest.h>
 
 #include "launcher/case/case_file.hpp"
@@ -70,7 +70,7 @@ TEST_F(LawKeys, ValuesOutOfRange) {
                 "contact.static_friction = 0.2");
 }
 
-// theta <= 1/(1 + e); 1/2 serves every e.
+// theta <= 1/(1 + e); 1/2 is valid for every e.
 TEST_F(LawKeys, ThetaThatWouldMakeEnergy) {
     EXPECT_EQ(refusal({"contact.restitution=1"}), "");
     EXPECT_EQ(refusal({"contact.restitution=0.6", "contact.theta=0.625"}), "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Grains files with velocities, densities, materials and prescribed motions; materials and pairs;
-// walls that move; all of it in the resolved case, which reads back to the same.
+// moving walls. All of it is in the resolved case, which reads back to the same.
 #include <gtest/gtest.h>
 
 #include "tests/unit/case/case_test.hpp"

@@ -63,7 +63,8 @@ TEST(Lattice, ClampsOnlyRoundingErrors) {
 }
 
 TEST(Lattice, JitterNeverMakesOverlap) {
-    // Rows touch and the box gives little room, so most grains cannot move; a note says so.
+    // Rows touch and the box leaves little space, so most grains cannot be moved; a note reports
+    // this.
     const PackingResult result =
         lattice_packing({.box = paper_box, .compacity = 0.80, .jitter = 0.2, .seed = 5});
     EXPECT_TRUE(is_sound(result.grains, paper_box));
@@ -72,7 +73,7 @@ TEST(Lattice, JitterNeverMakesOverlap) {
 }
 
 TEST(Lattice, FillsItsRegionAlone) {
-    // The counts of the paper's column, whatever the box around it.
+    // The counts of the paper's column, whatever the size of the box around it.
     const PackingBox wide{.width = 250.0, .height = 100.0};
     for (const auto& [compacity, count] :
          {std::pair{0.9069, 1397u}, std::pair{0.84, 1290u}, std::pair{0.7854, 1190u}}) {
@@ -123,7 +124,7 @@ TEST(Lattice, JitterCostsAtMostOnePercentOfTheCompacity) {
 }
 
 TEST(Lattice, JoinedSidesAreNotPulledApart) {
-    // Ten touching grains around a ring of 10 D: nothing to stretch along x.
+    // Ten touching grains across a periodic width of 10 D: no space along x.
     PackingRequest request{.box = {.width = 10.0, .height = 20.0, .periodic_x = true},
                            .region = PackingRegion{10.0, 1.0},
                            .compacity = 0.9069,
@@ -144,7 +145,8 @@ TEST(Lattice, SeedDecidesTheJitter) {
 }
 
 TEST(RandomPacking, JitterMovesWithinItsBound) {
-    // Grains 0.1 apart, moved by at most 0.03 each along x and y: everyone has room.
+    // Gaps of 0.1 between grains, each moved by at most 0.03 along x and y: there is space for
+    // every one.
     PackingRequest request{.box = {.width = 12.0, .height = 24.0}, .count = 60, .seed = 1};
     const Packing still = random_packing(request).grains;
     request.jitter = 0.03;
@@ -167,7 +169,7 @@ TEST(RandomPacking, KeepsItsDistanceWhenThereIsRoom) {
 }
 
 TEST(RandomPacking, DenseRequestsTakeLatticeSites) {
-    // 9 x 9 with 70 discs is 0.68 solid, beyond what random addition reaches (0.547).
+    // 70 discs in 9 x 9 give a solid fraction of 0.68, more than random addition can reach (0.547).
     const PackingBox box{.width = 9.0, .height = 9.0};
     const PackingResult result = random_packing({.box = box, .count = 70, .seed = 3});
     ASSERT_EQ(result.grains.size(), 70u);
@@ -176,7 +178,8 @@ TEST(RandomPacking, DenseRequestsTakeLatticeSites) {
 }
 
 TEST(RandomPacking, StaysInItsRegion) {
-    // 20 discs in 6 x 6: solid fraction 0.44, 30 in 6 x 6: 0.65, from shaken lattice sites.
+    // 20 discs in 6 x 6, solid fraction 0.44, and 30 in 6 x 6, 0.65, from randomly displaced
+    // lattice sites.
     for (const std::int64_t count : {20, 30}) {
         PackingRequest request{.box = {.width = 40.0, .height = 40.0},
                                .region = PackingRegion{6.0, 6.0},
@@ -205,8 +208,8 @@ TEST(RandomPacking, SeedDecides) {
 }
 
 TEST(RandomNumbers, AreTheSameEverywhere) {
-    // The standard fixes the 10000th output of mt19937_64 with its default seed 5489:
-    // 9981545732273789042; our mapping keeps its upper 53 bits.
+    // The standard specifies the 10000th output of mt19937_64 with its default seed 5489 as
+    // 9981545732273789042; our mapping uses its upper 53 bits.
     RandomNumbers random(5489);
     double last = 0.0;
     for (int i = 0; i < 10000; ++i) last = random.uniform();

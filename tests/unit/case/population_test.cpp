@@ -73,7 +73,7 @@ TEST(Population, RepeatedIdsAndBadRadii) {
 }
 
 TEST(Population, GrainsOfAllSizesAreCompared) {
-    // 3 - 0.1 - 2.95 = -0.05: the small grain is inside the large one's rim.
+    // 3 - 0.1 - 2.95 = -0.05: the small grain is entirely inside the large one.
     const Packing grains{{.id = 0, .x = 3, .y = 5, .radius = 2.95},
                          {.id = 1, .x = 6, .y = 5, .radius = 0.1}};
     EXPECT_SAYS(texts(check_population(grains, {"g", {}}, box, {})),
@@ -86,7 +86,7 @@ TEST(Population, TouchingIsNoOverlap) {
 }
 
 TEST(Population, CyclicSidesAreJoined) {
-    // 0.2 and 9.8 are 0.4 apart across the joined sides: an overlap of 0.6.
+    // 0.2 and 9.8 are at a distance of 0.4 across the cyclic sides: an overlap of 0.6.
     const Packing grains{{.id = 0, .x = 0.2, .y = 5}, {.id = 1, .x = 9.8, .y = 5}};
     PackingBox joined = box;
     joined.periodic_x = true;

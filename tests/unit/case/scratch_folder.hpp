@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A folder of its own for each test, removed at its end.
+// A separate folder for each test, removed at its end.
 #pragma once
 
 #include <stdlib.h>

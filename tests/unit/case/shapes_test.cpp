@@ -83,7 +83,8 @@ TEST_F(ShapeCase, LatticesHoldEqualDiscsOnly) {
     EXPECT_EQ(refusal(lattice + "radius: 0.5}\n"), "");
 }
 
-// Ratio 3 about R = 0.5: radii from 0.25 to 0.75, mean 0.5 with a scatter of 0.144/sqrt(60).
+// Ratio 3 about R = 0.5: radii from 0.25 to 0.75, with mean 0.5 and a standard error of
+// 0.144/sqrt(60).
 TEST_F(ShapeCase, SizesSpreadAboutTheMean) {
     const ResolvedCase box = load("grains: {count: 60, size_ratio: 3}\n");
     double sum = 0.0, least = 1.0, most = 0.0;
@@ -125,7 +126,7 @@ TEST_F(ShapeCase, FilesMixShapes) {
     EXPECT_EQ(again.population[2].shape, box.population[2].shape);
 }
 
-// Only shapes that are there are asked of the programs: a file of discs needs no polygons.
+// Programs need to support only the shapes in use: a file of discs needs no polygons.
 TEST_F(ShapeCase, TheTableHoldsWhatIsUsed) {
     folder.write("g.csv", "id,x,y,shape\n4,2,2,triangle\n");
     const ResolvedCase box = load("grains: {file: g.csv}\n");
@@ -141,8 +142,8 @@ TEST_F(ShapeCase, FilesWithUnknownShapesAreRefused) {
     EXPECT_SAYS(text, "grains.vertices");
 }
 
-// Circles of radius 0.75 about centres 1.2 apart overlap; triangles with facing sides need only
-// 0.75 apart, and one that points at the other's side 1.125.
+// Circles of radius 0.75 with centres at distance 1.2 overlap; triangles whose sides face each
+// other need only 0.75, and one that points at the other's side 1.125.
 TEST_F(ShapeCase, OverlapsAreThoseOfTheShapes) {
     const std::string head = "id,x,y,shape,angle\n1,3,3,triangle,0\n";
     EXPECT_EQ(refusal_of_grains(head + "2,3,1.8,triangle,0\n"), "");
@@ -150,7 +151,7 @@ TEST_F(ShapeCase, OverlapsAreThoseOfTheShapes) {
                 "grains 1 and 2 overlap by 0.125 D");
 }
 
-// A triangle at angle 0 reaches 0.375 down from its centre and 0.75 up.
+// A triangle at angle 0 extends 0.375 downwards and 0.75 upwards from its centre.
 TEST_F(ShapeCase, GrainsOutsideAreJudgedByTheirShapes) {
     EXPECT_EQ(refusal_of_grains("id,x,y,shape\n1,3,0.38,triangle\n"), "");
     const std::string text =
@@ -166,7 +167,7 @@ TEST(ShapePacking, TrianglesKeepTheirDistance) {
     const PackingRequest request{
         .box = {.width = 12.0, .height = 20.0}, .count = 110, .seed = 3, .forms = &forms};
     const Packing grains = random_packing(request).grains;
-    ASSERT_EQ(grains.size(), 110u);  // denser than circumscribed circles can be: 0.81
+    ASSERT_EQ(grains.size(), 110u);  // denser than possible for circumscribed circles: 0.81
     double least = 1e9;
     for (std::size_t i = 0; i < grains.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)

@@ -9,7 +9,7 @@
 namespace turbidite {
 namespace {
 
-/// A bounce of x'' + 2 zeta x' + x = 0 stepped finely until the force ends.
+/// A collision x'' + 2 zeta x' + x = 0, integrated with small steps until the force vanishes.
 struct Bounce {
     explicit Bounce(double zeta) {
         double x = 0.0, v = 1.0;
@@ -65,7 +65,7 @@ TEST(SoftContact, AStiffnessThatIsGivenIsTaken) {
     EXPECT_EQ(contact.damping, 0.0);
 }
 
-// At 2 u_c = 6 an undamped bounce is 6/w deep: that is 1e-3 D = 5e-4 at w = 12000.
+// At 2 u_c = 6 the overlap of an undamped collision is 6/w: 1e-3 D = 5e-4 at w = 12000.
 TEST(SoftContact, IsMadeForTheSpeedOfTheCase) {
     EXPECT_NEAR(soft_contact(settings(), 1.0).frequency, 12000.0, 1e-6);
     Settings fast = settings();
@@ -75,7 +75,7 @@ TEST(SoftContact, IsMadeForTheSpeedOfTheCase) {
     Settings dry = settings();
     dry.set("fluid.enabled", false);
     EXPECT_NEAR(soft_contact(dry, 16.0).frequency, 2.0 * std::sqrt(32.0) / 5e-4, 1e-6);
-    // Critically damped, the bounce is 1/e as deep.
+    // With critical damping the overlap is 1/e of that.
     Settings damped = settings();
     damped.set("contact.restitution", 0.0);
     EXPECT_NEAR(soft_contact(damped, 1.0).frequency, 12000.0 / std::numbers::e, 1e-6);

@@ -34,10 +34,10 @@ TEST_F(Outcome, WithoutAWordAProgramFailed) {
     const auto record = read_run_json(folder.record());
     EXPECT_EQ(record.at("exit_code"), 4);
     EXPECT_EQ(record.at("status"), "failed");
-    EXPECT_EQ(record.at("case"), "box");  // what was there stays
+    EXPECT_EQ(record.at("case"), "box");  // earlier entries remain
 }
 
-// The texts are Open MPI 4.1.4's.
+// The texts are those of Open MPI 4.1.4.
 TEST_F(Outcome, NamesTheProgramThatASignalEnded) {
     scratch.write("logs/mpirun.log",
                   "Primary job  terminated normally, but 1 process returned\n"

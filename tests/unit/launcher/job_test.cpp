@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The child process: its exit code, its own session, what signals do.
+// The child process: its exit code, its own session, and the effect of signals.
 #include "launcher/job/job.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,8 @@ class JobTest : public ::testing::Test {
     }
 };
 
-// Signals go to the thread that waits in run_job: this process has them blocked everywhere else.
+// Signals are handled by the thread that waits in run_job: this process blocks them everywhere
+// else.
 class Later {
  public:
     Later(int count, int signal) {
@@ -99,7 +100,7 @@ TEST_F(JobTest, FirstSignalIsAWish) {
 }
 
 TEST_F(JobTest, SecondSignalKillsTheWholeSession) {
-    // A grandchild in a process group of its own, as mpirun makes them, deaf to SIGTERM.
+    // A grandchild in its own process group, as mpirun creates them, that ignores SIGTERM.
     const std::string pid_file = (scratch.path() / "pid").string();
     const Later signals(2, SIGINT);
     const JobEnd end = run("set -m; (trap '' TERM; sh -c 'echo $PPID' > " + pid_file +

@@ -27,7 +27,7 @@ Settings settings(const std::string& adapter, bool wet) {
 const std::string front =
     "mpirun --allow-run-as-root --oversubscribe --bind-to none "
     "--mca btl_vader_single_copy_mechanism none ";
-// Each part of an MPMD line has its own -x: mpirun does not carry them over the colon.
+// Each part of an MPMD line has its own -x: mpirun does not apply them beyond the colon.
 const std::string exported =
     "-x WM_PROJECT_DIR=/usr/share/openfoam -x OMP_NUM_THREADS=1 -x PYTHONPATH=/b/lib/yade ";
 

@@ -58,7 +58,7 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
 }
 
-// logs/ and fluid/ are common names: without a run beside them they are somebody else's.
+// logs/ and fluid/ are common names: without a run beside them they belong to someone else.
 TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
     const ScratchFolder scratch;
     scratch.write("home/logs/diary.log", "mine");

@@ -77,7 +77,8 @@ TEST(ContactRecords, TellSlidingFromSticking) {
 }
 
 // An attraction of one weight w presses a block of weight w with 2 w: a force of 0.4 w does not
-// make it slide at mu = 0.3. Pulled upwards with 1.5 w it hangs: no contact slides.
+// make it slide at mu = 0.3. Pulled upwards with 2.5 w, the contact is under traction and does not
+// slide either.
 TEST(ContactRecords, StatusKnowsWhatALawPulls) {
     nscd::EngineSettings settings = exact(0.3);
     const double weight = disc(1, 0.0, 0.5).mass;
