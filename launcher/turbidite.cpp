@@ -27,10 +27,12 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
         {"run", "run a case: validate, prepare a folder, start the job, write report.html",
          declare_run},
-        {"check", "validate a case, all errors at once", declare_check},
+        {"check", "validate a case or a study, all errors at once", declare_check},
         {"report", "write report.html of a run folder", declare_report},
         {"compare", "the same quantities of several runs on one page, differences quantified",
          declare_compare},
+        {"study", "run what is missing of a sweep of cases, then its table and figures",
+         declare_study},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"test", "run the tests", declare_test},
         {"bench", "time this software beside others", declare_bench},

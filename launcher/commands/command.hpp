@@ -23,6 +23,7 @@ CommandAction declare_run(CLI::App& options);
 CommandAction declare_check(CLI::App& options);
 CommandAction declare_report(CLI::App& options);
 CommandAction declare_compare(CLI::App& options);
+CommandAction declare_study(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
 CommandAction declare_bench(CLI::App& options);

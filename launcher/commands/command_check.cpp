@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite check CASE: validate a case; nothing is written.
+// turbidite check FILE: validate a case or a study; nothing is written.
 #include <fmt/format.h>
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "launcher/commands/command.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/prepare_run.hpp"
+#include "launcher/study/study_plan.hpp"
 
 namespace turbidite {
 namespace {
@@ -18,7 +19,18 @@ struct CheckOptions {
     std::vector<std::string> overrides;
 };
 
+int check_study(const CheckOptions& options) {
+    const Study study = read_study(options.file);
+    const std::vector<PlannedRun> plan = plan_study(study, options.overrides);
+    for (const PlannedRun& run : plan)
+        require_programs(run.resolve().settings,
+                         needed_programs(run.resolve().settings, find_programs()));
+    fmt::print("{}: {} runs\nvalid\n", study.name, plan.size());
+    return static_cast<int>(ExitCode::done);
+}
+
 int check(const CheckOptions& options) {
+    if (is_study(options.file)) return check_study(options);
     const ResolvedCase resolved = load_case(options.file, options.overrides);
     require_programs(resolved.settings, needed_programs(resolved.settings, find_programs()));
     fmt::print("{}valid\n", case_summary(resolved));
@@ -29,7 +41,7 @@ int check(const CheckOptions& options) {
 
 CommandAction declare_check(CLI::App& app) {
     const auto options = std::make_shared<CheckOptions>();
-    app.add_option("CASE", options->file, "case file (YAML)")->required();
+    app.add_option("FILE", options->file, "case or study file (YAML)")->required();
     app.add_option("--set", options->overrides, "key=value, replaces a value of the case")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");

@@ -2,20 +2,12 @@
 //
 // turbidite run CASE: validate, prepare the run folder, start the job, report.
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <memory>
 
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/job/job.hpp"
-#include "launcher/job/job_outcome.hpp"
-#include "launcher/job/launch_line.hpp"
-#include "launcher/job/prepare_run.hpp"
-#include "launcher/report/report_script.hpp"
+#include "launcher/job/play_run.hpp"
 
 namespace turbidite {
 namespace {
@@ -28,51 +20,15 @@ struct RunOptions {
     bool dry_run = false;
 };
 
-// The coupler looks for this file before every window and ends the run with the code in it.
-void request_stop(const RunFolder& folder, int signal) {
-    const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
-    std::ofstream file(folder.stop());
-    file << static_cast<int>(code) << "\n";
-    file.close();
-    const char* answer =
-        file ? "Stopping after the next window" : "The wish to stop cannot be written";
-    fmt::print(stderr, "\n{}; once more to kill the job.\n", answer);
-}
-
-struct PreparedRun {
-    RunFolder folder;
-    std::vector<std::string> line;
-    std::vector<std::string> ranks;
-};
-
-int run_to_the_end(const PreparedRun& prepared, const Programs& programs) {
-    const RunFolder& folder = prepared.folder;
-    ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
-    const JobEnd end = run_job({.arguments = prepared.line,
-                                .error_log = folder.log("mpirun"),
-                                .request_stop = [&](int s) { request_stop(folder, s); }});
-    const JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
-    const bool reported = write_report(folder, programs);
-    std::fflush(stdout);
-    const bool done = outcome.code == ExitCode::done;
-    fmt::print(done ? stdout : stderr, "{}", outcome_text(folder, outcome));
-    if (!reported) fmt::print(stderr, "report.html could not be written; see above.\n");
-    return static_cast<int>(outcome.code);
-}
-
 int run(const RunOptions& options) {
     const ResolvedCase resolved = load_case(options.file, options.overrides, options.from);
     const LaunchSite site = this_site();
-    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
-    const RunFolder folder = make_run_folder(options.order, resolved.name);
-    const auto line = launch_arguments(resolved.settings, folder, site);
-    prepare_run(resolved, folder, line);
+    const PreparedRun prepared = prepare(resolved, options.order, site);
     fmt::print(options.dry_run ? stderr : stdout, "{}  folder: {}\n", case_summary(resolved),
-               folder.root.string());
+               prepared.folder.root.string());
+    if (!options.dry_run) return static_cast<int>(play(prepared, site.programs).code);
     std::fflush(nullptr);
-    if (!options.dry_run)
-        return run_to_the_end({folder, line, rank_names(resolved.settings)}, site.programs);
-    fmt::print("{}\n", shell_line(line));
+    fmt::print("{}\n", shell_line(prepared.line));
     return static_cast<int>(ExitCode::done);
 }
 

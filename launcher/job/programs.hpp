@@ -23,6 +23,7 @@ struct Programs {
     std::filesystem::path yade_extension() const { return yade_folder() / "turbidite_yade.so"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
+    std::filesystem::path study() const { return source / "launcher/report/study.py"; }
     std::filesystem::path compare() const { return source / "launcher/report/compare.py"; }
 };
 

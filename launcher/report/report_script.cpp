@@ -35,6 +35,10 @@ bool write_report(const RunFolder& folder, const Programs& programs) {
     return run_script(programs, programs.report(), {folder.root}) == 0;
 }
 
+bool write_study_results(const std::filesystem::path& folder, const Programs& programs) {
+    return run_script(programs, programs.study(), {folder}) == 0;
+}
+
 ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
                           bool each, const Programs& programs) {
     std::vector<std::string> arguments;

@@ -22,4 +22,8 @@ bool write_report(const RunFolder& folder, const Programs& programs);
 ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,
                           bool each, const Programs& programs);
 
+/// Runs launcher/report/study.py: the results table and figures of the runs of `folder`/study.json
+/// that are there. False when it failed, its words on stderr.
+bool write_study_results(const std::filesystem::path& folder, const Programs& programs);
+
 }  // namespace turbidite

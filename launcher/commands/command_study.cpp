@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite study STUDY: runs what is missing of a sweep of cases, then writes its table and
+// figures. Stopped at any moment, the same line goes on where it was.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+
+#include "launcher/commands/command.hpp"
+#include "launcher/job/play_run.hpp"
+#include "launcher/report/report_script.hpp"
+#include "launcher/study/study_record.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct StudyOptions {
+    std::string file;
+    std::vector<std::string> overrides;
+    std::string out;
+    bool dry_run = false;
+};
+
+/// How long the runs of a part take, from those that were played.
+class PaceOfParts {
+ public:
+    void take_in(const std::string& part, double seconds) { spent_[part].push_back(seconds); }
+
+    /// Seconds of the runs that are to come, empty before the first has ended. Parts that have
+    /// played none count as the mean of the others.
+    std::optional<double> left(const std::vector<const PlannedRun*>& to_come) const {
+        if (spent_.empty()) return std::nullopt;
+        double all = 0.0, sum = 0.0;
+        for (const auto& [part, seconds] : spent_)
+            all += mean(seconds) / static_cast<double>(spent_.size());
+        for (const PlannedRun* run : to_come) {
+            const auto at = spent_.find(run->part);
+            sum += at == spent_.end() ? all : mean(at->second);
+        }
+        return sum;
+    }
+
+ private:
+    static double mean(const std::vector<double>& values) {
+        double sum = 0.0;
+        for (const double value : values) sum += value;
+        return sum / static_cast<double>(values.size());
+    }
+
+    std::map<std::string, std::vector<double>> spent_;
+};
+
+std::string duration(double seconds) {
+    const long minutes = static_cast<long>(seconds / 60.0 + 0.5);
+    if (minutes == 0) return "less than a minute";
+    return minutes < 60 ? fmt::format("about {} min", minutes)
+                        : fmt::format("about {} h {:02} min", minutes / 60, minutes % 60);
+}
+
+std::vector<const PlannedRun*> missing_runs(const std::vector<PlannedRun>& plan,
+                                            const fs::path& out) {
+    std::vector<const PlannedRun*> missing;
+    for (const PlannedRun& run : plan)
+        if (state_of(run, out) != RunState::done) missing.push_back(&run);
+    return missing;
+}
+
+bool asked_to_stop(ExitCode code) {
+    return code == ExitCode::interrupted || code == ExitCode::terminated;
+}
+
+/// Plays them one after the other; a run that fails does not keep the others from being played.
+/// The code of the first that failed, or of the signal that stopped the study.
+ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan,
+                      const fs::path& out) {
+    const LaunchSite site = this_site();
+    std::vector<const PlannedRun*> to_come = missing_runs(plan, out);
+    PaceOfParts pace;
+    ExitCode result = ExitCode::done;
+    while (!to_come.empty()) {
+        const PlannedRun& run = *to_come.front();
+        const std::optional<double> left = pace.left(to_come);
+        fmt::print("[{}/{}] {}{}\n", plan.size() - to_come.size() + 1, plan.size(), run.path(),
+                   left ? "  (study: " + duration(*left) + " left)" : "");
+        const auto start = Clock::now();
+        const JobOutcome outcome = play(
+            prepare(run.resolve(), {.out = out / run.path(), .force = true}, site), site.programs);
+        write_study_record(study, plan, out);
+        if (asked_to_stop(outcome.code)) return outcome.code;
+        if (result == ExitCode::done) result = outcome.code;
+        pace.take_in(run.part, std::chrono::duration<double>(Clock::now() - start).count());
+        to_come.erase(to_come.begin());
+    }
+    return result;
+}
+
+void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
+    for (const PlannedRun& run : plan) {
+        const RunState state = state_of(run, out);
+        const char* word = state == RunState::done     ? "done"
+                           : state == RunState::failed ? "failed"
+                                                       : "missing";
+        fmt::print("{:<8} {}\n", word, run.path());
+    }
+}
+
+int run_study(const StudyOptions& options) {
+    const Study study = read_study(options.file);
+    const std::vector<PlannedRun> plan = plan_study(study, options.overrides);
+    const fs::path out = fs::absolute(options.out.empty() ? study.out : fs::path(options.out));
+    const std::size_t missing = missing_runs(plan, out).size();
+    fmt::print("{}: {} runs, {} of them done, folder {}\n", study.name, plan.size(),
+               plan.size() - missing, out.string());
+    if (options.dry_run) {
+        list(plan, out);
+        return static_cast<int>(ExitCode::done);
+    }
+    fs::create_directories(out);
+    write_study_record(study, plan, out);
+    const ExitCode code = play_missing(study, plan, out);
+    std::fflush(nullptr);
+    if (!write_study_results(out, find_programs()))
+        return static_cast<int>(ExitCode::participant_failed);
+    const std::size_t left = missing_runs(plan, out).size();
+    fmt::print("{} of {} runs done. Results in {}: study.html, study.csv.{}\n", plan.size() - left,
+               plan.size(), out.string(),
+               left > 0 ? " The same line again runs what is missing." : "");
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+CommandAction declare_study(CLI::App& app) {
+    const auto options = std::make_shared<StudyOptions>();
+    app.add_option("STUDY", options->file, "study file (YAML); docs/studies.md")->required();
+    app.add_option("--set", options->overrides,
+                   "key=value for every run, in place of what the study says")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    app.add_option("--out", options->out, "folder of the run folders; default: the study's `out`")
+        ->type_name("DIR");
+    app.add_flag("--dry-run", options->dry_run, "list the runs and which of them are done");
+    return [options] { return run_study(*options); };
+}
+
+}  // namespace turbidite

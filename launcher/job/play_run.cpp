@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/play_run.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "launcher/job/job.hpp"
+#include "launcher/report/report_script.hpp"
+
+namespace turbidite {
+namespace {
+
+// The coupler looks for this file before every window and ends the run with the code in it.
+void request_stop(const RunFolder& folder, int signal) {
+    const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+    std::ofstream file(folder.stop());
+    file << static_cast<int>(code) << "\n";
+    file.close();
+    const char* answer =
+        file ? "Stopping after the next window" : "The wish to stop cannot be written";
+    fmt::print(stderr, "\n{}; once more to kill the job.\n", answer);
+}
+
+}  // namespace
+
+PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
+    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    const RunFolder folder = make_run_folder(order, resolved.name);
+    const auto line = launch_arguments(resolved.settings, folder, site);
+    prepare_run(resolved, folder, line);
+    return {folder, line, rank_names(resolved.settings)};
+}
+
+JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
+    const RunFolder& folder = prepared.folder;
+    std::fflush(nullptr);
+    ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
+    const JobEnd end = run_job({.arguments = prepared.line,
+                                .error_log = folder.log("mpirun"),
+                                .request_stop = [&](int s) { request_stop(folder, s); }});
+    JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
+    const bool reported = write_report(folder, programs);
+    std::fflush(stdout);
+    const bool done = outcome.code == ExitCode::done;
+    fmt::print(done ? stdout : stderr, "{}", outcome_text(folder, outcome));
+    if (!reported) fmt::print(stderr, "report.html could not be written; see above.\n");
+    return outcome;
+}
+
+}  // namespace turbidite

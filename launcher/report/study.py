@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""study.py FOLDER: the results of a study, from FOLDER/study.json and the run folders it names.
+
+Writes study.csv, one row per run, and study.html: per part the runs that differ in the seed alone taken
+together, their curves, and what was measured against every swept number. Runs that are missing or have no
+history are listed and left out of the figures.
+"""
+import csv
+import io
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
+
+import compare
+import compare_page
+import curves
+import findings
+import peaks
+import run_data
+import seeds
+from page import Page, write_whole
+
+
+@dataclass
+class StudyRun:
+    entry: dict                # of study.json
+    data: run_data.RunData     # history None where the run is missing
+
+
+@dataclass
+class Measured:
+    """A column of the table: what is measured of a run, None where it cannot be told."""
+
+    name: str    # in study.csv
+    title: str
+    unit: str
+    of: object   # function of RunData
+
+
+def end_of(column):
+    def value(run):
+        _, values = run.column(column)
+        return float(values[-1]) if len(values) else None
+    return value
+
+
+def peak_part(part):
+    def value(run):
+        found = peaks.peak(run)
+        return getattr(found, part) if found else None
+    return value
+
+
+def maximum(column, in_record):
+    return lambda run: findings.largest(run, column, in_record)
+
+
+MEASURED = [
+    Measured('peak_velocity', 'Peak of the mean velocity', r'$|\langle u \rangle|\,/\,u_c$', peak_part('value')),
+    Measured('peak_time', 'Time of the peak', curves.TIME_LABEL, peak_part('time')),
+    Measured('rest_time', 'At rest from', curves.TIME_LABEL, findings.rest_time),
+    Measured('end_front', 'Front at the end', r'$\max(x+R)\,/\,D$', end_of('front_x')),
+    Measured('end_height', 'Mean height at the end', r'$\langle y \rangle\,/\,D$', end_of('mean_position_y')),
+    Measured('end_velocity', 'Mean velocity at the end', r'$|\langle u \rangle|\,/\,u_c$',
+             end_of('mean_velocity_norm')),
+    Measured('overlap', 'Largest overlap', r'overlap $/\,D$', maximum('max_penetration', 'penetration')),
+    Measured('grain_balance', 'Defect of the grains\' momentum', 'relative', maximum('grain_balance', 'grain_balance')),
+    Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', maximum('', 'unconverged_windows')),
+    Measured('wall_seconds', 'Wall time', 's', lambda run: compare.wall_seconds(run)[0]),
+]
+DRAWN = ('peak_velocity', 'peak_time', 'rest_time', 'end_front', 'end_height', 'wall_seconds')
+
+
+def load(folder):
+    """Title and runs."""
+    record = json.loads((folder / 'study.json').read_text())
+    runs = []
+    for entry in record['runs']:
+        there = entry['status'] != 'missing'
+        data = run_data.load_run(folder / entry['folder']) if there else run_data.RunData(folder / entry['folder'])
+        runs.append(StudyRun(entry, data))
+    return record['study'], runs
+
+
+def swept_keys(runs):
+    return list(dict.fromkeys(key for run in runs for key in run.entry['values']))
+
+
+# --- the table ----------------------------------------------------------------------------------------
+
+def as_csv(runs):
+    keys = swept_keys(runs)
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator='\n')
+    table.writerow(['part', 'run', *keys, 'status', *[m.name for m in MEASURED], 'error'])
+    for run in runs:
+        values = [m.of(run.data) if run.data.history is not None else None for m in MEASURED]
+        table.writerow([run.entry['part'], run.entry['name'], *[run.entry['values'].get(key, '') for key in keys],
+                        run.entry['status'], *['' if v is None else repr(float(v)) for v in values],
+                        run.entry['error']])
+    return text.getvalue()
+
+
+# --- the page -----------------------------------------------------------------------------------------
+
+def make_page(title, runs):
+    page = Page(f'Study {title}')
+    page.paragraph(progress(runs))
+    failed = [f'{run.entry["folder"]}: {run.entry["status"]}. {run.entry["error"]}' for run in runs
+              if run.entry['status'] not in ('done', 'missing')]
+    if failed:
+        page.bullets(failed, 'bad')
+    for part in dict.fromkeys(run.entry['part'] for run in runs):
+        add_part(page, part, [run for run in runs if run.entry['part'] == part])
+    return page
+
+
+def progress(runs):
+    done = sum(run.entry['status'] == 'done' for run in runs)
+    return (f'{done} of {len(runs)} runs are done. Runs that differ in random.seed alone are taken together: '
+            'means, and in brackets the smallest and the largest. Numbers of every run are in study.csv.')
+
+
+def add_part(page, part, runs):
+    page.heading(part)
+    there = [run for run in runs if run.data.history is not None]
+    if not there:
+        page.paragraph('No run of this part has a history yet.')
+        return
+    members = seeds.members([run.data for run in there])
+    by_folder = {run.data.folder: run for run in there}
+    keys = [key for key in swept_keys(runs) if key != seeds.SEED]
+    values = {member.name: by_folder[member.runs[0].folder].entry['values'] for member in members}
+    add_table(page, members, keys, values)
+    comparison = compare.measure(members)
+    page.figure(compare_page.draw_curves(comparison), f'{part}-curves', compare_page.curves_caption(members))
+    for key in keys:
+        figure = draw_against(key, members, values)
+        if figure is not None:
+            page.figure(figure, f'{part}-{key}', f'Against {key}; bars from the smallest to the largest of the seeds.')
+
+
+def add_table(page, members, keys, values):
+    shown = [m for m in MEASURED if any(m.of(run) is not None for member in members for run in member.runs)]
+    page.table([[values[member.name].get(key, '') for key in keys] + [str(len(member.runs))]
+                + [spread([m.of(run) for run in member.runs]) for m in shown] for member in members],
+               css='numbers', header=[*keys, 'runs', *[f'{m.title} [{plain_unit(m)}]' for m in shown]])
+
+
+def plain_unit(measured):
+    return {'peak_velocity': 'u_c', 'peak_time': 't_c', 'rest_time': 't_c', 'end_front': 'D', 'end_height': 'D',
+            'end_velocity': 'u_c', 'overlap': 'D', 'wall_seconds': 's'}.get(measured.name, measured.unit)
+
+
+def spread(values):
+    known = [value for value in values if value is not None]
+    if not known:
+        return ''
+    mean = compare_page.number(float(np.mean(known)))
+    if len(known) < len(values):
+        mean += f' of {len(known)}'
+    return mean if len(known) == 1 else f'{mean} ({compare_page.span((min(known), max(known)))})'
+
+
+def numbers_of(key, members, values):
+    """The swept values as numbers, None when they are not."""
+    try:
+        return [float(values[member.name][key]) for member in members]
+    except (KeyError, ValueError):
+        return None
+
+
+def lines_of(key, members, values, abscissae):
+    """{label of the other swept values: [(number, member)] in ascending order}."""
+    lines = {}
+    for x, member in zip(abscissae, members):
+        others = [f'{seeds_word(k)} {v}' for k, v in values[member.name].items() if k not in (key, seeds.SEED)]
+        lines.setdefault(', '.join(others), []).append((x, member))
+    return {label: sorted(points, key=lambda point: point[0]) for label, points in lines.items()}
+
+
+def seeds_word(key):
+    return '' if key == 'variant' else key.rpartition('.')[2]
+
+
+def draw_against(key, members, values):
+    """One panel per measured quantity; None where the key has fewer than two numbers."""
+    abscissae = numbers_of(key, members, values)
+    if abscissae is None or len(set(abscissae)) < 2:
+        return None
+    shown = [m for m in MEASURED if m.name in DRAWN
+             and any(m.of(run) is not None for member in members for run in member.runs)]
+    rows = -(-len(shown) // 2)
+    figure, axes = plt.subplots(rows, 2, squeeze=False, layout='constrained', figsize=(11.0, 3.2 * rows))
+    for measured, place in zip(shown, axes.flat):
+        for i, (label, points) in enumerate(lines_of(key, members, values, abscissae).items()):
+            draw_line(place, i, label.strip(), points, measured)
+        curves.decorate(place, measured.title, measured.unit)
+        place.set_xlabel(key)
+    for unused in list(axes.flat)[len(shown):]:
+        unused.set_axis_off()
+    if axes.flat[0].get_legend_handles_labels()[0]:
+        axes.flat[0].legend(fontsize=8)
+    return figure
+
+
+def draw_line(axes, i, label, points, measured):
+    """Means over the seeds, joined; bars from the smallest to the largest."""
+    found = [(x, [v for v in map(measured.of, member.runs) if v is not None]) for x, member in points]
+    found = [(x, known) for x, known in found if known]
+    if not found:
+        return
+    x = [place for place, _ in found]
+    mean = np.array([np.mean(known) for _, known in found])
+    below = mean - [min(known) for _, known in found]
+    above = np.array([max(known) for _, known in found]) - mean
+    axes.errorbar(x, mean, yerr=[below, above], marker='o', markersize=4, capsize=3, color=f'C{i % 10}',
+                  label=label or None, linewidth=1.2)
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print('usage: study.py FOLDER   (of `turbidite study`)', file=sys.stderr)
+        return 2
+    folder = Path(arguments[1])
+    title, runs = load(folder)
+    page = make_page(title, runs)
+    pictures = folder / 'pictures'
+    pictures.mkdir(exist_ok=True)
+    written = [write_whole(pictures / f'{name}.png', content) for name, content in page.pictures.items()]
+    written += [write_whole(folder / 'study.csv', as_csv(runs)),
+                write_whole(folder / 'study.html', page.text())]
+    return 0 if all(written) else 4
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv))

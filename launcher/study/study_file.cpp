@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/study/study_file.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+#include "coupler/keys/case_error.hpp"
+#include "coupler/keys/nearest_name.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> part_keys = {"case", "set", "sweep", "variants"};
+
+/// What is wrong with a study file, collected.
+class Complaints {
+ public:
+    explicit Complaints(std::string source) : source_(std::move(source)) {}
+
+    void add(const YAML::Node& node, const std::string& fault, const std::string& allowed,
+             const std::string& remedy) {
+        problems_.push_back(problem_at(source_, node.Mark().line + 1, fault, allowed, remedy));
+    }
+
+    void refuse_if_any() {
+        if (!problems_.empty()) throw CaseRefused(std::move(problems_));
+    }
+
+ private:
+    std::string source_;
+    std::vector<CaseProblem> problems_;
+};
+
+std::string value_text(const YAML::Node& node) {
+    if (node.IsScalar()) return node.Scalar();
+    if (node.IsNull()) return "~";
+    YAML::Emitter text;
+    text << YAML::Flow << node;
+    return text.c_str();
+}
+
+/// "group.key=value" of every leaf; groups may be nested or written with points.
+void flatten(const std::string& prefix, const YAML::Node& node, std::vector<std::string>& result) {
+    for (const auto& item : node) {
+        const std::string key = prefix + item.first.Scalar();
+        if (item.second.IsMap())
+            flatten(key + ".", item.second, result);
+        else
+            result.push_back(key + "=" + value_text(item.second));
+    }
+}
+
+std::vector<std::string> overrides_of(const YAML::Node& node, const std::string& what,
+                                      Complaints& complaints) {
+    std::vector<std::string> result;
+    if (!node.IsDefined()) return result;
+    if (node.IsMap())
+        flatten("", node, result);
+    else
+        complaints.add(node, what + " holds no keys", "It is a map `key: value`.",
+                       "Write for example set: {time.end: 20}.");
+    return result;
+}
+
+void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart& part,
+                    Complaints& complaints) {
+    for (const auto& item : node) {
+        const std::string key = prefix + item.first.Scalar();
+        if (item.second.IsMap()) {
+            add_swept_keys(key + ".", item.second, part, complaints);
+            continue;
+        }
+        if (!item.second.IsSequence() || item.second.size() == 0) {
+            complaints.add(
+                item.first, "sweep." + key + " is no list of values", "A swept key has a list.",
+                "Write for example " + key + ": [1, 2, 3]; single values belong to set.");
+            continue;
+        }
+        SweepAxis axis{key, {}};
+        for (const YAML::Node& value : item.second)
+            axis.points.push_back({value_text(value), {key + "=" + value_text(value)}});
+        part.axes.push_back(axis);
+    }
+}
+
+void add_variants(const YAML::Node& node, StudyPart& part, Complaints& complaints) {
+    if (!node.IsDefined()) return;
+    if (!node.IsMap()) {
+        complaints.add(node, "variants holds no names", "It is a map of names, each with keys.",
+                       "Write for example variants: {md: {grains.adapter: yade-md}}.");
+        return;
+    }
+    SweepAxis axis{"variant", {}};
+    for (const auto& item : node) {
+        const std::string name = item.first.Scalar();
+        const bool plain = item.second.IsNull();  // a variant without keys of its own
+        axis.points.push_back(
+            {name, plain ? std::vector<std::string>{}
+                         : overrides_of(item.second, "variants." + name, complaints)});
+    }
+    part.axes.push_back(axis);
+}
+
+void refuse_unknown_keys(const YAML::Node& node, const std::vector<std::string>& known,
+                         Complaints& complaints) {
+    for (const auto& item : node) {
+        const std::string key = item.first.Scalar();
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        complaints.add(item.first, key + " is unknown",
+                       fmt::format("A study has {}.", fmt::join(known, ", ")),
+                       "Did you mean " + nearest_name(key, known) + "?");
+    }
+}
+
+StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::path& folder,
+                    Complaints& complaints) {
+    StudyPart part;
+    part.name = name;
+    const YAML::Node file = node["case"];
+    if (!file.IsDefined() || !file.IsScalar()) {
+        complaints.add(node, name + " has no case", "Every part needs a case file.",
+                       "Add case: FILE, with a path relative to the study file.");
+    } else {
+        part.case_file = folder / file.Scalar();
+        if (!fs::is_regular_file(part.case_file))
+            complaints.add(
+                file, "case: " + file.Scalar() + " is not there",
+                "It is a case file, its path relative to the study file.",
+                "Looked for " + fs::absolute(part.case_file).lexically_normal().string() + ".");
+    }
+    part.overrides = overrides_of(node["set"], "set", complaints);
+    add_variants(node["variants"], part, complaints);
+    const YAML::Node sweep = node["sweep"];
+    if (sweep.IsDefined() && sweep.IsMap()) add_swept_keys("", sweep, part, complaints);
+    if (sweep.IsDefined() && !sweep.IsMap())
+        complaints.add(sweep, "sweep holds no keys", "It is a map `key: [values]`.",
+                       "Write for example sweep: {random.seed: [1, 2, 3]}.");
+    return part;
+}
+
+YAML::Node document(const fs::path& file) {
+    const std::string source = file.filename().string();
+    try {
+        const YAML::Node result = YAML::LoadFile(file.string());
+        if (result.IsMap()) return result;
+        throw CaseRefused({problem_at(source, 0, "holds no keys", "A study names cases and sweeps.",
+                                      "See configs/ for examples.")});
+    } catch (const YAML::BadFile&) {
+        throw CaseRefused({problem_at(file.string(), 0, "cannot be read",
+                                      "A study file (YAML) is needed.", "Check the path.")});
+    } catch (const YAML::Exception& error) {
+        throw CaseRefused({problem_at(source, error.mark.line + 1, "is not YAML: " + error.msg,
+                                      "A study names cases and sweeps.",
+                                      "Correct this line; indentation counts.")});
+    }
+}
+
+}  // namespace
+
+bool is_study(const fs::path& file) {
+    try {
+        const YAML::Node root = YAML::LoadFile(file.string());
+        return root.IsMap() && (root["parts"].IsDefined() || root["case"].IsDefined());
+    } catch (const YAML::Exception&) {
+        return false;  // reading it as a case says what is wrong
+    }
+}
+
+Study read_study(const fs::path& file) {
+    const YAML::Node root = document(file);
+    Complaints complaints(file.filename().string());
+    Study study;
+    study.name = file.stem().string();
+    study.out =
+        root["out"].IsDefined() ? fs::path(root["out"].Scalar()) : fs::path("runs") / study.name;
+    const YAML::Node parts = root["parts"];
+    if (!parts.IsDefined()) {
+        refuse_unknown_keys(root, {"out", "case", "set", "sweep", "variants"}, complaints);
+        study.parts = {read_part(study.name, root, file.parent_path(), complaints)};
+    } else {
+        refuse_unknown_keys(root, {"out", "parts"}, complaints);
+        if (!parts.IsMap() || parts.size() == 0)
+            complaints.add(parts, "parts holds no names", "It is a map of names, each with a case.",
+                           "Write for example parts: {column: {case: avalanche-dry.yaml}}.");
+        else
+            for (const auto& item : parts) {
+                if (item.second.IsMap()) refuse_unknown_keys(item.second, part_keys, complaints);
+                study.parts.push_back(
+                    read_part(item.first.Scalar(), item.second, file.parent_path(), complaints));
+            }
+    }
+    complaints.refuse_if_any();
+    return study;
+}
+
+}  // namespace turbidite

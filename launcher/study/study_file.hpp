@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A study file (YAML): cases, each with keys that are swept.
+//
+//     out: runs/dry-column              # default: runs/<name of the file>
+//     parts:
+//       column:                         # any name
+//         case: avalanche-dry.yaml      # path relative to the study file
+//         set: {time.end: 20}           # keys of every run of the part
+//         sweep:                        # every combination of the values is a run
+//           grains.compacity: [0.785, 0.9069]
+//           random.seed: [1, 2, 3]
+//         variants:                     # named sets of keys, each combined with the sweep
+//           nscd: {grains.adapter: standalone-nscd}
+//           md: {grains.adapter: yade-md}
+//
+// A study of one part may write `case`, `set`, `sweep` and `variants` without `parts`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace turbidite {
+
+/// One value of an axis: how the run is called after it, and the keys that it sets.
+struct SweepPoint {
+    std::string text;                    ///< "0.785", "nscd"
+    std::vector<std::string> overrides;  ///< "key=value", as for --set
+};
+
+struct SweepAxis {
+    std::string key;  ///< "grains.compacity"; "variant" for the named sets
+    std::vector<SweepPoint> points;
+};
+
+struct StudyPart {
+    std::string name;
+    std::filesystem::path case_file;
+    std::vector<std::string> overrides;  ///< "key=value" of every run
+    std::vector<SweepAxis> axes;         ///< variants first, then the swept keys in their order
+};
+
+struct Study {
+    std::string name;  ///< of the file, without its ending
+    std::filesystem::path out;
+    std::vector<StudyPart> parts;
+};
+
+/// The file has `parts` or a `case`: it is a study and not a case. False when it cannot be read.
+bool is_study(const std::filesystem::path& file);
+
+/// Throws CaseRefused with everything that is wrong with the file itself; cases are not opened.
+Study read_study(const std::filesystem::path& file);
+
+}  // namespace turbidite

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/study/study_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace turbidite {
+namespace {
+
+/// As part of a folder's name: OpenFOAM and shells take letters, digits, point, plus and minus.
+std::string file_name(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        const bool plain =
+            std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '+' || c == '-';
+        if (plain)
+            result += c;
+        else if (!result.empty() && result.back() != '_')
+            result += '_';
+    }
+    while (!result.empty() && result.back() == '_') result.pop_back();
+    return result;
+}
+
+std::string last_word(const std::string& key) {
+    const auto point = key.rfind('.');
+    return point == std::string::npos ? key : key.substr(point + 1);
+}
+
+/// Its last word, unless another axis ends alike.
+std::string short_name(const SweepAxis& axis, const StudyPart& part) {
+    const auto alike = [&](const SweepAxis& other) {
+        return last_word(other.key) == last_word(axis.key);
+    };
+    const bool unique = std::count_if(part.axes.begin(), part.axes.end(), alike) == 1;
+    return unique ? last_word(axis.key) : axis.key;
+}
+
+void append(std::string& name, const std::string& word) {
+    name += (name.empty() ? "" : "-") + file_name(word);
+}
+
+/// The runs so far, each once per value of the axis.
+std::vector<PlannedRun> along(const std::vector<PlannedRun>& runs, const SweepAxis& axis,
+                              const StudyPart& part) {
+    const bool named = axis.key == "variant";
+    std::vector<PlannedRun> result;
+    for (const PlannedRun& run : runs)
+        for (const SweepPoint& point : axis.points) {
+            PlannedRun next = run;
+            if (!named) append(next.name, short_name(axis, part));
+            append(next.name, point.text);
+            next.overrides.insert(next.overrides.end(), point.overrides.begin(),
+                                  point.overrides.end());
+            next.values.emplace_back(axis.key, point.text);
+            result.push_back(next);
+        }
+    return result;
+}
+
+std::vector<PlannedRun> runs_of(const StudyPart& part) {
+    std::vector<PlannedRun> runs = {{.part = part.name,
+                                     .name = {},
+                                     .case_file = part.case_file,
+                                     .overrides = part.overrides,
+                                     .values = {}}};
+    for (const SweepAxis& axis : part.axes) runs = along(runs, axis, part);
+    if (part.axes.empty()) runs[0].name = part.case_file.stem().string();
+    return runs;
+}
+
+/// A value of a sweep is none of --set, whatever the reader of cases takes it for.
+CaseProblem in_run(CaseProblem problem, const PlannedRun& run) {
+    if (problem.source == "--set") problem.source = "run " + run.path();
+    return problem;
+}
+
+std::string text_of(const CaseProblem& p) {
+    return fmt::format("{} {} {} {} {}", p.line, p.key, p.value, p.fault, p.allowed);
+}
+
+void refuse_equal_names(const std::vector<PlannedRun>& runs) {
+    std::set<std::string> seen;
+    for (const PlannedRun& run : runs)
+        if (!seen.insert(run.path()).second)
+            throw CaseRefused({problem_at("study", 0, "has two runs " + run.path(),
+                                          "Runs differ in a swept value.",
+                                          "Remove the value that is listed twice.")});
+}
+
+}  // namespace
+
+std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides) {
+    std::vector<PlannedRun> plan;
+    for (const StudyPart& part : study.parts)
+        for (PlannedRun& run : runs_of(part)) plan.push_back(std::move(run));
+    refuse_equal_names(plan);
+    std::vector<CaseProblem> problems;
+    std::set<std::string> told;
+    for (PlannedRun& run : plan) {
+        run.overrides.insert(run.overrides.end(), overrides.begin(), overrides.end());
+        try {
+            run.hash = run.resolve().settings.text("run.hash");
+        } catch (const CaseRefused& refused) {
+            for (const CaseProblem& problem : refused.problems())
+                if (told.insert(text_of(problem)).second) problems.push_back(in_run(problem, run));
+        }
+    }
+    if (!problems.empty()) throw CaseRefused(std::move(problems));
+    return plan;
+}
+
+}  // namespace turbidite

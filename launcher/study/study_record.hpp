@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// study.json: what a study consists of and how far it is. Written before every run and after it, so
+// that an interrupted study can be read and continued.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "launcher/study/study_plan.hpp"
+
+namespace turbidite {
+
+enum class RunState { missing, done, failed };
+
+/// By the run folder alone: `done` when run.json says so and the case is the planned one, `failed`
+/// when it ended otherwise.
+RunState state_of(const PlannedRun& run, const std::filesystem::path& out);
+
+/// Throws Failure (exit code 4) when it cannot be written.
+void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,
+                        const std::filesystem::path& out);
+
+}  // namespace turbidite

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// `turbidite study`: a sweep played, continued and refused.
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+const char* const a_column = R"(
+domain: {size: [8, 8]}
+grains: {adapter: standalone-nscd, generator: lattice, region: [4, 4]}
+fluid: {enabled: false}
+time: {step: 0.01, end: 0.5}
+output: {interval: 0.1}
+)";
+
+class StudyRuns : public ShellTest {
+ protected:
+    void SetUp() override {
+        scratch.write("column.yaml", a_column);
+        scratch.write("frictions.yaml",
+                      "{case: column.yaml, sweep: {contact.friction: [0, 0.3, 0.6]}}");
+    }
+
+    Answer study(const std::string& arguments) const {
+        return shell(std::string(TURBIDITE_PROGRAM) + " study frictions.yaml --out s " + arguments);
+    }
+
+    std::filesystem::file_time_type written(const std::string& run) const {
+        return std::filesystem::last_write_time(scratch.path() / "s/frictions" / run /
+                                                "history.csv");
+    }
+
+    long lines(const std::string& file) const {
+        const std::string content = text(scratch.path() / file);
+        return std::count(content.begin(), content.end(), '\n');
+    }
+};
+
+TEST_F(StudyRuns, PlaysWhatIsMissingAndTabulatesAll) {
+    const Answer first = study("");
+    ASSERT_EQ(first.code, 0) << first.out << first.err;
+    EXPECT_SAYS(first.out, "[3/3] frictions/friction-0.6");
+    EXPECT_SAYS(first.out, "3 of 3 runs done");
+    EXPECT_EQ(lines("s/study.csv"), 4);
+    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "Against contact.friction");
+    EXPECT_GT(
+        std::filesystem::file_size(scratch.path() / "s/pictures/frictions-contact.friction.png"),
+        1000u);
+
+    std::filesystem::remove_all(scratch.path() / "s/frictions/friction-0.3");
+    const auto before = written("friction-0.6");
+    const Answer second = study("");
+    ASSERT_EQ(second.code, 0) << second.err;
+    EXPECT_SAYS(second.out, "3 runs, 2 of them done");
+    EXPECT_SAYS(second.out, "frictions/friction-0.3");
+    EXPECT_EQ(second.out.find("[1/3]"), std::string::npos) << second.out;
+    EXPECT_EQ(written("friction-0.6"), before);
+}
+
+TEST_F(StudyRuns, GoesOnAfterARunThatFails) {
+    // With windows of half a t_c, grains fall through the floor of the second run.
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, variants: {good: {}, coarse: {time.step: 0.5, time.end: 5, "
+                  "limits.penetration: 1e-9}, fine: {time.step: 0.005}}}");
+    const Answer answer = study("");
+    EXPECT_EQ(answer.code, 6) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "2 of 3 runs done");
+    const std::string table = text(scratch.path() / "s/study.csv");
+    EXPECT_SAYS(table, "physics refused");
+    EXPECT_SAYS(table, "limits.penetration");
+    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "coarse: physics refused");
+}
+
+// Stopped in its second run, which is then interrupted; the same line again plays the rest.
+TEST_F(StudyRuns, IsContinuedAfterAnInterruption) {
+    scratch.write(
+        "frictions.yaml",
+        "{case: column.yaml, sweep: {time.end: [0.1, 40, 0.2]}, set: {time.step: 0.001}}");
+    const Answer stopped = shell(
+        std::string(TURBIDITE_PROGRAM) +
+        " study frictions.yaml --out s & job=$!; until [ -s s/frictions/end-40/history.csv ]; do "
+        "sleep 0.1; done; kill -INT $job; wait $job");
+    EXPECT_EQ(stopped.code, 130) << stopped.out << stopped.err;
+    EXPECT_SAYS(stopped.out, "1 of 3 runs done");
+    EXPECT_EQ(stopped.out.find("[3/3]"), std::string::npos) << stopped.out;
+    scratch.write(
+        "frictions.yaml",
+        "{case: column.yaml, sweep: {time.end: [0.1, 0.3, 0.2]}, set: {time.step: 0.001}}");
+    const Answer rest = study("");
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_SAYS(rest.out, "3 runs, 1 of them done");
+    EXPECT_SAYS(rest.out, "3 of 3 runs done");
+}
+
+TEST_F(StudyRuns, NothingStartsWhenARunIsWrong) {
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, sweep: {contact.friction: [0, 0.3, -0.6]}}");
+    for (const char* command : {"study frictions.yaml --out s", "check frictions.yaml"}) {
+        const Answer answer = shell(std::string(TURBIDITE_PROGRAM) + " " + command);
+        EXPECT_EQ(answer.code, 2) << command;
+        EXPECT_SAYS(answer.err, "contact.friction = -0.6");
+        EXPECT_FALSE(std::filesystem::exists(scratch.path() / "s"));
+    }
+}
+
+TEST_F(StudyRuns, ADryRunListsTheRuns) {
+    const Answer answer = study("--dry-run");
+    EXPECT_EQ(answer.code, 0);
+    EXPECT_SAYS(answer.out, "missing  frictions/friction-0.3");
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "s"));
+}
+
+}  // namespace
+}  // namespace turbidite

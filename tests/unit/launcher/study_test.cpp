@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "launcher/study/study_plan.hpp"
+#include "launcher/study/study_record.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+const char* const a_case = R"(
+domain: {size: [8, 8]}
+grains: {adapter: standalone-nscd, generator: lattice, region: [4, 4]}
+fluid: {enabled: false}
+contact: {friction: 0.3}
+time: {step: 0.01, end: 1}
+)";
+
+class StudyTest : public ::testing::Test {
+ protected:
+    ScratchFolder scratch;
+
+    void SetUp() override { scratch.write("column.yaml", a_case); }
+
+    Study study(const std::string& text) const {
+        scratch.write("study.yaml", text);
+        return read_study(scratch.path() / "study.yaml");
+    }
+
+    std::vector<PlannedRun> plan(const std::string& text,
+                                 const std::vector<std::string>& overrides = {}) const {
+        return plan_study(study(text), overrides);
+    }
+
+    std::string refusal(const std::string& text) const {
+        try {
+            plan(text);
+        } catch (const CaseRefused& refused) {
+            return refused.what();
+        }
+        ADD_FAILURE() << "nothing was refused";
+        return "";
+    }
+};
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(StudyTest, PlaysEveryCombination) {
+    const auto runs = plan(R"(
+case: column.yaml
+set: {time: {end: 0.5}}
+variants: {smooth: {contact.friction: 0}, rough: {contact: {friction: 0.5}}}
+sweep: {grains.compacity: [0.8, 0.9], random: {seed: [1, 2, 3]}}
+)");
+    ASSERT_EQ(runs.size(), 12u);
+    EXPECT_EQ(runs.front().path(), "study/smooth-compacity-0.8-seed-1");
+    EXPECT_EQ(runs.back().path(), "study/rough-compacity-0.9-seed-3");
+    const Settings last = runs.back().resolve().settings;
+    EXPECT_EQ(last.real("contact.friction"), 0.5);
+    EXPECT_EQ(last.real("grains.compacity"), 0.9);
+    EXPECT_EQ(last.integer("random.seed"), 3);
+    EXPECT_EQ(last.real("time.end"), 0.5);
+    const std::vector<std::pair<std::string, std::string>> values = {
+        {"variant", "rough"}, {"grains.compacity", "0.9"}, {"random.seed", "3"}};
+    EXPECT_EQ(runs.back().values, values);
+    EXPECT_NE(runs.front().hash, runs.back().hash);
+}
+
+TEST_F(StudyTest, ListsAreValuesToo) {
+    const auto runs = plan("{case: column.yaml, sweep: {grains.region: [[4, 4], [6, 4]]}}");
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_EQ(runs[1].name, "region-6_4");
+    EXPECT_GT(runs[1].resolve().population.size(), runs[0].resolve().population.size());
+}
+
+TEST_F(StudyTest, HasPartsAndRunsWithoutASweep) {
+    const auto runs = plan(R"(
+parts:
+  one: {case: column.yaml}
+  many: {case: column.yaml, sweep: {random.seed: [1, 2]}}
+)");
+    ASSERT_EQ(runs.size(), 3u);
+    EXPECT_EQ(runs[0].path(), "one/column");
+    EXPECT_EQ(runs[2].path(), "many/seed-2");
+}
+
+TEST_F(StudyTest, OverridesGoToEveryRun) {
+    for (const PlannedRun& run :
+         plan("{case: column.yaml, sweep: {contact.friction: [0, 0.5]}}", {"time.end=0.1"}))
+        EXPECT_EQ(run.resolve().settings.real("time.end"), 0.1);
+}
+
+TEST_F(StudyTest, WhatIsWrongInAnyRunIsToldOnceAndBeforeAnyStarts) {
+    const std::string text = refusal(R"(
+parts:
+  first: {case: column.yaml, sweep: {contact.friction: [0.1, 0.2, -1], random.seed: [1, 2]}}
+  second: {case: column.yaml, set: {contact.frictoin: 0.2}, sweep: {random.seed: [1, 2]}}
+)");
+    EXPECT_SAYS(text, "run first/friction--1-seed-1");
+    EXPECT_SAYS(text, "contact.friction = -1");
+    EXPECT_SAYS(text, "contact.frictoin is unknown");
+    EXPECT_SAYS(text, "2 errors, nothing was started");
+}
+
+TEST_F(StudyTest, TheFileItselfIsRefusedWithLines) {
+    const std::string text = refusal(R"(
+out: somewhere
+parts:
+  a: {case: nowhere.yaml}
+  b: {set: {time.end: 1}}
+  c: {case: column.yaml, sweep: {random.seed: 3}, sweeep: {}}
+)");
+    EXPECT_SAYS(text, "study.yaml line 4: case: nowhere.yaml is not there");
+    EXPECT_SAYS(text, "study.yaml line 5: b has no case");
+    EXPECT_SAYS(text, "study.yaml line 6: sweep.random.seed is no list of values");
+    EXPECT_SAYS(text, "Did you mean sweep?");
+    EXPECT_SAYS(text, "4 errors");
+}
+
+TEST_F(StudyTest, AValueListedTwiceIsRefused) {
+    EXPECT_SAYS(refusal("{case: column.yaml, sweep: {random.seed: [1, 2, 1]}}"),
+                "two runs study/seed-1");
+}
+
+TEST_F(StudyTest, ARunIsDoneWhenItsCaseIsThePlannedOne) {
+    const char* const text = "{case: column.yaml, sweep: {random.seed: [1, 2, 3]}}";
+    const auto runs = plan(text);
+    const auto leave = [&](const PlannedRun& run, const std::string& hash, const char* status) {
+        std::filesystem::create_directories(scratch.path() / run.path());
+        std::ofstream(scratch.path() / run.path() / "run.json")
+            << nlohmann::json{{"case_hash", hash}, {"status", status}, {"error", "why"}};
+    };
+    leave(runs[0], runs[0].hash, "done");
+    leave(runs[1], "another case", "done");
+    leave(runs[2], runs[2].hash, "physics refused");
+    EXPECT_EQ(state_of(runs[0], scratch.path()), RunState::done);
+    EXPECT_EQ(state_of(runs[1], scratch.path()), RunState::missing);
+    EXPECT_EQ(state_of(runs[2], scratch.path()), RunState::failed);
+    write_study_record(study(text), runs, scratch.path());
+    const auto record = nlohmann::json::parse(std::ifstream(scratch.path() / "study.json"));
+    EXPECT_EQ(record["runs"][0]["status"], "done");
+    EXPECT_EQ(record["runs"][1]["status"], "missing");
+    EXPECT_EQ(record["runs"][2]["status"], "physics refused");
+    EXPECT_EQ(record["runs"][2]["error"], "why");
+    EXPECT_EQ(record["runs"][2]["values"]["random.seed"], "3");
+}
+
+TEST_F(StudyTest, IsToldFromACase) {
+    scratch.write("study.yaml", "{case: column.yaml}");
+    EXPECT_TRUE(is_study(scratch.path() / "study.yaml"));
+    EXPECT_FALSE(is_study(scratch.path() / "column.yaml"));
+    EXPECT_FALSE(is_study(scratch.path() / "nowhere.yaml"));
+}
+
+}  // namespace
+}  // namespace turbidite
