@@ -20,7 +20,7 @@ class BoxRows {
     virtual ~BoxRows() = default;
 
     virtual int first() const = 0;  ///< index in the box of this rank's first row
-    virtual int count() const = 0;
+    virtual int count() const = 0;  ///< number of this rank's rows
 
     /// Whether there are rows, and not a side, below the first row; above the last row.
     virtual bool open_below() const = 0;

@@ -55,15 +55,17 @@ class BoxStep {
     /// where e is not carried over, it is the flux minus the boundary value of u1.
     std::vector<double>& excess(int axis) { return excess_[axis]; }
 
+    /// Step 1 over dt [s]: u becomes u1, and p, e and phi1 are set.
     FluxReport project(double dt);
 
+    /// Step 2 over dt [s]: u1 becomes u2, explicitly, with the flux phi1.
     void transport(double dt);
 
     /// For transport in several sub-steps: keeps phi1 for all of them while u changes.
     void hold_flux();
     void release_flux() { held_ = false; }
 
-    /// Calls `take(j)` when row j is complete.
+    /// Step 3 over dt [s]: u2 becomes u3, implicitly. Calls `take(j)` when row j is complete.
     void diffuse(double dt, const SeparableSolve::RowWork& take);
 
     // What crosses this rank's sides of the box: the rate of change of the fluid's momentum it

@@ -39,6 +39,7 @@ class FluidWindow {
     /// later calls bring contact impulses, which act on fluid and grains together.
     void correct(const std::vector<GrainState>& grains);
 
+    /// Responses of the grains whose centre this rank owns, after let_fall or correct.
     std::vector<FreeResponse> responses();
 
     /// Writes u back; returns the kicks and the window's report.

@@ -10,6 +10,7 @@
 
 namespace turbidite {
 
+/// The restart state of this rank as bytes.
 SavedState save_fields(FluidFields& fields, FluidStep& step);
 
 /// Throws Failure if the bytes belong to another mesh or decomposition.

@@ -52,6 +52,7 @@ struct ModeRange {
 
 class ColumnSolve {
  public:
+    /// `across` was transformed, the solve is `along`; `modes`: those of this rank.
     ColumnSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes);
 
     /// Computes e and w. `normalisation`: that of the transform along the other axis.

@@ -17,6 +17,7 @@ struct ReleaseAligned {
 using AlignedValues = std::unique_ptr<double[], ReleaseAligned>;
 AlignedValues aligned_values(std::size_t count);
 
+/// The arrays of one field in both distributions.
 class Pencils {
  public:
     virtual ~Pencils() = default;
@@ -24,10 +25,11 @@ class Pencils {
     virtual int row_count() const = 0;  ///< number of complete rows on this rank
     virtual double* rows() = 0;         ///< these rows, contiguous
 
-    virtual int first_mode() const = 0;
+    virtual int first_mode() const = 0;  ///< index of this rank's first mode
     virtual int mode_count() const = 0;  ///< number of complete columns on this rank
     virtual double* columns() = 0;       ///< for every y, the values of these modes, contiguous
 
+    /// Transposes between the two distributions. Collective.
     virtual void to_columns() = 0;
     virtual void to_rows() = 0;
 

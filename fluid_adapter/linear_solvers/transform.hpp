@@ -35,10 +35,11 @@ class RowTransform {
     RowTransform(const RowTransform&) = delete;
     RowTransform& operator=(const RowTransform&) = delete;
 
-    /// Transforms two rows at once; `second` may be null.
+    /// Transforms two rows in place; `second` may be null.
     void forward(double* first, double* second);
     void backward(double* first, double* second);
 
+    /// Factor by which a forward and a backward transform together multiply.
     double normalisation() const { return normalisation_; }
 
     /// Interface of the transform for one pair of ends.

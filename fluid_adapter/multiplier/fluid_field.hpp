@@ -28,8 +28,8 @@ class FluidField {
     /// The same lookup without bounds checks, for cells of the grid.
     virtual const CellTable& cells() const = 0;
 
-    virtual int local_cells() const = 0;  ///< owned and halo cells
-    virtual bool owns(int cell) const = 0;
+    virtual int local_cells() const = 0;    ///< owned and halo cells
+    virtual bool owns(int cell) const = 0;  ///< it is not a halo cell of this rank
 
     /// rho_f V of the reference cell, whose edges are grid().spacing [kg]; per unit length in two
     /// dimensions.

@@ -118,7 +118,7 @@ void Level::sort_members(const std::vector<Vec3>& x) {
     for (const std::int32_t i : members_) places_.push_back(x[i]);
 }
 
-// Cells of a row follow each other in memory, and so do their members.
+// The cells of a row are contiguous in memory, and so are their members.
 template <class Visit>
 void Level::near(const Vec3& x, double reach, Visit&& visit) const {
     std::array<CellRange, 3> range;

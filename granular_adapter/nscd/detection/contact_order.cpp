@@ -11,16 +11,17 @@
 namespace turbidite::nscd {
 namespace {
 
-// Layers are counted where there are at most this many for each point; beyond, they are sorted.
+// Layers are sorted by counting if there are at most this many per point, and otherwise by
+// comparison.
 constexpr double countable_layers = 8.0;
 
-// Colours of one layer: bits of a word.
+// Number of colours in one layer: the bits of a word.
 constexpr int colours = 64;
 
 struct Place {
     double layer;        ///< an integer, increasing downwards
     std::int32_t point;  ///< index in the order of detection
-    std::int32_t a, b;   ///< its bodies
+    std::int32_t a, b;   ///< bodies of the contact
 };
 
 std::vector<Place> layers(const std::vector<ContactPoint>& points, const Bodies& bodies,
@@ -36,7 +37,7 @@ std::vector<Place> layers(const std::vector<ContactPoint>& points, const Bodies&
     return places;
 }
 
-/// From the top layer down, in the order of detection within each.
+/// Sorts from the top layer down, keeping the order of detection within a layer.
 void sort_by_layer(std::vector<Place>& places) {
     const auto above = [](const Place& x, const Place& y) { return x.layer < y.layer; };
     const auto [top, bottom] = std::minmax_element(places.begin(), places.end(), above);
@@ -82,7 +83,8 @@ std::vector<std::uint8_t> colour(const std::vector<Place>& places, std::size_t b
     return result;
 }
 
-/// Calls visit(i) for the places [first, last) of one layer, by colour, then as they come.
+/// Calls visit(i) for the places [first, last) of one layer: by colour, and in their order within a
+/// colour.
 template <class Visit>
 void by_colour(std::size_t first, std::size_t last, const std::vector<std::uint8_t>& colour,
                const Visit& visit) {

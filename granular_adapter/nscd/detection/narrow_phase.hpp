@@ -22,6 +22,7 @@ struct PairDetectorEntry {
 };
 const std::vector<PairDetectorEntry>& pair_detector_list();
 
+/// Every shape that can touch walls, by its name.
 struct WallDetectorEntry {
     std::string kind;
     WallDetector detect;
@@ -31,6 +32,7 @@ const std::vector<WallDetectorEntry>& wall_detector_list();
 /// The detectors for the shapes of a run. Throws std::invalid_argument naming a pair that has none.
 class NarrowPhase {
  public:
+    /// Throws std::invalid_argument naming a shape or a pair of shapes without a detector.
     explicit NarrowPhase(const ShapeTable& shapes);
 
     /// Corners in world axes, once per configuration; views refer to the result.
@@ -38,6 +40,8 @@ class NarrowPhase {
     bool has_corners() const { return polygons_.any(); }
     const PolygonShapes& polygons() const { return polygons_; }
 
+    /// Append the contact points of a pair or of a body and a wall, if their gap is below the alert
+    /// distance.
     void pair(const PairView& view, std::vector<ContactPoint>& points) const;
     void wall(const WallView& view, std::vector<ContactPoint>& points) const;
 

@@ -125,6 +125,7 @@ class Engine {
 
     /// Bodies, walls and contact memory; restore() requires an engine with the same settings.
     std::vector<char> save() const;
+    /// Throws std::invalid_argument for bytes of another format, and then changes nothing.
     void restore(const std::vector<char>& state);
 
     /// Walls and contact memory only, for hosts that store the bodies themselves.

@@ -12,6 +12,7 @@
 
 namespace turbidite::nscd {
 
+/// Appends all arrays of the bodies.
 void write_bodies(ByteWriter& out, const Bodies& bodies);
 
 /// Throws std::invalid_argument for anything not written by write_bodies.

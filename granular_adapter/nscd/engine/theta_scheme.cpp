@@ -33,6 +33,7 @@ std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, do
     std::vector<Twist> free = bodies.twist;
     for (std::size_t i = 0; i < free.size(); ++i) {
         const Vec3 load = bodies.weight_mass[i] * gravity + bodies.force[i];
+        // U + dt M^-1 F
         free[i].velocity = free[i].velocity + step * bodies.inverse_mass(i) * load;
         free[i].spin = free[i].spin + step * bodies.inverse_inertia(i) * bodies.torque[i];
     }
@@ -46,19 +47,21 @@ Quaternion rotated(const Quaternion& orientation, const Vec3& angle) {
     const Vec3 v = (std::sin(0.5 * magnitude) / magnitude) * angle;
     const Vec3 w{orientation[1], orientation[2], orientation[3]};
     const Vec3 vector = c * w + orientation[0] * v + cross(v, w);
+    // quaternion product
     return normalized({c * orientation[0] - dot(v, w), vector[0], vector[1], vector[2]});
 }
 
 void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
           const PeriodicBox& box) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
+        // q + dt U
         bodies.position[i] = box.wrap(bodies.position[i] + step * velocities[i].velocity);
         bodies.orientation[i] = rotated(bodies.orientation[i], step * velocities[i].spin);
     }
 }
 
 Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta) {
-    return q - step * (1.0 - theta) * velocity;
+    return q - step * (1.0 - theta) * velocity;  // Eq. 18 for x
 }
 
 }  // namespace turbidite::nscd

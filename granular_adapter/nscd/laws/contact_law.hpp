@@ -31,14 +31,17 @@ class ContactLaw {
     ContactLaw(const LawChoice& choice, const LawSettings& settings, const SurfaceTable& surfaces,
                LawList laws = law_list());
 
+    /// The terms of a contact: the sum over all parts, in the order of the slots.
     LawTerms terms(ContactSituation situation, const ContactState& state) const;
+    /// The contact's state for the next step.
     ContactState remember(ContactSituation situation, const ContactState& state,
                           const ContactOutcome& outcome) const;
 
+    /// Whether the slot has a part that can act.
     bool has(LawSlot slot) const;
     bool remembers() const { return remembers_; }
     bool reads_velocities() const { return reads_velocities_; }
-    double range() const { return range_; }
+    double range() const { return range_; }  ///< largest range of all parts [m]
 
  private:
     struct Part {

@@ -30,6 +30,7 @@ class ContactStates {
     /// Stores the states found by a step; states of zeros are dropped.
     void find(std::vector<RememberedState> next);
 
+    /// Makes the states found last those of the accepted step.
     void accept();
 
     /// The complete memory, for restart.

@@ -42,6 +42,7 @@ class SurfaceTable {
         return pairs_[static_cast<std::size_t>(a * count_ + b)];
     }
 
+    /// The largest restitution, normal or tangential, of all pairs.
     double largest_restitution() const;
 
     /// Of all pairs, for checks.

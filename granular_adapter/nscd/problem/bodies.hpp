@@ -70,6 +70,8 @@ struct Bodies {
         return fixed[i] || rotation_blocked[i] ? 0.0 : 1.0 / inertia[i];
     }
 
+    /// Throws std::invalid_argument naming the body and the value if mass, inertia or radius is not
+    /// positive.
     void add(const Body& body);
 
     /// Removes every body whose entry is zero; the order of the others stays.

@@ -22,6 +22,7 @@ Vec3 tangent_of(const Vec3& normal) {
 
 ContactVector contact_velocity(const Contact& contact, const std::vector<Twist>& v) {
     const Twist& b = v[static_cast<std::size_t>(contact.b)];
+    // v_b + w_b x arm_b - (v_a + w_a x arm_a)
     double x = b.velocity[0] - b.spin[2] * contact.arm_b[1];
     double y = b.velocity[1] + b.spin[2] * contact.arm_b[0];
     double spin = b.spin[2];

@@ -27,11 +27,13 @@ namespace turbidite::nscd {
 
 class Delassus;
 
+/// Residual of the natural map, >= 0; zero for a problem without contacts.
 double natural_map_residual(const ContactProblem& problem, const Impulses& r);
 
 /// The part of sum |r|^2 due to rounding alone [(N s)^2].
 double rounding_floor(const ContactProblem& problem);
 
+/// Quad and max.
 struct ChangeMeasures {
     double quad = 0.0;
     double max = 0.0;

@@ -11,8 +11,8 @@ bool by_key(const RememberedContact& a, const RememberedContact& b) {
     return a.key < b.key;
 }
 
-// Entries of the table are prefetched this many keys ahead: where they are is unrelated to the
-// order of the contacts, so that each would miss the cache.
+// The table is prefetched this many keys ahead: positions in it are unrelated to the order of the
+// contacts, so that every look-up would miss the cache.
 constexpr std::size_t ahead = 16;
 
 // Keys are looked up in the order of a step's contacts, which is unrelated to the order of the

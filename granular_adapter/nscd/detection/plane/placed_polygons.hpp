@@ -35,6 +35,7 @@ class PolygonShapes {
  public:
     explicit PolygonShapes(const ShapeTable& shapes);
 
+    /// An outline of circumradius 1.
     struct UnitPolygon {
         std::vector<double> numbers;  ///< x, y, nx, ny, support: five arrays, one after the other
         int corners = 0;

@@ -12,9 +12,10 @@ namespace {
 /// isotropic mobility n . n = t . t = 1 and n . t = 0 are used, which rounded directions would not
 /// satisfy exactly.
 void add_share(Block& w, const Contact& contact, const Vec3& arm, const BodyMobility& body) {
+    // arm x n, arm x t
     const double n = cross_z(arm, contact.normal), t = cross_z(arm, contact.tangent);
     if (body.isotropic()) {
-        w.nn += body.xx + body.ss * n * n;
+        w.nn += body.xx + body.ss * n * n;  // 1/m + (arm x n)^2/I
         w.nt += body.ss * n * t;
         w.tt += body.xx + body.ss * t * t;
         return;

@@ -38,14 +38,15 @@ struct Block {
 /// (n, t) of an impulse or a velocity.
 using Plane = std::array<double, 2>;
 
+/// r with u = W r + b that solves the contact; b and r in (n, t).
 inline Plane solve_contact(const Block& w, const Plane& b, double friction) {
     if (b[0] >= 0.0) return {0.0, 0.0};
-    const double a = w.tt - w.nt * w.nt / w.nn;
-    const double t = -(b[1] - w.nt * b[0] / w.nn) / a;
-    const double n = -(b[0] + w.nt * t) / w.nn;
+    const double a = w.tt - w.nt * w.nt / w.nn;         // A = W_tt - W_nt^2/W_nn
+    const double t = -(b[1] - w.nt * b[0] / w.nn) / a;  // stick: r_t = -c/A
+    const double n = -(b[0] + w.nt * t) / w.nn;         // r_n = -(b_n + W_nt r_t)/W_nn
     if (std::abs(t) <= friction * n) return {n, t};
     const double s = std::copysign(1.0, t);
-    const double slide = -b[0] / (w.nn + s * friction * w.nt);
+    const double slide = -b[0] / (w.nn + s * friction * w.nt);  // slide: r_n
     return {slide, s * friction * slide};
 }
 

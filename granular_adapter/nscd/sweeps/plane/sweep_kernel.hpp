@@ -337,7 +337,8 @@ TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
 }
 
-// Groups at rest are looked at once in many sweeps: their bodies are in no cache by then.
+// Groups at rest are tested only once in many sweeps, when their bodies have left the cache:
+// prefetched this many groups ahead.
 constexpr int look_ahead = 4;
 
 template <class Rows>

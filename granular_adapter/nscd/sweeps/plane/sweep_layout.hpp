@@ -118,7 +118,7 @@ struct SweepLayout {
         awake.assign(static_cast<std::size_t>(schedule.all - schedule.active), 0);
     }
 
-    /// Of the i-th lane; rows come one after the other.
+    /// The row of lane i; rows are appended one after the other.
     Rows& row_of(std::size_t i) { return i % Rows::width == 0 ? rows.emplace_back() : rows.back(); }
 
     template <class Visit>
