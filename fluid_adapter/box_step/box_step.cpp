@@ -66,7 +66,7 @@ void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
 }
 
 FluxReport BoxStep::project(double dt) {
-    kept_ = 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / (hx_ * hy_));
+    kept_ = 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / (hx_ * hy_));  // k = 1/(1 + 4 nu dt/h2)
     u_.begin(velocity(0));
     v_.begin(velocity(1));
     mean_flux(nx_, v_.row(-1), v_.row(0), kept_on_row(0), excess_y(0), flux_below_.data());
@@ -98,9 +98,11 @@ void BoxStep::correct_row(int j, double dt) {
     const double* here = p_.row(j);
     const double* above = p_.row(j + 1);
     const double* v = v_.row(j);
+    // v1 = v - dt dp/dy
     correct(nx_, 0.5 * dt / hy_, below, above, v, corrected_here_.data());
     if (j >= 0) {
         const double* v_below = v_.row(j - 1);
+        // phi1 = S.v + k e - dt dp/dy,   e = phi1 - S.v1
         projected_flux(nx_, v_below, v, kept_on_row(j), excess_y(j), dt / hy_, below, here,
                        flux_above_.data());
         excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
@@ -116,8 +118,9 @@ void BoxStep::correct_row(int j, double dt) {
 void BoxStep::correct_across(int j, double dt, const double* p) {
     const double* u = u_.row(j);
     double* corrected = corrected_u_.data() + RowReader::beyond;
-    correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, u, corrected);
+    correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, u, corrected);  // u1 = u - dt dp/dx
     u_.extend(corrected);
+    // phi1 = S.u + k e - dt dp/dx,   e = phi1 - S.u1
     flux_along(j, u, kept_, flux_x_.data());
     correct(nx_ + 1, dt / hx_, p - 1, p, flux_x_.data(), flux_x_.data());
     excess_of(nx_ + 1, flux_x_.data(), corrected - 1, corrected, excess_x(j));
@@ -152,6 +155,7 @@ void BoxStep::hold_flux() {
     v_.begin(velocity(1));
     for (int j = 0; j <= ny_; ++j) {
         const double* u = u_.row(j);
+        // phi1 = S.u1 + e
         if (j < ny_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), held_x(j));
         mean_flux(nx_, v_.row(j - 1), v_.row(j), 1.0, excess_y(j), held_y(j));
     }

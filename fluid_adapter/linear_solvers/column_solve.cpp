@@ -73,6 +73,7 @@ void ColumnSolve::up(int j, double* values) {
     if (j >= open_length()) return;
     double* row = values + at(j);
     const double* below = j > 0 ? values + at(j - 1) : nullptr;
+    // z_j = (s f_j + z_{j-1}) e_j
     e_.for_row(j, [&](int begin, int end, const double* e) {
         if (below)
             for (int k = begin; k < end; ++k) row[k] = (scale_ * row[k] + below[k]) * e[k - begin];
@@ -100,6 +101,7 @@ void ColumnSolve::close_last(double* values) {
     const int n = along_.cells;
     for (int j = n - 3; j >= 0; --j) substitute(j, values);
     double* last = values + at(n - 1);
+    // x_{n-1} = (s f_{n-1} + z_0 + z_{n-2})/(d_{n-1} - w_0 - w_{n-2})
     for (int k = 0; k < modes_.count; ++k)
         last[k] = (scale_ * last[k] + values[k] + values[at(n - 2) + k]) * closing_[k];
     std::copy_n(last, modes_.count, closed_.begin());
@@ -110,7 +112,7 @@ void ColumnSolve::down(int j, double* values) {
     if (along_.periodic() && j < last) {
         const double* w = w_.data() + at(j);
         double* row = values + at(j);
-        for (int k = 0; k < modes_.count; ++k) row[k] += w[k] * closed_[k];
+        for (int k = 0; k < modes_.count; ++k) row[k] += w[k] * closed_[k];  // x' = z + w x_{n-1}
     } else if (j < last) {
         substitute(j, values);
     }

@@ -32,6 +32,7 @@ void EliminationFactors::compute(const std::vector<double>& shift, double first,
     for (int k = 0; k < modes_; ++k) {
         // d - 2 without cancellation
         const double excess = std::max(shift[k] + (inner - 2.0), 0.0);
+        // (d - sqrt(d^2 - 4))/2
         settled_[k] = 2.0 / (2.0 + excess + std::sqrt(excess * (excess + 4.0)));
     }
     const int stiffest =
@@ -41,6 +42,7 @@ void EliminationFactors::compute(const std::vector<double>& shift, double first,
     for (int j = 0; j < rows; ++j) {
         const double diagonal = j == 0 ? first : j == rows - 1 ? last : inner;
         const bool within = j > 0 && j < rows - 1;
+        // e_j = 1/(d_j - e_{j-1})
         for (int k = 0; k < modes_; ++k)
             if (!within || k < begin || k >= end)
                 factors[k] = 1.0 / (shift[k] + diagonal - (j > 0 ? factors[k] : 0.0));

@@ -34,7 +34,7 @@ double AxisOperator::diagonal(int j) const {
 
 double AxisOperator::eigenvalue(int k) const {
     const double sine = std::sin(phase(*this, k));
-    return 4.0 * sine * sine * coupling();
+    return 4.0 * sine * sine * coupling();  // (4/h2) sin2(phase)
 }
 
 void check(const AxisOperator& axis) {

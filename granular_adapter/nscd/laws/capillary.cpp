@@ -56,7 +56,9 @@ bool Capillary::bridged(const ContactSituation& situation) const {
 
 void Capillary::add(const ContactSituation& situation, LawTerms& terms) const {
     if (!bridged(situation)) return;
+    // adhesion/R_ref, shared by the points
     const double kappa = situation.share * situation.surface.adhesion / radius_;
+    // c(g) = kappa sqrt(R1 R2) exp(-g/lambda)
     terms.attraction =
         kappa * effective_radius(situation) * std::exp(-std::max(situation.gap, 0.0) / length_);
 }

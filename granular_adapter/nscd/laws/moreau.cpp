@@ -41,7 +41,7 @@ void Moreau::add(const ContactSituation& situation, LawTerms& terms) const {
     const double restitution = situation.surface.restitution;
     if (restitution == 0.0 || !in_impact(situation, threshold_)) return;
     demand_rebound(situation, restitution, terms);
-    terms.tangential_restitution = restitution;
+    terms.tangential_restitution = restitution;  // b_t = e u_t^-
 }
 
 }  // namespace
