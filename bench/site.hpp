@@ -25,7 +25,7 @@ class Site {
     bool quick() const { return quick_; }  ///< tiny meshes, to test that everything works
     const Programs& programs() const { return programs_; }
     const std::filesystem::path& folder() const { return folder_; }
-    /// path of a file in this folder, bench/
+    /// Path of a file in this folder, bench/.
     std::filesystem::path source(const std::string& file) const;
 
     /// Runs a program to its end, with its output in the folder's file `log`. Throws Failure with

@@ -42,7 +42,7 @@ class BoxSolve {
     Rows rows_;
     fftw_plan there_, back_;
     double scale_;  // factor of f: normalisation of the transform, and off-diagonal
-    // inverse pivots of the elimination, the modes of a row contiguous
+    // Inverse pivots of the elimination, the modes of a row contiguous.
     std::vector<double> pivots_;
 };
 

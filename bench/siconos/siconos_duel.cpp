@@ -95,7 +95,7 @@ nlohmann::ordered_json run(const Options& options) {
     for (const double time : options.times) {
         play(engine, time - now, options.column.step);
         now = time;
-        // the original column is not advanced by this
+        // The original column is not advanced by this.
         nscd::Engine probe = dry_column(options.column);
         probe.restore(engine.save());
         probe.step(options.column.step);

@@ -33,7 +33,7 @@ struct FluidFields {
     Foam::surfaceScalarField excess;
     Foam::scalar nu;   ///< [m2/s]
     Foam::scalar rho;  ///< rho_f [kg/m3]
-    /// of the single layer of cells [m]: integrals over it are per unit length
+    /// Of the single layer of cells [m]: integrals over it are per unit length.
     Foam::scalar thickness;
 
     /// Whether the case's endTime is reached.

@@ -14,7 +14,7 @@
 namespace turbidite {
 namespace {
 
-/// div phi| D / u_c required of the projection: half of what the run accepts.
+/// |div phi| D / u_c required of the projection: half of what the run accepts.
 constexpr double divergence_goal = 5e-5;
 
 /// k of the limiter, if the case transports with `Gauss limitedLinearV k`.
@@ -65,7 +65,7 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
     try {
         return std::make_unique<BoxFluidStep>(fields, *limiter, box);
     } catch (const DoesNotFit&) {
-        // accepts more general cases, or reports what does not fit
+        // Accepts more general cases, or reports what does not fit.
         return operator_step(settings, fields, box);
     }
 }

@@ -21,7 +21,7 @@ struct BoxCells {
     RankGroup ranks;
     std::array<int, 2> cells{};  ///< columns and rows of the box, over all ranks
     std::vector<int> place;      ///< i + nx j, by cell of this rank
-    /// by coefficient of the matrix: the axis along which it couples
+    /// By coefficient of the matrix: the axis along which it couples.
     std::vector<unsigned char> axis;
     std::vector<std::vector<int>> beyond;  ///< by patch and face: place of the cell on the far side
 

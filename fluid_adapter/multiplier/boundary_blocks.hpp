@@ -46,7 +46,7 @@ class BoundaryBlocks {
     const CollocationPoints* points_ = nullptr;
     ProfileCholesky factors_;
     std::vector<int> order_;  // row of a grain's matrix -> boundary point
-    // of one point: weight over relative cell volume, by slot; zero between uses
+    // Of one point: weight over relative cell volume, by slot; zero between uses.
     std::vector<double> on_slots_;
     std::vector<double> row_;              // of the matrix being assembled
     std::vector<double> columns_;          // right-hand sides of one grain

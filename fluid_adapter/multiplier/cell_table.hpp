@@ -11,7 +11,7 @@
 namespace turbidite {
 
 struct CellTable {
-    /// local index by place in the block, x fastest; -1 unknown
+    /// Local index by place in the block, x fastest; -1 unknown.
     const int* index = nullptr;
     std::array<int, 2> first{}, width{};  ///< of the block: its first cell and its cells per axis
     std::array<int, 2> turn{};            ///< cells around a cyclic axis, 0 for other axes

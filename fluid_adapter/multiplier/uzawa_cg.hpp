@@ -18,8 +18,8 @@ namespace turbidite {
 
 struct MultiplierSettings {
     double tolerance = 1e-4;  ///< of the rms slip over u_c; usually 1e-4 .. 1e-6
-    /// the rms slip must also fall by this factor: with a short dt it may be below `tolerance` from
-    /// the start, and the grain would not feel the fluid
+    /// The rms slip must also fall by this factor: with a short dt it may be below `tolerance` from
+    /// the start, and the grain would not feel the fluid.
     double reduction = 1e-2;
     double velocity_scale = 1.0;  ///< u_c [m/s]
     int iterations = 200;         ///< upper limit

@@ -57,7 +57,7 @@ class CellRows {
     RankGroup group_;
     int columns_;
     std::vector<Span> rows_of_rank_;
-    // all cells stay, and are already in the order of the rows
+    // All cells stay, and are already in the order of the rows.
     bool straight_ = false;
     std::vector<int> own_cells_, own_places_;  // cells that stay, and their places in the rows
     std::vector<Part> away_, guests_;          // sections of the next two lists

@@ -63,7 +63,7 @@ class MpiPencils final : public Pencils {
     AlignedValues row_values_;
     std::unique_ptr<SharedValues> shared_;  // columns, if on one node
     AlignedValues column_values_;           // columns otherwise
-    // this rank's rows, grouped by the rank that holds the modes
+    // This rank's rows, grouped by the rank that holds the modes.
     std::vector<double> packed_;
     std::vector<std::size_t> starts_;  // start of each rank's group
     std::vector<MPI_Request> requests_;

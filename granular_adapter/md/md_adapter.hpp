@@ -85,7 +85,7 @@ class MdAdapter final : public GrainsAdapter {
     std::vector<Border> borders_;
     nscd::Bodies bodies_;  ///< at the host's positions
     std::vector<Held> held_;
-    /// whether a grain had a contact in this window
+    /// Whether a grain had a contact in this window.
     std::vector<std::uint8_t> touched_;
     std::optional<std::vector<ContactRecord>> contacts_;  ///< of this window, if it has output
     bool advanced_ = false;

@@ -11,7 +11,7 @@
 namespace turbidite::yade {
 
 struct Turn {
-    /// an outline, for which only the rotation about z counts; false for discs
+    /// An outline, for which only the rotation about z counts; false for discs.
     bool planar = false;
     Quaternion rotation{1.0, 0.0, 0.0, 0.0};
 };

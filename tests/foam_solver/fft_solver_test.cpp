@@ -81,7 +81,7 @@ TEST_P(FftSolver, EqualsPcgInTime) {
     const Outcome direct = diffused(box, GetParam().sides, fft);
     EXPECT_SAYS(direct.log, "FFT:  Solving for T");
     EXPECT_EQ(iterations(direct.log, "T"), std::vector<int>(3, 1));
-    // rounding of 5 terms, not the 1e-9 of the tolerance
+    // Rounding of 5 terms, not the 1e-9 of the tolerance.
     EXPECT_LT(worst_residual(direct.log, "T"), 1e-13);
     EXPECT_LT(largest_difference(direct.T, diffused(box, GetParam().sides, pcg).T), agreement);
 }

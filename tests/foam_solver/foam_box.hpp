@@ -16,7 +16,7 @@ namespace turbidite {
 using Sides = std::array<std::string, 4>;
 
 struct FoamBox {
-    /// edges of the blocks
+    /// Edges of the blocks.
     std::array<double, 4> x = {0.0, 0.5, 1.0, 1.5}, y = {0.0, 0.25, 0.5, 0.75};
     std::array<int, 2> cells = {8, 6};  ///< of a block
     int layers = 1;

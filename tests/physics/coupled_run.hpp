@@ -71,7 +71,7 @@ class CoupledRun {
     const std::vector<GrainState>& between() const { return between_; }  ///< U^{n+4/5}
     const std::vector<GrainState>& grains() const { return grains_; }    ///< U^{n+1}
     const Kicks& answer() const { return answer_; }
-    /// with an impulse, summed over all windows
+    /// With an impulse, summed over all windows.
     std::int64_t contacts() const { return contacts_; }
     ImmersedBody body() const;
 

@@ -41,7 +41,7 @@ struct EngineSettings {
     double theta = 0.5;             ///< of the theta-scheme, in [1/2, 1]
     double friction = 0.3;          ///< mu of the only material, if `surfaces` is empty
     std::vector<Surface> surfaces;  ///< by Bodies::material and Wall::material
-    /// pairs that do not follow the pair rule of surface.hpp
+    /// Pairs that do not follow the pair rule of surface.hpp.
     std::vector<SurfacePair> surface_pairs;
     LawChoice law;
     LawSettings law_settings;

@@ -47,7 +47,7 @@ Quaternion rotated(const Quaternion& orientation, const Vec3& angle) {
     const Vec3 v = (std::sin(0.5 * magnitude) / magnitude) * angle;
     const Vec3 w{orientation[1], orientation[2], orientation[3]};
     const Vec3 vector = c * w + orientation[0] * v + cross(v, w);
-    // quaternion product
+    // Quaternion product.
     return normalized({c * orientation[0] - dot(v, w), vector[0], vector[1], vector[2]});
 }
 

@@ -17,7 +17,7 @@ struct Surface {
     double restitution = 0.0;      ///< e_n, [0, 1]
     double restitution_tangential = 0.0;  ///< e_t, [0, 1]
     double rolling_friction = 0.0;        ///< mu_r: lever of the rolling resistance over R*
-    /// force that separates two touching discs of the reference diameter [N]
+    /// Force that separates two touching discs of the reference diameter [N].
     double adhesion = 0.0;
 };
 

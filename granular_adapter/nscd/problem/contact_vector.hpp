@@ -48,7 +48,7 @@ inline double dot(const ContactVector& a, const ContactVector& b) {
     return a.n * b.n + a.t * b.t + a.s * b.s + a.roll * b.roll;
 }
 
-/// u_t|, the magnitude of the tangential part.
+/// |u_t|, the magnitude of the tangential part.
 inline double tangential(const ContactVector& u) {
     return std::hypot(u.t, u.s);
 }

@@ -23,7 +23,7 @@ ContactVector biased_velocity(const Contact& contact, const std::vector<Twist>& 
     return contact_velocity(contact, v) + contact.bias;
 }
 
-/// natural map|^2 and |r|^2 of one contact.
+/// |natural map|^2 and |r|^2 of one contact.
 struct Terms {
     double error, size;
 };
@@ -51,7 +51,7 @@ ContactVector times(const Block& w, const ContactVector& r) {
                     w.nr * r.n + w.tr * r.t + w.rr * r.roll);
 }
 
-/// u|^2, with spins scaled to velocities.
+/// |u|^2, with spins scaled to velocities.
 double squared(const Block& w, const ContactVector& u) {
     const double rolling = w.rr > 0.0 ? u.roll * u.roll * (w.nn / w.rr) : 0.0;
     return u.n * u.n + u.t * u.t + rolling;

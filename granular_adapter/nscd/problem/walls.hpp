@@ -22,7 +22,7 @@ struct Wall {
     Vec3 point{};                ///< on the wall; the midpoint of a segment [m]
     Vec3 normal{0.0, 1.0, 0.0};  ///< inward, unit
     double friction = 0.0;       ///< mu of contacts with this wall, if it has no material
-    /// of a segment; infinite for a half-plane [m]
+    /// Of a segment; infinite for a half-plane [m].
     double half_length = std::numeric_limits<double>::infinity();
     std::int32_t key = 0;  ///< identifies the wall in the contact memory; distinct per wall
     /// Index into the SurfaceTable; -1: the surface of the touching body, with `friction`.

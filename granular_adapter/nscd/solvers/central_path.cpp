@@ -18,7 +18,7 @@ constexpr int shortenings = 40, trials = 14;
 // curves in s have turning points; with a larger one, more is left to the last stage
 // (docs/decisions.md).
 constexpr double convex_z = 1e-2;
-// s| that one correction can reduce to zero.
+// |s| that one correction can reduce to zero.
 constexpr double nearly_coulomb = 0.02;
 constexpr double first_length = 0.1;
 // Below this product, in the units of PathSystem::product, velocities are rounding.

@@ -38,7 +38,7 @@ struct ManifoldPoint {
     double length = 0.0;        ///< half the common side for each of two points, else 0 [m]
     int corner = 0;             ///< the corner that names the point
     bool of_second = false;     ///< whether this corner belongs to the second polygon
-    /// normal fixed to a side of the first (1), of the second (2), or to none (0)
+    /// Normal fixed to a side of the first (1), of the second (2), or to none (0).
     int turns_with = 0;
 };
 

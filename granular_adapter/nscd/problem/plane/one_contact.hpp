@@ -53,7 +53,7 @@ inline Plane solve_contact(const Block& w, const Plane& b, double friction) {
 /// The point of the cone |t| <= mu n closest to x.
 inline Plane project_on_cone(const Plane& x, double friction) {
     const double n = x[0], t = std::abs(x[1]);
-    // for mu = 0 the second condition alone holds for any n
+    // For mu = 0 the second condition alone holds for any n.
     if (n >= 0.0 && t <= friction * n) return x;
     if (friction * t <= -n) return {0.0, 0.0};
     const double on_edge = (n + friction * t) / (1.0 + friction * friction);

@@ -52,7 +52,7 @@ struct SweepLayout {
     Schedule schedule;
     std::vector<PlaneBody> bodies;
     std::vector<Rows> rows;
-    /// per group at rest: 1 if it is swept nevertheless, because a contact has gained an impulse
+    /// Per group at rest: 1 if it is swept nevertheless, because a contact has gained an impulse.
     std::vector<std::uint8_t> awake;
 
     SweepLayout(const ContactProblem& problem, const Delassus& w,
