@@ -17,6 +17,7 @@ namespace turbidite::bench {
 
 class Site {
  public:
+    /// `quick`: tiny meshes. Throws Failure if the folder cannot be made.
     explicit Site(bool quick);
     ~Site();
     Site(const Site&) = delete;
@@ -32,6 +33,7 @@ class Site {
     /// the end of the log if the program fails.
     void run(const std::vector<std::string>& line, const std::string& log) const;
 
+    /// The contents of a log in the folder.
     std::string text(const std::string& log) const;
 
  private:
@@ -47,6 +49,7 @@ using Contender = std::function<Sample()>;
 struct Duel {
     std::vector<Sample> first, second;
 };
+/// Runs the contenders in turns, `repeats` times each.
 Duel alternate(int repeats, const Contender& first, const Contender& second);
 
 using Quantity = std::function<double(const Sample&)>;

@@ -16,7 +16,7 @@
 namespace turbidite::bench {
 
 double processor_seconds();  ///< of this process [s]
-double wall_seconds();
+double wall_seconds();       ///< of the monotonic clock [s]
 
 /// Median; the mean of the two middle values if their number is even. Throws std::invalid_argument
 /// if empty.
@@ -36,6 +36,7 @@ class StepClock {
 
     double processor() const { return median(processor_); }
     double wall() const { return median(wall_); }
+    /// Sums over the timed steps [s].
     double processor_sum() const;
     double wall_sum() const;
 

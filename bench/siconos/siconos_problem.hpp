@@ -39,6 +39,7 @@ class Problem {
     /// Passes the problem through the text file of nscd/problem/plane/problem_file.hpp, which
     /// Siconos reads.
     Problem(const nscd::ContactProblem& problem, const Scale& scale);
+    /// Reads a problem from a file of Siconos.
     explicit Problem(const std::filesystem::path& file);
     ~Problem();
     Problem(const Problem&) = delete;
@@ -52,7 +53,7 @@ class Problem {
 
     /// W as n rows of n entries; for small problems.
     std::vector<double> dense_matrix() const;
-    const double* q() const;
+    const double* q() const;  ///< H^T v_free + b, 2 contacts() values
     const double* friction() const;
 
     /// fc2d_driver from zero impulses. `solver`: "nsgs" (any size), "lemke" or "cpg" (dense, small

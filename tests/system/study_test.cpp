@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `turbidite study`: a sweep played, continued and refused.
+// `turbidite study`: a sweep that is run, continued and refused.
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
@@ -72,7 +72,7 @@ TEST_F(StudyRuns, GoesOnAfterARunThatFails) {
     EXPECT_SAYS(text(scratch.path() / "s/study.html"), "coarse: physics refused");
 }
 
-// Stopped in its second run, which is then interrupted; the same line again plays the rest.
+// Interrupted during its second run; the same command then runs the rest.
 TEST_F(StudyRuns, IsContinuedAfterAnInterruption) {
     scratch.write(
         "frictions.yaml",
