@@ -42,7 +42,21 @@ BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const Box
     : fields_(fields),
       rows_(fields.ranks, box.cells[0], box.cells[1], box.place),
       step_(fluid, box_rows(fields.ranks, fluid.pressure, rows_)),
-      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {}
+      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {
+    take_velocity();
+}
+
+double* BoxFluidStep::velocity(int axis) {
+    return rows_.in_cell_order() ? step_.velocity(axis) : nullptr;
+}
+
+void BoxFluidStep::put_velocity() {
+    if (rows_.in_cell_order()) store();
+}
+
+void BoxFluidStep::take_velocity() {
+    if (rows_.in_cell_order()) load();
+}
 
 void BoxFluidStep::load() {
     const Foam::vectorField& U = fields_.U.primitiveField();
@@ -63,7 +77,7 @@ BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
 }
 
 Projection BoxFluidStep::project() {
-    load();
+    if (!rows_.in_cell_order()) load();
     const FluxReport report = step_.project(fields_.time.deltaTValue());
     double largest[] = {report.divergence, report.courant};
     fields_.ranks.max(largest, 2);
@@ -83,19 +97,20 @@ std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
 
 BoundaryForce BoxFluidStep::diffuse() {
     step_.diffuse(fields_.time.deltaTValue(), [](int) {});
-    store();
+    if (!rows_.in_cell_order()) store();
     return on_all_ranks(step_.viscous_force());
 }
 
-/// Checks some cells only: a direct solve spreads one bad value over all rows of all ranks.
-bool BoxFluidStep::finite() const {
-    Foam::scalar sum = 0.0;
-    const Foam::label some = std::min(fields_.U.size(), 100);
-    for (Foam::label c = 0; c < some; ++c) sum += Foam::magSqr(fields_.U[c]);
+/// A direct solve spreads one bad value over all rows of all ranks.
+bool BoxFluidStep::finite() {
+    double sum = 0.0;
+    const int some = std::min(rows_.size(), 100);
+    for (int axis = 0; axis < 2; ++axis)
+        for (int c = 0; c < some; ++c) sum += std::abs(step_.velocity(axis)[c]);
     return fields_.ranks.all(std::isfinite(sum));
 }
 
-void BoxFluidStep::put_fields() {
+void BoxFluidStep::put_pressure() {
     Foam::scalarField& p = fields_.p.primitiveFieldRef();
     const double level = floating_ ? rows_.first(step_.pressure()) : 0.0;
     rows_.scatter(step_.pressure(), [&](int c, double value) { p[c] = value - level; });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields. U is copied to rows
-// of contiguous components before the steps and back after them; p is copied on request. A rank
-// works on complete rows, its own if OpenFOAM's decomposition gave it complete ones
-// (ranks/cell_rows.hpp). A row is all cells with the same y.
+// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields. A rank works on
+// complete rows. Where OpenFOAM's decomposition gave it such (ranks/cell_rows.hpp), the velocity
+// stays in them, and U and p are copied when somebody asks; otherwise U is copied to rows before
+// the steps and back after them.
 #pragma once
 
 #include "fluid_adapter/foam_app/fluidStep.hpp"
@@ -20,8 +20,11 @@ class BoxFluidStep final : public FluidStep {
     Projection project() override;
     std::vector<BoundaryForce> transport(int parts) override;
     BoundaryForce diffuse() override;
-    bool finite() const override;
-    void put_fields() override;
+    bool finite() override;
+    double* velocity(int axis) override;
+    void put_velocity() override;
+    void take_velocity() override;
+    void put_pressure() override;
     std::int64_t kind() const override { return 2; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;

@@ -83,4 +83,15 @@ Foam::vector FluidFields::momentum() const {
     return rho / thickness * sum;
 }
 
+Foam::vector FluidFields::momentum(const double* x, const double* y) const {
+    const Foam::scalarField& volume = mesh.V().field();
+    Foam::vector sum = Foam::Zero;
+    forAll(volume, c) {
+        sum.x() += volume[c] * x[c];
+        sum.y() += volume[c] * y[c];
+    }
+    ranks.sum(sum.v_, Foam::vector::nComponents);
+    return rho / thickness * sum;
+}
+
 }  // namespace turbidite

@@ -51,8 +51,9 @@ struct FluidFields {
     /// Largest Courant number of phi.
     Foam::scalar courant() const;
 
-    /// Momentum of the whole fluid [N s/m].
+    /// Momentum of all fluid [N s/m], of U or of these components by cell.
     Foam::vector momentum() const;
+    Foam::vector momentum(const double* x, const double* y) const;
 };
 
 }  // namespace turbidite

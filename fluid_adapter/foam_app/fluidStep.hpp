@@ -7,7 +7,9 @@
 //     OperatorStep   OpenFOAM's operators and tables with the solvers that fvSolution names, for
 //                    everything else
 //
-// U holds the velocity before `project` and after `diffuse`; its value in between is unspecified.
+// A step that works on contiguous components keeps the velocity in them from window to window, for
+// the multiplier method as well, and U follows when somebody asks. For others U holds it before
+// `project` and after `diffuse`.
 #pragma once
 
 #include <cstdint>
@@ -42,11 +44,18 @@ class FluidStep {
     virtual std::vector<BoundaryForce> transport(int parts) = 0;
     virtual BoundaryForce diffuse() = 0;  ///< step 3
 
-    /// After `diffuse`: whether all velocities are finite.
-    virtual bool finite() const = 0;
+    /// After `diffuse`: no velocity is infinite or no number.
+    virtual bool finite() = 0;
 
-    /// Copies p into the field, if the step keeps it elsewhere.
-    virtual void put_fields() {}
+    /// One component of u over this rank's cells, in their order [m/s]: the velocity itself. Null
+    /// where U holds it.
+    virtual double* velocity(int) { return nullptr; }
+
+    // Between the step's own values and those of the fields:
+
+    virtual void put_velocity() {}   ///< into U
+    virtual void take_velocity() {}  ///< from U, which was changed
+    virtual void put_pressure() {}   ///< into p
 
     /// State beyond u and p: the excess flux, in the step's own order; saved and restored. `kind`
     /// identifies the implementation, and so the order.

@@ -11,8 +11,10 @@ FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup
     : fields_(directory, ranks),
       field_(fields_, fluid_domain(settings)),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
-      ledger_(fields_),
-      multipliers_(field_, settings, shapes) {}
+      ledger_(fields_, field_),
+      multipliers_(field_, settings, shapes) {
+    field_.work_on(step_->velocity(0), step_->velocity(1));
+}
 
 void FluidWindow::advance(const Window& window) {
     begin(window);
@@ -41,15 +43,21 @@ std::vector<FreeResponse> FluidWindow::responses() {
 
 Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
+        if (window_.write_output) step_->put_velocity();  // u3, for lambda
         multipliers_.impose();
-        field_.store(multipliers_.points(), window_.write_output);
+        fields_follow_ = false;
+        if (window_.write_output) field_.put_force_density(multipliers_.points());
+        field_.store(multipliers_.points());
         close_ledger();
     });
     check_finite(ledger_.finite(), "step 5 (multipliers)");
     if (window_.write_output) watch_.play("output", timings_.output, [&] { write_fields(); });
     // In the last window, lets function objects finish, as OpenFOAM's own loops do.
     if (fields_.finished())
-        with_foam_errors("ending function objects", [&] { fields_.time.run(); });
+        with_foam_errors("ending function objects", [&] {
+            if (!fields_.time.functionObjects().empty()) put_fields();
+            fields_.time.run();
+        });
     report_.wall_seconds = timings_.together();
     return {multipliers_.kicks(), report_};
 }
@@ -130,12 +138,22 @@ void FluidWindow::write_fields() {
 
 void FluidWindow::put_fields() {
     if (fields_follow_) return;
-    step_->put_fields();
+    step_->put_velocity();
+    step_->put_pressure();
     fields_.interpolate_flux();
     fields_follow_ = true;
 }
 
+void FluidWindow::add_velocity(const Foam::vector& change) {
+    step_->put_velocity();
+    fields_.U.primitiveFieldRef() += change;
+    fields_.U.correctBoundaryConditions();
+    step_->take_velocity();
+    ledger_.forget();
+}
+
 void FluidWindow::fields_replaced() {
+    step_->take_velocity();
     ledger_.forget();
     fields_follow_ = true;
 }

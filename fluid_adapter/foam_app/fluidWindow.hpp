@@ -51,8 +51,8 @@ class FluidWindow {
 
     // Changes from outside, between windows:
 
-    void velocity_changed() { ledger_.forget(); }  ///< of U
-    void fields_replaced();                        ///< everything that a saved state contains
+    void add_velocity(const Foam::vector& change);  ///< to u everywhere [m/s]
+    void fields_replaced();                         ///< of all that a saved state holds
 
     FluidFields& fields() { return fields_; }
     FluidStep& step() { return *step_; }
@@ -80,7 +80,7 @@ class FluidWindow {
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;
-    bool fields_follow_ = true;  ///< whether p and phi are up to date
+    bool fields_follow_ = true;  ///< U, p and phi hold what the steps know
     StepWatch watch_;
     FluidTimings timings_;
     FluidReport report_;

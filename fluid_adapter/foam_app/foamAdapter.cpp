@@ -96,15 +96,13 @@ const CollocationPoints& FoamAdapter::points() const {
 }
 
 void FoamAdapter::add_velocity(double x, double y) {
-    FluidFields& fields = window_->fields();
-    fields.U.primitiveFieldRef() += Foam::vector(x, y, 0.0);
-    fields.U.correctBoundaryConditions();
-    window_->velocity_changed();
+    window_->add_velocity(Foam::vector(x, y, 0.0));
 }
 
 Vec3 FoamAdapter::velocity(int i, int j) const {
-    const Foam::vector& u = window_->fields().U[window_->field().cell(i, j, 0)];
-    return {u.x(), u.y(), u.z()};
+    const FoamFluidField& field = window_->field();
+    const auto [x, y] = field.velocity_of(field.cell(i, j, 0));
+    return {x, y, 0.0};
 }
 
 double FoamAdapter::pressure(int i, int j) const {

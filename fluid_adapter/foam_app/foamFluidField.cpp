@@ -47,9 +47,8 @@ FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
         shared_ = std::make_unique<SharedGrains>(fields.ranks);
     }
     cells_ = block_.table();
-    const std::size_t local = owned_ + block_.halo().size();
-    x_.resize(local);
-    y_.resize(local);
+    for (std::vector<double>& halo : halo_velocity_) halo.resize(block_.halo().size());
+    work_on(nullptr, nullptr);
     cell_mass_ = fields.rho * grid_.spacing[0] * grid_.spacing[1];
 }
 
@@ -78,8 +77,20 @@ std::vector<int> FoamFluidField::cell_numbers() const {
     return numbers;
 }
 
-void FoamFluidField::import_halo(double* x, double* y) const {
-    if (halo_) halo_->import({x, y});
+void FoamFluidField::work_on(double* x, double* y) {
+    copies_used_ = x == nullptr;
+    velocity_ = {x, y};
+    for (int axis = 0; axis < 2; ++axis) {
+        copies_[axis].resize(copies_used_ ? owned_ : 0);
+        if (copies_used_) velocity_[axis] = copies_[axis].data();
+    }
+}
+
+std::array<const double*, 2> FoamFluidField::import_halo() {
+    if (halo_)
+        halo_->import({velocity_[0], velocity_[1]},
+                      {halo_velocity_[0].data(), halo_velocity_[1].data()});
+    return {halo_velocity_[0].data(), halo_velocity_[1].data()};
 }
 
 void FoamFluidField::share_sums(double* x, double* y) const {
@@ -100,32 +111,49 @@ void FoamFluidField::sum_over_holders(double* rows, int per_grain) const {
     if (shared_) shared_->sum(rows, per_grain);
 }
 
-void FoamFluidField::load(const CollocationPoints& points) {
-    for (const InteriorCell& point : points.interior) load(point.cell);
+template <class Visit>
+void FoamFluidField::for_cells_of(const CollocationPoints& points, Visit visit) const {
+    for (const InteriorCell& point : points.interior) visit(point.cell);
     for (const StencilCell& at : points.stencilled)
-        if (owns(at.cell)) load(at.cell);
+        if (owns(at.cell)) visit(at.cell);
+}
+
+std::array<double, 2> FoamFluidField::velocity_of(int cell) const {
+    if (copies_used_) return {fields_.U[cell].x(), fields_.U[cell].y()};
+    return {velocity_[0][cell], velocity_[1][cell]};
+}
+
+Foam::vector FoamFluidField::momentum() const {
+    if (copies_used_) return fields_.momentum();
+    return fields_.momentum(velocity_[0], velocity_[1]);
+}
+
+void FoamFluidField::load(const CollocationPoints& points) {
+    if (!copies_used_) return;
+    for_cells_of(points, [&](int cell) { load(cell); });
     for (const int cell : shared_cells_) load(cell);
 }
 
 void FoamFluidField::load(int cell) {
-    x_[cell] = fields_.U[cell].x();
-    y_[cell] = fields_.U[cell].y();
+    velocity_[0][cell] = fields_.U[cell].x();
+    velocity_[1][cell] = fields_.U[cell].y();
 }
 
-void FoamFluidField::store(const CollocationPoints& points, bool force_density) {
-    if (force_density) fields_.lambda.primitiveFieldRef() = Foam::Zero;
-    for (const InteriorCell& point : points.interior) store(point.cell, force_density);
-    for (const StencilCell& at : points.stencilled)
-        if (owns(at.cell)) store(at.cell, force_density);
+void FoamFluidField::store(const CollocationPoints& points) {
+    if (!copies_used_) return;
+    for_cells_of(points, [&](int cell) {
+        fields_.U[cell] = Foam::vector(velocity_[0][cell], velocity_[1][cell], 0.0);
+    });
     fields_.U.correctBoundaryConditions();
 }
 
-void FoamFluidField::store(int cell, bool force_density) {
-    const Foam::vector corrected(x_[cell], y_[cell], 0.0);
-    if (force_density)
-        fields_.lambda[cell] =
-            fields_.rho / fields_.time.deltaTValue() * (fields_.U[cell] - corrected);
-    fields_.U[cell] = corrected;
+void FoamFluidField::put_force_density(const CollocationPoints& points) {
+    fields_.lambda.primitiveFieldRef() = Foam::Zero;
+    const Foam::scalar rate = fields_.rho / fields_.time.deltaTValue();
+    for_cells_of(points, [&](int cell) {
+        const Foam::vector corrected(velocity_[0][cell], velocity_[1][cell], 0.0);
+        fields_.lambda[cell] = rate * (fields_.U[cell] - corrected);
+    });
 }
 
 }  // namespace turbidite

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An fvMesh as FluidField for the multiplier method: a uniform grid with cells found by number, on
-// several ranks with a halo around this rank's cells. Velocities are copied to contiguous
-// components before step 5 and back after it.
+// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number, on
+// several ranks with a halo around this rank's cells. Velocities are those of a step that keeps
+// them as contiguous components; of other steps they are copied from U before step 5 and back after
+// it.
 #pragma once
 
 #include <memory>
@@ -24,12 +25,12 @@ class FoamFluidField final : public FluidField {
 
     const CellGrid& grid() const override { return grid_; }
     const CellTable& cells() const override { return cells_; }
-    int local_cells() const override { return static_cast<int>(x_.size()); }
-    bool owns(int cell) const override { return cell < owned_; }
+    int local_cells() const override { return owned_ + static_cast<int>(halo_velocity_[0].size()); }
+    int owned_cells() const override { return owned_; }
     double reference_mass() const override { return cell_mass_; }
     bool shares(int cell) const override { return halo_ && (!owns(cell) || in_a_halo_[cell]); }
-    double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
-    void import_halo(double* x, double* y) const override;
+    double* velocity(int axis) override { return velocity_[axis]; }
+    std::array<const double*, 2> import_halo() override;
     void share_sums(double* x, double* y) const override;
     void sum_over_ranks(double* values, int count) const override;
     void hold_grains(const GrainId* ids, int count) const override;
@@ -38,17 +39,28 @@ class FoamFluidField final : public FluidField {
     /// i + nx j of each of this rank's cells. Throws Failure as the constructor does.
     std::vector<int> cell_numbers() const;
 
-    /// Copies velocities from U for the cells of these points and those that other ranks know; no
-    /// others are read.
+    /// Works on the velocity that a step keeps; null: on copies from U, as at first.
+    void work_on(double* x, double* y);
+
+    /// u of one of this rank's cells, wherever it is [m/s].
+    std::array<double, 2> velocity_of(int cell) const;
+
+    /// Momentum of all fluid [N s/m].
+    Foam::vector momentum() const;
+
+    /// From U, cells of these points and those that other ranks know; no other is read.
     void load(const CollocationPoints& points);
 
-    /// Copies velocities to U for the cells of these points. With `force_density`, also sets lambda
-    /// = -rho_f (u - u3)/dt.
-    void store(const CollocationPoints& points, bool force_density);
+    /// To U, cells of these points only.
+    void store(const CollocationPoints& points);
+
+    /// lambda = -rho_f (u - u3)/dt in the cells of these points, u3 from U; before `store`.
+    void put_force_density(const CollocationPoints& points);
 
  private:
+    template <class Visit>
+    void for_cells_of(const CollocationPoints& points, Visit visit) const;
     void load(int cell);
-    void store(int cell, bool force_density);
 
     FluidFields& fields_;
     CellGrid grid_;
@@ -57,8 +69,11 @@ class FoamFluidField final : public FluidField {
     std::unique_ptr<HaloExchange> halo_;    // on several ranks
     std::unique_ptr<SharedGrains> shared_;  // on several ranks
     std::vector<int> shared_cells_;         // own cells in another rank's halo
-    std::vector<char> in_a_halo_;           // the same, as a flag per cell
-    std::vector<double> x_, y_;
+    std::vector<char> in_a_halo_;           // the same, by cell
+    std::array<std::vector<double>, 2> halo_velocity_;
+    std::array<std::vector<double>, 2> copies_;  // of U, unless a step keeps the velocity
+    std::array<double*, 2> velocity_{};
+    bool copies_used_ = true;
     int owned_ = 0;
     double cell_mass_ = 0.0;
 };

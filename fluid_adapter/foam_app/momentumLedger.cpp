@@ -7,7 +7,7 @@
 namespace turbidite {
 
 void MomentumLedger::open() {
-    before_ = current_ ? *current_ : fields_.momentum();
+    before_ = current_ ? *current_ : field_.momentum();
     current_.reset();
     impulses_ = Foam::Zero;
     largest_ = 0.0;
@@ -29,7 +29,7 @@ bool MomentumLedger::finite() const {
 }
 
 double MomentumLedger::close(const Foam::vector& to_grains) {
-    current_ = fields_.momentum();
+    current_ = field_.momentum();
     const Foam::vector change = *current_ - before_;
     const Foam::scalar defect = Foam::mag(change + to_grains - impulses_);
     const Foam::scalar scale = std::max({largest_, Foam::mag(change), Foam::mag(to_grains)});

@@ -13,14 +13,15 @@
 #include <optional>
 #include <vector>
 
-#include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
+#include "fluid_adapter/foam_app/foamFluidField.hpp"
 
 namespace turbidite {
 
 class MomentumLedger {
  public:
-    explicit MomentumLedger(const FluidFields& fields) : fields_(fields) {}
+    MomentumLedger(const FluidFields& fields, const FoamFluidField& field)
+        : fields_(fields), field_(field) {}
 
     void open();  ///< before step 1: records P^n
 
@@ -30,7 +31,7 @@ class MomentumLedger {
     /// Adds forces that each acted during an equal part of dt.
     void add(const std::vector<BoundaryForce>& forces);
 
-    /// To be called if U was changed from outside between windows.
+    /// The velocity was changed from outside between windows.
     void forget() { current_.reset(); }
 
     /// Whether P^{n+1} is finite.
@@ -42,7 +43,8 @@ class MomentumLedger {
 
  private:
     const FluidFields& fields_;
-    std::optional<Foam::vector> current_;  // P of the present U
+    const FoamFluidField& field_;
+    std::optional<Foam::vector> current_;  // P as it is
     Foam::vector before_{Foam::Zero};
     Foam::vector impulses_{Foam::Zero};
     Foam::scalar largest_ = 0.0;

@@ -28,7 +28,7 @@ BoundaryForce OperatorStep::diffuse() {
     return viscous_force(fields_);
 }
 
-bool OperatorStep::finite() const {
+bool OperatorStep::finite() {
     Foam::scalar sum = 0.0;
     for (const Foam::vector& u : fields_.U) sum += Foam::magSqr(u);
     Foam::reduce(sum, Foam::sumOp<Foam::scalar>());

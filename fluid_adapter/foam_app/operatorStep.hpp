@@ -18,7 +18,7 @@ class OperatorStep final : public FluidStep {
     Projection project() override;
     std::vector<BoundaryForce> transport(int parts) override;
     BoundaryForce diffuse() override;
-    bool finite() const override;
+    bool finite() override;
     std::int64_t kind() const override { return 1; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;

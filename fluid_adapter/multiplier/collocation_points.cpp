@@ -10,7 +10,10 @@
 namespace turbidite {
 namespace {
 
-/// Interpolation nodes along one axis, with their weights.
+/// At most: quadratic along both axes.
+constexpr std::size_t cells_of_stencil = 9;
+
+/// Weights of the nodes of one axis.
 struct AxisStencil {
     std::array<int, 3> layer{};
     std::array<double, 3> weight{};
@@ -144,10 +147,10 @@ void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit
         if (row < 0) continue;
         const double arm_y = grid.centre(1, j) - grain.position.y();
         for (int i = across.low; i <= across.high; ++i) {
-            const int column = grid.wrapped(0, i);
-            if (column < 0) continue;
             const double arm_x = grid.centre(0, i) - grain.position.x();
             if (!inside(arm_x, arm_y)) continue;
+            const int column = grid.wrapped(0, i);
+            if (column < 0) continue;
             const int cell = cells.at(column, row);
             if (cell >= 0)
                 visit(InteriorCell{cell, arm_x, arm_y, grid.relative_volume(column, row)});
@@ -271,15 +274,33 @@ void PointPlacement::collect_boundary(const FluidField& field,
     points.arm_y.clear();
     points.box.clear();
     points.stencil.assign(1, 0);
-    points.slot.clear();
-    points.weight.clear();
+    points.slot.resize(cells_of_stencil * candidates_.size());
+    points.weight.resize(points.slot.size());
     points.stencilled.clear();
     for (std::size_t g = 0; g < grains.size(); ++g) {
+        if (g + 1 < grains.size()) expect(field, grains[g + 1]);
         for (int c = first_[g]; c < first_[g + 1]; ++c)
             if (candidates_[c].fate == Fate::kept)
                 collect(field, grains[g], candidates_[c], points);
         points.boundary_begin.push_back(points.boundary_points());
     }
+    points.slot.resize(points.stencil.back());
+    points.weight.resize(points.stencil.back());
+}
+
+/// Asks for the slots around a grain, which lie far apart in memory, before they are needed.
+void PointPlacement::expect(const FluidField& field, const ImmersedGrain& grain) const {
+#ifdef __GNUC__
+    constexpr int in_a_line = 64 / sizeof(int);
+    const CellGrid& grid = field.grid();
+    const Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
+    for (int j = up.low - 2; j <= up.high + 2; ++j)
+        for (int i = across.low - 2; i <= across.high + 2 + in_a_line; i += in_a_line) {
+            const int column = grid.wrapped(0, i), row = grid.wrapped(1, j);
+            const int cell = column < 0 || row < 0 ? -1 : field.cells().at(column, row);
+            if (cell >= 0) __builtin_prefetch(&slot_[cell], 1);
+        }
+#endif
 }
 
 /// Appends a boundary point with the tensor product of both axes' stencils. A point of another rank
@@ -287,6 +308,7 @@ void PointPlacement::collect_boundary(const FluidField& field,
 void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain,
                              Candidate& candidate, CollocationPoints& points) {
     const CellGrid& grid = field.grid();
+    const CellTable& cells = field.cells();
     const Eigen::Vector3d x = grain.position + candidate.arm;
     const PlaneStencil along = plane_stencil(grid, x, candidate.normal);
     if (along[0].nodes == 0) {
@@ -296,32 +318,32 @@ void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain
     const int home =
         field.cell(grid.wrapped(0, grid.layer(0, x[0])), grid.wrapped(1, grid.layer(1, x[1])), 0);
     const bool owned = home >= 0 && field.owns(home);
-    for (int n = 0; n < along[1].nodes; ++n)
+    int next = points.stencil.back();
+    for (int n = 0; n < along[1].nodes; ++n) {
+        const int row = grid.wrapped(1, along[1].layer[n]);
         for (int m = 0; m < along[0].nodes; ++m) {
             const double weight = along[0].weight[m] * along[1].weight[n];
             if (weight == 0.0) continue;
-            const int slot = slot_of(field, grid.wrapped(0, along[0].layer[m]),
-                                     grid.wrapped(1, along[1].layer[n]), points);
-            if (slot < 0 || !owned) continue;
-            points.slot.push_back(slot);
-            points.weight.push_back(weight);
+            const int column = grid.wrapped(0, along[0].layer[m]);
+            const int cell = cells.at(column, row);
+            if (cell < 0) continue;  // beyond the halo: of another rank's point
+            int slot = slot_[cell];
+            if (slot < 0) slot = new_slot(cell, grid.relative_volume(column, row), points);
+            if (!owned) continue;
+            points.slot[next] = slot;
+            points.weight[next++] = weight;
         }
+    }
     if (!owned) return;
     points.arm_x.push_back(candidate.arm.x());
     points.arm_y.push_back(candidate.arm.y());
     points.box.push_back(box_of(along[0], along[1]));
-    points.stencil.push_back(static_cast<int>(points.slot.size()));
+    points.stencil.push_back(next);
 }
 
-/// Slot of a cell, assigned on first use; -1 for a cell beyond the halo (of another rank's point).
-int PointPlacement::slot_of(const FluidField& field, int column, int row,
-                            CollocationPoints& points) {
-    const int cell = field.cells().at(column, row);
-    if (cell < 0) return -1;
-    if (slot_[cell] < 0) {
-        slot_[cell] = points.slots();
-        points.stencilled.push_back({cell, field.grid().relative_volume(column, row)});
-    }
+int PointPlacement::new_slot(int cell, double volume, CollocationPoints& points) {
+    slot_[cell] = points.slots();
+    points.stencilled.push_back({cell, volume});
     return slot_[cell];
 }
 
@@ -349,10 +371,12 @@ void PointPlacement::collect_interior(const FluidField& field,
                                       CollocationPoints& points) const {
     points.interior_begin.assign(1, 0);
     points.interior.clear();
+    const int owned = field.owned_cells();
     for (std::size_t g = 0; g < grains.size(); ++g) {
+        if (g + 1 < grains.size()) expect(field, grains[g + 1]);
         for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
             const bool mine = !overlapped_[g] || owner_[point.cell] == static_cast<int>(g);
-            if (mine && slot_[point.cell] < 0 && field.owns(point.cell))
+            if (mine && slot_[point.cell] < 0 && point.cell < owned)
                 points.interior.push_back(point);
         });
         points.interior_begin.push_back(static_cast<int>(points.interior.size()));

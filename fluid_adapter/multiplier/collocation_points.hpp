@@ -128,7 +128,8 @@ class PointPlacement {
                           CollocationPoints& points);
     void collect(const FluidField& field, const ImmersedGrain& grain, Candidate& candidate,
                  CollocationPoints& points);
-    int slot_of(const FluidField& field, int column, int row, CollocationPoints& points);
+    int new_slot(int cell, double volume, CollocationPoints& points);
+    void expect(const FluidField& field, const ImmersedGrain& grain) const;
     void claim_cells(const FluidField& field, const std::vector<ImmersedGrain>& grains);
     void collect_interior(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                           CollocationPoints& points) const;

@@ -28,8 +28,9 @@ class FluidField {
     /// The same lookup without bounds checks, for cells of the grid.
     virtual const CellTable& cells() const = 0;
 
-    virtual int local_cells() const = 0;    ///< owned and halo cells
-    virtual bool owns(int cell) const = 0;  ///< it is not a halo cell of this rank
+    virtual int owned_cells() const = 0;  ///< their local indices come first
+    virtual int local_cells() const = 0;  ///< owned and halo cells
+    bool owns(int cell) const { return cell < owned_cells(); }
 
     /// rho_f V of the reference cell, whose edges are grid().spacing [kg]; per unit length in two
     /// dimensions.
@@ -38,14 +39,15 @@ class FluidField {
     /// rho_f V_c [kg]; per unit length in two dimensions.
     double cell_mass(int i, int j) const { return reference_mass() * grid().relative_volume(i, j); }
 
-    /// One component of the velocity by local cell [m/s].
+    /// One component of velocity, contiguous over the owned cells [m/s].
     virtual double* velocity(int axis) = 0;
 
     /// Whether other ranks know the cell too: it is in this rank's halo or in another's.
     virtual bool shares(int) const { return false; }
 
-    /// Copies both components from the owners into the halos of the other ranks.
-    virtual void import_halo(double*, double*) const {}
+    /// Both components of velocity in the halo cells, in the order of their local indices, as their
+    /// owners have them; by every rank.
+    virtual std::array<const double*, 2> import_halo() { return {}; }
 
     /// Sums, over all ranks that know a cell, the values they hold there, and returns the sum to
     /// each of them. Both components are indexed by local cell, and zero where the rank contributes

@@ -61,10 +61,12 @@ void SaddlePoint::number_cells() {
 void SaddlePoint::import_velocity() {
     const double* ux = field_->velocity(0);
     const double* uy = field_->velocity(1);
-    field_->import_halo(field_->velocity(0), field_->velocity(1));
+    const auto [halo_x, halo_y] = field_->import_halo();
+    const int owned = field_->owned_cells();
     for (int slot = 0; slot < points_->slots(); ++slot) {
         const int cell = points_->stencilled[slot].cell;
-        cells_[slot] = {ux[cell], uy[cell]};
+        cells_[slot] = cell < owned ? PlaneVector{ux[cell], uy[cell]}
+                                    : PlaneVector{halo_x[cell - owned], halo_y[cell - owned]};
     }
 }
 

@@ -38,7 +38,13 @@ class CellRows {
     /// The value of cell (0, 0), on every rank.
     double first(const double* rows) const;
 
-    /// Whether no value has to be sent to another rank.
+    /// Of this rank's complete rows.
+    int size() const { return columns_ * rows_of_rank_[group_.rank()].count; }
+
+    /// The rank's cells are its rows, in the same order.
+    bool in_cell_order() const { return straight_; }
+
+    /// No value travels between ranks.
     bool stays() const { return away_.empty() && guests_.empty(); }
 
  private:

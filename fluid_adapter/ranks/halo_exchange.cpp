@@ -41,7 +41,7 @@ std::vector<int> owners_of(const RankGroup& group, int cells, const std::vector<
 
 HaloExchange::HaloExchange(const RankGroup& group, int cells, const std::vector<int>& own,
                            const std::vector<int>& halo)
-    : group_(group) {
+    : group_(group), own_(own.size()) {
     const std::vector<int> owners = owners_of(group, cells, own, halo);
     const bool known = std::find(owners.begin(), owners.end(), nobody) == owners.end();
     if (!group.all(known)) throw std::invalid_argument("a cell of the grid belongs to no rank");
@@ -62,7 +62,7 @@ void HaloExchange::find_neighbours(const std::vector<int>& own, const std::vecto
         Neighbour neighbour;
         neighbour.rank = rank;
         for (const int cell : shared[rank]) neighbour.shared.push_back(local.at(cell));
-        neighbour.first = static_cast<int>(own.size() + halo_.size());
+        neighbour.first = static_cast<int>(halo_.size());
         neighbour.count = static_cast<int>(asked[rank].size());
         halo_.insert(halo_.end(), asked[rank].begin(), asked[rank].end());
         neighbours_.push_back(std::move(neighbour));
@@ -76,30 +76,35 @@ std::vector<int> HaloExchange::shared() const {
     return cells;
 }
 
-void HaloExchange::import(std::initializer_list<double*> fields) {
+void HaloExchange::import(std::array<double*, 2> fields) {
+    import({fields[0], fields[1]}, {fields[0] + own_, fields[1] + own_});
+}
+
+void HaloExchange::import(std::array<const double*, 2> own, std::array<double*, 2> halo) {
     for (Neighbour& neighbour : neighbours_) {
         neighbour.owned_values.clear();
-        for (const double* field : fields)
+        for (const double* field : own)
             for (const int cell : neighbour.shared) neighbour.owned_values.push_back(field[cell]);
     }
-    exchange(fields.size(), true);
+    exchange(true);
     for (const Neighbour& neighbour : neighbours_) {
         const double* values = neighbour.halo_values.data();
-        for (double* field : fields) {
+        for (double* field : halo) {
             std::copy_n(values, neighbour.count, field + neighbour.first);
             values += neighbour.count;
         }
     }
 }
 
-void HaloExchange::export_sums(std::initializer_list<double*> fields) {
+void HaloExchange::export_sums(std::array<double*, 2> fields) {
     for (Neighbour& neighbour : neighbours_) {
         neighbour.halo_values.clear();
-        for (const double* field : fields)
-            neighbour.halo_values.insert(neighbour.halo_values.end(), field + neighbour.first,
-                                         field + neighbour.first + neighbour.count);
+        for (const double* field : fields) {
+            const double* halo = field + own_ + neighbour.first;
+            neighbour.halo_values.insert(neighbour.halo_values.end(), halo, halo + neighbour.count);
+        }
     }
-    exchange(fields.size(), false);
+    exchange(false);
     for (const Neighbour& neighbour : neighbours_) {
         const double* values = neighbour.owned_values.data();
         for (double* field : fields)
@@ -107,7 +112,8 @@ void HaloExchange::export_sums(std::initializer_list<double*> fields) {
     }
 }
 
-void HaloExchange::exchange(std::size_t fields, bool to_halo) {
+void HaloExchange::exchange(bool to_halo) {
+    constexpr std::size_t fields = 2;
     const int tag = to_halo ? import_tag : export_tag;
     requests_.clear();
     for (Neighbour& neighbour : neighbours_) {

@@ -7,7 +7,7 @@
 // C++17.
 #pragma once
 
-#include <initializer_list>
+#include <array>
 #include <vector>
 
 #include "fluid_adapter/ranks/rank_group.hpp"
@@ -28,25 +28,29 @@ class HaloExchange {
     /// Own cells that are in another rank's halo, possibly repeated.
     std::vector<int> shared() const;
 
-    /// Copies the owners' values into the halos. Every field has one value per local cell.
-    void import(std::initializer_list<double*> fields);
+    /// Owners' values of two fields into the halos: one value per own cell, one per halo cell.
+    void import(std::array<const double*, 2> own, std::array<double*, 2> halo);
 
-    /// Adds the halos' values to the owners', in the order of the ranks.
-    void export_sums(std::initializer_list<double*> fields);
+    /// The same where the halo's values follow the own cells'.
+    void import(std::array<double*, 2> fields);
+
+    /// Adds halos' values to the owners'. Contributions are added in the order of the ranks.
+    void export_sums(std::array<double*, 2> fields);
 
  private:
     struct Neighbour {
         int rank = 0;
-        std::vector<int> shared;   // own cells in that rank's halo
-        int first = 0, count = 0;  // halo cells owned by that rank: local indices
+        std::vector<int> shared;   // own cells that are in its halo
+        int first = 0, count = 0;  // halo cells that it owns, in the halo's order
         std::vector<double> owned_values, halo_values;
     };
 
     void find_neighbours(const std::vector<int>& own, const std::vector<int>& owners,
                          const std::vector<int>& wanted);
-    void exchange(std::size_t fields, bool to_halo);
+    void exchange(bool to_halo);
 
     RankGroup group_;
+    std::size_t own_;  // cells
     std::vector<int> halo_;
     std::vector<Neighbour> neighbours_;
     std::vector<MPI_Request> requests_;

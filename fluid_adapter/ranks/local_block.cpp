@@ -19,6 +19,20 @@ LocalBlock::LocalBlock(const CellGrid& grid, const std::vector<int>& own, int la
     for (const int cell : own)
         if (!is_inside(cell)) mark_around(cell, layers);
     std::sort(halo_.begin(), halo_.end());
+    count_rows();
+}
+
+/// Finds the rows numbered from row to row, beginning with the one that begins with cell 0.
+void LocalBlock::count_rows() {
+    const auto zero = std::find(index_.begin(), index_.end(), 0);
+    const std::ptrdiff_t before = zero - index_.begin();
+    if (zero == index_.end() || before % width_[0] != 0) return;
+    int counted = 0;
+    while (before + counted < static_cast<std::ptrdiff_t>(index_.size()) &&
+           index_[before + counted] == counted)
+        ++counted;
+    first_counted_ = static_cast<int>(before / width_[0]);
+    counted_rows_ = counted / width_[0];
 }
 
 void LocalBlock::enclose(const std::vector<int>& own, int layers) {

@@ -29,8 +29,10 @@ class LocalBlock {
     /// Local index of a cell of the grid; -1 if this rank does not know the cell.
     int at(int i, int j) const { return table().at(i, j); }
 
-    /// Valid while this object is neither moved nor changed.
-    CellTable table() const { return {index_.data(), first_, width_, turn_}; }
+    /// Valid as long as the block stays where it is.
+    CellTable table() const {
+        return {index_.data(), first_, width_, turn_, first_counted_, counted_rows_};
+    }
 
  private:
     int& slot(int i, int j) {
@@ -41,10 +43,12 @@ class LocalBlock {
     void enclose(const std::vector<int>& own, int layers);
     bool is_inside(int cell) const;
     void mark_around(int cell, int layers);
+    void count_rows();
 
     CellGrid grid_;
     std::array<int, 2> first_{}, width_{};
-    std::array<int, 2> turn_{};  // cells around a cyclic axis, 0 for other axes
+    std::array<int, 2> turn_{};                 // cells around a cyclic axis, 0 for others
+    int first_counted_ = 0, counted_rows_ = 0;  // cell_table.hpp
     std::vector<int> index_;
     std::vector<int> halo_;
     int own_count_;

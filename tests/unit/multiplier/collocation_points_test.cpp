@@ -169,7 +169,7 @@ TEST(CollocationPoints, RefusesThreeDimensions) {
         const CellGrid& grid() const override { return grid_; }
         const CellTable& cells() const override { return none_; }
         int local_cells() const override { return 0; }
-        bool owns(int) const override { return false; }
+        int owned_cells() const override { return 0; }
         double reference_mass() const override { return 1.0; }
         double* velocity(int) override { return nullptr; }
 

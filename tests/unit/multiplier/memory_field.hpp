@@ -43,7 +43,7 @@ class MemoryField final : public FluidField {
     const CellGrid& grid() const override { return grid_; }
     const CellTable& cells() const override { return cells_; }
     int local_cells() const override { return static_cast<int>(x_.size()); }
-    bool owns(int) const override { return true; }
+    int owned_cells() const override { return local_cells(); }
     double reference_mass() const override { return grid_.spacing[0] * grid_.spacing[1]; }
     double* velocity(int axis) override { return axis == 0 ? x_.data() : y_.data(); }
 

@@ -106,14 +106,37 @@ TEST(HaloExchange, ExportIsTheTransposeOfImport) {
         std::vector<double> a(n, 0.0), b(n);
         for (std::size_t c = 0; c < local.own.size(); ++c) a[c] = local.own[c] % 7 + 1;
         for (std::size_t c = 0; c < n; ++c) b[c] = (local.number[c] + 3 * group.rank()) % 5;
+        std::vector<double> twice(n, 0.0), b_twice(n);
+        for (std::size_t c = 0; c < n; ++c) twice[c] = 2.0 * a[c];
+        for (std::size_t c = 0; c < n; ++c) b_twice[c] = 3.0 * b[c];
         std::vector<double> imported = a, exported = b;
-        local.halo.import({imported.data()});
-        local.halo.export_sums({exported.data()});
-        double dots[2] = {0.0, 0.0};
-        for (std::size_t c = 0; c < n; ++c) dots[0] += imported[c] * b[c];
-        for (std::size_t c = 0; c < local.own.size(); ++c) dots[1] += a[c] * exported[c];
-        group.sum(dots, 2);
+        local.halo.import({imported.data(), twice.data()});
+        local.halo.export_sums({exported.data(), b_twice.data()});
+        double dots[4] = {};
+        for (std::size_t c = 0; c < n; ++c) {
+            dots[0] += imported[c] * b[c];
+            dots[2] += 3.0 * twice[c] * b[c];
+        }
+        for (std::size_t c = 0; c < local.own.size(); ++c) {
+            dots[1] += a[c] * exported[c];
+            dots[3] += 2.0 * a[c] * b_twice[c];
+        }
+        group.sum(dots, 4);
         EXPECT_EQ(dots[0], dots[1]);
+        EXPECT_EQ(dots[2], dots[3]);
+    });
+}
+
+TEST(HaloExchange, OwnCellsAndHaloMayLieApart) {
+    everywhere([](const RankGroup&, const CellGrid&, Local& local) {
+        const std::size_t own = local.own.size();
+        std::vector<double> a(local.own.begin(), local.own.end()), b(own, 5.0);
+        std::vector<double> beyond(local.number.size() - own), b_beyond(beyond.size());
+        local.halo.import({a.data(), b.data()}, {beyond.data(), b_beyond.data()});
+        for (std::size_t c = 0; c < beyond.size(); ++c) {
+            EXPECT_EQ(beyond[c], local.number[own + c]);
+            EXPECT_EQ(b_beyond[c], 5.0);
+        }
     });
 }
 
