@@ -8,18 +8,19 @@
 namespace turbidite {
 
 void BoundaryBlocks::factorise(const FluidField& field, const std::vector<ImmersedGrain>& grains,
-                               const CollocationPoints& points) {
+                               const CollocationPoints& points, PointCoupling& coupling) {
     points_ = &points;
     factors_.clear();
     tied_.clear();
     images_.resize(points.boundary_points());
     on_slots_.assign(points.slots(), 0.0);
+    on_private_.assign(points.slots(), 0.0);
     const double per_mass = 1.0 / field.reference_mass();
-    order_points();
     for (int g = 0; g < points.grains(); ++g) {
         factors_.begin_matrix();
-        const int rows = points.boundary_begin[g + 1] - points.boundary_begin[g];
-        for (int i = 0; i < rows; ++i) add_row(order_of(g), i, per_mass);
+        const int begin = points.boundary_begin[g];
+        for (int p = begin; p < points.boundary_begin[g + 1]; ++p)
+            add_row(begin, p, per_mass, coupling);
         if (!factors_.factorise())
             throw std::runtime_error("the boundary points of grain " +
                                      std::to_string(grains[g].id) +
@@ -28,55 +29,56 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     }
 }
 
-/// The order 0, n-1, 1, n-2, ... of every grain's ring, which keeps the profile narrow.
-void BoundaryBlocks::order_points() {
-    order_.clear();
-    for (int g = 0; g < points_->grains(); ++g) {
-        int low = points_->boundary_begin[g], high = points_->boundary_begin[g + 1] - 1;
-        while (low < high) {
-            order_.push_back(low++);
-            order_.push_back(high--);
-        }
-        if (low == high) order_.push_back(low);
+/// G_pq = sum over shared cells of w_p w_q / m_c.
+void BoundaryBlocks::add_row(int begin, int p, double per_mass, PointCoupling& coupling) {
+    const CollocationPoints& points = *points_;
+    mark(p, coupling);
+    coupling.begin_row();
+    row_.assign(p - begin + 1, 0.0);
+    int first = p;
+    for (int q = p; q >= begin; --q) {
+        if (!points.box[p].meets(points.box[q])) continue;
+        const double all = per_mass * overlap(on_slots_, q);
+        const double own = uses_shared_ ? per_mass * overlap(on_private_, q) : all;
+        row_[q - begin] = all;
+        if (all != 0.0) first = q;
+        if (own != 0.0 || q == p) coupling.add(q, own);
+    }
+    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s)
+        on_slots_[points.slot[s]] = on_private_[points.slot[s]] = 0.0;
+    std::copy(row_.begin() + (first - begin), row_.end(), factors_.add_row(first - begin));
+}
+
+void BoundaryBlocks::mark(int p, const PointCoupling& coupling) {
+    uses_shared_ = false;
+    for (int s = points_->stencil[p]; s < points_->stencil[p + 1]; ++s) {
+        const int slot = points_->slot[s];
+        const bool shared = coupling.shared(slot);
+        on_slots_[slot] = points_->weight[s] / points_->stencilled[slot].volume;
+        on_private_[slot] = shared ? 0.0 : on_slots_[slot];
+        uses_shared_ = uses_shared_ || shared;
     }
 }
 
-/// Row i of G: G_pq = sum over shared cells of w_p w_q / m_c.
-void BoundaryBlocks::add_row(const int* order, int i, double per_mass) {
-    const CollocationPoints& points = *points_;
-    const int p = order[i];
-    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) {
-        const int slot = points.slot[s];
-        on_slots_[slot] = points.weight[s] / points.stencilled[slot].volume;
-    }
-    row_.assign(i + 1, 0.0);
-    int first = i;
-    for (int j = i; j >= 0; --j) {
-        const int q = order[j];
-        if (!points.box[p].meets(points.box[q])) continue;
-        double sum = 0.0;
-        for (int s = points.stencil[q]; s < points.stencil[q + 1]; ++s)
-            sum += points.weight[s] * on_slots_[points.slot[s]];
-        row_[j] = per_mass * sum;
-        if (sum != 0.0) first = j;
-    }
-    for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s) on_slots_[points.slot[s]] = 0.0;
-    std::copy(row_.begin() + first, row_.end(), factors_.add_row(first));
+double BoundaryBlocks::overlap(const std::vector<double>& on_slots, int p) const {
+    double sum = 0.0;
+    for (int s = points_->stencil[p]; s < points_->stencil[p + 1]; ++s)
+        sum += points_->weight[s] * on_slots[points_->slot[s]];
+    return sum;
 }
 
 /// T^T G^-1 T with T = [1 0 -r_y; 0 1 r_x] at each point: its entries are products of the columns
 /// 1, r_x, r_y with G^-1 of these columns.
 Eigen::Matrix3d BoundaryBlocks::tie(int g) {
     const CollocationPoints& points = *points_;
-    const int* order = order_of(g);
-    const int rows = factors_.size(g);
+    const int begin = points.boundary_begin[g], rows = factors_.size(g);
     columns_.clear();
-    for (int i = 0; i < rows; ++i)
-        columns_.insert(columns_.end(), {1.0, points.arm_x[order[i]], points.arm_y[order[i]]});
+    for (int p = begin; p < begin + rows; ++p)
+        columns_.insert(columns_.end(), {1.0, points.arm_x[p], points.arm_y[p]});
     factors_.solve<3>(g, columns_.data());
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // (1, r_x, r_y)^T G^-1 (1, r_x, r_y)
     for (int i = 0; i < rows; ++i) {
-        const int p = order[i];
+        const int p = begin + i;
         images_[p] = Eigen::Map<const Eigen::Vector3d>(&columns_[3 * i]);
         products += Eigen::Vector3d(1.0, points.arm_x[p], points.arm_y[p]) * images_[p].transpose();
     }
@@ -89,29 +91,16 @@ Eigen::Matrix3d BoundaryBlocks::tie(int g) {
 }
 
 void BoundaryBlocks::solve(const double* r, double* z) {
-    const int n = points_->boundary_points();
-    columns_.resize(2 * n);
-    for (int g = 0; g < points_->grains(); ++g) {
-        const int* order = order_of(g);
-        const int rows = factors_.size(g);
-        for (int i = 0; i < rows; ++i) {
-            columns_[2 * i] = r[order[i]];
-            columns_[2 * i + 1] = r[n + order[i]];
-        }
-        factors_.solve<2>(g, columns_.data());
-        for (int i = 0; i < rows; ++i) {
-            z[order[i]] = columns_[2 * i];
-            z[n + order[i]] = columns_[2 * i + 1];
-        }
-    }
+    std::copy_n(r, 2 * points_->boundary_points(), z);
+    for (int g = 0; g < points_->grains(); ++g)
+        factors_.solve<2>(g, z + 2 * points_->boundary_begin[g]);
 }
 
 void BoundaryBlocks::subtract_images(const Planar* q, double* z) const {
-    double* z_y = z + points_->boundary_points();
     for (int g = 0; g < points_->grains(); ++g)
         for (int p = points_->boundary_begin[g]; p < points_->boundary_begin[g + 1]; ++p) {
-            z[p] -= q[g].x() * images_[p][0] - q[g].z() * images_[p][2];
-            z_y[p] -= q[g].y() * images_[p][0] + q[g].z() * images_[p][1];
+            z[2 * p] -= q[g].x() * images_[p][0] - q[g].z() * images_[p][2];
+            z[2 * p + 1] -= q[g].y() * images_[p][0] + q[g].z() * images_[p][1];
         }
 }
 

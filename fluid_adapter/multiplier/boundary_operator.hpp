@@ -4,10 +4,8 @@
 //
 //     slip = B u - T U        (u - U - omega x r, point by point) [m/s]
 //
-// and its transpose. B interpolates the fluid velocity at the points, B^T spreads point values to
-// the cells. Point vectors have size rows(): all x components, then all y components. Grain
-// velocities are (x, y, spin), one per grain; cell velocities are (x, y), one per slot
-// (collocation_points.hpp). Valid C++17.
+// and its transpose. Point vectors hold x and y of each point side by side. Velocities of grains
+// are (x, y, spin); those of cells are (x, y), by slot (collocation_points.hpp). Valid C++17.
 #pragma once
 
 #include <vector>

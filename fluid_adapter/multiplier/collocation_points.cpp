@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fluid_adapter/multiplier/memory_prefetch.hpp"
 #include "fluid_adapter/multiplier/neighbours.hpp"
 
 namespace turbidite {
@@ -279,18 +280,28 @@ void PointPlacement::collect_boundary(const FluidField& field,
     points.stencilled.clear();
     for (std::size_t g = 0; g < grains.size(); ++g) {
         if (g + 1 < grains.size()) expect(field, grains[g + 1]);
-        for (int c = first_[g]; c < first_[g + 1]; ++c)
-            if (candidates_[c].fate == Fate::kept)
-                collect(field, grains[g], candidates_[c], points);
+        collect_ring(field, grains[g], static_cast<int>(g), points);
         points.boundary_begin.push_back(points.boundary_points());
     }
     points.slot.resize(points.stencil.back());
     points.weight.resize(points.stencil.back());
 }
 
+/// 0, n-1, 1, n-2, ...: the ring folded flat.
+void PointPlacement::collect_ring(const FluidField& field, const ImmersedGrain& grain, int g,
+                                  CollocationPoints& points) {
+    ring_.clear();
+    for (int c = first_[g]; c < first_[g + 1]; ++c)
+        if (candidates_[c].fate == Fate::kept) ring_.push_back(c);
+    std::size_t low = 0, high = ring_.size();
+    while (low < high) {
+        collect(field, grain, candidates_[ring_[low++]], points);
+        if (low < high) collect(field, grain, candidates_[ring_[--high]], points);
+    }
+}
+
 /// Asks for the slots around a grain, which lie far apart in memory, before they are needed.
 void PointPlacement::expect(const FluidField& field, const ImmersedGrain& grain) const {
-#ifdef __GNUC__
     constexpr int in_a_line = 64 / sizeof(int);
     const CellGrid& grid = field.grid();
     const Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
@@ -298,9 +309,8 @@ void PointPlacement::expect(const FluidField& field, const ImmersedGrain& grain)
         for (int i = across.low - 2; i <= across.high + 2 + in_a_line; i += in_a_line) {
             const int column = grid.wrapped(0, i), row = grid.wrapped(1, j);
             const int cell = column < 0 || row < 0 ? -1 : field.cells().at(column, row);
-            if (cell >= 0) __builtin_prefetch(&slot_[cell], 1);
+            if (cell >= 0) ask_for(&slot_[cell]);
         }
-#endif
 }
 
 /// Appends a boundary point with the tensor product of both axes' stencils. A point of another rank

@@ -77,11 +77,12 @@ struct StencilBox {
     }
 };
 
-/// The points of all grains. Interior points of grain g are interior_begin[g] ..
-/// interior_begin[g+1]-1 of `interior`; its boundary points are boundary_begin[g] ..
-/// boundary_begin[g+1]-1 of `arm`. Boundary point p interpolates with stencil[p] .. stencil[p+1]-1
-/// of `slot` and `weight`. Slots number the cells used for interpolation, so that the data of these
-/// cells is contiguous. Filled in place: the memory is reused from window to window.
+/// Interior points of grain g are interior_begin[g] .. interior_begin[g+1]-1 of `interior`,
+/// boundary points boundary_begin[g] .. boundary_begin[g+1]-1 of `arm`. The cells of boundary point
+/// p are stencil[p] .. stencil[p+1]-1 of `slot` and `weight`; slots number the cells that points
+/// interpolate from, so that what belongs to these cells lies close together. Boundary points go
+/// round the grain from both ends of its ring alternately, so that neighbours on the ring are near
+/// each other in the list, all round. In-place: a window reuses the last one's memory.
 struct CollocationPoints {
     std::vector<int> interior_begin;
     std::vector<InteriorCell> interior;
@@ -126,6 +127,8 @@ class PointPlacement {
     void compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b);
     void collect_boundary(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                           CollocationPoints& points);
+    void collect_ring(const FluidField& field, const ImmersedGrain& grain, int g,
+                      CollocationPoints& points);
     void collect(const FluidField& field, const ImmersedGrain& grain, Candidate& candidate,
                  CollocationPoints& points);
     int new_slot(int cell, double volume, CollocationPoints& points);
@@ -142,6 +145,7 @@ class PointPlacement {
     std::vector<int> first_;          // first candidate of each grain
     std::vector<double> local_size_;  // longest cell edge around each grain [m]
     std::vector<Candidate> candidates_;
+    std::vector<int> ring_;                   // candidates of one grain that are left
     std::vector<std::pair<int, int>> pairs_;  // of grains whose points may be too close
     std::vector<char> overlapped_;            // by grain: another grain may contain the same cells
     std::vector<int> claimed_;                // cells inside overlapped grains

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/covered_fluid.hpp"
 
+#include "fluid_adapter/multiplier/memory_prefetch.hpp"
+
 namespace turbidite {
 namespace {
 
 /// Asks for the velocities in a grain's cells, which lie far apart in memory, before they are
 /// needed.
 void expect_cells(const CollocationPoints& points, int g, const double* ux, const double* uy) {
-#ifdef __GNUC__
     constexpr int every = 4;  // half of a line of memory
     if (g >= points.grains()) return;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; i += every) {
-        __builtin_prefetch(&ux[points.interior[i].cell]);
-        __builtin_prefetch(&uy[points.interior[i].cell]);
+        ask_for(&ux[points.interior[i].cell]);
+        ask_for(&uy[points.interior[i].cell]);
     }
-#endif
 }
 
 }  // namespace

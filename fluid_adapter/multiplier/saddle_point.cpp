@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "fluid_adapter/multiplier/memory_prefetch.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -33,8 +35,8 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
     ids_.clear();
     for (const ImmersedGrain& grain : grains) ids_.push_back(grain.id);
     field.hold_grains(ids_.data(), static_cast<int>(ids_.size()));
-    number_cells();
-    multipliers_.assign(rows(), 0.0);
+    find_border();
+    multipliers_.assign_zero(rows(), grains.size());
     slip_.resize(rows());
     sum_interiors();
     factorise();
@@ -43,18 +45,11 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
     BoundaryOperator(points).apply(cells_.data(), motions_.data(), slip_.data());
 }
 
-/// Masses of the cells used for interpolation, and which of these cells other ranks know too.
-void SaddlePoint::number_cells() {
-    cells_.resize(points_->slots());
-    per_mass_.clear();
+void SaddlePoint::find_border() {
     border_.clear();
-    const double per_mass = 1.0 / field_->reference_mass();
-    for (const StencilCell& at : points_->stencilled) {
-        if (field_->shares(at.cell)) border_.push_back(static_cast<int>(per_mass_.size()));
-        per_mass_.push_back(per_mass / at.volume);
-    }
-    share_x_.resize(field_->local_cells(), 0.0);
-    share_y_.resize(field_->local_cells(), 0.0);
+    for (int slot = 0; slot < points_->slots(); ++slot)
+        if (const int cell = points_->stencilled[slot].cell; field_->shares(cell))
+            border_.push_back({slot, cell});
 }
 
 /// cells = u, the velocities at the slots.
@@ -63,7 +58,9 @@ void SaddlePoint::import_velocity() {
     const double* uy = field_->velocity(1);
     const auto [halo_x, halo_y] = field_->import_halo();
     const int owned = field_->owned_cells();
+    cells_.resize(points_->slots());
     for (int slot = 0; slot < points_->slots(); ++slot) {
+        expect_velocity(slot, ux, uy);
         const int cell = points_->stencilled[slot].cell;
         cells_[slot] = cell < owned ? PlaneVector{ux[cell], uy[cell]}
                                     : PlaneVector{halo_x[cell - owned], halo_y[cell - owned]};
@@ -78,9 +75,11 @@ void SaddlePoint::sum_interiors() {
 }
 
 void SaddlePoint::factorise() {
-    blocks_.factorise(*field_, *grains_, *points_);
-    effective_ = blocks_.tied_inertia();
-    sum_over_holders(effective_);
+    coupling_.begin(*field_, *points_);
+    blocks_.factorise(*field_, *grains_, *points_, coupling_);
+    tied_ = blocks_.tied_inertia();
+    sum_over_holders(tied_);
+    effective_.resize(grains_->size());
     inverse_.resize(grains_->size());
     inverse_effective_.resize(grains_->size());
     momentum_.resize(grains_->size());
@@ -89,7 +88,7 @@ void SaddlePoint::factorise() {
             body_inertia((*grains_)[g], sums_[g], field_->reference_mass());
         demand_positive(body, ids_[g]);
         inverse_[g] = body.inverse();
-        effective_[g] += body;
+        effective_[g] = body + tied_[g];
         inverse_effective_[g] = effective_[g].inverse();
         momentum_[g] = body_momentum((*grains_)[g], sums_[g], field_->reference_mass());
     }
@@ -98,10 +97,8 @@ void SaddlePoint::factorise() {
 /// U = A^-1 (P + J + T^T L).
 void SaddlePoint::move_grains() {
     motions_.resize(grains_->size());
-    BoundaryOperator(*points_).sum_by_grain(multipliers_.data(), motions_.data());
-    sum_over_holders(motions_);
     for (std::size_t g = 0; g < motions_.size(); ++g)
-        motions_[g] = inverse_[g] * (momentum_[g] + motions_[g]);
+        motions_[g] = inverse_[g] * (momentum_[g] + multipliers_.on_grains[g]);
 }
 
 void SaddlePoint::push(const std::vector<Planar>& impulses) {
@@ -114,77 +111,72 @@ void SaddlePoint::push(const std::vector<Planar>& impulses) {
     BoundaryOperator(*points_).subtract_motion(by_grain_.data(), slip_.data());
 }
 
-/// y = S w = B m^-1 B^T w + T A^-1 T^T w.
-void SaddlePoint::apply(const double* w, double* y) {
-    const BoundaryOperator boundary(*points_);
-    spread(w);
+/// S w = G w + T A^-1 T^T w.
+void SaddlePoint::apply(const Multipliers& w, double* y) {
+    coupling_.apply(*field_, w.values.data(), y);
     by_grain_.resize(grains_->size());
-    boundary.sum_by_grain(w, by_grain_.data());
-    sum_over_holders(by_grain_);
-    for (std::size_t g = 0; g < by_grain_.size(); ++g) by_grain_[g] = -(inverse_[g] * by_grain_[g]);
-    boundary.apply(cells_.data(), by_grain_.data(), y);
-}
-
-/// z = C^-1 r, with C = G + T A^-1 T^T block by block and its inverse by the Woodbury formula:
-/// C^-1 = G^-1 - G^-1 T (A + T^T G^-1 T)^-1 T^T G^-1.
-void SaddlePoint::precondition(const double* r, double* z) {
-    const BoundaryOperator boundary(*points_);
-    blocks_.solve(r, z);
-    by_grain_.resize(grains_->size());
-    boundary.sum_by_grain(z, by_grain_.data());
-    sum_over_holders(by_grain_);
     for (std::size_t g = 0; g < by_grain_.size(); ++g)
-        by_grain_[g] = inverse_effective_[g] * by_grain_[g];
-    blocks_.subtract_images(by_grain_.data(), z);
+        by_grain_[g] = -(inverse_[g] * w.on_grains[g]);
+    BoundaryOperator(*points_).subtract_motion(by_grain_.data(), y);
 }
 
-void SaddlePoint::add(const std::vector<double>& w) {
-    for (std::size_t i = 0; i < w.size(); ++i) multipliers_[i] += w[i];
+/// G^-1 by blocks, with T A^-1 T^T added by the formula of Woodbury: with s = T^T G^-1 r and
+/// q = (A + T^T G^-1 T)^-1 s
+///
+///     z = G^-1 (r - T q),    T^T z = s - T^T G^-1 T q
+void SaddlePoint::precondition(const double* r, Multipliers& z) {
+    blocks_.solve(r, z.values.data());
+    BoundaryOperator(*points_).sum_by_grain(z.values.data(), z.on_grains.data());
+    sum_over_holders(z.on_grains);
+    by_grain_.resize(grains_->size());
+    for (std::size_t g = 0; g < by_grain_.size(); ++g) {
+        by_grain_[g] = inverse_effective_[g] * z.on_grains[g];
+        z.on_grains[g] -= tied_[g] * by_grain_[g];
+    }
+    blocks_.subtract_images(by_grain_.data(), z.values.data());
+}
+
+void SaddlePoint::add(const Multipliers& w) {
+    for (std::size_t i = 0; i < w.values.size(); ++i) multipliers_.values[i] += w.values[i];
+    for (std::size_t g = 0; g < w.on_grains.size(); ++g)
+        multipliers_.on_grains[g] += w.on_grains[g];
     move_grains();
 }
 
 void SaddlePoint::impose() {
-    spread(multipliers_.data());
+    spread_multipliers();
     impulses_.resize(grains_->size());
-    BoundaryOperator(*points_).sum_by_grain(multipliers_.data(), impulses_.data());
+    BoundaryOperator(*points_).sum_by_grain(multipliers_.values.data(), impulses_.data());
     for (std::size_t g = 0; g < grains_->size(); ++g)
         impulses_[g] += carry_cells(*points_, *field_, static_cast<int>(g), motions_[g]);
     sum_over_holders(impulses_);
     double* ux = field_->velocity(0);
     double* uy = field_->velocity(1);
+    const double per_mass = 1.0 / field_->reference_mass();
     for (int slot = 0; slot < points_->slots(); ++slot) {
-        const int cell = points_->stencilled[slot].cell;
-        if (!field_->owns(cell)) continue;
-        ux[cell] -= cells_[slot].x;
-        uy[cell] -= cells_[slot].y;
+        expect_velocity(slot, ux, uy);
+        const StencilCell& at = points_->stencilled[slot];
+        if (!field_->owns(at.cell)) continue;
+        ux[at.cell] -= per_mass / at.volume * cells_[slot].x;
+        uy[at.cell] -= per_mass / at.volume * cells_[slot].y;
     }
 }
 
-/// cells = m^-1 B^T values, from the points of all ranks.
-void SaddlePoint::spread(const double* values) {
+/// Asks for the velocity of a later slot's cell.
+void SaddlePoint::expect_velocity(int slot, const double* ux, const double* uy) const {
+    constexpr int ahead = 24;
+    if (slot + ahead >= points_->slots()) return;
+    const int cell = points_->stencilled[slot + ahead].cell;
+    if (!field_->owns(cell)) return;
+    ask_for(&ux[cell]);
+    ask_for(&uy[cell]);
+}
+
+/// cells = B^T L, of the points of all ranks.
+void SaddlePoint::spread_multipliers() {
     std::fill(cells_.begin(), cells_.end(), PlaneVector{});
-    BoundaryOperator(*points_).spread(values, cells_.data());
-    share_sums();
-    for (int slot = 0; slot < points_->slots(); ++slot) {
-        cells_[slot].x *= per_mass_[slot];
-        cells_[slot].y *= per_mass_[slot];
-    }
-}
-
-/// Values that several ranks have spread into the same cell are summed on its owner, and the sums
-/// are returned.
-void SaddlePoint::share_sums() {
-    for (const int slot : border_) {
-        const int cell = points_->stencilled[slot].cell;
-        share_x_[cell] = cells_[slot].x;
-        share_y_[cell] = cells_[slot].y;
-    }
-    field_->share_sums(share_x_.data(), share_y_.data());
-    for (const int slot : border_) {
-        const int cell = points_->stencilled[slot].cell;
-        cells_[slot] = {share_x_[cell], share_y_[cell]};
-        share_x_[cell] = share_y_[cell] = 0.0;  // for the next call
-    }
+    BoundaryOperator(*points_).spread(multipliers_.values.data(), cells_.data());
+    border_sums_.sum(*field_, border_, cells_.data());
 }
 
 double SaddlePoint::dot(const double* a, const double* b) const {

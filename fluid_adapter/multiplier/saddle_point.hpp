@@ -25,8 +25,21 @@
 #include "fluid_adapter/multiplier/boundary_blocks.hpp"
 #include "fluid_adapter/multiplier/boundary_operator.hpp"
 #include "fluid_adapter/multiplier/covered_fluid.hpp"
+#include "fluid_adapter/multiplier/point_coupling.hpp"
 
 namespace turbidite {
+
+/// Multipliers and what they do to the grains: kept together, so that sums of them need no sum over
+/// points and ranks.
+struct Multipliers {
+    std::vector<double> values;     ///< point vector [N s/m]
+    std::vector<Planar> on_grains;  ///< T^T values, of all ranks
+
+    void assign_zero(int rows, std::size_t grains) {
+        values.assign(rows, 0.0);
+        on_grains.assign(grains, Planar::Zero());
+    }
+};
 
 class SaddlePoint {
  public:
@@ -55,18 +68,19 @@ class SaddlePoint {
     // For uzawa_cg:
 
     int rows() const { return 2 * points_->boundary_points(); }
+    std::size_t grains() const { return grains_->size(); }
 
     /// The remaining slip, s - S L [m/s].
     std::vector<double>& slip() { return slip_; }
 
     /// y = S w.
-    void apply(const double* w, double* y);
+    void apply(const Multipliers& w, double* y);
 
-    /// z = C^-1 r, where C is the block-diagonal part of S.
-    void precondition(const double* r, double* z);
+    /// z = the inverse of S's blocks times r.
+    void precondition(const double* r, Multipliers& z);
 
     /// L += w.
-    void add(const std::vector<double>& w);
+    void add(const Multipliers& w);
 
     /// sum_i a_i b_i over the points of all ranks.
     double dot(const double* a, const double* b) const;
@@ -75,13 +89,13 @@ class SaddlePoint {
     double points_everywhere() const;
 
  private:
-    void number_cells();
+    void find_border();
     void sum_interiors();
     void factorise();
     void move_grains();
-    void spread(const double* values);
-    void share_sums();
+    void spread_multipliers();
     void import_velocity();
+    void expect_velocity(int slot, const double* ux, const double* uy) const;
 
     /// Sums per-grain data over the ranks that hold the grain; one fixed-size vector per grain.
     /// Called by every rank, also by one that holds no grain.
@@ -97,16 +111,18 @@ class SaddlePoint {
     std::vector<GrainId> ids_;
     std::vector<CellSums> sums_;
     std::vector<Eigen::Matrix3d> inverse_;    // A^-1
-    std::vector<Eigen::Matrix3d> effective_;  // A + T^T G^-1 T
+    std::vector<Eigen::Matrix3d> tied_;       // T^T G^-1 T
+    std::vector<Eigen::Matrix3d> effective_;  // A + it
     std::vector<Eigen::Matrix3d> inverse_effective_;
     std::vector<Planar> momentum_;  // P + J
     std::vector<Planar> motions_, impulses_;
     BoundaryBlocks blocks_;
-    std::vector<double> multipliers_, slip_;
-    std::vector<PlaneVector> cells_;         // m^-1 B^T L, or u; by slot
-    std::vector<double> per_mass_;           // 1/m_c, by slot
-    std::vector<int> border_;                // slots of cells that other ranks know too
-    std::vector<double> share_x_, share_y_;  // their values by local cell; zero between windows
+    PointCoupling coupling_;
+    Multipliers multipliers_;
+    std::vector<double> slip_;
+    std::vector<PlaneVector> cells_;  // u before the multipliers, later their change of it, by slot
+    std::vector<BorderValue> border_;  // slots of cells that other ranks know too
+    BorderSums border_sums_;
     std::vector<Planar> by_grain_;
 };
 

@@ -16,24 +16,29 @@ double target(const MultiplierSettings& settings, double first_rms) {
     return std::max(wanted, rounding * settings.velocity_scale);
 }
 
+/// a <- keep a + share b.
+void change(Multipliers& a, double keep, const Multipliers& b, double share) {
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        a.values[i] = keep * a.values[i] + share * b.values[i];
+    for (std::size_t g = 0; g < a.on_grains.size(); ++g)
+        a.on_grains[g] = keep * a.on_grains[g] + share * b.on_grains[g];
+}
+
 }  // namespace
 
-void MultiplierWorkspace::resize(int rows) {
-    for (std::vector<double>* vector : {&impulses, &direction, &image, &preconditioned})
-        vector->resize(rows);
+void MultiplierWorkspace::clear(int rows, std::size_t grains) {
+    for (Multipliers* vector : {&impulses, &direction, &preconditioned})
+        vector->assign_zero(rows, grains);
+    image.resize(rows);
 }
 
 MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& settings,
                           MultiplierWorkspace& work) {
     const int rows = system.rows();
-    work.resize(rows);
-    std::fill(work.impulses.begin(), work.impulses.end(), 0.0);
-    std::fill(work.direction.begin(), work.direction.end(), 0.0);
-    double* L = work.impulses.data();
+    work.clear(rows, system.grains());
+    Multipliers &L = work.impulses, &w = work.direction, &z = work.preconditioned;
     double* r = system.slip().data();
-    double* w = work.direction.data();
     double* y = work.image.data();
-    double* z = work.preconditioned.data();
 
     const double points = std::max(1.0, system.points_everywhere());
     double rr = system.dot(r, r), rz = 0.0;
@@ -41,21 +46,19 @@ MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& setting
 
     MultiplierResult result;
     while (std::sqrt(rr / points) > goal && result.iterations < settings.iterations) {
-        system.precondition(r, z);  // z = C^-1 r
-        const double rz_new = system.dot(r, z);
+        system.precondition(r, z);
+        const double rz_new = system.dot(r, z.values.data());
         const double beta = result.iterations == 0 ? 0.0 : rz_new / rz;
         rz = rz_new;
-        for (int i = 0; i < rows; ++i) w[i] = z[i] + beta * w[i];  // w <- z + beta w
-        system.apply(w, y);                                        // y = S w
-        const double alpha = rz / system.dot(w, y);                // alpha = r z / w S w
-        for (int i = 0; i < rows; ++i) {
-            L[i] += alpha * w[i];  // L <- L + alpha w
-            r[i] -= alpha * y[i];  // r <- r - alpha S w
-        }
+        change(w, beta, z, 1.0);  // w = beta w + z
+        system.apply(w, y);
+        const double alpha = rz / system.dot(w.values.data(), y);
+        change(L, 1.0, w, alpha);  // L += alpha w
+        for (int i = 0; i < rows; ++i) r[i] -= alpha * y[i];
         rr = system.dot(r, r);
         ++result.iterations;
     }
-    system.add(work.impulses);
+    system.add(L);
     result.residual = std::sqrt(rr / points);
     result.goal = goal;
     result.converged = result.residual <= goal;

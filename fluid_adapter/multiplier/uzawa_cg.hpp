@@ -34,9 +34,10 @@ struct MultiplierResult {
 
 /// Work vectors, kept between windows: a solve no larger than an earlier one allocates nothing.
 struct MultiplierWorkspace {
-    std::vector<double> impulses, direction, image, preconditioned;
+    Multipliers impulses, direction, preconditioned;
+    std::vector<double> image;
 
-    void resize(int rows);
+    void clear(int rows, std::size_t grains);
 };
 
 /// Reduces the slip of the system until both criteria of MultiplierSettings hold, and updates the

@@ -151,7 +151,7 @@ double interpolation_error(double cell) {
     double error = 0.0;
     for (int p = 0; p < points.boundary_points(); ++p)
         error = std::max(
-            error, std::abs(slip[p] - wave(2.013 + points.arm_x[p], 2.007 + points.arm_y[p]).x()));
+            error, std::abs(slip[2 * p] - wave(2.013 + points.arm_x[p], 2.007 + points.arm_y[p]).x()));
     return error;
 }
 

@@ -113,6 +113,13 @@ TEST(BoundaryOperator, TransposeIdentity) {
     EXPECT_NEAR(left, right, 1e-11);
 }
 
+/// Multipliers with these values.
+Multipliers with_sums(const Problem& problem, const std::vector<double>& values) {
+    Multipliers result{values, std::vector<Planar>(problem.grains.size())};
+    BoundaryOperator(problem.points).sum_by_grain(values.data(), result.on_grains.data());
+    return result;
+}
+
 TEST(SaddlePoint, OperatorAndPreconditionerAreSymmetricAndPositive) {
     Problem problem(loose_heap(), true);
     SaddlePoint& system = problem.system;
@@ -121,14 +128,19 @@ TEST(SaddlePoint, OperatorAndPreconditionerAreSymmetricAndPositive) {
     const std::vector<double> a = random_vector(rows, 3), b = random_vector(rows, 4);
     std::vector<double> image_a(rows), image_b(rows);
     const auto check = [&](auto operation) {
-        operation(a.data(), image_a.data());
-        operation(b.data(), image_b.data());
+        operation(a, image_a);
+        operation(b, image_b);
         const double ab = system.dot(a.data(), image_b.data());
         EXPECT_NEAR(system.dot(b.data(), image_a.data()), ab, 1e-10 * std::abs(ab) + 1e-9);
         EXPECT_GT(system.dot(a.data(), image_a.data()), 0.0);
     };
-    check([&](const double* x, double* y) { system.apply(x, y); });
-    check([&](const double* x, double* y) { system.precondition(x, y); });
+    using Vector = std::vector<double>;
+    check([&](const Vector& x, Vector& y) { system.apply(with_sums(problem, x), y.data()); });
+    check([&](const Vector& x, Vector& y) {
+        Multipliers z = with_sums(problem, x);
+        system.precondition(x.data(), z);
+        y = z.values;
+    });
 }
 
 TEST(SaddlePoint, PreconditionerIsTheInverseForAGrainByItself) {
@@ -136,10 +148,54 @@ TEST(SaddlePoint, PreconditionerIsTheInverseForAGrainByItself) {
     SaddlePoint& system = problem.system;
     system.assemble(problem.field, problem.grains, problem.points);
     const std::vector<double> x = random_vector(system.rows(), 5);
-    std::vector<double> image(system.rows()), back(system.rows());
-    system.apply(x.data(), image.data());
-    system.precondition(image.data(), back.data());
-    for (int i = 0; i < system.rows(); ++i) EXPECT_NEAR(back[i], x[i], 1e-11);
+    std::vector<double> image(system.rows());
+    Multipliers back = with_sums(problem, x);
+    system.apply(with_sums(problem, x), image.data());
+    system.precondition(image.data(), back);
+    for (int i = 0; i < system.rows(); ++i) EXPECT_NEAR(back.values[i], x[i], 1e-11);
+}
+
+TEST(SaddlePoint, ThePreconditionerKnowsWhatItsResultDoesToTheGrains) {
+    Problem problem(loose_heap(), true);
+    problem.system.assemble(problem.field, problem.grains, problem.points);
+    const std::vector<double> r = random_vector(problem.system.rows(), 6);
+    Multipliers z = with_sums(problem, r);
+    problem.system.precondition(r.data(), z);
+    EXPECT_LT(largest_difference(z.on_grains, with_sums(problem, z.values).on_grains), 1e-10);
+}
+
+/// B m^-1 B^T w through all cells.
+std::vector<double> through_cells(const Problem& problem, const std::vector<double>& w) {
+    const BoundaryOperator boundary(problem.points);
+    std::vector<PlaneVector> cells(problem.points.slots());
+    boundary.spread(w.data(), cells.data());
+    for (std::size_t slot = 0; slot < cells.size(); ++slot) {
+        const double mass = problem.field.reference_mass() * problem.points.stencilled[slot].volume;
+        cells[slot] = {cells[slot].x / mass, cells[slot].y / mass};
+    }
+    const std::vector<Planar> rest(problem.grains.size(), Planar::Zero());
+    std::vector<double> result(w.size());
+    boundary.apply(cells.data(), rest.data(), result.data());
+    return result;
+}
+
+TEST(PointCoupling, IsTheProductThroughAllCells) {
+    for (const auto& grains : {three_discs(), loose_heap(), dense_packing()}) {
+        Problem problem(grains, true);
+        PointCoupling coupling;
+        BoundaryBlocks blocks;
+        coupling.begin(problem.field, problem.points);
+        blocks.factorise(problem.field, problem.grains, problem.points, coupling);
+        int shared = 0;
+        for (int slot = 0; slot < problem.points.slots(); ++slot) shared += coupling.shared(slot);
+        EXPECT_GT(shared, 0);
+        EXPECT_LT(shared, problem.points.slots());
+        const std::vector<double> w = random_vector(2 * problem.points.boundary_points(), 7);
+        const std::vector<double> expected = through_cells(problem, w);
+        std::vector<double> y(w.size(), 1e9);
+        coupling.apply(problem.field, w.data(), y.data());
+        for (std::size_t i = 0; i < y.size(); ++i) EXPECT_NEAR(y[i], expected[i], 1e-11);
+    }
 }
 
 TEST(SaddlePoint, OneDiscInStillFluidByHand) {
