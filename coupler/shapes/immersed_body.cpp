@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/shapes/immersed_body.hpp"
 
-#include <stdexcept>
-
 namespace turbidite {
 
 ImmersedBody immersed_body(const Shape& shape, double radius, double density, double fluid_density,
@@ -16,10 +14,6 @@ ImmersedBody immersed_body(const Shape& shape, double radius, double density, do
     body.effective_mass = body.mass - body.displaced_mass;
     body.effective_inertia = body.inertia - body.displaced_inertia;
     body.submerged_mass = body.mass - fluid_density * shape.volume(radius);
-    if (!(body.effective_mass > 0.0))
-        throw std::invalid_argument("a grain must be denser than the fluid: density " +
-                                    std::to_string(density) + ", fluid " +
-                                    std::to_string(fluid_density));
     return body;
 }
 

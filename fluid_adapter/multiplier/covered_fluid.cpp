@@ -49,11 +49,7 @@ Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, d
 }
 
 Planar body_momentum(const ImmersedGrain& grain, const CellSums& sums, double m) {
-    const Planar& U = grain.contact_motion;
-    const Planar& J = grain.announced_impulse;
-    return {grain.effective_mass * U.x() - J.x() + m * sums[4],
-            grain.effective_mass * U.y() - J.y() + m * sums[5],
-            grain.effective_inertia * U.z() - J.z() + m * sums[6]};
+    return grain.momentum() + m * sums.tail<3>();
 }
 
 Planar carry_cells(const CollocationPoints& points, FluidField& field, int g,

@@ -7,7 +7,7 @@
 //     A  =  diag(cM, cM, cI)  +  sum m [ 1     0    -r_y ]      symmetric
 //                                      [ 0     1     r_x ]
 //                                      [-r_y   r_x   r^2 ]
-//     P  =  diag(cM, cM, cI) U45 - J_h  +  sum m (u_x, u_y, r_x u_y - r_y u_x)
+//     P  =  diag(cM, cM, cI) U45 + (M - m_f) g dt - J_h  +  sum m (u_x, u_y, r_x u_y - r_y u_x)
 //
 // and, without boundary points, the body moves with A^-1 P. A is positive definite for grains of
 // any density that cover fluid, also where cM <= 0. Valid C++17.

@@ -93,11 +93,8 @@ void ImmersedStep::take(const std::vector<GrainState>& states) {
 
 void ImmersedStep::take_free(const std::vector<GrainState>& states, double step) {
     take(states);
-    for (std::size_t g = 0; g < states.size(); ++g) {
-        const ImmersedBody body = bodies_(states[g]);
-        grains_[g].contact_motion.y() -=
-            body.submerged_mass / body.effective_mass * run_.gravity * step;
-    }
+    for (std::size_t g = 0; g < states.size(); ++g)
+        grains_[g].weight_impulse.y() = -bodies_(states[g]).submerged_mass * run_.gravity * step;
 }
 
 void ImmersedStep::take_constrained(const std::vector<GrainState>& states) {

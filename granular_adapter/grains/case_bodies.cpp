@@ -19,7 +19,13 @@ nscd::Twist twist_of(const Kick& kick) {
     return {{kick.velocity[0], kick.velocity[1], 0.0}, {0.0, 0.0, kick.angular_velocity[2]}};
 }
 
-/// A grain with the inertia and weight of step 4: effective inertia, submerged weight.
+bool denser_than_the_fluid(const ImmersedBody& body) {
+    return body.effective_mass > 0.0 && body.effective_inertia(2, 2) > 0.0;
+}
+
+/// A grain with the inertia and weight of step 4: effective inertia, submerged weight. A grain that
+/// is not denser than the fluid gets its own inertia, which is not used: it moves with the one that
+/// the fluid's response gives.
 nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
     nscd::Body body;
     body.id = grain.id;
@@ -28,8 +34,9 @@ nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
     body.fixed = grain.prescribed;
     body.radius = grain.radius;
     body.density = grain.density;
-    body.mass = inertia.effective_mass;
-    body.inertia = inertia.effective_inertia(2, 2);
+    const bool sinks = denser_than_the_fluid(inertia);
+    body.mass = sinks ? inertia.effective_mass : inertia.mass;
+    body.inertia = sinks ? inertia.effective_inertia(2, 2) : inertia.inertia(2, 2);
     body.weight_mass = inertia.submerged_mass;
     body.position = grain.position;
     body.orientation = grain.orientation;
@@ -56,6 +63,20 @@ void add_grains(nscd::Bodies& bodies, const RunValues& run, const ShapeTable& sh
         check_grain(state, shapes, seen);
         bodies.add(immersed(state, inertia(state)));
     }
+}
+
+std::optional<GrainId> first_light_grain(const RunValues& run, const ShapeTable& shapes,
+                                         const std::vector<GrainState>& grains) {
+    const ImmersedBodies inertia(run, shapes);
+    for (const GrainState& state : grains)
+        if (!denser_than_the_fluid(inertia(state))) return state.id;
+    return std::nullopt;
+}
+
+void refuse_light_grain(GrainId id) {
+    throw std::runtime_error(grain(id) +
+                             " is not denser than the fluid: without the fluid's responses nothing "
+                             "gives it an inertia; use coupling.scheme: joint");
 }
 
 std::vector<GrainState> grain_states(const nscd::Bodies& bodies) {

@@ -4,6 +4,7 @@
 // and weight of shapes/immersed_body.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
@@ -15,6 +16,13 @@ namespace turbidite {
 /// Throws std::runtime_error naming a grain that occurs twice or whose shape is not in the table.
 void add_grains(nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
                 const std::vector<GrainState>& grains);
+
+/// The first grain whose effective mass or inertia is not positive; `grains` as for add_grains.
+std::optional<GrainId> first_light_grain(const RunValues& run, const ShapeTable& shapes,
+                                         const std::vector<GrainState>& grains);
+
+/// Throws std::runtime_error naming the grain and the scheme that can move it.
+[[noreturn]] void refuse_light_grain(GrainId id);
 
 /// Every body with the contact impulses of its last window; J_h is zero.
 std::vector<GrainState> grain_states(const nscd::Bodies& bodies);

@@ -86,6 +86,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     borders_ = lay_borders(settings);
     refuse_cyclic(borders_);
     refuse_other_shapes(shapes);
+    if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
     add_grains(bodies_, run_, shapes, grains);
     nscd::move(bodies_, bodies_.twist, -lead(), {});
     check_inside(bodies_, borders_, "at the start");

@@ -85,6 +85,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
         walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
+    light_ = first_light_grain(run_, shapes, grains);
     add_grains(bodies(), run_, shapes, grains);
     nscd::check_periods(bodies().radius, engine().settings().box);
     check_inside(bodies(), borders_, "at the start");
@@ -119,6 +120,7 @@ void NscdAdapter::begin_round() {
 nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                                              const std::vector<FreeResponse>& responses) {
     answered_ = !responses.empty();
+    if (!answered_ && light_) refuse_light_grain(*light_);
     if (!answered_) return engine().step(window.step);
     FreeMotion free = free_motion(bodies(), responses, in_window(window));
     return engine().step_from(free.velocities, std::move(free.mobilities), window.step);

@@ -16,6 +16,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,6 +100,7 @@ class NscdAdapter final : public GrainsAdapter {
     std::vector<nscd::Twist> start_twists_;    ///< U^n of this window
     std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window
     std::vector<GrainId> removed_;
+    std::optional<GrainId> light_;  ///< the first grain that is not denser than the fluid
     ContactReport report_;  ///< of this window
 };
 

@@ -203,10 +203,10 @@ void check_abilities(const Population& population, const Settings& settings,
                                        })),
                      entries);
     if (const auto i = first([](const PlacedGrain& g) { return g.density && *g.density <= 1.0; });
-        i < grains.size() && wet)
+        i < grains.size() && wet && settings.text("coupling.scheme") != "joint")
         refuse_grain(population, i, fmt::format("density = {}", *grains[i].density),
-                     "Grains in a fluid must be denser than it: a ratio above 1.",
-                     "Use for example 1.5, or fluid.enabled: false.", entries);
+                     "Without coupling.scheme: joint, grains in a fluid must be denser than it.",
+                     "Use coupling.scheme: joint, or a density above 1.", entries);
 }
 
 Population grains_of(const EarlierStart& start, const Settings& settings, const GrainForms& forms) {

@@ -173,7 +173,7 @@ void check_densities(const Packing& grains, Collector problems) {
     for (std::size_t i = 0; i < grains.size(); ++i)
         if (grains[i].density && !(*grains[i].density > 0.0))
             problems.add(i, fmt::format("grain {}: density = {}", grains[i].id, *grains[i].density),
-                         "A density over the fluid's is above 0, in a fluid above 1.",
+                         "A density over the fluid's is above 0.",
                          "Correct it, or leave the column out for grains.density_ratio.");
     problems.finish("bad densities");
 }

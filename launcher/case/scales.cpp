@@ -63,7 +63,7 @@ void set_run_times(Settings& settings, double time_scale) {
 
 double sedimentation_velocity(double diameter, double gravity, double density_ratio,
                               double compacity) {
-    const double fall = std::numbers::pi * diameter / 2.0 * (density_ratio - 1.0) * gravity;
+    const double fall = std::numbers::pi * diameter / 2.0 * std::abs(density_ratio - 1.0) * gravity;
     return std::sqrt(fall) * std::pow(1.0 - compacity, 5);
 }
 

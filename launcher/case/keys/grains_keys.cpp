@@ -71,19 +71,25 @@ Ruling lattice_has_one_size(const Settings& s) {
     return lattice_objection("several sizes");
 }
 
-// Step 5 has the inertia c M with c = 1 - rho_f/rho_s, which must not vanish; scales.kind:
-// sedimentation has no velocity without weight in the fluid.
-Ruling sinks_in_the_fluid(const Settings& s) {
-    const bool falls = s.text("scales.kind") == "sedimentation" ||
-                       (s.text("scales.kind") == "physical" && !s.has("scales.velocity"));
-    if (s.real("grains.density_ratio") > 1.0 || !(s.flag("fluid.enabled") || falls))
+// Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
+// positive.
+Ruling light_grains_need_joint(const Settings& s) {
+    if (s.real("grains.density_ratio") > 1.0 || !s.flag("fluid.enabled") ||
+        is(s, "coupling.scheme", "joint"))
         return std::nullopt;
-    return Objection{
-        s.flag("fluid.enabled")
-            ? "Grains in a fluid must be denser than it: a ratio above 1."
-            : "Eq. 21 gives a velocity to grains denser than the fluid: a ratio above 1.",
-        s.flag("fluid.enabled") ? "Use for example 1.5, or fluid.enabled: false."
-                                : "Use for example 1.5, or scales.kind: avalanche."};
+    return Objection{"With coupling.scheme: " + s.text("coupling.scheme") +
+                         " grains in a fluid must be denser than it: a ratio above 1.",
+                     "Use coupling.scheme: joint, which takes any density, or a larger ratio."};
+}
+
+// Eq. 21 gives the fluid's own density no velocity.
+Ruling weighs_something(const Settings& s) {
+    const bool eq_21 = s.text("scales.kind") == "sedimentation" ||
+                       (s.text("scales.kind") == "physical" && !s.has("scales.velocity"));
+    if (!eq_21 || s.real("grains.density_ratio") != 1.0) return std::nullopt;
+    return Objection{"Eq. 21 gives no velocity scale to grains of the fluid's density.",
+                     "Use another ratio, scales.kind: avalanche, or scales.kind: physical with "
+                     "scales.velocity."};
 }
 
 std::string beside_a_file(const Settings& s) {
@@ -152,7 +158,7 @@ KeyGroup grains_keys() {
                  .fallback = "1.5",
                  .range = positive,
                  .help = "density of the grains over the fluid's",
-                 .allowed = "A ratio above 0; in a fluid above 1.",
+                 .allowed = "A ratio above 0; in a fluid above 1 unless coupling.scheme is joint.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",
                  .type = KeyType::choice,
@@ -227,12 +233,14 @@ KeyGroup grains_keys() {
                  .help = "seed of everything random",
                  .idle = without_chance},
             },
-        .rules = {{"grains.vertices", {}, vertices_are_convex},
-                  {"grains.shape", {"grains.generator"}, lattice_has_discs},
-                  {"grains.radius", {"grains.generator"}, lattice_has_radius},
-                  {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
-                  {"grains.region", {"domain.size"}, region_in_box},
-                  {"grains.density_ratio", {"fluid.enabled", "scales.kind"}, sinks_in_the_fluid}}};
+        .rules = {
+            {"grains.vertices", {}, vertices_are_convex},
+            {"grains.shape", {"grains.generator"}, lattice_has_discs},
+            {"grains.radius", {"grains.generator"}, lattice_has_radius},
+            {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
+            {"grains.region", {"domain.size"}, region_in_box},
+            {"grains.density_ratio", {"fluid.enabled", "coupling.scheme"}, light_grains_need_joint},
+            {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
 }
 
 }  // namespace turbidite

@@ -380,15 +380,5 @@ TEST_F(CaseFile, DensityOfDryGrainsKeepsItsUnit) {
     EXPECT_EQ(dry.population.at(0).density, 1.5);
 }
 
-TEST(ShippedCases, AreValid) {
-    int found = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
-        if (entry.path().extension() != ".yaml") continue;
-        EXPECT_NO_THROW(load_case(entry.path())) << entry.path();
-        ++found;
-    }
-    EXPECT_GE(found, 1);
-}
-
 }  // namespace
 }  // namespace turbidite

@@ -155,5 +155,19 @@ TEST_F(StudyTest, IsToldFromACase) {
     EXPECT_FALSE(is_study(scratch.path() / "nowhere.yaml"));
 }
 
+TEST(Shipped, CasesAndStudiesAreValid) {
+    int cases = 0, studies = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
+        if (entry.path().extension() != ".yaml") continue;
+        const bool study = is_study(entry.path());
+        EXPECT_NO_THROW(study ? void(plan_study(read_study(entry.path()), {}))
+                              : void(load_case(entry.path())))
+            << entry.path();
+        ++(study ? studies : cases);
+    }
+    EXPECT_GE(cases, 1);
+    EXPECT_GE(studies, 1);
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -56,7 +56,7 @@ class DenseReference {
             const double m = grains_[g].effective_mass, I = grains_[g].effective_inertia;
             inverse.segment<3>(3 * g) << 1.0 / m, 1.0 / m, 1.0 / I;
             free.segment<3>(3 * g) =
-                grains_[g].free_motion() + inverse.segment<3>(3 * g).cwiseProduct(pushes[g]);
+                inverse.segment<3>(3 * g).cwiseProduct(grains_[g].momentum() + pushes[g]);
         }
         const Eigen::SparseMatrix<double> B = B_.sparseView();  // at most nine entries in a row
         const Eigen::MatrixXd gram(B * per_mass_.asDiagonal() * B.transpose());
