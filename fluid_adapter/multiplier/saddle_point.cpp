@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/saddle_point.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
@@ -13,15 +14,17 @@
 namespace turbidite {
 namespace {
 
-/// Throws if the inertia of a grain with its covered fluid is not positive: the grain is lighter
-/// than the fluid and covers too little of it.
-void demand_positive(const Eigen::Matrix3d& inertia, GrainId id) {
-    if (inertia(0, 0) > 0.0 && inertia.determinant() > 0.0) return;
+/// Throws unless a grain has a positive inertia together with all the fluid that its multipliers
+/// tie to it: it is lighter than the fluid and ties too little of it. The fluid in its interior
+/// cells alone need not suffice: S is then indefinite, and so is its preconditioner, whose quotient
+/// stays positive.
+void demand_positive(const Eigen::Matrix3d& effective, GrainId id) {
+    if (effective.llt().info() == Eigen::Success) return;
     std::ostringstream text;
-    text << "grain " << id << " and the fluid it covers have mass " << inertia(0, 0)
-         << " kg/m and determinant " << inertia.determinant()
-         << " of their inertia; both must be positive: use a larger grains.density_ratio, or see "
-            "why the grain covers no fluid";
+    text << "grain " << id << " and the fluid tied to it have mass " << effective(0, 0)
+         << " kg/m and moment of inertia " << effective(2, 2)
+         << " kg m, which is not positive definite: use a larger grains.density_ratio, more "
+            "fluid.cells_per_diameter, or see why the grain ties no fluid";
     throw std::runtime_error(text.str());
 }
 
@@ -86,9 +89,9 @@ void SaddlePoint::factorise() {
     for (std::size_t g = 0; g < grains_->size(); ++g) {
         const Eigen::Matrix3d body =
             body_inertia((*grains_)[g], sums_[g], field_->reference_mass());
-        demand_positive(body, ids_[g]);
         inverse_[g] = body.inverse();
         effective_[g] = body + tied_[g];
+        demand_positive(effective_[g], ids_[g]);
         inverse_effective_[g] = effective_[g].inverse();
         momentum_[g] = body_momentum((*grains_)[g], sums_[g], field_->reference_mass());
     }

@@ -302,6 +302,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Against,
                                          Case{"dense", dense_packing, true, 1.0},
                                          Case{"dense_interior", dense_packing, false, 1.0},
                                          Case{"light", loose_heap, true, -0.4},
+                                         Case{"lighter", loose_heap, true, -1.2},
+                                         Case{"lighter_dense", dense_packing, true, -1.2},
+                                         Case{"nearly_singular", dense_packing, true, -1.4},
+                                         Case{"lightest", loose_heap, true, -1.8},
+                                         Case{"lightest_dense", dense_packing, true, -1.8},
                                          Case{"light_interior", loose_heap, false, -0.4}),
                          [](const auto& info) { return info.param.name; });
 
