@@ -27,7 +27,8 @@ std::string Reach::text() const {
 const std::vector<Benchmark>& benchmark_list() {
     static const std::vector<Benchmark> list = {
         {"fluid", "one core, two ranks and the memory of the fluid step", fluid_figures()},
-        {"contact", "contact-iterations per second, growth with size, ours beside others",
+        {"contact",
+         "contact-iterations per second, growth with size, comparison with other solvers",
          contact_figures()},
     };
     return list;

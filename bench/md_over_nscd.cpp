@@ -82,7 +82,7 @@ Sample column(Site& site, const std::string& adapter, const std::string& interva
 }
 
 std::string verdict(double value, double limit) {
-    return value <= limit ? "kept" : "NOT KEPT: the ratio compares unequal answers";
+    return value <= limit ? "kept" : "EXCEEDED: the ratio compares unequal results";
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ void measure(Entry& entry, Site& site) {
         entry.measured = entry.figure->measure(site);
         const double value = entry.measured.value;
         if (!(std::isfinite(value) && value > 0.0))
-            entry.reason = fmt::format("the result {} is no measurement", value);
+            entry.reason = fmt::format("the result {} is not a valid measurement", value);
     } catch (const std::exception& error) {
         entry.reason = error.what();
     }

@@ -49,7 +49,7 @@ void Site::run(const std::vector<std::string>& line, const std::string& log) con
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string said = text(log);
     throw Failure(ExitCode::tests_failed,
-                  fmt::format("{} failed with status {}; its last words:\n{}", line.front(),
+                  fmt::format("{} failed with status {}; the end of its output:\n{}", line.front(),
                               WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
                               said.substr(said.size() - std::min<std::size_t>(said.size(), 600))));
 }

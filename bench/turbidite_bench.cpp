@@ -42,7 +42,7 @@ ExitCode run(Options options) {
 
 ExitCode bench_main(int argc, char** argv) {
     Options options;
-    CLI::App app{"time this software beside others", "turbidite bench"};
+    CLI::App app{"compare the speed of this software with others", "turbidite bench"};
     declare(app, options);
     try {
         app.parse(argc, argv);

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "coupler/protocol/failure.hpp"
 #include "coupler/keys/nearest_name.hpp"
+#include "coupler/protocol/failure.hpp"
 #include "launcher/commands/command.hpp"
 
 namespace turbidite {
@@ -29,14 +29,14 @@ const std::vector<Command>& commands() {
          declare_run},
         {"check", "validate a case or a study, all errors at once", declare_check},
         {"report", "write report.html of a run folder", declare_report},
-        {"compare", "the same quantities of several runs on one page, differences quantified",
+        {"compare", "compare several runs on one page, with their differences in numbers",
          declare_compare},
         {"study", "run what is missing of a sweep of cases, then its table and figures",
          declare_study},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"test", "run the tests", declare_test},
-        {"bench", "time this software beside others", declare_bench},
-        {"yade", "run a script of your own in YADE with the contact engine", declare_yade},
+        {"bench", "compare the speed of this software with others", declare_bench},
+        {"yade", "run your own YADE script with the contact engine", declare_yade},
     };
     return table;
 }

@@ -47,7 +47,7 @@ HubFiles hub_files(const RunFolder& folder) {
 
 RunStatus couple(const std::string& directory) {
     ResolvedCase resolved = load_run_folder(directory);
-    StartWatch watch(start_limit, "the programs of the job did not all start; look into the logs");
+    StartWatch watch(start_limit, "not all programs of the job started; see the logs");
     const MPI_Comm local = split_world(Role::coupler);
     watch.disarm();
     Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"));

@@ -64,8 +64,9 @@ std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>
         all.begin(), all.end(),
         [](const ContactRecord& x, const ContactRecord& y) { return !contact_before(x, y); });
     if (twice != all.end())
-        throw PhysicsRefused(name_of(*twice) +
-                             " was sent twice: the rank that owns the second grain tells it");
+        throw PhysicsRefused(
+            name_of(*twice) +
+            " was sent twice; only the rank that owns the second grain may report it");
     return all;
 }
 
@@ -94,7 +95,7 @@ void ExchangePlan::demand_owned(const std::vector<ContactRecord>& contacts) cons
     for (const ContactRecord& contact : contacts)
         for (const GrainId id : {contact.b, contact.wall < 0 ? contact.a : contact.b})
             if (index_.place(id) == GrainIndex::nowhere)
-                throw PhysicsRefused(name_of(contact) + " names a grain that nobody sent");
+                throw PhysicsRefused(name_of(contact) + " names an unknown grain");
 }
 
 std::vector<Motion> ExchangePlan::by_place(const Motion& motion) const {
@@ -110,7 +111,7 @@ std::vector<Motion> ExchangePlan::by_place(const Motion& motion) const {
 
 void ExchangePlan::refuse_missing(const std::vector<bool>& answered) const {
     const auto first = std::find(answered.begin(), answered.end(), false);
-    throw PhysicsRefused("the fluid did not answer for " +
+    throw PhysicsRefused("the fluid sent no answer for " +
                          std::to_string(std::count(answered.begin(), answered.end(), false)) +
                          " grains, among them " +
                          std::to_string(index_.id(first - answered.begin())) +
@@ -124,8 +125,9 @@ std::vector<std::vector<Record>> ExchangePlan::by_owner(const std::vector<Record
     for (const Record& record : records) {
         const std::size_t at = index_.place(record.id);
         if (at == GrainIndex::nowhere || answered[at])
-            throw PhysicsRefused("the fluid answered for grain " + std::to_string(record.id) +
-                                 (at != GrainIndex::nowhere ? " twice" : ", which nobody owns"));
+            throw PhysicsRefused(
+                "the fluid answered for grain " + std::to_string(record.id) +
+                (at != GrainIndex::nowhere ? " twice" : ", which no grains rank owns"));
         routed[owner_[at]].push_back(record);
         answered[at] = true;
     }

@@ -47,7 +47,8 @@ void shake_hands(const std::vector<ParticipantLink*>& links, const Settings& set
         }
     }
     if (!report.empty())
-        throw Failure(ExitCode::handshake_refused, "the programs do not fit together:" + report);
+        throw Failure(ExitCode::handshake_refused,
+                      "the programs of the job are incompatible:" + report);
 }
 
 }  // namespace turbidite

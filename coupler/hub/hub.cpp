@@ -91,8 +91,9 @@ void Hub::play_windows() {
         play(now);
         progress_.show(output_.row(), now.write_output);
         if (stop && index + 1 < windows)
-            throw Failure(*stop, fmt::format("stopped on request after window {}, which is written",
-                                             index + 1));
+            throw Failure(*stop,
+                          fmt::format("stopped on request after window {}; its output is written",
+                                      index + 1));
     }
 }
 
@@ -213,7 +214,7 @@ void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {
         if (waiting && patience.seconds() > limit)
             throw Failure(
                 status_.code == ExitCode::done ? ExitCode::stalled : status_.code,
-                "a participant does not say farewell; ending the job\n" + wait_for_table());
+                "a participant did not end in time; aborting the job\n" + wait_for_table());
     }
 }
 

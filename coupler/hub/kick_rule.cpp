@@ -52,8 +52,8 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
     for (Kick& kick : kicks) {
         const std::size_t at = before_.place(kick.id);
         if (at == GrainIndex::nowhere)
-            throw PhysicsRefused("the fluid answered for grain " + std::to_string(kick.id) +
-                                 ", which nobody owns");
+            throw PhysicsRefused("the fluid sent a kick for grain " + std::to_string(kick.id) +
+                                 ", which is unknown");
         const GrainState& grain = before.grains[at];
         const ImmersedBody immersed = bodies_(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);

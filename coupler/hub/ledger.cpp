@@ -18,8 +18,7 @@ constexpr int windows_until_refused = 3;
 /// sub-steps.
 std::string against_overlap(const std::string& adapter) {
     if (adapter == "yade-md")
-        return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness where it is "
-               "given.";
+        return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
     return "Use a smaller time.step, or more contact.iterations.";
 }
 
@@ -47,10 +46,10 @@ void Ledger::check(const WindowResult& result) {
 
 void Ledger::check_count(const Motion& state) const {
     if (state.grains.size() + removed_ == population_) return;
-    throw PhysicsRefused(fmt::format(
-        "{} grains and {} that left through free sides do not make {}: the grains participant lost "
-        "or invented some",
-        state.grains.size(), removed_, population_));
+    throw PhysicsRefused(
+        fmt::format("{} grains present and {} removed through free sides do not add up to {}: the "
+                    "grains participant lost or added grains",
+                    state.grains.size(), removed_, population_));
 }
 
 void Ledger::check_overlap(const Motion& state) const {
@@ -67,20 +66,20 @@ void Ledger::check_divergence(const FluidReport& report) {
     divergent_windows_ = good ? 0 : divergent_windows_ + 1;
     if (divergent_windows_ < windows_until_refused) return;
     throw PhysicsRefused(fmt::format(
-        "the projection fails: max |div phi| = {:.3g} u_c/D in {} windows running, {:.0e} allowed. "
-        "Use a smaller time.step or fluid.pressure_tolerance.",
-        divergence, divergent_windows_, divergence_limit));
+        "the projection failed in {} consecutive windows: max |div phi| = {:.3g} u_c/D, the limit "
+        "is {:.0e}. Use a smaller time.step or fluid.pressure_tolerance.",
+        divergent_windows_, divergence, divergence_limit));
 }
 
 void Ledger::check_multipliers(const FluidReport& report) {
     stopped_windows_ = report.multipliers_converged ? 0 : stopped_windows_ + 1;
     if (stopped_windows_ < windows_until_refused) return;
-    throw PhysicsRefused(fmt::format(
-        "the multiplier problem stops at its iteration limit in {} windows running, at a rms slip "
-        "of {:.1e} u_c: {}. Allow more iterations or a larger tolerance, or use a smaller "
-        "time.step or fluid.hydrodynamic_radius.",
-        stopped_windows_, report.multiplier_residual / settings_.run.velocity,
-        text(settings_.solves.multipliers)));
+    throw PhysicsRefused(
+        fmt::format("the multiplier problem stopped at its iteration limit in {} consecutive "
+                    "windows, at an rms slip of {:.1e} u_c: {}. Allow more iterations or a larger "
+                    "tolerance, or use a smaller time.step or fluid.hydrodynamic_radius.",
+                    stopped_windows_, report.multiplier_residual / settings_.run.velocity,
+                    text(settings_.solves.multipliers)));
 }
 
 }  // namespace turbidite

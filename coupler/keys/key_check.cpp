@@ -74,7 +74,7 @@ Checked check_flag(const std::string& value) {
 Checked check_value(const KeySpec& key, const CaseEntry& entry, CaseProblem& problem) {
     if (key.type == KeyType::real_list) return check_list(key, entry);
     if (entry.is_list) {
-        problem.allowed = fmt::format("A list cannot stand here. {}", problem.allowed);
+        problem.allowed = fmt::format("A list is not allowed here. {}", problem.allowed);
         return std::nullopt;
     }
     switch (key.type) {
@@ -116,7 +116,7 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
                         .remedy = "`turbidite keys` lists them all."};
     if (is_group(table, entry.key)) {
         problem.fault = "is a group of keys, not a key";
-        problem.allowed = "Its keys stand below it, indented.";
+        problem.allowed = "Write its keys below it, indented.";
         return problem;
     }
     const KeySpec& nearest = *find_key(table, nearest_name(entry.key, names_of(table)));

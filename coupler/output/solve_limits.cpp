@@ -24,7 +24,7 @@ std::string contact_sentence(const RunStatistics& s, const SolveLimits& limits) 
 std::string multiplier_sentence(const RunStatistics& s, const SolveLimits& limits) {
     return fmt::format(
         "in {} of {} windows the multiplier problem used up its {} iterations "
-        "(fluid.multiplier_iterations); rms slip up to {:.1e} u_c, {:g} demanded. Allow more "
+        "(fluid.multiplier_iterations); rms slip up to {:.1e} u_c, {:g} required. Allow more "
         "iterations, or a larger fluid.multiplier_tolerance.",
         s.maxima.fluid->unconverged_windows, s.windows_done, limits.multipliers.iterations,
         s.maxima.fluid->slip, limits.slip);

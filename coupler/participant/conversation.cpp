@@ -18,7 +18,7 @@ Message Conversation::next() {
         if (patience.seconds() > limit_)
             throw CouplerSilent("the coupler has been silent for " +
                                 std::to_string(static_cast<int>(limit_)) + " s while " +
-                                order_.due_text() + " was due");
+                                order_.due_text() + " was expected");
     }
 }
 

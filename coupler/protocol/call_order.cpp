@@ -77,12 +77,12 @@ void check_window_order(const Order& order) {
         const Step& step = order[i];
         if (std::find(std::begin(window_kinds), std::end(window_kinds), step.kind) ==
             std::end(window_kinds))
-            refuse("holds \"" + kind_name(step.kind) + "\", which is no message of a window");
+            refuse("holds \"" + kind_name(step.kind) + "\", which is not a message of a window");
         if (i > 0 && step.kind == Kind::window) refuse("holds \"window\" twice");
         const bool border = i > 0 && step.times != order[i - 1].times;
         if (border && !step.from_coupler)
             refuse("lets \"" + kind_name(step.kind) +
-                   "\" of the participant stand where only the coupler decides on a round");
+                   "\" of the participant follow where only the coupler decides on another round");
     }
     if (order.back().times == Times::per_round) refuse("ends with a round");
 }

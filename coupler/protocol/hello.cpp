@@ -71,7 +71,7 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
                   "hash of the resolved case", hello.case_hash,
                   expected.case_hash + " (was it started on another run folder?)");
     report.demand(!expected.effective_inertia || hello.capabilities.effective_inertia,
-                  "knowledge of effective inertia", "absent",
+                  "support for effective inertia", "absent",
                   "it for coupling.scheme: " + expected.scheme + " (or use split)");
     for (const std::string& shape : expected.shapes)
         report.demand(contains(hello.capabilities.shapes, shape), "list of shapes",

@@ -78,14 +78,14 @@ void check_convex(const std::vector<Point2>& v, double least) {
         const double turn = height(v[(i + n - 1) % n], v[(i + 1) % n], v[i]);
         if (turn > least) refuse(vertex_name(v, i) + " makes it concave; remove or move it");
         if (turn > -least)
-            refuse(vertex_name(v, i) + " lies in line with its neighbours; remove it");
+            refuse(vertex_name(v, i) + " is collinear with its neighbours; remove it");
     }
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = 0; k < n; ++k)
             if (k != i && k != (i + 1) % n && height(v[i], v[(i + 1) % n], v[k]) < least)
                 refuse(vertex_name(v, k) + " is outside the side from vertex " +
                        std::to_string(i + 1) + " to " + std::to_string((i + 1) % n + 1) +
-                       ": the outline crosses itself");
+                       ": the outline intersects itself");
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ Outline normalised_outline(const std::vector<double>& coordinates) {
     check_repeated(vertices, least);
     const double area = area_moments(vertices).area;
     if (!(std::abs(area) > least_share * size * size))
-        refuse("its area is zero: all vertices are in line with " + vertex_name(vertices, 0));
+        refuse("its area is zero: all vertices are collinear with " + vertex_name(vertices, 0));
     Outline outline;
     outline.turned_round = area < 0.0;
     // The first vertex remains the first.

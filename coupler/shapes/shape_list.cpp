@@ -27,8 +27,8 @@ ShapePointer make_polygon(const ShapeRecord& record) {
 
 const std::vector<ShapeEntry>& shape_list() {
     static const std::vector<ShapeEntry> shapes = {
-        {"disc", "round grain in the plane", make_disc},
-        {"triangle", "equilateral triangle, a side below at angle 0", make_triangle},
+        {"disc", "circular grain", make_disc},
+        {"triangle", "equilateral triangle, at angle 0 with one side at the bottom", make_triangle},
         {"polygon", "convex polygon with the corners of grains.vertices", make_polygon},
     };
     return shapes;

@@ -63,9 +63,9 @@ JoinedParticipant accept_participant(MPI_Comm local, double limit) {
     for (Patience patience; !arrived; patience.wait()) {
         PMPI_Iprobe(MPI_ANY_SOURCE, announcement_tag, MPI_COMM_WORLD, &arrived, &status);
         if (!arrived && patience.seconds() > limit)
-            throw Failure(ExitCode::stalled, "no participant announced itself for " +
+            throw Failure(ExitCode::stalled, "no participant connected within " +
                                                  std::to_string(static_cast<int>(limit)) +
-                                                 " s; look at its log in logs/");
+                                                 " s; see the participants' logs in logs/");
     }
     std::array<int, 2> announcement{};
     PMPI_Recv(announcement.data(), 2, MPI_INT, status.MPI_SOURCE, announcement_tag, MPI_COMM_WORLD,

@@ -144,7 +144,8 @@ void read_means(const SolverMatrix& system, const BoxCells& box,
     }
     if (!(reading.mean[0] * reading.mean[1] > 0.0) || !std::isfinite(sums[0].inner + sums[1].inner))
         throw DoesNotFit("its coefficients are " + number(reading.mean[0]) + " along x and " +
-                         number(reading.mean[1]) + " along y in the mean, not of one sign");
+                         number(reading.mean[1]) +
+                         " along y in the mean; they must have the same sign");
     reading.sign = reading.mean[0] > 0.0 ? 1.0 : -1.0;
     for (double& mean : reading.mean) mean *= reading.sign;
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 [[noreturn]] void no_plan(int length) {
-    throw std::runtime_error("FFTW made no plan for rows of " + std::to_string(length));
+    throw std::runtime_error("FFTW could not create a plan for rows of " + std::to_string(length));
 }
 
 struct Complex {

@@ -120,7 +120,8 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
     for (const GrainState& state : with_contacts) {
         const auto at = index_.find(state.id);
         if (at == index_.end())
-            throw std::runtime_error("contact impulses came for grain " + std::to_string(state.id) +
+            throw std::runtime_error("contact impulses were sent for grain " +
+                                     std::to_string(state.id) +
                                      ", which the window did not begin with");
         const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
         changes_[at->second] = impulse - contact_impulses_[at->second];

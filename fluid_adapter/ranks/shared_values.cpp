@@ -21,7 +21,8 @@ SharedValues::SharedValues(const RankGroup& group, std::size_t count)
     PMPI_Comm_set_errhandler(group_.comm(), usual);
     PMPI_Errhandler_free(&usual);
     PMPI_Info_free(&apart);
-    if (made != MPI_SUCCESS) throw std::runtime_error("MPI gave no shared memory to the ranks");
+    if (made != MPI_SUCCESS)
+        throw std::runtime_error("MPI could not allocate shared memory for the ranks");
     PMPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
     for (int rank = 0; rank < group_.size(); ++rank) {
         MPI_Aint size = 0;

@@ -26,10 +26,11 @@ bool adheres(const Settings& s) {
 
 Ruling sliding_holds_less(const Settings& s) {
     if (s.real("contact.static_friction") >= s.real("contact.friction")) return std::nullopt;
-    return Objection{fmt::format("Contacts that stick hold at least as much as those that slide, "
-                                 "and contact.friction = {}.",
-                                 s.text("contact.friction")),
-                     "Enlarge it."};
+    return Objection{
+        fmt::format(
+            "The static coefficient must be at least the sliding one, contact.friction = {}.",
+            s.text("contact.friction")),
+        "Increase it."};
 }
 
 // With restitution e an impact adds energy unless theta <= 1/(1 + e).
@@ -38,23 +39,23 @@ Ruling theta_makes_no_energy(const Settings& s) {
         std::max(s.real("contact.restitution"), s.real("contact.restitution_tangential"));
     const double most = 1.0 / (1.0 + e);
     if (s.real("contact.theta") <= most * (1.0 + 1e-12)) return std::nullopt;
-    return Objection{fmt::format("With a restitution e = {} impacts make energy beyond "
-                                 "theta = 1/(1 + e) = {}.",
-                                 real_text(e), real_text(most)),
-                     "Use 0.5, which is right for every restitution."};
+    return Objection{
+        fmt::format("With a restitution e = {} impacts create energy above theta = 1/(1 + e) = {}.",
+                    real_text(e), real_text(most)),
+        "Use 0.5, which is valid for every restitution."};
 }
 
 Ruling moreau_has_one_restitution(const Settings& s) {
     if (s.text("contact.impact") != "moreau" || s.real("contact.restitution_tangential") == 0.0)
         return std::nullopt;
-    return Objection{"With contact.impact: moreau one restitution serves both directions.",
+    return Objection{"With contact.impact: moreau one restitution applies to both directions.",
                      "Remove it, or use contact.impact: newton."};
 }
 
 Ruling only_discs_resist_rolling(const Settings& s) {
     if (s.real("contact.rolling_friction") == 0.0 || s.text("grains.shape") == "disc")
         return std::nullopt;
-    return Objection{fmt::format("Rolling resistance is for discs, and grains.shape = {}: faces "
+    return Objection{fmt::format("Rolling resistance is for discs, but grains.shape = {}: faces "
                                  "resist rolling by themselves.",
                                  s.text("grains.shape")),
                      "Use 0."};
@@ -63,7 +64,8 @@ Ruling only_discs_resist_rolling(const Settings& s) {
 Ruling range_of_neighbours(const Settings& s) {
     if (s.text("contact.adhesion") == "none") return std::nullopt;
     if (s.real("contact.adhesion_range") <= 1.0) return std::nullopt;
-    return Objection{"Adhesion acts between neighbours: up to 1 D.", "Use a smaller range."};
+    return Objection{"Adhesion acts between neighbours: its range is at most 1 D.",
+                     "Use a smaller range."};
 }
 
 std::string without_static_friction(const Settings& s) {
@@ -91,8 +93,8 @@ void notes(const Settings& s, std::vector<std::string>& notes) {
     if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
         s.real("contact.friction") > 0.0)
         notes.push_back(
-            "contact.impact: newton with friction may make energy where several contacts of a "
-            "grain answer at once; contact.impact: moreau never does");
+            "contact.impact: newton with friction may create energy where several contacts of a "
+            "grain have impacts at once; contact.impact: moreau never does");
 }
 
 }  // namespace
@@ -110,7 +112,7 @@ KeyGroup contact_law_keys() {
                  .type = KeyType::real,
                  .need = Need::conditional,
                  .range = not_negative,
-                 .help = "friction coefficient of contacts that stick, at least contact.friction",
+                 .help = "friction coefficient of sticking contacts, at least contact.friction",
                  .remedy = "Write for example static_friction: 0.5.",
                  .when = "contact.law: static-dynamic",
                  .required =
@@ -120,20 +122,20 @@ KeyGroup contact_law_keys() {
                  .type = KeyType::choice,
                  .fallback = "newton",
                  .choices = offered(nscd::law_choices(nscd::LawSlot::impact)),
-                 .help = "impact law; without restitution both are the same",
+                 .help = "impact law; without restitution both give the same",
                  .family = "nscd"},
                 {.name = "contact.restitution",
                  .type = KeyType::real,
                  .fallback = "0",
                  .range = {.lower = 0.0, .upper = 1.0},
-                 .help = "e: share of the approach velocity with which grains part",
+                 .help = "e: separation velocity of an impact over its approach velocity",
                  .allowed = "A restitution lies between 0 (no rebound) and 1 (no loss).",
                  .remedy = "Use 0 for grains that do not bounce."},
                 {.name = "contact.restitution_tangential",
                  .type = KeyType::real,
                  .fallback = "0",
                  .range = {.lower = 0.0, .upper = 1.0},
-                 .help = "the same along the contact (impact newton)",
+                 .help = "tangential restitution (impact newton)",
                  .allowed = "A restitution lies between 0 and 1.",
                  .remedy = "Use 0.",
                  .family = "nscd"},
@@ -142,7 +144,7 @@ KeyGroup contact_law_keys() {
                  .unit = "u_c",
                  .fallback = "0.001",
                  .range = not_negative,
-                 .help = "grains that approach slower do not bounce",
+                 .help = "contacts that approach more slowly than this do not rebound",
                  .family = "nscd",
                  .idle = without_restitution},
                 {.name = "contact.rolling_friction",
@@ -150,20 +152,20 @@ KeyGroup contact_law_keys() {
                  .fallback = "0",
                  .range = not_negative,
                  .help =
-                     "slope up to which a disc does not roll: its rolling resistance over R r_n",
+                     "rolling resistance over R r_n: the slope up to which a disc does not roll",
                  .allowed = "A coefficient of rolling resistance must be zero or positive.",
                  .remedy = "Use 0 for grains that roll freely."},
                 {.name = "contact.adhesion",
                  .type = KeyType::choice,
                  .fallback = "none",
                  .choices = offered(nscd::law_choices(nscd::LawSlot::adhesion)),
-                 .help = "what pulls grains together"},
+                 .help = "adhesion between grains"},
                 {.name = "contact.adhesion_force",
                  .type = KeyType::real,
                  .unit = "m g",
                  .need = Need::conditional,
                  .range = positive,
-                 .help = "pull that parts two touching grains of diameter D",
+                 .help = "force that separates two touching grains of diameter D",
                  .remedy = "Write for example adhesion_force: 1.",
                  .when = "contact.adhesion",
                  .required = adheres,
@@ -173,8 +175,8 @@ KeyGroup contact_law_keys() {
                  .unit = "D",
                  .need = Need::conditional,
                  .range = positive,
-                 .help =
-                     "gap up to which it acts; cohesion: up to which the first window makes bonds",
+                 .help = "largest gap at which it acts; cohesion: largest gap at which bonds form "
+                         "in the first window",
                  .remedy = "Write for example adhesion_range: 0.05; for cohesion 0.001.",
                  .when = "contact.adhesion",
                  .required = adheres,
@@ -184,7 +186,7 @@ KeyGroup contact_law_keys() {
                  .unit = "D",
                  .need = Need::conditional,
                  .range = positive,
-                 .help = "decay of a bridge's force over the gap",
+                 .help = "decay length of the force of a liquid bridge",
                  .remedy = "Write for example adhesion_length: 0.02.",
                  .when = "contact.adhesion: capillary",
                  .required =
@@ -194,7 +196,7 @@ KeyGroup contact_law_keys() {
                  .type = KeyType::real,
                  .need = Need::conditional,
                  .range = positive,
-                 .help = "strength of a bond in shear over that in traction",
+                 .help = "shear strength of a bond over its tensile strength",
                  .remedy = "Write for example adhesion_shear: 1.",
                  .when = "contact.adhesion: cohesion",
                  .required =

@@ -22,15 +22,16 @@ bool resists_rolling(const Settings& s) {
 
 Ruling solver_knows_rolling(const Settings& s) {
     if (s.text("contact.solver") != "nlgs-stored" || !resists_rolling(s)) return std::nullopt;
-    return Objection{fmt::format("nlgs-stored does not solve rolling resistance, and "
-                                 "contact.rolling_friction = {}.",
-                                 s.text("contact.rolling_friction")),
-                     "Use nlgs or central-path."};
+    return Objection{
+        fmt::format(
+            "nlgs-stored does not support rolling resistance, but contact.rolling_friction = {}.",
+            s.text("contact.rolling_friction")),
+        "Use nlgs or central-path."};
 }
 
 Ruling dumps_know_rolling(const Settings& s) {
     if (!resists_rolling(s)) return std::nullopt;
-    return Objection{fmt::format("The files of Siconos have no rolling resistance, and "
+    return Objection{fmt::format("The files of Siconos do not support rolling resistance, but "
                                  "contact.rolling_friction = {}.",
                                  s.text("contact.rolling_friction")),
                      "Remove one of the two."};
@@ -44,11 +45,10 @@ void notes(const Settings& s, std::vector<std::string>& notes) {
     // The solver begins with 8000 sweeps (granular_adapter/nscd/solvers/central_path_solver.cpp).
     if (constexpr std::int64_t enough = 20000;
         s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
-        notes.push_back(
-            fmt::format("contact.iterations = {} leaves contact.solver: central-path, an "
-                        "interior-point method, with its first sweeps; "
-                        "{} is the least that is of use, 1000000 solves hard packings",
-                        s.integer("contact.iterations"), enough));
+        notes.push_back(fmt::format(
+            "contact.iterations = {} leaves contact.solver: central-path, an interior-point "
+            "method, with its first sweeps; use at least {}; 1000000 solves hard packings",
+            s.integer("contact.iterations"), enough));
 }
 
 }  // namespace
@@ -61,9 +61,8 @@ KeyGroup contact_problem_keys() {
                  .type = KeyType::real,
                  .fallback = "0.3",
                  .range = not_negative,
-                 .help = "Coulomb friction coefficient, grains and walls; law static-dynamic: of "
-                         "sliding "
-                         "contacts",
+                 .help = "Coulomb friction coefficient of grains and walls; law static-dynamic: of "
+                         "sliding contacts",
                  .allowed = "A friction coefficient must be zero or positive.",
                  .remedy = "Use 0 for smooth grains."},
                 {.name = "contact.theta",
@@ -88,27 +87,28 @@ KeyGroup contact_problem_keys() {
                  .type = KeyType::integer,
                  .fallback = "2000",
                  .range = {.lower = 1.0},
-                 .help = "most sweeps of the contact solver",
+                 .help = "largest number of sweeps of the contact solver",
                  .family = "nscd"},
                 {.name = "contact.threads",
                  .type = KeyType::integer,
                  .fallback = "1",
                  .range = {.lower = 1.0, .upper = 64.0},
-                 .help = "threads of the contact solver's sweeps; results do not depend on it",
+                 .help =
+                     "threads for the sweeps of the contact solver; results do not depend on it",
                  .family = "nscd"},
                 {.name = "contact.recovery_fraction",
                  .type = KeyType::real,
                  .unit = "per window",
                  .fallback = "0.2",
                  .range = {.lower = 0.0, .upper = 1.0},
-                 .help = "part of an overlap that is pushed out in a window",
+                 .help = "fraction of an overlap that is removed in a window",
                  .family = "nscd"},
                 {.name = "contact.recovery_speed",
                  .type = KeyType::real,
                  .unit = "u_c",
                  .fallback = "0.5",
                  .range = not_negative,
-                 .help = "fastest such push",
+                 .help = "largest velocity of this correction",
                  .family = "nscd",
                  .idle = without_recovery},
                 {.name = "contact.dump_interval",

@@ -19,11 +19,12 @@ struct Coefficient {
 constexpr Range unit_interval{.lower = 0.0, .upper = 1.0};
 const Coefficient coefficients[] = {
     {"friction", "", not_negative, "friction coefficient"},
-    {"static_friction", "", not_negative, "the same of contacts that stick (law static-dynamic)"},
+    {"static_friction", "", not_negative, "static friction coefficient (law static-dynamic)"},
     {"restitution", "", unit_interval, "restitution"},
-    {"restitution_tangential", "", unit_interval, "restitution along the contact"},
+    {"restitution_tangential", "", unit_interval, "tangential restitution"},
     {"rolling_friction", "", not_negative, "rolling resistance"},
-    {"adhesion_force", "m g", not_negative, "pull that parts two touching grains of diameter D"},
+    {"adhesion_force", "m g", not_negative,
+     "force that separates two touching grains of diameter D"},
 };
 
 KeyTable keys_of(const std::string& group, const std::string& whose) {

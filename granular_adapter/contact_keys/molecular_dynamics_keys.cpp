@@ -20,7 +20,7 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "D",
              .fallback = "0.001",
              .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
-             .help = "yade-md: overlap that the stiffness is made for",
+             .help = "yade-md: overlap for which the stiffness is chosen",
              .family = "md",
              .idle = beside_stiffness},
             {.name = "contact.md_speed",
@@ -28,9 +28,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "u_c",
              .need = Need::optional,
              .range = positive,
-             .help =
-                 "yade-md: speed of approach that the stiffness is made for; otherwise 2 with a "
-                 "fluid, twice the speed of a fall from the top of the packing without",
+             .help = "yade-md: approach speed for which the stiffness is chosen; default: 2 with a "
+                     "fluid, twice the speed of a fall from the top of the packing without",
              .remedy = "Leave it out, or use for example 2.",
              .family = "md",
              .idle = beside_stiffness},
@@ -39,9 +38,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "m g/D",
              .need = Need::optional,
              .range = positive,
-             .help =
-                 "yade-md: stiffness of two touching grains; otherwise from contact.md_overlap, "
-                 "contact.md_speed and the height of the packing",
+             .help = "yade-md: stiffness of two touching grains; default: from contact.md_overlap, "
+                     "contact.md_speed and the height of the packing",
              .remedy = "Leave it out, or use for example 1e5.",
              .family = "md"},
             {.name = "contact.md_substeps",
@@ -49,8 +47,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "per contact time",
              .fallback = "20",
              .range = {.lower = 12.0, .upper = 1000.0},
-             .help = "yade-md: least sub-steps in the time that two grains take to bounce",
-             .allowed = "Between 12, below which dense packings may grow unstable, and 1000.",
+             .help = "yade-md: smallest number of sub-steps in the contact time of two grains",
+             .allowed = "Between 12, below which dense packings may become unstable, and 1000.",
              .remedy = "Use 20.",
              .family = "md"},
         }};

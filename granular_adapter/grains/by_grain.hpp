@@ -27,7 +27,7 @@ std::vector<const Record*> by_grain(const std::vector<GrainId>& ids,
         const auto at = place.find(record.id);
         if (at == place.end())
             throw std::runtime_error("a " + what + " came for " + grain(record.id) +
-                                     ", which is not here, " + when);
+                                     ", which this rank does not have, " + when);
         if (result[at->second])
             throw std::runtime_error("two " + what + "s came for " + grain(record.id) + " " + when);
         result[at->second] = &record;

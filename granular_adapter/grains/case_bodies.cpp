@@ -47,7 +47,7 @@ nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
 void check_grain(const GrainState& state, const ShapeTable& shapes,
                  std::unordered_set<GrainId>& seen) {
     if (!seen.insert(state.id).second)
-        throw std::runtime_error(grain(state.id) + " is there twice; ids must be unique");
+        throw std::runtime_error(grain(state.id) + " occurs twice; ids must be unique");
     if (state.shape < 0 || state.shape >= static_cast<std::int32_t>(shapes.size()))
         throw std::runtime_error(grain(state.id) + " has shape " + std::to_string(state.shape) +
                                  " but the table has " + std::to_string(shapes.size()));

@@ -39,8 +39,8 @@ void refuse_cyclic(const std::vector<Border>& borders) {
     for (const Border& border : borders)
         if (border.side == BorderKind::cyclic)
             throw std::invalid_argument("domain." + border.name +
-                                        " = cyclic, which molecular dynamics does not know in this "
-                                        "version; allowed: wall, free");
+                                        " = cyclic, which molecular dynamics does not support in "
+                                        "this version; allowed: wall, free");
 }
 
 void refuse_other_shapes(const ShapeTable& shapes) {

@@ -44,7 +44,7 @@ ContactReport report_of(const nscd::StepReport& step) {
 }
 
 nscd::Engine& initialised(const std::unique_ptr<nscd::Engine>& engine) {
-    if (!engine) throw std::logic_error("the contact engine is asked before initialise()");
+    if (!engine) throw std::logic_error("the contact engine was called before initialise()");
     return *engine;
 }
 

@@ -29,7 +29,7 @@ void ProblemDumps::after(const Window& window, const nscd::ContactProblem& probl
     nscd::write_problem(stream, problem);
     if (!stream.flush())
         throw std::runtime_error("contact.dump_interval: " + file.string() +
-                                 " cannot be written: is there space, and may I write there?");
+                                 " cannot be written: check disk space and permissions");
 }
 
 }  // namespace turbidite

@@ -73,7 +73,7 @@ void read_document(const std::string& text, const Place& place, CaseEntries& res
     try {
         const YAML::Node document = YAML::Load(text);
         if (!document.IsMap())
-            result.problems.push_back(problem_at(place.source, 0, "holds no keys",
+            result.problems.push_back(problem_at(place.source, 0, "contains no keys",
                                                  "A case is a list of `key: value` in groups.",
                                                  "See configs/ for examples."));
         else

@@ -186,8 +186,8 @@ void check_abilities(const Population& population, const Settings& settings,
         });
         i < grains.size() && !population.source.lines.empty())
         refuse_grain(
-            population, i, "its shape is unknown to " + adapter.name,
-            fmt::format("Known to it: {}.", fmt::join(adapter.shapes, ", ")),
+            population, i, "its shape is not supported by " + adapter.name,
+            fmt::format("It supports: {}.", fmt::join(adapter.shapes, ", ")),
             fmt::format("Use one of these, or grains.adapter: {}.",
                         adapters_that([](const GrainsAdapter& a) { return a.shapes.size() > 1; })),
             entries);
@@ -195,7 +195,7 @@ void check_abilities(const Population& population, const Settings& settings,
         i < grains.size() && (wet || !adapter.prescribed_grains))
         refuse_grain(population, i, "motion is fixed or driven",
                      wet ? "In a fluid all grains are free in this version."
-                         : fmt::format("{} knows free grains only.", adapter.name),
+                         : fmt::format("{} supports free grains only.", adapter.name),
                      wet ? "Use motion = free, or fluid.enabled: false."
                          : fmt::format("Use motion = free, or grains.adapter: {}.",
                                        adapters_that([](const GrainsAdapter& a) {
@@ -213,7 +213,7 @@ Population grains_of(const EarlierStart& start, const Settings& settings, const 
     EarlierGrains read =
         read_earlier_grains(start.run, start.earlier, forms, material_names(settings));
     std::vector<std::string> notes{
-        fmt::format("grains are those of {} at {:.6g} t_c", read.source, read.time)};
+        fmt::format("grains taken from {} at {:.6g} t_c", read.source, read.time)};
     if (settings.flag("fluid.enabled")) notes.push_back("the fluid starts at rest");
     return {std::move(read.grains), {read.source, {}}, std::move(notes)};
 }

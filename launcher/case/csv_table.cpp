@@ -37,7 +37,7 @@ void read_header(CsvTable& table, int line, const std::string& text, const CsvFo
             table.refuse(line, fmt::format("column \"{}\" is unknown", column), form.sentence,
                          "Rename or remove it.");
         else if (std::count(table.columns.begin(), table.columns.end(), column) > 1)
-            table.refuse(line, fmt::format("column \"{}\" is there more than once", column),
+            table.refuse(line, fmt::format("column \"{}\" occurs more than once", column),
                          form.sentence, "Keep one.");
     for (const std::string& required : form.required)
         if (!has(table.columns, required))
@@ -88,7 +88,7 @@ CsvTable read_csv(const std::filesystem::path& file, const CsvForm& form) {
         if (!table.problems.empty()) return table;
     }
     if (table.rows.empty() && table.problems.empty())
-        table.refuse(0, fmt::format("holds no {}", form.rows),
+        table.refuse(0, fmt::format("contains no {}", form.rows),
                      "At least one line after the header is needed.",
                      fmt::format("Add {}s.", form.rows));
     return table;

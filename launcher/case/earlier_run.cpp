@@ -46,7 +46,7 @@ std::vector<Output> outputs_of(const std::filesystem::path& series) {
     for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at)
         outputs.push_back({parse_real((*at)[1]).value_or(std::nan("")), (*at)[2]});
     if (outputs.empty())
-        throw refused(series.string() + " holds no output",
+        throw refused(series.string() + " contains no output",
                       "Give the folder of a run that has written grains.");
     return outputs;
 }
@@ -112,7 +112,7 @@ std::int32_t material_of(const std::string& name, const std::vector<std::string>
     throw refused(fmt::format("the earlier run has grains of material {}, which the case does not "
                               "have",
                               name),
-                  "Describe it below contact.materials.");
+                  "Define it below contact.materials.");
 }
 
 }  // namespace
@@ -124,12 +124,12 @@ EarlierRun parse_earlier_run(const std::string& text) {
         run.folder = text.substr(0, at);
         run.time = parse_real(text.substr(at + 1));
         if (!run.time || !std::isfinite(*run.time))
-            throw refused(fmt::format("\"{}\" is no time", text.substr(at + 1)),
+            throw refused(fmt::format("\"{}\" is not a time", text.substr(at + 1)),
                           "Write DIR@time with the time in t_c, for example runs/a@2.5.");
     }
     if (!std::filesystem::exists(RunFolder{run.folder}.resolved_case()))
-        throw refused(run.folder.string() + " is no run folder: it has no case.yaml",
-                      "Give a folder that `turbidite run` made.");
+        throw refused(run.folder.string() + " is not a run folder: it has no case.yaml",
+                      "Give a folder written by `turbidite run`.");
     return run;
 }
 

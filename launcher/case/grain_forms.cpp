@@ -24,7 +24,7 @@ std::vector<double> flat(const std::vector<Point2>& points) {
 
 void note_changes(const Outline& outline, std::vector<std::string>& notes) {
     if (outline.turned_round)
-        notes.push_back("grains.vertices run clockwise and were turned round");
+        notes.push_back("grains.vertices are clockwise; their order was reversed");
     if (std::hypot(outline.centre[0], outline.centre[1]) > 1e-9 ||
         std::abs(outline.radius - 1.0) > 1e-9)
         notes.push_back(fmt::format(

@@ -74,7 +74,7 @@ void check_together(CsvTable& table, const char* one, const char* other) {
         return std::find(columns.begin(), columns.end(), name) != columns.end();
     };
     if (has(one) == has(other)) return;
-    table.refuse(1, fmt::format("of the columns {} and {} only one is there", one, other),
+    table.refuse(1, fmt::format("of the columns {} and {} only one is given", one, other),
                  csv_form().sentence, "Add the other.");
 }
 

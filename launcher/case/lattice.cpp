@@ -127,10 +127,9 @@ PackingResult lattice_packing(const PackingRequest& request) {
         return result;
     }
     if (used != request.compacity)
-        result.notes.push_back(
-            fmt::format("grains.compacity = {} is clamped to {:.6f}, the {} the "
-                        "lattice can be",
-                        request.compacity, used, used == high ? "densest" : "loosest"));
+        result.notes.push_back(fmt::format(
+            "grains.compacity = {} is clamped to {:.6f}, that of the {} possible lattice",
+            request.compacity, used, used == high ? "densest" : "loosest"));
     result.grains = fill_region(request, lattice_spacing(used));
     if (result.grains.empty()) result.refusal = "The box is too small for a single grain.";
     if (request.jitter > 0.0 && !result.grains.empty()) shake_lattice(result, request, used);
@@ -160,7 +159,7 @@ void apply_jitter(PackingResult& result, const PackingRequest& request) {
     const auto all = static_cast<std::int64_t>(result.grains.size());
     if (moved < all)
         result.notes.push_back(fmt::format(
-            "grains.jitter moved {} of {} grains, the others had no room to move", moved, all));
+            "grains.jitter moved {} of {} grains; the others had no room to move", moved, all));
 }
 
 }  // namespace turbidite

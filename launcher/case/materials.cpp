@@ -45,19 +45,19 @@ std::optional<Objection> unfit(const Settings& s, const std::string& group) {
     const double sliding = given(s, group + ".friction", fallback(s, "friction"));
     const double sticking = given(s, group + ".static_friction", fallback(s, "static_friction"));
     if (is(s, "contact.law", "static-dynamic") && sticking < sliding)
-        return Objection{fmt::format("Contacts that stick hold at least as much as those that "
-                                     "slide: static_friction = {}, friction = {}.",
+        return Objection{fmt::format("The static coefficient must be at least the sliding one: "
+                                     "static_friction = {}, friction = {}.",
                                      sticking, sliding),
-                         "Enlarge static_friction."};
+                         "Increase static_friction."};
     const double e = std::max(
         given(s, group + ".restitution", fallback(s, "restitution")),
         given(s, group + ".restitution_tangential", fallback(s, "restitution_tangential")));
     const double most = 1.0 / (1.0 + e);
     if (s.real("contact.theta") > most * (1.0 + 1e-12))
-        return Objection{fmt::format("With a restitution e = {} impacts make energy beyond "
-                                     "theta = 1/(1 + e) = {}, and contact.theta = {}.",
+        return Objection{fmt::format("With a restitution e = {} impacts create energy above theta "
+                                     "= 1/(1 + e) = {}, but contact.theta = {}.",
                                      e, most, s.text("contact.theta")),
-                         "Use contact.theta: 0.5, which is right for every restitution."};
+                         "Use contact.theta: 0.5, which is valid for every restitution."};
     return std::nullopt;
 }
 

@@ -45,10 +45,9 @@ void set_shape(CsvTable& table, int line, const GrainForms& forms, const std::st
     if (index >= 0)
         grain.shape = index;
     else
-        table.refuse(
-            line, fmt::format("shape = {}", text),
-            fmt::format("Known here: {}.", known_kinds(forms)),
-            text == "polygon" ? "Say what it is with grains.vertices." : "Use one of them.");
+        table.refuse(line, fmt::format("shape = {}", text),
+                     fmt::format("Known here: {}.", known_kinds(forms)),
+                     text == "polygon" ? "Define it with grains.vertices." : "Use one of them.");
 }
 
 void set_material(CsvTable& table, int line, const std::vector<std::string>& materials,
@@ -66,7 +65,8 @@ void set_motion(CsvTable& table, int line, const std::string& text, PlacedGrain&
     grain.prescribed = text != "free";
     if (text != "free" && text != "fixed" && text != "driven")
         table.refuse(line, fmt::format("motion = {}", text),
-                     "free moves as forces say, fixed stays, driven keeps vx, vy and spin.",
+                     "free grains move under forces, fixed ones do not move, driven ones keep vx, "
+                     "vy and spin.",
                      "Use one of the three.");
 }
 
@@ -74,7 +74,7 @@ const char* field_remedy(const std::string& column) {
     if (column == "angle") return "Give the angle in radians.";
     if (column == "vx" || column == "vy") return "Give the velocity in u_c.";
     if (column == "spin") return "Give the spin in 1/t_c.";
-    if (column == "density") return "Give the density over the fluid's.";
+    if (column == "density") return "Give the density over that of the fluid.";
     return "Give the length in grain diameters.";
 }
 
@@ -173,7 +173,7 @@ void check_densities(const Packing& grains, Collector problems) {
     for (std::size_t i = 0; i < grains.size(); ++i)
         if (grains[i].density && !(*grains[i].density > 0.0))
             problems.add(i, fmt::format("grain {}: density = {}", grains[i].id, *grains[i].density),
-                         "A density over the fluid's is above 0.",
+                         "The density ratio must be above 0.",
                          "Correct it, or leave the column out for grains.density_ratio.");
     problems.finish("bad densities");
 }

@@ -156,10 +156,10 @@ PackingResult random_packing(const PackingRequest& request) {
     if (result.grains.empty())
         result.refusal = does_not_fit(request);
     else
-        result.notes.push_back(fmt::format(
-            "{} grains are too many for random placing; random sites of a lattice were taken and "
-            "shaken, grains may touch",
-            request.count));
+        result.notes.push_back(
+            fmt::format("{} grains are too many for random placement; random sites of a lattice "
+                        "were used and shaken; grains may touch",
+                        request.count));
     return result;
 }
 

@@ -102,7 +102,7 @@ std::optional<Objection> bad_table(const Settings& s, const std::string& name) {
                 rows[2] == 0.0;
     for (std::size_t i = 3; good && i < rows.size(); i += 3) good = rows[i] > rows[i - 3];
     if (good) return std::nullopt;
-    return Objection{"Rows of time [t_c], x, y [D]: the first is 0, 0, 0, and times grow.",
+    return Objection{"Rows of time [t_c], x, y [D]: the first is 0, 0, 0, and times increase.",
                      "Write for example table: [0, 0, 0, 2, -1, 0]."};
 }
 
@@ -114,7 +114,7 @@ void check_motion(const Settings& s, const std::string& name, CaseEntries& entri
                                     .value = {},
                                     .fault = "is missing",
                                     .allowed = "Available: constant, harmonic, table.",
-                                    .remedy = "Say what kind of motion it is."});
+                                    .remedy = "Give the kind of motion."});
         return;
     }
     const Kind& kind = kind_of(s, name);
@@ -153,16 +153,16 @@ std::optional<Objection> bad_side(const Settings& s, const std::string& side) {
     if (!is_known(s, name)) return unknown_motion(s);
     if (!is(s, ("domain." + side).c_str(), "wall"))
         return Objection{
-            fmt::format("Only walls move, and domain.{} = {}.", side, s.text("domain." + side)),
+            fmt::format("Only walls can move, but domain.{} = {}.", side, s.text("domain." + side)),
             fmt::format("Use domain.{}: wall, or remove it.", side)};
     if (turns(s, name))
         return Objection{"A side of the box does not turn.", "Remove spin and turn."};
     if (s.flag("fluid.enabled"))
-        return Objection{"The fluid knows no moving sides in this version.",
+        return Objection{"The fluid does not support moving sides in this version.",
                          "Set fluid.enabled: false, or remove it."};
     if (grains_adapter(s).moving_sides) return std::nullopt;
     return Objection{
-        fmt::format("{} knows no moving sides.", s.text("grains.adapter")),
+        fmt::format("{} does not support moving sides.", s.text("grains.adapter")),
         fmt::format("Remove it, or use grains.adapter: {}.",
                     adapters_that([](const GrainsAdapter& a) { return a.moving_sides; }))};
 }

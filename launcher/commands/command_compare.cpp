@@ -58,9 +58,9 @@ CommandAction declare_compare(CLI::App& app) {
                    "the page to write; its numbers beside it as .csv and .json")
         ->type_name("FILE")
         ->capture_default_str();
-    app.add_flag("--each", options->each,
-                 "every run by itself; otherwise runs whose cases differ in random.seed alone are "
-                 "averaged");
+    app.add_flag(
+        "--each", options->each,
+        "every run separately; otherwise runs whose cases differ only in random.seed are averaged");
     return [options] { return compare(*options); };
 }
 

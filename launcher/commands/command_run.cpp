@@ -47,7 +47,7 @@ CommandAction declare_run(CLI::App& app) {
     app.add_option("--out", options->order.out,
                    "run folder, new or empty; default runs/<case>-<date>-<time>")
         ->type_name("DIR");
-    app.add_flag("--force", options->order.force, "overwrite the run that is in --out");
+    app.add_flag("--force", options->order.force, "overwrite an existing run in --out");
     app.add_flag("--dry-run", options->dry_run,
                  "prepare everything and print the mpirun line instead of starting it");
     return [options] { return run(*options); };

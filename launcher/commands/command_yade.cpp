@@ -52,7 +52,7 @@ CommandAction declare_yade(CLI::App& app) {
     app.add_option("-j,--threads", options->threads, "threads of YADE's own engines")
         ->check(CLI::PositiveNumber);
     app.add_flag("--interactive", options->interactive,
-                 "with YADE's prompt, and its 3-D view where there is a display");
+                 "with YADE's prompt, and its 3-D view if there is a display");
     app.prefix_command();  // arguments after the script belong to the script
     return [options, &app] {
         options->arguments = app.remaining();

@@ -105,9 +105,9 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
     const std::string word = last_word(folder.log("coupler"));
     if (!word.empty()) return {code_of_status(end.status), word};
     const std::string first = first_to_end(folder.log("mpirun"), ranks);
-    if (!first.empty()) return {code_of_status(end.status), first + "; look into its log"};
+    if (!first.empty()) return {code_of_status(end.status), first + "; see its log"};
     return {code_of_status(end.status),
-            fmt::format("mpirun ended with status {} without naming a program: it was killed, or a "
+            fmt::format("mpirun ended with status {} and named no program: it was killed, or a "
                         "program of the job never started",
                         end.status)};
 }

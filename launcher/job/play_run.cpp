@@ -21,8 +21,8 @@ void request_stop(const RunFolder& folder, int signal) {
     file << static_cast<int>(code) << "\n";
     file.close();
     const char* answer =
-        file ? "Stopping after the next window" : "The wish to stop cannot be written";
-    fmt::print(stderr, "\n{}; once more to kill the job.\n", answer);
+        file ? "Stopping after the next window" : "The stop request cannot be written";
+    fmt::print(stderr, "\n{}; interrupt again to kill the job.\n", answer);
 }
 
 }  // namespace

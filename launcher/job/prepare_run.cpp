@@ -120,7 +120,7 @@ RunFolder folder_for(const fs::path& wanted, bool force) {
     if (force && is_run_folder(folder))
         empty_run_folder(folder);
     else if (holds_something(folder.root))
-        throw folder_refused(wanted, "already holds something",
+        throw folder_refused(wanted, "is not empty",
                              "A run needs a new or empty folder. Choose another --out, or add "
                              "--force to overwrite the run that is there.");
     for (const fs::path& part : {folder.grains(), folder.logs()}) fs::create_directories(part);
@@ -160,7 +160,7 @@ void require_programs(const Settings& settings, const std::vector<fs::path>& nee
     for (const fs::path& program : needed) {
         if (fs::exists(program)) continue;
         throw Failure(ExitCode::bad_input,
-                      fmt::format("{} is not there, but the case needs it (grains.adapter = {}, "
+                      fmt::format("{} is missing, but the case needs it (grains.adapter = {}, "
                                   "fluid.enabled = {})\n  Build or install it with ./turbidite, or "
                                   "choose another adapter.\nNothing was started. Exit code 2.",
                                   program.string(), settings.text("grains.adapter"),

@@ -43,7 +43,7 @@ def collapse(run):
         text.append(f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.')
     removed = grains_lost(run)
     if removed:
-        text.append(f'{removed} grains left the box; means are over those that are in it.')
+        text.append(f'{removed} grains left the box; means are over the remaining ones.')
     return ' '.join(text + [rest(run)])
 
 
@@ -81,7 +81,7 @@ def force_network(networks):
     """The force of the widest lines, and their position."""
     counts = ', '.join(f'{len(network.forces)} at t = {network.time:.3g} t_c' for network in networks)
     strongest = max(networks, key=lambda network: abs(network.forces).max())
-    return ('Lines join grains in contact, as wide as their normal force (red pushes, blue pulls), on one '
+    return ('Lines join grains in contact, as wide as their normal force (red repulsive, blue attractive), on one '
             'scale for all pictures; the weakest are not drawn. Contacts with an impulse: '
             f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g D^2 at t = '
             f'{strongest.time:.3g} t_c.')
@@ -134,7 +134,8 @@ def solvers(run):
     maxima = run.record.get('maxima') or {}
     if 'final_divergence' in maxima:
         text.append(f'Largest divergence after step 5, in windows with output: {maxima["final_divergence"]:.2g} '
-                    f'u_c/D (large by nature). Largest Courant number: {maxima["courant"]:.2g}.')
+                    'u_c/D (large, since the grains are not part of the volume balance). Largest Courant number: '
+                    f'{maxima["courant"]:.2g}.')
     for name, column in (('contact sweeps', 'contact_iterations'),
                          ('multiplier iterations', 'multiplier_iterations'),
                          ('joint rounds', 'joint_rounds')):

@@ -96,7 +96,7 @@ def check_spans(members):
             spans = [f'{r.folder} from {r.history["time"][0]:g} to {r.history["time"][-1]:g} t_c'
                      for r in (first, member.data)]
             raise Refusal('these runs have no common time span: ' + ', '.join(spans)
-                          + '\n  Let the shorter one run on, or compare other runs.')
+                          + '\n  Extend the shorter run, or compare other runs.')
 
 
 # --- measuring ----------------------------------------------------------------------------------------

@@ -132,7 +132,7 @@ def add_peaks(page, comparison):
     if comparison.pairs:
         page.heading('Differences of the mean velocity')
         page.paragraph('Of |<u>|(t) between every two, over the time both cover, divided by the peak of '
-                       'the one named first.')
+                       'the first one.')
         page.table([[pair.first, pair.second, percent(pair.largest), percent(pair.mean),
                      f'{pair.begin:g} to {pair.end:g}'] for pair in comparison.pairs], css='numbers',
                    header=['', 'and', 'largest', 'mean over time', 't/t_c'])

@@ -26,8 +26,8 @@ int run_script(const Programs& programs, const std::filesystem::path& script,
 void require_run_folder(const std::filesystem::path& directory) {
     if (std::filesystem::exists(RunFolder{directory}.resolved_case())) return;
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{} is no run folder: it has no case.yaml\n  Give a folder that "
-                              "`turbidite run` made. Exit code 2.",
+                  fmt::format("{} is not a run folder: it has no case.yaml\n  Give a folder "
+                              "written by `turbidite run`. Exit code 2.",
                               directory.string()));
 }
 

@@ -42,22 +42,22 @@ RULES = [
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
     ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
-    ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "what is written knows nothing of who played it"),
+    ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "output does not depend on who computed it"),
     ("coupler/hub/**/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM, LAUNCHER], "the hub sees channels, and no host"),
     # Dependencies between the top folders: launcher -> adapters -> coupler, never the reverse.
-    ("coupler/**/*.[hc]pp", [LAUNCHER, BENCH, ADAPTERS, PYTHON, YADE], "the ground floor knows no adapter and no roof"),
+    ("coupler/**/*.[hc]pp", [LAUNCHER, BENCH, ADAPTERS, PYTHON, YADE], "the coupler depends neither on adapters nor on the launcher"),
     ("coupler/keys/*.[hc]pp", [MPI, TRANSPORT, EIGEN, YAML], "keys are described and checked without a file format"),
-    ("granular_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, FLUID, HUB, OUTPUT], "adapters stand below the roof and beside the fluid"),
-    ("fluid_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, GRANULAR, HUB, OUTPUT], "adapters stand below the roof and beside the grains"),
+    ("granular_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, FLUID, HUB, OUTPUT], "adapters depend neither on the launcher nor on the fluid"),
+    ("fluid_adapter/**/*.[hc]pp", [LAUNCHER, BENCH, GRANULAR, HUB, OUTPUT], "adapters depend neither on the launcher nor on the grains"),
     ("granular_adapter/contact_keys/*.[hc]pp", [ENGINE, EIGEN, MPI], "names and rules of contact keys need no numerics"),
     ("granular_adapter/grains/*.[hc]pp", [YADE, PYTHON], "the grains of a case are for any host"),
     ("granular_adapter/nscd_adapter/*.[hc]pp", [YADE, PYTHON], "the engine's adapter is for any host"),
     ("granular_adapter/md/*.[hc]pp", [YADE, PYTHON], "molecular dynamics is for any host"),
     ("launcher/case/**/*.[hc]pp", [ENGINE, FLUID, MPI, PYTHON, BENCH], "the case knows names of laws, solvers and schemes, and no program"),
-    ("launcher/commands/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "commands start programs and know none from inside"),
+    ("launcher/commands/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "commands start programs and include none of their code"),
     ("launcher/job/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a job is prepared, started and watched from outside"),
     ("launcher/report/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a report reads files"),
-    ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the yardstick stands alone"),
+    ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the reference for timings uses nothing of the project"),
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
     ("fluid_adapter/foam_solver/*.[hc]pp", [EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
 ]
@@ -109,7 +109,7 @@ class Includes(unittest.TestCase):
         for pattern, forbidden, reason in RULES:
             with self.subTest(pattern):
                 files, found = violations(self.root, pattern, forbidden)
-                self.assertTrue(files, f"no file matches {pattern}: the rule guards nothing")
+                self.assertTrue(files, f"no file matches {pattern}: the rule checks nothing")
                 self.assertEqual(found, [], f"{reason}; forbidden here:\n" + "\n".join(found))
 
     def test_every_folder_says_what_it_is_for(self):

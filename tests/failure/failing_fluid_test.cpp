@@ -31,7 +31,7 @@ class FailingFluid : public FailingRun {
 TEST_F(FailingFluid, MultipliersThatStopAtTheirLimitThreeTimesRunning) {
     const Answer answer = run_with("unsolved");
     EXPECT_EQ(answer.code, 6);
-    EXPECT_SAYS(answer.err, "stops at its iteration limit in 3 windows running");
+    EXPECT_SAYS(answer.err, "stopped at its iteration limit in 3 consecutive windows");
     EXPECT_SAYS(answer.err, "fluid.multiplier_iterations = ");
     EXPECT_SAYS(answer.err, "fluid.multiplier_tolerance = ");
     expect_good_output_is_kept(ExitCode::physics_refused);
@@ -53,7 +53,8 @@ TEST_F(FailingFluid, NanInAKick) {
 TEST_F(FailingFluid, ProjectionThatFails) {
     const Answer answer = run_with("divergence");
     EXPECT_EQ(answer.code, 6);
-    EXPECT_SAYS(answer.err, "the projection fails: max |div phi| = nan u_c/D in 3 windows running");
+    EXPECT_SAYS(answer.err,
+                "the projection failed in 3 consecutive windows: max |div phi| = nan u_c/D");
     expect_good_output_is_kept(ExitCode::physics_refused);
     EXPECT_EQ(rows_of_history(), 8);  // windows 5 and 6 are tolerated, 7 is not
     expect_nothing_left();

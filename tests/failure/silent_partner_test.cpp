@@ -19,7 +19,7 @@ TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
     EXPECT_SAYS(answer.out, "still waiting for");  // after limits.stall_soft
     EXPECT_SAYS(answer.err, "from " + role + " for 3 s");
     EXPECT_SAYS(answer.err, role + " rank 0 (host ");
-    EXPECT_SAYS(answer.err, "works towards");
+    EXPECT_SAYS(answer.err, "is due to send");
     EXPECT_SAYS(answer.err, "waits for the coupler's");
     expect_nothing_left();
     expect_good_output_is_kept(ExitCode::stalled);

@@ -133,7 +133,7 @@ TEST_F(CommandLine, OccupiedFolderIsRefused) {
     scratch.write("run/precious", "x");
     const Answer answer = turbidite("run " + quickstart + quick + into_run_folder());
     EXPECT_EQ(answer.code, 2);
-    EXPECT_SAYS(answer.err, "already holds something");
+    EXPECT_SAYS(answer.err, "is not empty");
 }
 
 /// history.csv without the columns of wall time.
@@ -223,7 +223,7 @@ TEST_F(CommandLine, CompareRefusesWhatItCannotCompare) {
     EXPECT_SAYS(lonely.err, "at least two run folders");
     const Answer stranger = turbidite("compare " + run + " " + other);
     EXPECT_EQ(stranger.code, 2);
-    EXPECT_SAYS(stranger.err, other + " is no run folder");
+    EXPECT_SAYS(stranger.err, other + " is not a run folder");
     const Answer misnamed = turbidite("compare " + run + " " + run + " --out x.csv");
     EXPECT_EQ(misnamed.code, 2);
     EXPECT_SAYS(misnamed.err, "does not end in .html");

@@ -55,7 +55,7 @@ TEST_F(MolecularDynamics, ChecksItsKeys) {
     EXPECT_SAYS(joint.err, "yade-md");
     const Answer cyclic = check(" --set domain.left=cyclic --set domain.right=cyclic");
     EXPECT_EQ(cyclic.code, 2);
-    EXPECT_SAYS(cyclic.err, "yade-md knows no cyclic sides");
+    EXPECT_SAYS(cyclic.err, "yade-md does not support cyclic sides");
     const Answer coarse = check(" --set contact.md_substeps=5");
     EXPECT_EQ(coarse.code, 2);
     EXPECT_SAYS(coarse.err, "contact.md_substeps = 5");

@@ -19,7 +19,7 @@ bool finite(const Vec3& v) {
 std::string when(Kind kind, std::int64_t window) {
     if (window < 0) return "at the start";
     return fmt::format("{} window {}",
-                       kind == Kind::motion ? "after the contacts of" : "after the move of",
+                       kind == Kind::motion ? "after the contacts of" : "after the motion of",
                        window);
 }
 

@@ -33,7 +33,7 @@ void write_bodies(ByteWriter& out, const Bodies& bodies) {
 
 Bodies read_bodies(ByteReader& in) {
     if (in.value<std::uint64_t>() != bodies_format)
-        throw std::invalid_argument("saved contact state: these bytes are something else");
+        throw std::invalid_argument("saved contact state: unknown format");
     Bodies bodies;
     Bodies::for_each_array(bodies, [&in](auto& array) {
         array = in.array<typename std::decay_t<decltype(array)>::value_type>();
@@ -58,7 +58,7 @@ void write_memory(ByteWriter& out, const SavedMemory& memory) {
 
 SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
     if (in.value<std::uint64_t>() != memory_format)
-        throw std::invalid_argument("saved contact impulses: these bytes are something else");
+        throw std::invalid_argument("saved contact impulses: unknown format");
     SavedMemory memory;
     memory.contacts = in.array<RememberedContact>();
     memory.states.started = in.value<std::uint8_t>() != 0;

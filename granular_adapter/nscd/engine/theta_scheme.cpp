@@ -20,12 +20,12 @@ Quaternion normalized(Quaternion q) {
 void check_theta(double theta, double restitution) {
     if (!(theta >= 0.5 && theta <= 1.0))
         throw std::invalid_argument("theta = " + std::to_string(theta) +
-                                    " must lie in [0.5, 1]: below, the scheme is unstable");
+                                    " must be in [0.5, 1]; below 0.5 the scheme is unstable");
     // With e = 1, theta = 1/2 must pass however the division rounds.
     const double most = 1.0 / (1.0 + restitution);
     if (theta > most * (1.0 + 1e-12))
         throw std::invalid_argument(
-            "theta = " + std::to_string(theta) + " makes energy with restitution " +
+            "theta = " + std::to_string(theta) + " creates energy with restitution " +
             std::to_string(restitution) + ": at most 1/(1 + e) = " + std::to_string(most));
 }
 

@@ -63,8 +63,8 @@ struct Sweeper {
 void refuse_rolling(const ContactProblem& problem) {
     if (has_rolling(problem))
         throw std::invalid_argument(
-            "contact solver nlgs-stored does not know rolling resistance, which the contact law "
-            "asks for: use nlgs or central-path");
+            "contact solver nlgs-stored does not support rolling resistance, which the contact law "
+            "requires: use nlgs or central-path");
 }
 
 }  // namespace

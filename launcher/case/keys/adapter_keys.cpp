@@ -36,15 +36,15 @@ Ruling scheme_is_known(const Settings& s) {
         return std::nullopt;
     return unknown_to(
         s,
-        "moves grains in sub-steps of its own and solves no contact problem that could take the "
-        "fluid's inertia in",
+        "moves grains in sub-steps of its own and solves no contact problem that could include the "
+        "fluid's inertia",
         [](const GrainsAdapter& a) { return has(a.schemes, "joint"); }, "Use split");
 }
 
 Ruling no_cyclic_side(const Settings& s, const char* key) {
     if (grains_adapter(s).cyclic_sides || s.text(key) != "cyclic") return std::nullopt;
     return unknown_to(
-        s, "knows no cyclic sides in this version",
+        s, "does not support cyclic sides in this version",
         [](const GrainsAdapter& a) { return a.cyclic_sides; }, "Use wall or free");
 }
 Ruling left_is_not_cyclic(const Settings& s) {
@@ -57,7 +57,7 @@ Ruling bottom_is_not_cyclic(const Settings& s) {
 Ruling shape_is_known(const Settings& s) {
     if (has(grains_adapter(s).shapes, s.text("grains.shape"))) return std::nullopt;
     return unknown_to(
-        s, "knows discs only: YADE has no polygons in the plane",
+        s, "supports discs only: YADE has no polygons in the plane",
         [](const GrainsAdapter& a) { return has(a.shapes, "polygon"); }, "Use disc");
 }
 
@@ -88,7 +88,7 @@ Ruling rolling_is_known(const Settings& s) {
 // The fluid's mesh has only the sides of the box; soft-sphere adapters do not support plates.
 Ruling walls_have_an_engine(const Settings& s) {
     if (s.flag("fluid.enabled"))
-        return Objection{"Walls inside the box are not seen by the fluid.",
+        return Objection{"The fluid does not see walls inside the box.",
                          "Set fluid.enabled: false, or remove them."};
     if (grains_adapter(s).inner_walls) return std::nullopt;
     return Objection{
@@ -117,7 +117,7 @@ void notes(const Settings& s, std::vector<std::string>& notes) {
     const double wanted = s.real("contact.restitution"), least = restitution_of(1.0);
     if (grains_adapter(s).family == "md" && wanted > 0.0 && wanted < least)
         notes.push_back(fmt::format(
-            "contact.restitution = {}: {} gives its least, {:.3f}, that of critical damping",
+            "contact.restitution = {}: {} uses its smallest, {:.3f}, that of critical damping",
             s.text("contact.restitution"), s.text("grains.adapter"), least));
 }
 

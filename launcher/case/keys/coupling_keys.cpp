@@ -45,14 +45,13 @@ KeyGroup coupling_keys() {
              .fallback = "corrected",
              .choices = {{"corrected", "grains move with the fluid-corrected velocity"},
                          {"contact", "grains move with the velocity the contacts allow"}},
-             .help = "velocity that moves the grains (split; under joint always contact)",
+             .help = "velocity with which grains move (split; under joint always contact)",
              .family = "nscd",
              .idle = idle_positions},
             {.name = "coupling.md_hold",
              .type = KeyType::flag,
              .fallback = "true",
-             .help =
-                 "yade-md: grains feel the last window's hydrodynamic impulse in their sub-steps",
+             .help = "yade-md: the hydrodynamic impulse of the last window acts in the sub-steps",
              .family = "md",
              .idle = without_fluid},
             {.name = "coupling.tolerance",
@@ -66,7 +65,8 @@ KeyGroup coupling_keys() {
              .type = KeyType::integer,
              .fallback = "10",
              .range = {.lower = 1.0},
-             .help = "joint: most contact solves per window; windows that need more are counted",
+             .help = "joint: largest number of contact solves per window; windows that need more "
+                     "are counted",
              .idle = without_joint},
         }};
 }

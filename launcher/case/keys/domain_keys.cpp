@@ -76,11 +76,11 @@ KeyTable motion_keys() {
     KeySpec kind = motion_part("kind", KeyType::choice, "", "kind of the motion NAME");
     kind.choices = {{"constant", "velocity and spin"},
                     {"harmonic", "A (sin(2 pi t/T + phase) - sin(phase)), from rest at t = 0"},
-                    {"table", "straight lines between the rows; the last holds afterwards"}};
+                    {"table", "linear between the rows, constant after the last"}};
     KeySpec period = motion_part("period", KeyType::real, "t_c", "T of a harmonic motion");
     period.range = positive;
     KeySpec table = motion_part("table", KeyType::real_list, "t_c, D, D",
-                                "rows of time, x, y, one behind the other; the first is 0, 0, 0");
+                                "rows of time, x, y, one after the other; the first is 0, 0, 0");
     table.entries = 0;
     table.allowed = "A list of numbers, three for each row.";
     return {kind,

@@ -79,9 +79,9 @@ Ruling scheme_is_stable(const Settings& s) {
     const auto limit = step_limit_exceeded(s, SchemeKind::central, usual_peak);
     if (!limit) return std::nullopt;
     return Objection{
-        fmt::format("Explicit transport with central differences is unstable beyond "
-                    "2 nu/u^2, and jets between grains reach u = {:.0f} to {:.0f} u_c: "
-                    "at most 2/(36 Re) = {:.3g} t_c, and time.step = {}.",
+        fmt::format("Explicit transport with central differences is unstable for steps above 2 "
+                    "nu/u^2, and jets between grains reach u = {:.0f} to {:.0f} u_c: at most 2/(36 "
+                    "Re) = {:.3g} t_c, but time.step = {}.",
                     usual_peak, highest_peak, *limit, s.text("time.step")),
         "Use Gauss limitedLinearV 1, which stays bounded, or a smaller step."};
 }
@@ -98,7 +98,7 @@ Ruling ranks_have_cells(const Settings& s) {
     const double most = std::max(1.0, std::floor(layers / least_layers));
     if (static_cast<double>(s.integer("fluid.ranks")) <= most) return std::nullopt;
     return Objection{
-        fmt::format("A rank needs {} {} of cells or more, and there are {}.",
+        fmt::format("A rank needs at least {} {} of cells, but there are {}.",
                     real_text(least_layers), s.text("fluid.decomposition"), real_text(layers)),
         fmt::format("Use {} or fewer.", real_text(most))};
 }
@@ -166,15 +166,15 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.decomposition",
                  .type = KeyType::choice,
                  .fallback = "rows",
-                 .choices = {{"rows", "slabs above each other, which costs least"},
+                 .choices = {{"rows", "slabs stacked along y, the cheapest"},
                              {"columns", "slabs side by side"}},
-                 .help = "how the ranks share the fluid's cells",
+                 .help = "decomposition of the fluid's cells among its ranks",
                  .idle = without_fluid_ranks},
                 {.name = "fluid.cells_per_diameter",
                  .type = KeyType::integer,
                  .fallback = "16",
                  .range = {.lower = 2.0, .upper = 1024.0},
-                 .help = "mesh cells along a grain diameter",
+                 .help = "mesh cells per grain diameter",
                  .idle = without_fluid},
                 {.name = "fluid.reynolds",
                  .type = KeyType::real,
@@ -189,7 +189,7 @@ KeyGroup fluid_keys() {
                  .type = KeyType::choice,
                  .fallback = "marchuk-yanenko",
                  .choices =
-                     {{"marchuk-yanenko", "the paper's"},
+                     {{"marchuk-yanenko", "as in Topin et al. 2011"},
                       {"explicit-multiplier", "carries the multipliers into steps 1-3", false},
                       {"implicit-multiplier", "viscosity solved with the multipliers", false}},
                  .help = "order of the fluid's fractional steps",
@@ -198,14 +198,14 @@ KeyGroup fluid_keys() {
                  .type = KeyType::real,
                  .fallback = "1",
                  .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
-                 .help = "radius of the rigid disc the fluid sees, over the grain's",
+                 .help = "radius of the rigid disc in the fluid over that of the grain",
                  .idle = without_fluid},
                 {.name = "fluid.points",
                  .type = KeyType::choice,
                  .fallback = "interior+boundary",
                  .choices = {{"interior", "cell centres inside a grain"},
                              {"interior+boundary", "and points on its surface"}},
-                 .help = "where the rigid motion is imposed",
+                 .help = "points where rigid motion is imposed",
                  .idle = without_fluid},
                 {.name = "fluid.point_spacing",
                  .type = KeyType::real,
@@ -229,7 +229,7 @@ KeyGroup fluid_keys() {
                  .type = KeyType::integer,
                  .fallback = "200",
                  .range = {.lower = 1.0},
-                 .help = "most iterations of the multiplier problem",
+                 .help = "largest number of iterations of the multiplier problem",
                  .idle = without_fluid},
                 {.name = "fluid.transport_scheme",
                  .type = KeyType::text,
@@ -239,7 +239,7 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.pressure_solver",
                  .type = KeyType::choice,
                  .fallback = "FFT",
-                 .choices = {{"FFT", "direct, by fast transforms; uniform boxes"},
+                 .choices = {{"FFT", "direct, with fast transforms; uniform boxes"},
                              {"GAMG", "OpenFOAM's multigrid"},
                              {"PCG", "conjugate gradients"}},
                  .help = "linear solver of the pressure",
@@ -253,7 +253,7 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.viscous_solver",
                  .type = KeyType::choice,
                  .fallback = "FFT",
-                 .choices = {{"FFT", "direct, by fast transforms; uniform boxes"},
+                 .choices = {{"FFT", "direct, with fast transforms; uniform boxes"},
                              {"PCG", "conjugate gradients"}},
                  .help = "linear solver of the viscous step",
                  .idle = without_fluid},

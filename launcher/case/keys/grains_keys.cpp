@@ -46,7 +46,7 @@ Ruling vertices_are_convex(const Settings& s) {
     const std::string fault =
         outline_fault(real_list("grains.vertices", s.text("grains.vertices")));
     if (fault.empty()) return std::nullopt;
-    return Objection{fault + ".", "Corners go round a convex polygon, each once."};
+    return Objection{fault + ".", "The corners of a convex polygon in order, each once."};
 }
 
 bool is_lattice(const Settings& s) {
@@ -123,7 +123,7 @@ KeyGroup grains_keys() {
                  .type = KeyType::choice,
                  .fallback = "disc",
                  .choices = shape_choices(),
-                 .help = "shape of every grain; grains.file may say otherwise grain by grain"},
+                 .help = "shape of every grain for which grains.file gives no other"},
                 {.name = "grains.vertices",
                  .type = KeyType::real_list,
                  .need = Need::conditional,
@@ -157,7 +157,7 @@ KeyGroup grains_keys() {
                  .type = KeyType::real,
                  .fallback = "1.5",
                  .range = positive,
-                 .help = "density of the grains over the fluid's",
+                 .help = "density of the grains over that of the fluid",
                  .allowed = "A ratio above 0; in a fluid above 1 unless coupling.scheme is joint.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",
@@ -224,13 +224,13 @@ KeyGroup grains_keys() {
                  .unit = "D",
                  .fallback = "0",
                  .range = not_negative,
-                 .help = "overlap of grains at the start that is accepted; run --from sets "
+                 .help = "largest accepted overlap of grains at the start; run --from sets "
                          "limits.penetration"},
                 {.name = "random.seed",
                  .type = KeyType::integer,
                  .fallback = "1",
                  .range = not_negative,
-                 .help = "seed of everything random",
+                 .help = "seed of all random numbers",
                  .idle = without_chance},
             },
         .rules = {

@@ -11,9 +11,9 @@ namespace {
 
 Ruling limits_in_order(const Settings& s) {
     if (s.real("limits.stall_soft") <= s.real("limits.stall_hard")) return std::nullopt;
-    return Objection{fmt::format("The hard limit comes after limits.stall_soft = {} s.",
+    return Objection{fmt::format("The hard limit must be at least limits.stall_soft = {} s.",
                                  s.text("limits.stall_soft")),
-                     "Enlarge it."};
+                     "Increase it."};
 }
 
 }  // namespace
@@ -26,19 +26,19 @@ KeyGroup limit_keys() {
                      .unit = "s",
                      .fallback = "60",
                      .range = positive,
-                     .help = "waiting after which who waits for whom is printed"},
+                     .help = "waiting time after which a table shows who waits for whom"},
                     {.name = "limits.stall_hard",
                      .type = KeyType::real,
                      .unit = "s",
                      .fallback = "600",
                      .range = positive,
-                     .help = "waiting after which the run ends with code 5"},
+                     .help = "waiting time after which the run ends with code 5"},
                     {.name = "limits.penetration",
                      .type = KeyType::real,
                      .unit = "D",
                      .fallback = "0.2",
                      .range = positive,
-                     .help = "overlap of grains beyond which the run ends with code 6"},
+                     .help = "largest overlap of grains; beyond it the run ends with code 6"},
                 },
             .rules = {{"limits.stall_hard", {"limits.stall_soft"}, limits_in_order}}};
 }

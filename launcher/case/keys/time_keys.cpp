@@ -22,7 +22,7 @@ constexpr double most_windows = 1e12;
 
 Ruling countable_windows(const Settings& s) {
     if (s.real("time.end") / s.real("time.step") <= most_windows) return std::nullopt;
-    return Objection{fmt::format("Up to time.end = {} t_c these are more than {:.0e} windows.",
+    return Objection{fmt::format("time.end = {} t_c would take more than {:.0e} windows.",
                                  s.text("time.end"), most_windows),
                      "Use a larger step."};
 }
@@ -64,13 +64,13 @@ KeyGroup time_keys() {
                      .unit = "t_c",
                      .fallback = "0.5",
                      .range = positive,
-                     .help = "between rows of history.csv and pictures; whole windows"},
+                     .help = "interval of rows of history.csv and of pictures; whole windows"},
                     {.name = "checkpoint.interval",
                      .type = KeyType::real,
                      .unit = "t_c",
                      .need = Need::optional,
                      .range = positive,
-                     .help = "between checkpoints",
+                     .help = "interval of checkpoints",
                      .available = false},
                 },
             .rules = {{"time.end", {"time.step"}, at_least_one_window},

@@ -158,7 +158,7 @@ TEST_F(CaseFile, NumbersMustBeFinite) {
 TEST_F(CaseFile, WrongTypes) {
     EXPECT_SAYS(refusal("", {"contact.friction=rough"}), "\"rough\" is not a number.");
     EXPECT_SAYS(refusal("", {"contact.friction=0.3x"}), "\"0.3x\" is not a number.");
-    EXPECT_SAYS(refusal("", {"contact.friction=[0.3, 0.4]"}), "A list cannot stand here.");
+    EXPECT_SAYS(refusal("", {"contact.friction=[0.3, 0.4]"}), "A list is not allowed here.");
     EXPECT_SAYS(refusal("", {"grains.count=2.5"}), "\"2.5\" is not a whole number.");
     EXPECT_SAYS(refusal("", {"fluid.enabled=maybe"}), "Either true or false.");
     EXPECT_SAYS(refusal("", {"domain.size=[12]"}), "Width and height of the box in D");
@@ -237,7 +237,7 @@ TEST_F(CaseFile, EveryFluidRankHasFourLayersOfCells) {
         const std::string text = refusal("", {set});
         EXPECT_SAYS(text, std::string("fluid.ranks = ") + (set + sizeof "fluid.ranks"));
     }
-    EXPECT_SAYS(refusal("", {"fluid.ranks=4096"}), "A rank needs 4 rows of cells or more");
+    EXPECT_SAYS(refusal("", {"fluid.ranks=4096"}), "A rank needs at least 4 rows of cells");
     EXPECT_SAYS(refusal("", {"fluid.ranks=4096", "fluid.decomposition=columns"}), "4 columns");
     EXPECT_EQ(refusal("", {"fluid.ranks=2"}), "");
     EXPECT_EQ(refusal("", {"fluid.ranks=4096", "fluid.enabled=false"}), "");

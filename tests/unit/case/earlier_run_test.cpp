@@ -105,8 +105,8 @@ TEST_F(EarlierRuns, WhatIsNotThereIsNamed) {
     write_case();
     EXPECT_SAYS(refusal_of("@0.4"), "has no output at 0.4 t_c");
     EXPECT_SAYS(refusal_of("@0.4"), "There are 2 from 0 to 0.5 t_c; the nearest is @0.5.");
-    EXPECT_SAYS(refusal_of("@end"), "\"end\" is no time");
-    EXPECT_SAYS(refusal_of("er"), "is no run folder: it has no case.yaml");
+    EXPECT_SAYS(refusal_of("@end"), "\"end\" is not a time");
+    EXPECT_SAYS(refusal_of("er"), "is not a run folder: it has no case.yaml");
 }
 
 TEST_F(EarlierRuns, ShapesAndMaterialsMustBeKnown) {

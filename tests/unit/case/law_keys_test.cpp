@@ -89,7 +89,7 @@ TEST_F(LawKeys, MoreauHasOneRestitution) {
 TEST_F(LawKeys, RollingResistanceNeedsDiscsAndASolverThatKnowsIt) {
     EXPECT_EQ(refusal({"contact.rolling_friction=0.1"}), "");
     EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "contact.solver=nlgs-stored"}),
-                "nlgs-stored does not solve rolling resistance");
+                "nlgs-stored does not support rolling resistance");
     EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "grains.shape=triangle"}),
                 "faces resist rolling by themselves");
 }

@@ -96,7 +96,7 @@ TEST_F(RichCase, MaterialsMustFitTogether) {
                 "contact.materials.steel.colour is unknown");
     EXPECT_SAYS(refusal("", {"contact.materials.steel=1"}), "is a group of keys");
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md has one material");
-    EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md knows free grains only");
+    EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md supports free grains only");
 }
 
 class MovingWalls : public CaseTest {
@@ -151,11 +151,11 @@ TEST_F(MovingWalls, WhatMakesNoSenseIsRefused) {
     EXPECT_SAYS(refusal("", with({kind + "table", "domain.motions.m.table=[0,0,0,0,1,1]"})),
                 "times grow");
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.motions.m.spin=1"})), "does not turn");
-    EXPECT_SAYS(refusal("", with({kind + "constant", "domain.right=free"})), "Only walls move");
+    EXPECT_SAYS(refusal("", with({kind + "constant", "domain.right=free"})), "Only walls can move");
     EXPECT_SAYS(refusal("", with({kind + "constant", "fluid.enabled=true"})),
-                "The fluid knows no moving sides");
+                "The fluid does not support moving sides");
     EXPECT_SAYS(refusal("", with({kind + "constant", "grains.adapter=yade-md"})),
-                "yade-md knows no moving sides");
+                "yade-md does not support moving sides");
 }
 
 }  // namespace

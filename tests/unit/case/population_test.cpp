@@ -57,7 +57,7 @@ TEST(PopulationFile, ErrorsNameTheLine) {
     EXPECT_SAYS(read_errors("id,x,y,z\n0,1,1,1\n"), "In two dimensions z is 0.");
     EXPECT_SAYS(read_errors("id,x\n0,1\n"), "line 1: column \"y\" is missing");
     EXPECT_SAYS(read_errors("id,x,y,mass\n0,1,1,1\n"), "line 1: column \"mass\" is unknown");
-    EXPECT_SAYS(read_errors("id,x,y\n"), "holds no grain");
+    EXPECT_SAYS(read_errors("id,x,y\n"), "contains no grain");
 }
 
 TEST(Population, RepeatedIdsAndBadRadii) {

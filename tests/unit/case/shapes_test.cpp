@@ -203,11 +203,11 @@ TEST_F(WallsFile, NonsenseIsRefusedByLine) {
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,3,3\n"), "walls.csv line 2: wall 1 has length 0");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,4,3\n1,5,5,6,6\n"), "wall id 1 is given twice");
     EXPECT_SAYS(refused("id,x1,y1,x2\n1,3,3,4\n"), "column \"y2\" is missing");
-    EXPECT_SAYS(refused("id,x1,y1,x2,y2,vx\n1,3,3,4,3,1\n"), "only one is there");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2,vx\n1,3,3,4,3,1\n"), "only one is given");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2,friction\n1,3,3,4,3,-1\n"), "friction = -1");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,nan,4,3\n"), "y1 = nan");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2,colour\n1,3,3,4,3,2\n"), "column \"colour\" is unknown");
-    EXPECT_SAYS(refused("id,x1,y1,x2,y2\n"), "holds no wall");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2\n"), "contains no wall");
     EXPECT_SAYS(refusal(grains, {"domain.walls_file=none.csv"}), "There is no file");
 }
 
@@ -223,7 +223,7 @@ TEST_F(WallsFile, NeedsADryContactEngine) {
     folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0.001,8,0.001\n");
     EXPECT_SAYS(
         refusal(grains, {"domain.walls_file=walls.csv", "fluid.enabled=true", "fluid.reynolds=36"}),
-        "not seen by the fluid");
+        "The fluid does not see walls");
 }
 
 }  // namespace

@@ -51,15 +51,19 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Table{Role::fluid, "split", {Kind::window, Kind::constraint, Kind::accept, Kind::kicks}},
         Table{Role::grains, "split", {Kind::window, Kind::motion, Kind::kick, Kind::state}},
-        Table{Role::fluid, "joint",
-              {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response, Kind::accept,
-               Kind::kicks}},
-        Table{Role::fluid, "joint",
-              {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response, Kind::constraint,
-               Kind::response, Kind::accept, Kind::kicks}},
-        Table{Role::grains, "joint",
+        Table{Role::fluid,
+              "joint",
+              {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response,
+               Kind::accept, Kind::kicks}},
+        Table{Role::fluid,
+              "joint",
+              {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response,
+               Kind::constraint, Kind::response, Kind::accept, Kind::kicks}},
+        Table{Role::grains,
+              "joint",
               {Kind::window, Kind::contact_input, Kind::motion, Kind::kick, Kind::state}},
-        Table{Role::grains, "joint",
+        Table{Role::grains,
+              "joint",
               {Kind::window, Kind::contact_input, Kind::motion, Kind::contact_input, Kind::motion,
                Kind::contact_input, Kind::motion, Kind::kick, Kind::state}},
         Table{Role::grains, "dry", {Kind::window, Kind::kick, Kind::state}}));
@@ -79,7 +83,8 @@ TEST(CallOrder, IterationCountsTheRoundsOfAWindow) {
             for (const Kind kind : {Kind::contact_input, Kind::motion})
                 EXPECT_EQ(grains.pass(kind).iteration, round);
         }
-        for (const Kind kind : {Kind::accept, Kind::kicks}) EXPECT_EQ(fluid.pass(kind).iteration, 3);
+        for (const Kind kind : {Kind::accept, Kind::kicks})
+            EXPECT_EQ(fluid.pass(kind).iteration, 3);
         for (const Kind kind : {Kind::kick, Kind::state}) EXPECT_EQ(grains.pass(kind).iteration, 3);
     }
 }
@@ -87,7 +92,8 @@ TEST(CallOrder, IterationCountsTheRoundsOfAWindow) {
 TEST(CallOrder, AMessageOfAnotherRoundIsRefused) {
     Ends ends(Role::fluid);
     ends.start(Role::fluid, "joint");
-    for (const Kind kind : {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response})
+    for (const Kind kind :
+         {Kind::window, Kind::bodies, Kind::response, Kind::constraint, Kind::response})
         ends.pass(kind);
     Envelope envelope = ends.coupler.next_sent(Kind::constraint, from_coupler);
     envelope.iteration = 1;
@@ -126,7 +132,8 @@ TEST(CallOrder, AcceptIsDueBehindARoundOnly) {
 TEST(CallOrder, SplitHasNoRounds) {
     Ends ends(Role::fluid);
     ends.start(Role::fluid, "split");
-    for (const Kind kind : {Kind::window, Kind::constraint}) EXPECT_EQ(ends.pass(kind).iteration, 0);
+    for (const Kind kind : {Kind::window, Kind::constraint})
+        EXPECT_EQ(ends.pass(kind).iteration, 0);
     EXPECT_THROW(ends.coupler.next_sent(Kind::constraint, from_coupler), OrderViolation);
     ends.pass(Kind::accept);
     Envelope envelope = ends.participant.next_sent(Kind::kicks, to_coupler);
@@ -202,15 +209,20 @@ TEST(CallOrder, AnOrderThatCannotBePlayedIsRefused) {
     EXPECT_NE(why({}).find("does not begin with \"window\""), std::string::npos);
     EXPECT_NE(why({kicks}).find("does not begin with \"window\""), std::string::npos);
     EXPECT_NE(why({window, window, kicks}).find("\"window\" twice"), std::string::npos);
-    EXPECT_NE(why({window, {Kind::hello, to_coupler}}).find("\"hello\", which is no message of a window"),
+    EXPECT_NE(why({window, {Kind::hello, to_coupler}})
+                  .find("\"hello\", which is not a message of a window"),
               std::string::npos);
-    EXPECT_NE(why({window, {static_cast<Kind>(77), to_coupler}}).find("kind 77"), std::string::npos);
-    EXPECT_NE(why({window, {Kind::response, to_coupler, Times::per_round}, kicks}).find("only the coupler decides"),
+    EXPECT_NE(why({window, {static_cast<Kind>(77), to_coupler}}).find("kind 77"),
               std::string::npos);
-    EXPECT_NE(why({window, {Kind::constraint, from_coupler, Times::per_round}, kicks}).find("\"kicks\""),
+    EXPECT_NE(why({window, {Kind::response, to_coupler, Times::per_round}, kicks})
+                  .find("only the coupler decides"),
               std::string::npos);
-    EXPECT_NE(why({window, {Kind::constraint, from_coupler, Times::per_round}}).find("ends with a round"),
-              std::string::npos);
+    EXPECT_NE(
+        why({window, {Kind::constraint, from_coupler, Times::per_round}, kicks}).find("\"kicks\""),
+        std::string::npos);
+    EXPECT_NE(
+        why({window, {Kind::constraint, from_coupler, Times::per_round}}).find("ends with a round"),
+        std::string::npos);
 }
 
 TEST(Schemes, AnUnknownOneListsTheKnown) {

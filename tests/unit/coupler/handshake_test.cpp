@@ -25,7 +25,9 @@ Expectation expected() {
     return e;
 }
 
-TEST(Handshake, AFittingParticipantHasNoMismatch) { EXPECT_TRUE(mismatches(fitting(), expected()).empty()); }
+TEST(Handshake, AFittingParticipantHasNoMismatch) {
+    EXPECT_TRUE(mismatches(fitting(), expected()).empty());
+}
 
 TEST(Handshake, AnotherMinorVersionIsWelcome) {
     Hello hello = fitting();
@@ -58,8 +60,8 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
     const auto sentences = mismatches(fitting(), joint);
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: knowledge of effective inertia is absent, the case needs it for coupling.scheme: "
-              "joint (or use split)");
+              "grains rank 0: support for effective inertia is absent, the case needs it for "
+              "coupling.scheme: joint (or use split)");
     Hello knowing = fitting();
     knowing.capabilities.effective_inertia = true;
     EXPECT_TRUE(mismatches(knowing, joint).empty());
@@ -72,7 +74,8 @@ TEST(Handshake, AVersionThatIsToldNoOrderIsRefused) {
     const auto sentences = mismatches(old, expected());
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: protocol version is 1.3, the case needs 1.4 or later (rebuild the adapter)");
+              "grains rank 0: protocol version is 1.3, the case needs 1.4 or later (rebuild the "
+              "adapter)");
 }
 
 TEST(Handshake, AnAdapterStartedByHandMayTakeAnyCase) {

@@ -120,7 +120,8 @@ TEST(Hub, NaNIsRefusedBeforeItTravels) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
-    EXPECT_NE(job.status.reason.find("is not finite after the move of window 2"), std::string::npos)
+    EXPECT_NE(job.status.reason.find("is not finite after the motion of window 2"),
+              std::string::npos)
         << job.status.reason;
 }
 
@@ -345,8 +346,8 @@ TEST(HubMultipliers, ThreeWindowsRunningEndTheRun) {
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
     for (const char* part :
-         {"stops at its iteration limit in 3 windows running", "fluid.multiplier_iterations = 200",
-          "fluid.multiplier_tolerance = 0.0001"})
+         {"stopped at its iteration limit in 3 consecutive windows",
+          "fluid.multiplier_iterations = 200", "fluid.multiplier_tolerance = 0.0001"})
         EXPECT_NE(job.status.reason.find(part), std::string::npos) << job.status.reason;
     EXPECT_EQ(job.status.statistics.windows_done, 4) << "window 4 was not good, 0 to 3 were";
     for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::physics_refused);
@@ -409,7 +410,7 @@ TEST(HubJoint, AStallNamesTheRound) {
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::stalled);
     for (const char* part :
-         {"no \"response\" from fluid", "works towards \"response\", window ", ", round 2, since",
+         {"no \"response\" from fluid", "is due to send \"response\", window ", ", round 2, for",
           "waits for the coupler's \"kick\" or \"contact_input\", window "})
         EXPECT_NE(job.status.reason.find(part), std::string::npos) << job.status.reason;
 }

@@ -51,7 +51,8 @@ TEST_F(LedgerTest, CountsThoseWhoLeft) {
     result.state.report.removed = 0;  // the report still counts it
     EXPECT_EQ(complaint(), "");
     result.state.grains.pop_back();  // a grain that vanished without being reported
-    EXPECT_SAYS(complaint(), "1 grains and 1 that left through free sides do not make 3");
+    EXPECT_SAYS(complaint(),
+                "1 grains present and 1 removed through free sides do not add up to 3");
 }
 
 TEST_F(LedgerTest, BoundsTheOverlap) {
@@ -84,7 +85,7 @@ TEST_F(LedgerTest, BearsTwoDivergentWindowsButNotThree) {
     EXPECT_EQ(complaint(), "");
     result.kicks.report.divergence = not_a_number;
     EXPECT_EQ(complaint(), "");
-    EXPECT_SAYS(complaint(), "in 3 windows running");
+    EXPECT_SAYS(complaint(), "in 3 consecutive windows");
 }
 
 TEST_F(LedgerTest, BearsTwoUnsolvedMultiplierProblemsButNotThree) {
@@ -95,8 +96,9 @@ TEST_F(LedgerTest, BearsTwoUnsolvedMultiplierProblemsButNotThree) {
         EXPECT_EQ(complaint(), "");
     }
     const std::string text = complaint();
-    EXPECT_SAYS(text,
-                "stops at its iteration limit in 3 windows running, at a rms slip of 3.0e-03 u_c");
+    EXPECT_SAYS(
+        text,
+        "stopped at its iteration limit in 3 consecutive windows, at an rms slip of 3.0e-03 u_c");
     EXPECT_SAYS(text, "fluid.multiplier_iterations = 200, fluid.multiplier_tolerance = 0.0001 u_c");
 }
 

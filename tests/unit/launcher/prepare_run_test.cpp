@@ -41,7 +41,7 @@ TEST(PrepareRun, RefusesAFolderInUse) {
     const ScratchFolder scratch;
     scratch.write("run/case.yaml", "old");
     const std::string text = refusal({.out = scratch.path() / "run"});
-    EXPECT_SAYS(text, "already holds something");
+    EXPECT_SAYS(text, "is not empty");
     EXPECT_SAYS(text, "--force");
     EXPECT_SAYS(text, "Exit code 2.");
 }
@@ -62,8 +62,7 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
 TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
     const ScratchFolder scratch;
     scratch.write("home/logs/diary.log", "mine");
-    EXPECT_SAYS(refusal({.out = scratch.path() / "home", .force = true}),
-                "already holds something");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "home", .force = true}), "is not empty");
     EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
 }
 
@@ -81,8 +80,7 @@ TEST(PrepareRun, DefaultFolderIsFreshAndPlain) {
 TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
     const ScratchFolder scratch;
     scratch.write("file", "x");
-    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}),
-                "already holds something");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}), "is not empty");
     EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}), "has a space or a quote in its path");
     EXPECT_SAYS(refusal({.out = scratch.path() / "file/run"}), "cannot be created");
 }
@@ -108,7 +106,7 @@ TEST(PrepareRun, MissingProgramsAreNamed) {
         FAIL() << "a missing program was accepted";
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code(), ExitCode::bad_input);
-        EXPECT_SAYS(std::string(failure.what()), "turbidite-nothing is not there");
+        EXPECT_SAYS(std::string(failure.what()), "turbidite-nothing is missing");
     }
 }
 

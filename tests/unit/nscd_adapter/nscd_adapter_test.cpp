@@ -422,7 +422,7 @@ TEST(NscdAdapter, JointNeedsExactlyOneResponsePerGrain) {
     EXPECT_EQ(error({falling_at(11, 0), falling_at(11, 0)}),
               "two responses came for grain 11 in window 3");
     EXPECT_EQ(error({falling_at(99, 0), falling_at(11, 0)}),
-              "a response came for grain 99, which is not here, in window 3");
+              "a response came for grain 99, which this rank does not have, in window 3");
 }
 
 TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {

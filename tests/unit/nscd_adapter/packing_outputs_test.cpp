@@ -149,7 +149,7 @@ TEST(PackingOutputs, TheFloorCarriesTheWeight) {
     EXPECT_NEAR(left, right, 1e-6);
     EXPECT_EQ(std::stol(row(folder, 3)["contacts"]), static_cast<long>(walls.size()));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "grains/contacts_00000003.vtp"))
-        << "no output was due";
+        << "no output was expected";
 }
 
 // One sweep is never enough for this lattice: every window is counted, shown and reported.

@@ -63,7 +63,7 @@ TEST(PolygonOutline, NamesTheOffendingVertex) {
     expect_refused({0, 0, 1, 0, 1, 1, 1, 0}, "vertex 4 (1, 0) is the same as vertex 2");
     expect_refused({0, 0, 1, 1, 3, 3}, "area is zero");
     expect_refused({0, 0, 2, 0, 1, 0.5, 2, 2, 0, 2}, "vertex 3 (1, 0.5) makes it concave");
-    expect_refused({0, 0, 1, 0, 2, 0, 1, 2}, "vertex 2 (1, 0) lies in line");
+    expect_refused({0, 0, 1, 0, 2, 0, 1, 2}, "vertex 2 (1, 0) is collinear");
     expect_refused({0, 0, 1, 0, std::nan(""), 1}, "vertex 3");
     // The same concave outline clockwise: the error names the vertex as the user wrote it.
     expect_refused({0, 0, 0, 2, 2, 2, 1, 0.5, 2, 0}, "(1, 0.5) makes it concave");
@@ -76,7 +76,7 @@ TEST(PolygonOutline, RefusesAStar) {
         star.push_back(std::cos(4.0 * M_PI * k / 5.0));
         star.push_back(std::sin(4.0 * M_PI * k / 5.0));
     }
-    expect_refused(star, "crosses itself");
+    expect_refused(star, "intersects itself");
 }
 
 }  // namespace
