@@ -37,7 +37,7 @@ std::vector<Figure> contact_figures() {
          {Kind::at_least, 2.0},
          md_over_nscd_dry_column},
         {"polygon_detections_per_second",
-         "pairs of dense triangles that the narrow phase tests per second, one core",
+         "pairs of densely packed triangles tested by the narrow phase per second, one core",
          "1/s",
          {Kind::at_least, 5e6},
          polygon_detections_per_second},

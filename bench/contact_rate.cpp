@@ -44,9 +44,10 @@ double seconds(const std::vector<Sample>& samples, const std::string& part) {
 }
 
 std::string scene(const std::vector<Sample>& samples) {
-    return fmt::format("{} discs, {:.0f} contacts with impulse of {:.0f} near, {:.0f} sweeps",
-                       count(samples, "discs"), count(samples, "contacts"),
-                       count(samples, "candidates"), count(samples, "sweeps"));
+    return fmt::format(
+        "{} discs, {:.0f} contacts with an impulse, of {:.0f} candidates, {:.0f} sweeps",
+        count(samples, "discs"), count(samples, "contacts"), count(samples, "candidates"),
+        count(samples, "sweeps"));
 }
 
 std::string time_needed(const std::vector<Sample>& samples, const Order& order) {

@@ -153,10 +153,10 @@ Measured bytes_per_cell(Site& site) {
     measured.lowest = measured.highest = measured.value;
     measured.notes = {
         fmt::format("growth of resident memory from {} to {} cells", small.cells(), large.cells()),
-        "steps 1 to 3 need 40, five doubles: u (2), p (1), the part of the face flux that cells do "
-        "not give (2)",
-        fmt::format("the array code keeps u on its way through transport (2) and all pivots (2) as "
-                    "well: {:.1f} with its ghosts",
+        "steps 1 to 3 need 40, five doubles: u (2), p (1), the difference of the face fluxes from "
+        "the interpolated u (2)",
+        fmt::format("the array code also stores u during transport (2) and all pivots (2): {:.1f} "
+                    "with its ghosts",
                     arrays.arrays / small.cells())};
     return measured;
 }

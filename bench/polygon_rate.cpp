@@ -46,7 +46,7 @@ Measured polygon_detections_per_second(Site& site) {
     measured.highest = rate(*highest);
     measured.notes = {
         scene(samples.front()),
-        fmt::format("{:.3g} ns per pair; the broad phase takes {:.3g} ns beside",
+        fmt::format("{:.3g} ns per pair; the broad phase takes another {:.3g} ns",
                     1e9 / measured.value,
                     1e9 * samples.front().parts.at("broad") / samples.front().counts.at("pairs"))};
     return measured;

@@ -111,7 +111,8 @@ Sample run(const Options& options) {
 int main(int argc, char** argv) {
     turbidite::bench::Options options;
     CLI::App app{"A worker of `turbidite bench contact`", "turbidite-bench-polygons"};
-    app.add_option("--rows", options.rows, "rows of triangles, each of twice as many");
+    app.add_option("--rows", options.rows,
+                   "rows of triangles; each row has twice as many triangles");
     app.add_option("--warm-up", options.warm_up, "detections before the timed ones");
     app.add_option("--steps", options.steps, "timed detections");
     app.add_option("--result", options.result, "file to write")->required();

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Does a change leave every digit as it was? Plays reference runs and compares their histories.
+"""Tests that a change leaves every digit of the histories unchanged: runs reference cases and compares them.
 
     bench/same_histories.py record FOLDER [--program turbidite] [--only NAME]...
     bench/same_histories.py compare BEFORE AFTER

@@ -25,7 +25,7 @@ double wall_seconds() {
 }
 
 double median(std::vector<double> values) {
-    if (values.empty()) throw std::invalid_argument("no median of no values");
+    if (values.empty()) throw std::invalid_argument("the median of an empty list is undefined");
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);

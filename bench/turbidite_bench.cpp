@@ -27,7 +27,7 @@ void declare(CLI::App& app, Options& options) {
                    "also write the figures to FILE: name -> {value, unit, command}")
         ->type_name("FILE");
     app.add_flag("--quick", options.order.quick,
-                 "tiny meshes, one repeat: shows that everything works, measures nothing");
+                 "tiny meshes, one repeat: tests that everything works; the figures mean nothing");
     app.add_flag("--list", options.list, "print the names of benchmarks and figures");
 }
 

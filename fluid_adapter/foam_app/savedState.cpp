@@ -63,18 +63,20 @@ void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& ste
     if (state.size() >= sizeof header) std::memcpy(&header, state.data(), sizeof header);
     if (header.cells != fields.mesh.nCells() || header.corners != corners_of(fields.mesh))
         throw Failure(ExitCode::bad_input,
-                      "the saved fluid state is of " + std::to_string(header.cells) +
+                      "the saved fluid state has " + std::to_string(header.cells) +
                           " cells, this rank has " + std::to_string(fields.mesh.nCells()) +
-                          " or others; go on with the same mesh, fluid.ranks and "
+                          " or different ones; continue with the same mesh, fluid.ranks and "
                           "fluid.decomposition");
     if (header.kind != step.kind())
-        throw Failure(ExitCode::bad_input,
-                      "the saved fluid state was written with another fluid.pressure_solver, "
-                      "fluid.viscous_solver or fluid.transport_scheme; go on with the same ones");
-    if (state.size() != sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(memory))
+        throw Failure(
+            ExitCode::bad_input,
+            "the saved fluid state was written with another fluid.pressure_solver, "
+            "fluid.viscous_solver or fluid.transport_scheme; continue with the same ones");
+    const std::size_t expected = sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(memory);
+    if (state.size() != expected)
         throw Failure(ExitCode::bad_input, "the saved fluid state has " +
-                                               std::to_string(state.size()) +
-                                               " bytes, not those of this case; it is incomplete");
+                                               std::to_string(state.size()) + " bytes instead of " +
+                                               std::to_string(expected) + "; it is incomplete");
     const char* from = state.data() + sizeof header;
     take(from, U);
     take(from, p);

@@ -42,7 +42,8 @@ std::vector<int> first_row(const Neighbours& of) {
             return cell != before && of[cell].size() < 4;
         });
         if (next == of[last].end() || row.size() == of.size())
-            throw DoesNotFit("the boundary through " + cell_name(last) + " ends in no corner");
+            throw DoesNotFit("the boundary through " + cell_name(last) +
+                             " does not end at a corner");
         row.push_back(*next);
     }
     return row;
@@ -57,8 +58,8 @@ std::vector<int> row_across(const std::vector<int>& row, const Neighbours& of,
         for (int next : of[cell])
             if (place[next] < 0) across.push_back(next);
     if (across.empty() || across.size() == row.size()) return across;
-    throw DoesNotFit("beside the row that starts at " + cell_name(row.front()) + " lie " +
-                     std::to_string(across.size()) + " cells and not " +
+    throw DoesNotFit("next to the row that starts at " + cell_name(row.front()) + " there are " +
+                     std::to_string(across.size()) + " cells instead of " +
                      std::to_string(row.size()) + ": the mesh has a step or a hole there");
 }
 
@@ -69,7 +70,7 @@ void check_neighbours(const CellFaces& faces, const BoxNumbering& box) {
         const int rows = std::abs(box.row(a) - box.row(b));
         if (columns + rows != 1)
             throw DoesNotFit(cell_name(a) + " and " + cell_name(b) +
-                             " share a face and do not lie side by side in a box");
+                             " share a face but are not neighbours in a box");
     }
 }
 
@@ -81,7 +82,7 @@ void check_complete(const CellFaces& faces, const BoxNumbering& box) {
                          " cells are not one box of rows and columns");
     if (nx < 3 || ny < 3)
         throw DoesNotFit("it has " + std::to_string(nx) + " x " + std::to_string(ny) +
-                         " cells; 3 x 3 is the least");
+                         " cells; at least 3 x 3 are needed");
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::string fault_of(const Foam::lduInterfaceField& field) {
         return "a patch field of type " + field.type() + " couples cells";
     const auto* turning = dynamic_cast<const Foam::cyclicLduInterfaceField*>(&field);
     if (turning && turning->doTransform() && turning->rank() > 0)
-        return "a cyclic patch turns vectors";
+        return "a cyclic patch rotates vectors";
     return {};
 }
 
@@ -137,7 +137,7 @@ void read_means(const SolverMatrix& system, const BoxCells& box,
     for (int axis = 0; axis < 2; ++axis) {
         const double closing = sums[axis].closing_faces;
         if (closing != 0.0 && closing != 2 * box.cells[1 - axis])
-            throw DoesNotFit(std::string("cyclic patches cover a part of the sides across ") +
+            throw DoesNotFit(std::string("cyclic patches cover only part of the sides normal to ") +
                              axis_names[axis]);
         reading.cyclic[axis] = closing != 0.0;
         reading.mean[axis] = sums[axis].inner / sums[axis].inner_faces;
@@ -145,7 +145,7 @@ void read_means(const SolverMatrix& system, const BoxCells& box,
     if (!(reading.mean[0] * reading.mean[1] > 0.0) || !std::isfinite(sums[0].inner + sums[1].inner))
         throw DoesNotFit("its coefficients are " + number(reading.mean[0]) + " along x and " +
                          number(reading.mean[1]) +
-                         " along y in the mean; they must have the same sign");
+                         " along y on average; they must have the same sign");
     reading.sign = reading.mean[0] > 0.0 ? 1.0 : -1.0;
     for (double& mean : reading.mean) mean *= reading.sign;
 }
@@ -246,7 +246,7 @@ void check_coefficients(const SolverMatrix& system, const BoxCells& box, const R
         if (!fault.empty()) return;
         fault = std::string("the coefficients along ") + axis_names[axis] +
                 " are not all equal: " + number(value) + " at " + cell_name(box, cell) + ", " +
-                number(expected) + " in the mean";
+                number(expected) + " on average";
     };
     for_each_inner(system, box,
                    [&](int axis, int low, int, double value) { check_one(axis, low, value); });
@@ -271,9 +271,9 @@ std::string misfit(const BoxOperator& found, const Reading& reading, const BoxCe
                    double expected) {
     return "the diagonal at " + cell_name(box, cell) + " exceeds its neighbours by " +
            number(reading.excess[cell]) + " where " + number(expected) +
-           " would fit a side of one condition (" + number(found.problem.alpha) + " inside, plus " +
-           number(2.0 * reading.mean[0]) + " or " + number(2.0 * reading.mean[1]) +
-           " for a value held at a side)";
+           " would fit a side with a single condition (" + number(found.problem.alpha) +
+           " inside, plus " + number(2.0 * reading.mean[0]) + " or " +
+           number(2.0 * reading.mean[1]) + " for a value held at a side)";
 }
 
 void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxCells& box) {

@@ -249,7 +249,7 @@ std::unique_ptr<RowTransform::Kind> make_row_kind(const AxisOperator& axis) {
         if (n % 2 == 1) return std::make_unique<RealRow>(n, FFTW_RODFT11);
         return std::make_unique<MixedEnds<true>>(n);
     }
-    throw std::invalid_argument("no transform fits the ends of this axis");
+    throw std::invalid_argument("there is no transform for this pair of ends");
 }
 
 }  // namespace turbidite

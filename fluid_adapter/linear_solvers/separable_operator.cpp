@@ -42,7 +42,8 @@ void check(const AxisOperator& axis) {
         throw std::invalid_argument("an axis of " + std::to_string(axis.cells) +
                                     " cells; a separable solve needs 3 or more");
     if (!(axis.spacing > 0.0) || !std::isfinite(axis.spacing))
-        throw std::invalid_argument("cells of length " + std::to_string(axis.spacing));
+        throw std::invalid_argument("cells of length " + std::to_string(axis.spacing) +
+                                    "; it must be positive and finite");
     if ((axis.lower == End::periodic) != (axis.upper == End::periodic))
         throw std::invalid_argument("one end of an axis is periodic and the other is not");
 }

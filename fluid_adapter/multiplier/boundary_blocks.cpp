@@ -22,9 +22,9 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
         for (int p = begin; p < points.boundary_begin[g + 1]; ++p)
             add_row(begin, p, per_mass, coupling);
         if (!factors_.factorise())
-            throw std::runtime_error("the boundary points of grain " +
-                                     std::to_string(grains[g].id) +
-                                     " depend on each other; use fluid.point_spacing 1.5 or more");
+            throw std::runtime_error(
+                "the boundary points of grain " + std::to_string(grains[g].id) +
+                " are linearly dependent; use fluid.point_spacing 1.5 or more");
         tied_.push_back(tie(g));
     }
 }

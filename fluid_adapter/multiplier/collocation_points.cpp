@@ -168,7 +168,7 @@ double relative_depth(const ImmersedGrain& grain, const InteriorCell& point) {
 void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                            CollocationPoints& points) {
     if (field.grid().dimension != 2)
-        throw std::invalid_argument("multiplier points exist in two dimensions only so far");
+        throw std::invalid_argument("multiplier points are supported in two dimensions only");
     owner_.resize(field.local_cells(), -1);
     depth_.resize(field.local_cells());
     slot_.resize(field.local_cells(), -1);

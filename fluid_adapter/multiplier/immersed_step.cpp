@@ -120,18 +120,17 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
     for (const GrainState& state : with_contacts) {
         const auto at = index_.find(state.id);
         if (at == index_.end())
-            throw std::runtime_error("contact impulses were sent for grain " +
-                                     std::to_string(state.id) +
-                                     ", which the window did not begin with");
+            throw std::runtime_error("contact impulses were received for grain " +
+                                     std::to_string(state.id) + ", which is not in this window");
         const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
         solved_[at->second] = planar(state.velocity, state.angular_velocity);
     }
     if (with_contacts.size() != grains_.size())
-        throw std::runtime_error(
-            "contact impulses came for " + std::to_string(with_contacts.size()) +
-            " grains, the window began with " + std::to_string(grains_.size()));
+        throw std::runtime_error("contact impulses were received for " +
+                                 std::to_string(with_contacts.size()) +
+                                 " grains, but the window has " + std::to_string(grains_.size()));
     system_.push(changes_);
     MultiplierSettings settings = settings_;
     settings.tolerance = slip_goal_ / settings.velocity_scale;

@@ -24,7 +24,7 @@ void demand_positive(const Eigen::Matrix3d& effective, GrainId id) {
     text << "grain " << id << " and the fluid tied to it have mass " << effective(0, 0)
          << " kg/m and moment of inertia " << effective(2, 2)
          << " kg m, which is not positive definite: use a larger grains.density_ratio, more "
-            "fluid.cells_per_diameter, or see why the grain ties no fluid";
+            "fluid.cells_per_diameter, or check why the grain ties no fluid";
     throw std::runtime_error(text.str());
 }
 

@@ -108,7 +108,8 @@ void CellRows::check_complete() const {
     bool complete = places.size() == size;
     for (std::size_t k = 0; complete && k < size; ++k) complete = places[k] == static_cast<int>(k);
     if (!group_.all(complete))
-        throw std::invalid_argument("the ranks' cells are not every cell of the grid once");
+        throw std::invalid_argument(
+            "the ranks' cells do not cover every cell of the grid exactly once");
 }
 
 void CellRows::begin_exchange(const std::vector<Part>& out, double* out_values,

@@ -40,23 +40,24 @@ Ruling theta_makes_no_energy(const Settings& s) {
     const double most = 1.0 / (1.0 + e);
     if (s.real("contact.theta") <= most * (1.0 + 1e-12)) return std::nullopt;
     return Objection{
-        fmt::format("With a restitution e = {} impacts create energy above theta = 1/(1 + e) = {}.",
-                    real_text(e), real_text(most)),
+        fmt::format(
+            "With a restitution e = {}, impacts create energy if theta is above 1/(1 + e) = {}.",
+            real_text(e), real_text(most)),
         "Use 0.5, which is valid for every restitution."};
 }
 
 Ruling moreau_has_one_restitution(const Settings& s) {
     if (s.text("contact.impact") != "moreau" || s.real("contact.restitution_tangential") == 0.0)
         return std::nullopt;
-    return Objection{"With contact.impact: moreau one restitution applies to both directions.",
+    return Objection{"With contact.impact: moreau, one restitution applies to both directions.",
                      "Remove it, or use contact.impact: newton."};
 }
 
 Ruling only_discs_resist_rolling(const Settings& s) {
     if (s.real("contact.rolling_friction") == 0.0 || s.text("grains.shape") == "disc")
         return std::nullopt;
-    return Objection{fmt::format("Rolling resistance is for discs, but grains.shape = {}: faces "
-                                 "resist rolling by themselves.",
+    return Objection{fmt::format("Rolling resistance is for discs, but grains.shape = {}: polygons "
+                                 "need none, since their faces resist rolling.",
                                  s.text("grains.shape")),
                      "Use 0."};
 }
@@ -122,7 +123,7 @@ KeyGroup contact_law_keys() {
                  .type = KeyType::choice,
                  .fallback = "newton",
                  .choices = offered(nscd::law_choices(nscd::LawSlot::impact)),
-                 .help = "impact law; without restitution both give the same",
+                 .help = "impact law; without restitution both are equivalent",
                  .family = "nscd"},
                 {.name = "contact.restitution",
                  .type = KeyType::real,
@@ -159,7 +160,7 @@ KeyGroup contact_law_keys() {
                  .type = KeyType::choice,
                  .fallback = "none",
                  .choices = offered(nscd::law_choices(nscd::LawSlot::adhesion)),
-                 .help = "adhesion between grains"},
+                 .help = "adhesion law"},
                 {.name = "contact.adhesion_force",
                  .type = KeyType::real,
                  .unit = "m g",
@@ -175,8 +176,8 @@ KeyGroup contact_law_keys() {
                  .unit = "D",
                  .need = Need::conditional,
                  .range = positive,
-                 .help = "largest gap at which it acts; cohesion: largest gap at which bonds form "
-                         "in the first window",
+                 .help = "largest gap at which adhesion acts; cohesion: largest gap at which bonds "
+                         "form in the first window",
                  .remedy = "Write for example adhesion_range: 0.05; for cohesion 0.001.",
                  .when = "contact.adhesion",
                  .required = adheres,
@@ -186,7 +187,7 @@ KeyGroup contact_law_keys() {
                  .unit = "D",
                  .need = Need::conditional,
                  .range = positive,
-                 .help = "decay length of the force of a liquid bridge",
+                 .help = "length over which the force of a liquid bridge decays with the gap",
                  .remedy = "Write for example adhesion_length: 0.02.",
                  .when = "contact.adhesion: capillary",
                  .required =

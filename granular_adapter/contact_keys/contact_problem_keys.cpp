@@ -34,7 +34,7 @@ Ruling dumps_know_rolling(const Settings& s) {
     return Objection{fmt::format("The files of Siconos do not support rolling resistance, but "
                                  "contact.rolling_friction = {}.",
                                  s.text("contact.rolling_friction")),
-                     "Remove one of the two."};
+                     "Remove one of the two keys."};
 }
 
 std::string without_recovery(const Settings& s) {
@@ -46,8 +46,8 @@ void notes(const Settings& s, std::vector<std::string>& notes) {
     if (constexpr std::int64_t enough = 20000;
         s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
         notes.push_back(fmt::format(
-            "contact.iterations = {} leaves contact.solver: central-path, an interior-point "
-            "method, with its first sweeps; use at least {}; 1000000 solves hard packings",
+            "contact.iterations = {} is used up by the initial sweeps of contact.solver: "
+            "central-path, an interior-point method; use at least {}; 1000000 solves hard packings",
             s.integer("contact.iterations"), enough));
 }
 
@@ -108,7 +108,7 @@ KeyGroup contact_problem_keys() {
                  .unit = "u_c",
                  .fallback = "0.5",
                  .range = not_negative,
-                 .help = "largest velocity of this correction",
+                 .help = "largest velocity at which overlaps are removed",
                  .family = "nscd",
                  .idle = without_recovery},
                 {.name = "contact.dump_interval",
@@ -116,8 +116,8 @@ KeyGroup contact_problem_keys() {
                  .unit = "t_c",
                  .need = Need::optional,
                  .range = positive,
-                 .help =
-                     "between contact problems written to contacts/problem_STEP.dat, for Siconos",
+                 .help = "interval at which contact problems are written to "
+                         "contacts/problem_STEP.dat, for Siconos",
                  .family = "nscd"},
             },
         .rules = {{"contact.solver", {"contact.rolling_friction"}, solver_knows_rolling},

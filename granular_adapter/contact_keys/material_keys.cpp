@@ -43,8 +43,8 @@ KeyTable keys_of(const std::string& group, const std::string& whose) {
 
 KeyGroup material_keys() {
     KeyTable table = keys_of("contact.materials.NAME", "the material NAME (column material)");
-    for (KeySpec& key :
-         keys_of("contact.pairs.FIRST-SECOND", "two materials; the first of all is called default"))
+    for (KeySpec& key : keys_of("contact.pairs.FIRST-SECOND",
+                                "two materials; the first material is called default"))
         table.push_back(std::move(key));
     return {.keys = std::move(table)};
 }

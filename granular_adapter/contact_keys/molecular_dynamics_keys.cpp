@@ -29,7 +29,7 @@ KeyGroup molecular_dynamics_keys() {
              .need = Need::optional,
              .range = positive,
              .help = "yade-md: approach speed for which the stiffness is chosen; default: 2 with a "
-                     "fluid, twice the speed of a fall from the top of the packing without",
+                     "fluid; without one, twice the speed of a fall from the top of the packing",
              .remedy = "Leave it out, or use for example 2.",
              .family = "md",
              .idle = beside_stiffness},

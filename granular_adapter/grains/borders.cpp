@@ -32,7 +32,7 @@ std::string named(const nscd::Bodies& bodies, std::size_t i) {
 
 [[noreturn]] void refuse_not_a_number(const nscd::Bodies& bodies, std::size_t i,
                                       const std::string& when) {
-    throw PhysicsRefused(named(bodies, i) + " has a position or velocity that is not a number, " +
+    throw PhysicsRefused(named(bodies, i) + " has a position or velocity that is not finite, " +
                          when + "; use a smaller time.step");
 }
 

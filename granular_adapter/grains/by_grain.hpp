@@ -26,15 +26,17 @@ std::vector<const Record*> by_grain(const std::vector<GrainId>& ids,
     for (const Record& record : records) {
         const auto at = place.find(record.id);
         if (at == place.end())
-            throw std::runtime_error("a " + what + " came for " + grain(record.id) +
+            throw std::runtime_error("a " + what + " was received for " + grain(record.id) +
                                      ", which this rank does not have, " + when);
         if (result[at->second])
-            throw std::runtime_error("two " + what + "s came for " + grain(record.id) + " " + when);
+            throw std::runtime_error("two " + what + "s were received for " + grain(record.id) +
+                                     " " + when);
         result[at->second] = &record;
     }
     for (std::size_t i = 0; i < ids.size(); ++i)
         if (!result[i])
-            throw std::runtime_error("no " + what + " came for " + grain(ids[i]) + " " + when);
+            throw std::runtime_error("no " + what + " was received for " + grain(ids[i]) + " " +
+                                     when);
     return result;
 }
 

@@ -102,7 +102,9 @@ MovedWall moved_wall(const std::string& text) {
     for (double number; in >> number;) numbers.push_back(number);
     for (const MotionEntry& entry : motion_list)
         if (kind == entry.kind && in.eof()) return {wall, entry.make(numbers)};
-    throw std::invalid_argument("run.wall_motions: \"" + text + "\" is not a motion");
+    throw std::invalid_argument(
+        "run.wall_motions: \"" + text +
+        "\" is not a wall motion: allowed are constant, harmonic and table with their numbers");
 }
 
 }  // namespace

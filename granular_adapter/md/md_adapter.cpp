@@ -118,8 +118,9 @@ Load MdAdapter::load(std::size_t i, double dt) const {
 Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const auto start = Clock::now();
     if (!responses.empty())
-        throw std::runtime_error("responses of the fluid came " + in_window(window) +
-                                 ", but molecular dynamics takes none: use coupling.scheme split");
+        throw std::runtime_error(
+            "responses of the fluid were received " + in_window(window) +
+            ", but molecular dynamics cannot use them: use coupling.scheme split");
     host_.read(bodies_);
     check_inside(bodies_, borders_, in_window(window) + " before contacts");
     const nscd::Bodies before = bodies_;
@@ -170,7 +171,7 @@ void MdAdapter::book_contacts(const nscd::Bodies& before, const SubstepReport& r
 Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
     const auto start = Clock::now();
     if (!advanced_)
-        throw std::logic_error("apply_kick needs an advance of the same window before it");
+        throw std::logic_error("apply_kick must be preceded by advance in the same window");
     advanced_ = false;
     if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
     check_inside(bodies_, borders_, in_window(window) + " after the kick");

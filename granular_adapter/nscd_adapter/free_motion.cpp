@@ -39,9 +39,9 @@ FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeRespons
     const auto ordered = by_grain(bodies.id, responses, "response", when);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.fixed[i] || bodies.rotation_blocked[i])
-            throw std::runtime_error(grain(bodies, i) + " is held by its host " + when +
-                                     ", but the fluid moves every grain that it responds for; use "
-                                     "coupling.scheme: split");
+            throw std::runtime_error(grain(bodies, i) + " is fixed by its host " + when +
+                                     ", but the fluid moves every grain for which it sends a "
+                                     "response; use coupling.scheme: split");
         const nscd::Twist twist = in_plane(*ordered[i]);
         const auto mobility = nscd::inverse(in_plane(ordered[i]->inertia));
         if (!mobility)

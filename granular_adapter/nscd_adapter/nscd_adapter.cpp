@@ -129,7 +129,7 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
 Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
     const StopWatch watch;
     if (contact_twists_.size() != bodies().size())
-        throw std::logic_error("apply_kick needs an advance of the same window before it");
+        throw std::logic_error("apply_kick must be preceded by advance in the same window");
     dumps_.after(window, engine().problem());
     if (run_.wet || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
     check_velocities(bodies(), in_window(window) + " after the kick");

@@ -221,11 +221,12 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
         "The contact engine over bodies of YADE.\n\n"
         "ContactEngine(options, gravity): options are keys of the group contact as texts.",
         python::init<python::dict, python::object>())
-        .def("lay_out", &ContactEngine::lay_out, "Takes a scene; impulses of known pairs are kept.")
+        .def("lay_out", &ContactEngine::lay_out,
+             "Sets the scene; impulses of known pairs are kept.")
         .def("outdated", &ContactEngine::outdated,
              "outdated(len(O.bodies)): whether the scene is no longer the one laid out.")
         .def("step", &ContactEngine::step,
-             "step(dt, forces, torques): one step; returns how the solver fared.")
+             "step(dt, forces, torques): one step; returns the results of the solver.")
         .def("overlap", &ContactEngine::overlap,
              "(first, second, depth, share of the smaller radius) of the worst pair, or None.")
         .def("max_penetration", &ContactEngine::max_penetration, "Deepest overlap [m].")
@@ -233,8 +234,7 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
         .def("restore_memory", &ContactEngine::restore_memory, "The inverse of memory().")
         .def("contacts", &ContactEngine::contacts,
              "(first, second, point, normal, gap, normal force, tangential force, rolling moment, "
-             "wall?) "
-             "of every contact of the last step that carries a force.")
+             "wall?) of every contact of the last step with a force.")
         .def("impulses", &ContactEngine::impulses,
              "(id, impulse, angular impulse) of every body in the last step.");
 }

@@ -135,7 +135,7 @@ void ContactHost::check_bodies(const char* when) const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (!is_finite(bodies, i))
-            throw at_fault(bodies.id[i], " has a position or velocity that is not a number", when);
+            throw at_fault(bodies.id[i], " has a position or velocity that is not finite", when);
         if (bodies.fixed[i]) continue;
         for (const nscd::Wall& wall : std::as_const(*engine_).walls())
             if (!std::isfinite(wall.half_length) && signed_distance(wall, bodies.position[i]) < 0.0)

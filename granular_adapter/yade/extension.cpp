@@ -121,16 +121,13 @@ BOOST_PYTHON_MODULE(turbidite_yade) {
     using namespace turbidite::yade;
     export_participant<ContactEngine>(
         "Participant",
-        "One YADE process in a coupled job, with the contact engine.\n\n"
-        "Participant(run_folder, communicator, scene, yade_version): what scene must have stands "
-        "in\n"
+        "One YADE process in a coupled job, with the contact engine.\n\nParticipant(run_folder, "
+        "communicator, scene, yade_version): the functions that scene must have are listed\nin "
         "granular_adapter/yade/yade_adapter.hpp.")
-        .def("contacts", &Participant<ContactEngine>::contacts,
-             "What contacts remember, as bytes.");
+        .def("contacts", &Participant<ContactEngine>::contacts, "The contact memory as bytes.");
     export_participant<MolecularDynamics>(
         "MdParticipant",
-        "One YADE process in a coupled job, with YADE's own engines.\n\n"
-        "MdParticipant(run_folder, communicator, scene, yade_version): what scene must have stands "
-        "in\n"
+        "One YADE process in a coupled job, with YADE's own engines.\n\nMdParticipant(run_folder, "
+        "communicator, scene, yade_version): the functions that scene must have are listed\nin "
         "granular_adapter/yade/yade_md_host.hpp.");
 }

@@ -19,8 +19,8 @@ _playing = None
 
 def play_window():
     if _playing is None or _playing.participant is None:
-        raise RuntimeError('no coupled run goes on here: grains.script makes no steps, and a scene that was saved '
-                           'goes on without the fluid by turbidite_contact.attach()')
+        raise RuntimeError('no coupled run is active: grains.script must not step; to continue a saved scene without '
+                           'the fluid, call turbidite_contact.attach()')
     _playing.play_window()
 
 

@@ -70,7 +70,7 @@ class Script:
         self._check_bodies()
         if moved is not None:
             self._refuse(f'moved grain {moved} or changed its velocity',
-                         'the fluid moves grains too and would not know of it')
+                         'the fluid also moves grains and would not see the change')
 
     def check_step(self):
         """Called before every step: with a longer O.dt grains would leave the domain within the window."""
@@ -83,9 +83,9 @@ class Script:
         for ours, place in zip(self.engines, places):
             name = f'{type(ours).__name__} {ours.label}'.strip()
             if place is None:
-                self._refuse(f'took away the engine {name}', 'O.engines = O.engines + [...] adds some')
+                self._refuse(f'removed the engine {name}', 'O.engines = O.engines + [...] adds some')
         if places != sorted(places):
-            self._refuse('put the engines of the case into another order', 'keep it and add others')
+            self._refuse('reordered the engines of the case', 'keep their order and add others')
 
     def _check_bodies(self):
         if len(O.bodies) != self.count:

@@ -54,8 +54,8 @@ std::optional<Objection> unfit(const Settings& s, const std::string& group) {
         given(s, group + ".restitution_tangential", fallback(s, "restitution_tangential")));
     const double most = 1.0 / (1.0 + e);
     if (s.real("contact.theta") > most * (1.0 + 1e-12))
-        return Objection{fmt::format("With a restitution e = {} impacts create energy above theta "
-                                     "= 1/(1 + e) = {}, but contact.theta = {}.",
+        return Objection{fmt::format("With a restitution e = {}, impacts create energy if theta is "
+                                     "above 1/(1 + e) = {}, but contact.theta = {}.",
                                      e, most, s.text("contact.theta")),
                          "Use contact.theta: 0.5, which is valid for every restitution."};
     return std::nullopt;

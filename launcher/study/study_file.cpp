@@ -43,7 +43,7 @@ std::string value_text(const YAML::Node& node) {
     return text.c_str();
 }
 
-/// "group.key=value" of every leaf; groups may be nested or written with points.
+/// "group.key=value" of every leaf; groups may be nested or written with dots.
 void flatten(const std::string& prefix, const YAML::Node& node, std::vector<std::string>& result) {
     for (const auto& item : node) {
         const std::string key = prefix + item.first.Scalar();
@@ -61,7 +61,7 @@ std::vector<std::string> overrides_of(const YAML::Node& node, const std::string&
     if (node.IsMap())
         flatten("", node, result);
     else
-        complaints.add(node, what + " holds no keys", "It is a map `key: value`.",
+        complaints.add(node, what + " contains no keys", "It is a map `key: value`.",
                        "Write for example set: {time.end: 20}.");
     return result;
 }
@@ -76,7 +76,7 @@ void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart
         }
         if (!item.second.IsSequence() || item.second.size() == 0) {
             complaints.add(
-                item.first, "sweep." + key + " is no list of values", "A swept key has a list.",
+                item.first, "sweep." + key + " is not a list of values", "A swept key has a list.",
                 "Write for example " + key + ": [1, 2, 3]; single values belong to set.");
             continue;
         }
@@ -90,7 +90,7 @@ void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart
 void add_variants(const YAML::Node& node, StudyPart& part, Complaints& complaints) {
     if (!node.IsDefined()) return;
     if (!node.IsMap()) {
-        complaints.add(node, "variants holds no names", "It is a map of names, each with keys.",
+        complaints.add(node, "variants contains no names", "It is a map of names, each with keys.",
                        "Write for example variants: {md: {grains.adapter: yade-md}}.");
         return;
     }
@@ -128,7 +128,7 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
         part.case_file = folder / file.Scalar();
         if (!fs::is_regular_file(part.case_file))
             complaints.add(
-                file, "case: " + file.Scalar() + " is not there",
+                file, "case: " + file.Scalar() + " does not exist",
                 "It is a case file, its path relative to the study file.",
                 "Looked for " + fs::absolute(part.case_file).lexically_normal().string() + ".");
     }
@@ -137,7 +137,7 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
     const YAML::Node sweep = node["sweep"];
     if (sweep.IsDefined() && sweep.IsMap()) add_swept_keys("", sweep, part, complaints);
     if (sweep.IsDefined() && !sweep.IsMap())
-        complaints.add(sweep, "sweep holds no keys", "It is a map `key: [values]`.",
+        complaints.add(sweep, "sweep contains no keys", "It is a map `key: [values]`.",
                        "Write for example sweep: {random.seed: [1, 2, 3]}.");
     return part;
 }
@@ -147,8 +147,9 @@ YAML::Node document(const fs::path& file) {
     try {
         const YAML::Node result = YAML::LoadFile(file.string());
         if (result.IsMap()) return result;
-        throw CaseRefused({problem_at(source, 0, "holds no keys", "A study names cases and sweeps.",
-                                      "See configs/ for examples.")});
+        throw CaseRefused(
+            {problem_at(source, 0, "contains no keys", "A study names cases and sweeps.",
+                        "See configs/ for examples.")});
     } catch (const YAML::BadFile&) {
         throw CaseRefused({problem_at(file.string(), 0, "cannot be read",
                                       "A study file (YAML) is needed.", "Check the path.")});
@@ -184,7 +185,8 @@ Study read_study(const fs::path& file) {
     } else {
         refuse_unknown_keys(root, {"out", "parts"}, complaints);
         if (!parts.IsMap() || parts.size() == 0)
-            complaints.add(parts, "parts holds no names", "It is a map of names, each with a case.",
+            complaints.add(parts, "parts contains no names",
+                           "It is a map of names, each with a case.",
                            "Write for example parts: {column: {case: avalanche-dry.yaml}}.");
         else
             for (const auto& item : parts) {

@@ -28,7 +28,7 @@ class FailingFluid : public FailingRun {
     }
 };
 
-TEST_F(FailingFluid, MultipliersThatStopAtTheirLimitThreeTimesRunning) {
+TEST_F(FailingFluid, MultipliersThatStopAtTheirLimitInThreeConsecutiveWindows) {
     const Answer answer = run_with("unsolved");
     EXPECT_EQ(answer.code, 6);
     EXPECT_SAYS(answer.err, "stopped at its iteration limit in 3 consecutive windows");
@@ -69,7 +69,7 @@ TEST_F(FailingFluid, ErrorReachesTheUserWithRoleAndLog) {
     expect_nothing_left();
 }
 
-TEST_F(FailingFluid, LeavingWithoutAWordIsAFailure) {
+TEST_F(FailingFluid, ExitWithoutAMessageIsAFailure) {
     const Answer answer = run_with("exit");
     EXPECT_EQ(answer.code, 4) << answer.err;
     expect_good_output_is_kept(ExitCode::participant_failed);

@@ -22,7 +22,7 @@ class FullDisk : public FailingRun {
     }
 };
 
-TEST_F(FullDisk, IsToldAndWhatWasGoodIsKept) {
+TEST_F(FullDisk, IsReportedAndGoodDataIsKept) {
     const Answer answer = on_small_disk("timeout 100 " TURBIDITE_PROGRAM
                                         " run small.yaml --out disk/run; echo code $?; "
                                         "cp -r disk/run/run.json disk/run/history.csv .");

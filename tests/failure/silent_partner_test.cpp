@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Roles, SilentPartner, ::testing::Values("fluid", "grain
 // exits.
 class SilentCoupler : public FailingRun, public ::testing::WithParamInterface<const char*> {};
 
-TEST_P(SilentCoupler, IsLeftByTheParticipants) {
+TEST_P(SilentCoupler, EndsTheParticipants) {
     const pid_t run = start(4, std::string("--set grains.adapter=") + GetParam());
     const auto coupler = processes("turbidite-coupler");
     ASSERT_EQ(coupler.size(), 1u);

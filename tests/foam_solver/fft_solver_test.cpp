@@ -203,7 +203,8 @@ TEST_F(Refusal, ASideOfTwoConditionsIsNamedWithItsCell) {
     FoamBox box;
     box.lower_left = flat;
     const std::string text = said(box, sides, fft);
-    for (const char* part : {"diagonal at cell ", "side of one condition"}) EXPECT_SAYS(text, part);
+    for (const char* part : {"diagonal at cell ", "side with a single condition"})
+        EXPECT_SAYS(text, part);
 }
 
 TEST_F(Refusal, AMeshWithAHoleIsRefusedByBoth) {

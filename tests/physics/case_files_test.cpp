@@ -56,7 +56,7 @@ TEST(CaseFiles, CheckMeshIsContentWithCyclicAndFreeSides) {
     EXPECT_NE(text_of(log).find("cells:            4096"), std::string::npos) << text_of(log);
 }
 
-TEST(CaseFiles, ABrokenMeshFileIsReportedInBlockMeshsWords) {
+TEST(CaseFiles, ABrokenMeshFileIsReportedWithTheMessageOfBlockMesh) {
     const TemporaryFolder folder;
     write_fluid_case(settings_of({}), folder.path());
     std::ofstream(folder.path() / "system" / "blockMeshDict") << "nonsense";
@@ -75,7 +75,7 @@ TEST(CaseFiles, AMissingCaseIsAFailureAndNoAbort) {
     EXPECT_THROW(adapter.initialise(settings_of({}), {ShapeRecord{"disc", {}}}), Failure);
 }
 
-TEST(CaseFiles, AnUnknownSchemeIsAFailureInOpenFoamsWords) {
+TEST(CaseFiles, AnUnknownSchemeIsAFailureWithTheMessageOfOpenFoam) {
     Settings settings = settings_of({});
     settings.set("fluid.transport_scheme", std::string("Gauss nosuchscheme"));
     const TemporaryFolder folder;

@@ -28,7 +28,7 @@ std::string slurp(const fs::path& file) {
 }
 
 class Job : public testing::Test {
-   protected:
+ protected:
     Job() {
         fs::remove_all(folder_);
         fs::create_directories(folder_ / "logs");
@@ -44,18 +44,19 @@ class Job : public testing::Test {
             (scheme == "joint" ? " SCRIPTED_JOINT=1" : "") +
             " timeout -k 5 60 " MPIRUN
             " --oversubscribe --bind-to none --mca btl_vader_single_copy_mechanism none -n 1" +
-            program + "coupler " + folder_.string() + " " + f + " " + g + " " + scheme + " : -n " + f + program +
-            "fluid " + folder_.string() + " " + fluid_fault + " : -n " + g + program + "grains " +
-            folder_.string() + " " + grains_fault + " > " + (folder_ / "output").string() + " 2>&1";
+            program + "coupler " + folder_.string() + " " + f + " " + g + " " + scheme + " : -n " +
+            f + program + "fluid " + folder_.string() + " " + fluid_fault + " : -n " + g + program +
+            "grains " + folder_.string() + " " + grains_fault + " > " +
+            (folder_ / "output").string() + " 2>&1";
         const int status = std::system(line.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "output")};
     }
 
     std::string record() const { return slurp(folder_ / "run.json"); }
 
-    fs::path folder_ = fs::temp_directory_path() /
-                       (std::string("turbidite-job-") +
-                        testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::path folder_ =
+        fs::temp_directory_path() / (std::string("turbidite-job-") +
+                                     testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(Job, PlaysToTheEnd) {
@@ -108,7 +109,7 @@ TEST_F(Job, ASilentParticipantIsNamedUnderJoint) {
     EXPECT_NE(record().find("no \\\"response\\\" from fluid"), std::string::npos) << record();
 }
 
-TEST_F(Job, AnExceptionEndsAllWithItsCodeAndWords) {
+TEST_F(Job, AnExceptionEndsAllWithItsCodeAndMessage) {
     const Result result = run(1, 1, "throw", "");
     EXPECT_EQ(result.code, 6) << result.output;
     EXPECT_NE(record().find("scripted trouble"), std::string::npos) << record();

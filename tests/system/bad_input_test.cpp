@@ -65,14 +65,14 @@ TEST_F(BadInput, LawsThatCannotBe) {
                    {"contact.adhesion_force is missing", "contact.adhesion_shear is missing"});
 }
 
-TEST_F(BadInput, WallsThatNobodyCouldBuild) {
+TEST_F(BadInput, ImpossibleWalls) {
     scratch.write("walls.csv", "id,x1,y1,x2,y2,friction\n1,3,3,3,3,0.3\n2,3,4,5,4,-1\n");
     expect_refused({"domain.walls_file=walls.csv"},
                    {"walls.csv line 2: wall 1 has length 0", "friction = -1"});
 }
 
 // All errors are reported at once, not one after the other.
-TEST_F(BadInput, IsToldTogether) {
+TEST_F(BadInput, IsReportedTogether) {
     expect_refused(
         {"contact.friction=-0.1", "grains.density_ratio=0", "contact.law=static-dynamic"},
         {"contact.friction = -0.1", "grains.density_ratio = 0",

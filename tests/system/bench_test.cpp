@@ -65,7 +65,7 @@ TEST_F(Bench, UnknownNamesAreRefused) {
     EXPECT_SAYS(figure.err, "speedup_2_ranks");
 }
 
-TEST_F(Bench, AContenderThatFailsIsNamedWithItsLastWords) {
+TEST_F(Bench, AContenderThatFailsIsNamedWithTheEndOfItsOutput) {
     scratch.write("bin/icoFoam", "#!/bin/sh\necho 'icoFoam is not well'\nexit 3\n");
     const Answer answer =
         shell("chmod +x bin/icoFoam; PATH=$PWD/bin:$PATH " + program +

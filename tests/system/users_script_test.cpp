@@ -43,7 +43,8 @@ class UsersScript : public ShellTest {
 
     void script(std::string text) const {
         for (const auto& [word, value] :
-             {std::pair<std::string, std::string>{"FOLDER", scratch.path().string()}, {"TIME", "1.0"}})
+             {std::pair<std::string, std::string>{"FOLDER", scratch.path().string()},
+              {"TIME", "1.0"}})
             for (auto at = text.find(word); at != std::string::npos; at = text.find(word))
                 text.replace(at, word.size(), value);
         scratch.write("mine.py", text);
@@ -55,7 +56,8 @@ class UsersScript : public ShellTest {
 
     /// The run ends with this code because of what the script did; the message names the file and
     /// the action.
-    void expect_refused(const std::string& text, const std::string& deed, const std::string& options = "") const {
+    void expect_refused(const std::string& text, const std::string& deed,
+                        const std::string& options = "") const {
         script(text);
         const Answer answer = run(" --force" + options);
         EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
@@ -81,13 +83,15 @@ TEST_F(UsersScript, RecordsAndSavesBesideTheContactEngine) {
     const std::vector<double> seen = heights();
     ASSERT_GE(seen.size(), 4u);
     EXPECT_LT(seen.back(), seen.front()) << "the grain falls";
-    EXPECT_TRUE(std::filesystem::exists(run_folder() / "grains/mine.py")) << "the run folder holds a copy";
+    EXPECT_TRUE(std::filesystem::exists(run_folder() / "grains/mine.py"))
+        << "the run folder holds a copy";
 
     // Both scenes can be loaded in YADE; that of the run continues without the fluid.
     scratch.write("load.py", R"(
 import turbidite_contact
 for name in ('first', 'saved'):
-    O.load(')" + scratch.path().string() + R"(/%s.yade.gz' % name)
+    O.load(')" + scratch.path().string() +
+                                 R"(/%s.yade.gz' % name)
     O.engines = [engine for engine in O.engines if engine.label.startswith('turbidite')]
     turbidite_contact.attach(gravity=(0, -1, 0))
     before = O.bodies[len(O.bodies) - 2].state.pos[1]
@@ -139,27 +143,31 @@ TEST_F(UsersScript, ChangesNoDigitOfTheRun) {
 
 TEST_F(UsersScript, WhatBelongsToTheCaseIsRefusedByName) {
     expect_refused("O.dt = 0.5 * O.dt\n", "changed O.dt from 0.0125 to 0.00625");
-    expect_refused("O.engines = []\n", "took away the engine PyRunner turbidite");
+    expect_refused("O.engines = []\n", "removed the engine PyRunner turbidite");
     expect_refused("O.bodies.erase(4)\n", "erased body 4");
-    expect_refused("from yade import utils\nO.bodies.append(utils.sphere((1, 1, 0), 0.1))\n", "added 1 bodies");
+    expect_refused("from yade import utils\nO.bodies.append(utils.sphere((1, 1, 0), 0.1))\n",
+                   "added 1 bodies");
     expect_refused("O.bodies[4].state.vel = (1, 0, 0)\n", "moved body 4");
     expect_refused("1 / 0\n", "ZeroDivisionError");
-    expect_refused("O.engines = O.engines[:-1]\n", "took away the engine NewtonIntegrator", md);
-    expect_refused("O.engines = O.engines[::-1]\n", "put the engines of the case into another order", md);
+    expect_refused("O.engines = O.engines[:-1]\n", "removed the engine NewtonIntegrator", md);
+    expect_refused("O.engines = O.engines[::-1]\n", "reordered the engines of the case", md);
 }
 
 // Also checked later, before the next window.
 TEST_F(UsersScript, WhatAnEngineOfTheScriptDoesIsLookedAtInEveryWindow) {
-    const std::string every = "O.engines = O.engines + [PyRunner(command='meddle()', iterPeriod=1)]\n";
+    const std::string every =
+        "O.engines = O.engines + [PyRunner(command='meddle()', iterPeriod=1)]\n";
     expect_refused("def meddle():\n    if O.iter > 3: O.dt = 1.0\n" + every, "changed O.dt");
-    expect_refused("def meddle():\n    if O.iter > 3: O.bodies[4].state.pos = (3, 3, 0)\n" + every, "moved grain 0");
+    expect_refused("def meddle():\n    if O.iter > 3: O.bodies[4].state.pos = (3, 3, 0)\n" + every,
+                   "moved grain 0");
     EXPECT_GE(record().at("windows_done"), 3);
     expect_refused("def meddle():\n    if O.iter > 300: O.dt = 1.0\n" + every, "changed O.dt", md);
 }
 
 TEST_F(UsersScript, AnErrorInOneOfItsEnginesEndsTheRun) {
-    script("def fail():\n    if O.iter > 3: raise ValueError('no such column')\n"
-           "O.engines = O.engines + [PyRunner(command='fail()', iterPeriod=1)]\n");
+    script(
+        "def fail():\n    if O.iter > 3: raise ValueError('no such column')\n"
+        "O.engines = O.engines + [PyRunner(command='fail()', iterPeriod=1)]\n");
     for (const std::string& options : {std::string(), md}) {
         const Answer answer = run(" --force" + options);
         EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
@@ -169,7 +177,9 @@ TEST_F(UsersScript, AnErrorInOneOfItsEnginesEndsTheRun) {
 }
 
 TEST_F(UsersScript, IsCheckedBeforeAnythingStarts) {
-    const auto check = [&](const std::string& options) { return shell(program + " check case.yaml" + options); };
+    const auto check = [&](const std::string& options) {
+        return shell(program + " check case.yaml" + options);
+    };
     Answer answer = check("");
     EXPECT_EQ(answer.code, 2);
     EXPECT_SAYS(answer.err, "grains.script");

@@ -28,7 +28,7 @@ class Split final : public Scheme {
 
 SchemeEntry split_scheme() {
     return {.name = "split",
-            .help = "the scheme of Topin et al. 2011: contacts, then fluid",
+            .help = "contacts, then fluid, as in Topin et al. 2011",
             .fluid = {{Kind::window, from_coupler},
                       {Kind::constraint, from_coupler},
                       {Kind::accept, from_coupler},

@@ -18,7 +18,7 @@ void for_each_state(AnyWall& wall, Visit&& visit) {
 
 void read_walls(ByteReader& in, std::vector<Wall>& walls) {
     if (in.value<std::uint64_t>() != walls.size())
-        throw std::invalid_argument("saved contact state: it has another number of walls");
+        throw std::invalid_argument("saved contact state: the number of walls differs");
     for (Wall& wall : walls)
         for_each_state(wall,
                        [&in](auto& value) { value = in.value<std::decay_t<decltype(value)>>(); });
@@ -70,7 +70,8 @@ SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
 }
 
 void demand_end(const ByteReader& in) {
-    if (!in.at_end()) throw std::invalid_argument("saved contact state: it is too long");
+    if (!in.at_end())
+        throw std::invalid_argument("saved contact state: unexpected data at the end");
 }
 
 }  // namespace turbidite::nscd

@@ -77,7 +77,8 @@ bool ContactLaws::all_round() const {
 void ContactLaws::check_shapes() const {
     if (law_.has(LawSlot::rolling) && !all_round())
         throw std::invalid_argument(
-            "rolling resistance is for discs only: faces resist rolling by themselves");
+            "rolling resistance is for discs only; polygons need none, since their faces resist "
+            "rolling");
 }
 
 bool ContactLaws::is_round(const Bodies& bodies, std::int32_t body) const {

@@ -23,7 +23,8 @@ bool never_bounces(const SurfaceTable& surfaces) {
 
 double bounce_threshold(const LawSettings& settings) {
     if (settings.restitution_speed >= 0.0) return settings.restitution_speed;
-    throw std::invalid_argument("the speed below which nothing bounces must be zero or positive");
+    throw std::invalid_argument(
+        "the approach speed below which contacts do not rebound must be zero or positive");
 }
 
 }  // namespace turbidite::nscd

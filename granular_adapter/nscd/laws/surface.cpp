@@ -40,7 +40,7 @@ Surface smaller(const Surface& a, const Surface& b) {
 
 SurfaceTable::SurfaceTable(std::vector<Surface> surfaces, std::vector<SurfacePair> pairs)
     : count_(static_cast<std::int32_t>(surfaces.size())) {
-    if (surfaces.empty()) throw std::invalid_argument("contacts need one material or more");
+    if (surfaces.empty()) throw std::invalid_argument("contacts need at least one material");
     for (std::size_t i = 0; i < surfaces.size(); ++i) check(surfaces[i], i);
     for (const Surface& a : surfaces)
         for (const Surface& b : surfaces) pairs_.push_back(smaller(a, b));

@@ -61,7 +61,7 @@ class ByteReader {
  private:
     void demand(std::uint64_t count, std::size_t size) const {
         if (count > (bytes_.size() - at_) / size)
-            throw std::invalid_argument("saved contact state: it ends too early");
+            throw std::invalid_argument("saved contact state: the data is incomplete");
     }
 
     const std::vector<char>& bytes_;

@@ -83,8 +83,8 @@ class Host:
         worst = self.engine.overlap()
         if worst and worst[3] > MOST_OVERLAP:
             self.scene = None
-            raise Refused('turbidite_contact: bodies %d and %d overlap by %.3g, %.3g of the smaller radius; more than '
-                          '%g is no packing of rigid bodies. Move them apart' % (*worst, MOST_OVERLAP))
+            raise Refused('turbidite_contact: bodies %d and %d overlap by %.3g, %.3g of the smaller radius; rigid '
+                          'bodies may start with at most %g. Move them apart' % (*worst, MOST_OVERLAP))
 
     def loads(self):
         """(forces, torques) of O.forces by body; empty if none were set in this step.
@@ -136,8 +136,8 @@ def check_loop():
             continue
         if name == 'NewtonIntegrator':
             raise Refused('turbidite_contact: a NewtonIntegrator in O.engines would move the bodies a second time; '
-                          'take it out (the dead one of turbidite_contact.engines() tells gravity)')
+                          'remove it (the dead one of turbidite_contact.engines() only supplies gravity)')
         resetter = resetter or name == 'ForceResetter'
         if engine.label == 'turbidite_contact' and not resetter:
-            raise Refused('turbidite_contact: no ForceResetter before it in O.engines; forces would add up from '
+            raise Refused('turbidite_contact: no ForceResetter before it in O.engines; forces would accumulate from '
                           'step to step. Keep the one of turbidite_contact.engines()')

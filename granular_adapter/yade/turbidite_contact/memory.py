@@ -63,7 +63,7 @@ def read(runner):
     mark, text = runner.command[:len(MARK)], runner.command[len(MARK):].strip()
     try:
         if mark != MARK:
-            raise ValueError('it begins with something else')
+            raise ValueError('unexpected beginning')
         settings, end = json.JSONDecoder().raw_decode(text)
         return settings, binascii.a2b_base64(text[end:].strip())
     except ValueError as error:

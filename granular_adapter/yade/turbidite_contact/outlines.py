@@ -30,7 +30,7 @@ def prism_outline(body):
     corners = box_corners(body.shape) if type(body.shape).__name__ == 'Box' else list(body.shape.v)
     axis = axis_along_z(body)
     if axis is None:
-        refuse(body, 'has no axis along z', 'only prisms that stand on the plane of motion can be treated')
+        refuse(body, 'has no axis along z', 'only prisms perpendicular to the plane of motion are supported')
     turn = Quaternion(*TURNS[axis])
     ends = split_by_level([turn * corner for corner in corners], body)
     vertices = anticlockwise(ends[1])
@@ -75,17 +75,17 @@ def check_prism(body, ends, vertices):
     size = max(math.hypot(x, y) for x, y in vertices)
     other = anticlockwise(ends[0])
     if len(other) != len(vertices):
-        refuse(body, 'is no prism along z: its ends differ', 'extrude the polygon along z')
+        refuse(body, 'is not a prism along z: its ends differ', 'extrude the polygon along z')
     for point in vertices:
         if min(math.dist(point, partner) for partner in other) > TILT * size:
-            refuse(body, 'is no prism along z: its ends differ', 'extrude the polygon along z')
+            refuse(body, 'is not a prism along z: its ends differ', 'extrude the polygon along z')
 
 
 def check_convex(body, vertices):
     try:
         check_outline([coordinate for vertex in vertices for coordinate in vertex])
     except ValueError as error:
-        refuse(body, f'is no convex polygon ({error})', 'give it other vertices')
+        refuse(body, f'is not a convex polygon ({error})', 'give it other vertices')
 
 
 def facet_segment(body, plane):
@@ -106,5 +106,5 @@ def facet_segment(body, plane):
             points.add((a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])))
     if len(points) != 2:
         refuse(body, f'does not cross the plane of motion z = {plane:g} in a line',
-               'use facets that stand on the plane')
+               'use facets perpendicular to the plane')
     return sorted(points)

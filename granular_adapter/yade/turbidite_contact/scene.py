@@ -35,7 +35,7 @@ def read_scene():
         elif kind in ('Sphere', 'Polyhedra', 'Box'):
             builder.add_body(body, kind)
         else:
-            refuse(body, 'has a shape without contacts here',
+            refuse(body, 'has a shape that is not supported',
                    'supported are Sphere, Polyhedra, Box, Wall, Facet')
     for body in walls:
         builder.add_wall(body)
@@ -64,7 +64,7 @@ def check_body(body):
         refuse(body, 'has no shape', 'erase it')
     numbers = [*body.state.pos, *body.state.vel, *body.state.angVel]
     if not all(math.isfinite(x) for x in numbers):
-        refuse(body, 'has a position or velocity that is not a number', 'set it')
+        refuse(body, 'has a position or velocity that is not finite', 'set it')
 
 
 class Scene:
@@ -143,7 +143,7 @@ class Builder:
         if not FREE <= blocked:
             refuse(body, f'moves in three dimensions (blockedDOFs = {state.blockedDOFs!r})',
                    "set state.blockedDOFs = 'zXY', or build it with turbidite_contact.disc()")
-        refuse(body, f'is held in one direction only (blockedDOFs = {state.blockedDOFs!r})',
+        refuse(body, f'is blocked in one direction only (blockedDOFs = {state.blockedDOFs!r})',
                "supported are 'zXY', 'zXYZ' and 'xyzXYZ'")
 
     def check_inertia(self, body, record):

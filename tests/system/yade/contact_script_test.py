@@ -268,7 +268,7 @@ class Refusals(SceneTest):
         body.state.blockedDOFs = ''
         self.refused('body 0 (Sphere) moves in three dimensions', "blockedDOFs = ''", 'zXY')
         body.state.blockedDOFs = 'xzXY'
-        self.refused('body 0 (Sphere) is held in one direction only')
+        self.refused('body 0 (Sphere) is blocked in one direction only')
         body.state.blockedDOFs, body.state.vel = 'zXY', Vector3(0, 0, 1)
         self.refused('body 0 (Sphere) moves out of the plane')
 
@@ -280,7 +280,7 @@ class Refusals(SceneTest):
         body.state.mass, body.state.inertia = mass, Vector3.Zero
         self.refused('body 0 (Sphere) has moment of inertia 0.0')
         body.state.inertia, body.state.pos = Vector3(1, 1, 1), Vector3(math.nan, 0, 0)
-        self.refused('body 0 (Sphere) has a position or velocity that is not a number')
+        self.refused('body 0 (Sphere) has a position or velocity that is not finite')
         body.state.pos = Vector3(0, 1, 0)
         O.materials[0].frictionAngle = -0.1
         self.refused('body 0 (Sphere) has frictionAngle = -0.1', '[0, pi/2)')
@@ -297,7 +297,7 @@ class Refusals(SceneTest):
     def test_bodies_of_other_kinds(self):
         self.scene()
         O.bodies.append(utils.tetra([(0, 0, 5), (1, 0, 5), (0, 1, 5), (0, 0, 6)]))
-        self.refused('body 1 (Tetra) has a shape without contacts here', 'Sphere, Polyhedra')
+        self.refused('body 1 (Tetra) has a shape that is not supported', 'Sphere, Polyhedra')
         O.bodies.erase(1)
         O.bodies.appendClumped([utils.sphere((3, 0, 0), 0.5), utils.sphere((3.5, 0, 0), 0.5)])
         self.refused('body 2 (Sphere) is a clump or part of one')

@@ -215,7 +215,7 @@ TEST_F(CaseFile, VariantsOfLaterVersions) {
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
 }
 
-TEST_F(CaseFile, JointTellsWhichKeysHaveNoEffect) {
+TEST_F(CaseFile, JointReportsWhichKeysHaveNoEffect) {
     const ResolvedCase joint = load("coupling: {scheme: joint}\n");
     for (const std::string& note : joint.notes)
         EXPECT_EQ(note.find("has no effect"), std::string::npos) << note;
@@ -294,7 +294,7 @@ TEST_F(CaseFile, CentralTransportMayTakeAnyStepWhereItIsCutFinely) {
     const std::string scheme = "fluid.transport_scheme=Gauss linear";
     EXPECT_EQ(refusal("", {scheme, "time.step=0.05", "fluid.cells_per_diameter=75"}), "");
     EXPECT_SAYS(refusal("", {scheme, "time.step=0.05", "fluid.cells_per_diameter=70"}),
-                "unstable beyond");
+                "unstable for steps above");
 }
 
 TEST_F(CaseFile, TransportIsNotedBeyondTheStepOfFasterJets) {

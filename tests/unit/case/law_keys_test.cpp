@@ -71,7 +71,7 @@ TEST_F(LawKeys, ValuesOutOfRange) {
 }
 
 // theta <= 1/(1 + e); 1/2 is valid for every e.
-TEST_F(LawKeys, ThetaThatWouldMakeEnergy) {
+TEST_F(LawKeys, ThetaThatWouldCreateEnergy) {
     EXPECT_EQ(refusal({"contact.restitution=1"}), "");
     EXPECT_EQ(refusal({"contact.restitution=0.6", "contact.theta=0.625"}), "");
     const std::string text = refusal({"contact.restitution=0.6", "contact.theta=0.63"});
@@ -91,7 +91,7 @@ TEST_F(LawKeys, RollingResistanceNeedsDiscsAndASolverThatKnowsIt) {
     EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "contact.solver=nlgs-stored"}),
                 "nlgs-stored does not support rolling resistance");
     EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "grains.shape=triangle"}),
-                "faces resist rolling by themselves");
+                "their faces resist rolling");
 }
 
 TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
@@ -100,7 +100,8 @@ TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
     EXPECT_SAYS(notes({"contact.static_friction=0.5"}), "without contact.law: static-dynamic");
     EXPECT_EQ(notes({}).find("contact."), std::string::npos);
     EXPECT_SAYS(notes({"contact.restitution=0.5"}), "contact.impact: moreau never does");
-    EXPECT_SAYS(notes({"contact.solver=central-path"}), "contact.iterations = 2000 leaves");
+    EXPECT_SAYS(notes({"contact.solver=central-path"}),
+                "contact.iterations = 2000 is used up by the initial sweeps");
     EXPECT_EQ(notes({"contact.solver=central-path", "contact.iterations=20000"}).find("contact."),
               std::string::npos);
     EXPECT_EQ(notes({"contact.restitution=0.5", "contact.impact=moreau"}).find("contact."),

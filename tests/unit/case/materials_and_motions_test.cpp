@@ -87,7 +87,7 @@ TEST_F(RichCase, RowsThatMakeNoSenseAreRefused) {
 TEST_F(RichCase, MaterialsMustFitTogether) {
     EXPECT_SAYS(refusal("", {"contact.pairs.steel-glass.friction=0.1"}),
                 "There is no material glass; there are default, rubber, steel.");
-    EXPECT_SAYS(refusal("", {"contact.theta=0.9"}), "theta = 1/(1 + e)");
+    EXPECT_SAYS(refusal("", {"contact.theta=0.9"}), "theta is above 1/(1 + e)");
     EXPECT_SAYS(refusal("", {"contact.law=static-dynamic", "contact.static_friction=0.5"}),
                 "contact.materials.rubber.");
     EXPECT_SAYS(refusal("", {"contact.materials.steel.restitution=2"}),
@@ -149,7 +149,7 @@ TEST_F(MovingWalls, WhatMakesNoSenseIsRefused) {
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.motions.m.period=2"})),
                 "A constant motion has no period");
     EXPECT_SAYS(refusal("", with({kind + "table", "domain.motions.m.table=[0,0,0,0,1,1]"})),
-                "times grow");
+                "times increase");
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.motions.m.spin=1"})), "does not turn");
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.right=free"})), "Only walls can move");
     EXPECT_SAYS(refusal("", with({kind + "constant", "fluid.enabled=true"})),

@@ -108,7 +108,7 @@ TEST(CallOrder, AMessageOfAnotherRoundIsRefused) {
 }
 
 // A round cannot end between its two messages, and the first round cannot be skipped.
-TEST(CallOrder, AcceptIsDueBehindARoundOnly) {
+TEST(CallOrder, AcceptIsAllowedOnlyAfterARound) {
     Ends ends(Role::fluid);
     ends.start(Role::fluid, "joint");
     for (const Kind kind : {Kind::window, Kind::bodies, Kind::response}) ends.pass(kind);
@@ -172,7 +172,7 @@ TEST(CallOrder, AMessageOfAnotherWindowIsRefused) {
     EXPECT_THROW(ends.participant.received(envelope, from_coupler), OrderViolation);
 }
 
-TEST(CallOrder, BadNewsMayComeAtAnyTimeAndEndsTheTalk) {
+TEST(CallOrder, FailureOrDismissalMayComeAtAnyTimeAndEndsTheExchange) {
     Ends ends(Role::grains);
     ends.start(Role::grains, "split");
     ends.pass(Kind::window);

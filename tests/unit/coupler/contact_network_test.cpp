@@ -100,7 +100,7 @@ TEST(ContactNetwork, StressOfATowerIsItsWeightTimesHeight) {
 }
 
 // Shear: different forces at +45 and -45 degrees; the tensor stays symmetric.
-TEST(ContactNetwork, TellsShear) {
+TEST(ContactNetwork, ReportsShear) {
     const auto network =
         contact_network({push(1, 2, pi / 4, 3.0), push(3, 4, -pi / 4, 1.0)}, 4, step);
     EXPECT_NEAR(network.virial.xx, 2.0, 1e-12);
@@ -123,7 +123,7 @@ TEST(ContactNetwork, PointsOfAPairAreOneLink) {
 
 // A grain at two walls; and grain 1, which touches no wall although the `a` of a wall contact may
 // be any number.
-TEST(ContactNetwork, WallsCountOnceAndFliersNotAtAll) {
+TEST(ContactNetwork, WallsCountOnceAndGrainsWithoutContactsDoNotCount) {
     ContactRecord left = on_floor(7);
     left.wall = 0;
     const ContactNetwork network = contact_network({left, on_floor(7)}, 4, step);

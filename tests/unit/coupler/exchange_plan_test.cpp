@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "coupler/protocol/failure.hpp"
 #include "coupler/hub/exchange_plan.hpp"
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
@@ -23,8 +23,8 @@ Kick kick(GrainId id) {
     return k;
 }
 
-// Two fluid ranks share [0, 10]; a grain at 4.8 with radius 0.5 touches both, one at 4.2 and margin 0.2 only the
-// left one (4.2 + 0.7 < 5).
+// Two fluid ranks share [0, 10]; a grain at 4.8 with radius 0.5 touches both, one at 4.2 and margin
+// 0.2 only the left one (4.2 + 0.7 < 5).
 TEST(ExchangePlan, AGrainGoesToEveryFluidRankItTouches) {
     const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.2, {});
     const auto routed = plan.by_place({{grain(1, 4.8), grain(2, 4.2), grain(3, 9.0)}, {}});
@@ -40,7 +40,7 @@ TEST(ExchangePlan, PeriodicImagesAreRouted) {
     EXPECT_EQ(plan.by_place({{grain(1, 9.8)}, {}})[0].grains.size(), 1u);
 }
 
-TEST(ExchangePlan, KicksGoHomeWhateverTheIds) {
+TEST(ExchangePlan, KicksReturnToTheOwnersForAnyIds) {
     ExchangePlan plan({}, 0.0, {});
     const GrainId huge = GrainId{1} << 60;  // ids are identifiers, not array indices
     plan.gather({{{grain(huge, 0)}, {}}, {{grain(-3, 1), grain(7, 2)}, {}}});
@@ -73,8 +73,8 @@ TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
     ContactRecord floor = contact(77, 2);  // the id of a has no meaning at a wall
     floor.wall = 2;
     const std::vector<ContactRecord> left = {floor, contact(1, 2, 1), contact(1, 2)};
-    const Motion all = plan.gather({{{grain(1, 0), grain(2, 1)}, {}, left},
-                                    {{grain(3, 2)}, {}, std::vector{contact(1, 3)}}});
+    const Motion all = plan.gather(
+        {{{grain(1, 0), grain(2, 1)}, {}, left}, {{grain(3, 2)}, {}, std::vector{contact(1, 3)}}});
     ASSERT_EQ(all.contacts->size(), 4u);
     EXPECT_EQ(all.contacts->at(0).feature, 0);
     EXPECT_EQ(all.contacts->at(1).feature, 1);
@@ -83,7 +83,7 @@ TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
     EXPECT_FALSE(plan.gather({{{grain(1, 0)}, {}}, {{grain(2, 1)}, {}}}).contacts);
 }
 
-TEST(ExchangePlan, AContactTwiceOrOfAStrangerOrByHalfTheRanksIsRefused) {
+TEST(ExchangePlan, DuplicateUnknownOrPartialContactsAreRefused) {
     ExchangePlan plan({}, 0.0, {});
     const std::vector<ContactRecord> one = {contact(1, 2)};
     const auto gather = [&](Motion first, Motion second) { plan.gather({first, second}); };
@@ -104,7 +104,7 @@ TEST(ExchangePlan, EmptyMeasuresStayEmpty) {
     EXPECT_EQ(report.quad, 0.25);
 }
 
-TEST(ExchangePlan, AMissingADoubleAndAForeignAnswerAreRefused) {
+TEST(ExchangePlan, MissingDuplicateAndUnknownAnswersAreRefused) {
     ExchangePlan plan({}, 0.0, {});
     plan.gather({{{grain(1, 0), grain(2, 1)}, {}}});
     EXPECT_THROW(plan.by_owner(std::vector{kick(1)}), PhysicsRefused);
@@ -113,7 +113,7 @@ TEST(ExchangePlan, AMissingADoubleAndAForeignAnswerAreRefused) {
     EXPECT_THROW(plan.gather({{{grain(1, 0)}, {}}, {{grain(1, 0)}, {}}}), PhysicsRefused);
 }
 
-TEST(ExchangePlan, SharesAreEvenAndLoseNobody) {
+TEST(ExchangePlan, SharesAreEvenAndComplete) {
     std::vector<GrainState> population;
     for (int i = 0; i < 7; ++i) population.push_back(grain(i, 7 - i));
     const auto shares = shares_of(population, 3);

@@ -29,7 +29,7 @@ TEST(Handshake, AFittingParticipantHasNoMismatch) {
     EXPECT_TRUE(mismatches(fitting(), expected()).empty());
 }
 
-TEST(Handshake, AnotherMinorVersionIsWelcome) {
+TEST(Handshake, AnotherMinorVersionIsAccepted) {
     Hello hello = fitting();
     hello.protocol_minor += 3;
     EXPECT_TRUE(mismatches(hello, expected()).empty());
@@ -68,7 +68,7 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
 }
 
 // A participant of version 1.3 waits for the shapes when the order of a window arrives.
-TEST(Handshake, AVersionThatIsToldNoOrderIsRefused) {
+TEST(Handshake, AVersionWithoutWindowOrderIsRefused) {
     Hello old = fitting();
     old.protocol_minor = 3;
     const auto sentences = mismatches(old, expected());

@@ -62,7 +62,7 @@ TEST(Hub, ADryRunFallsFreely) {
     EXPECT_EQ(rows.back()[column(rows[0], "divergence")], "");
 }
 
-TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnWords) {
+TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnMessage) {
     const TestFolder folder("hub-failure");
     Job job;
     job.fluid_fault = [](const std::string& function, std::int64_t window) {
@@ -320,7 +320,7 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-TEST(HubMultipliers, WindowsThatStopAtTheLimitAreCountedAndTold) {
+TEST(HubMultipliers, WindowsThatStopAtTheLimitAreCountedAndReported) {
     const TestFolder folder("hub-multipliers-counted");
     Job job;
     job.from_fluid = unsolved_in({1, 2, 5});
@@ -333,12 +333,12 @@ TEST(HubMultipliers, WindowsThatStopAtTheLimitAreCountedAndTold) {
     EXPECT_NE(log.find("multipliers 0 its, 2e-03 NOT CONVERGED"), std::string::npos) << log;
     EXPECT_NE(
         log.find("in 3 of 6 windows the multiplier problem used up its 200 iterations "
-                 "(fluid.multiplier_iterations); rms slip up to 2.0e-03 u_c, 0.0001 demanded"),
+                 "(fluid.multiplier_iterations); rms slip up to 2.0e-03 u_c, 0.0001 required"),
         std::string::npos)
         << log;
 }
 
-TEST(HubMultipliers, ThreeWindowsRunningEndTheRun) {
+TEST(HubMultipliers, ThreeConsecutiveWindowsEndTheRun) {
     const TestFolder folder("hub-multipliers-refused");
     Job job;
     job.fluid_ranks = 2;

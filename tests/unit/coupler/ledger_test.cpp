@@ -65,7 +65,7 @@ TEST_F(LedgerTest, BoundsTheOverlap) {
 }
 
 // The advice names keys of the adapter in use.
-TEST_F(LedgerTest, SaysWhatLessensOverlaps) {
+TEST_F(LedgerTest, AdvisesHowToReduceOverlaps) {
     result.state.report.max_penetration = 0.21;
     EXPECT_SAYS(complaint(), "Use a smaller time.step, or more contact.iterations.");
     Settings settings = test_settings();
@@ -75,7 +75,7 @@ TEST_F(LedgerTest, SaysWhatLessensOverlaps) {
     EXPECT_EQ(complaint().find("contact.iterations"), std::string::npos);
 }
 
-TEST_F(LedgerTest, BearsTwoDivergentWindowsButNotThree) {
+TEST_F(LedgerTest, ToleratesTwoDivergentWindowsButNotThree) {
     result.kicks.report.divergence = 2e-4;
     EXPECT_EQ(complaint(), "");
     EXPECT_EQ(complaint(), "");
@@ -88,7 +88,7 @@ TEST_F(LedgerTest, BearsTwoDivergentWindowsButNotThree) {
     EXPECT_SAYS(complaint(), "in 3 consecutive windows");
 }
 
-TEST_F(LedgerTest, BearsTwoUnsolvedMultiplierProblemsButNotThree) {
+TEST_F(LedgerTest, ToleratesTwoUnsolvedMultiplierProblemsButNotThree) {
     FluidReport& fluid = result.kicks.report;
     fluid.multiplier_residual = 3e-3;
     for (const bool converged : {false, false, true, false, false}) {

@@ -21,13 +21,14 @@ namespace turbidite {
 namespace {
 
 class Twice final : public Scheme {
-   public:
+ public:
     WindowResult play(const Window& window, const Motion& before, Cast cast) override {
         cast.fluid->send_all(Kind::window, window);
         cast.grains.send_all(Kind::window, window);
         WindowResult result;
         result.motion = receive_motion(window, cast);
-        cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses_to(window, result.motion, cast)));
+        cast.grains.send_each(Kind::contact_input,
+                              cast.plan.by_owner(responses_to(window, result.motion, cast)));
         result.motion = receive_motion(window, cast);
         responses_to(window, result.motion, cast);
         send_accept(cast);
@@ -35,8 +36,9 @@ class Twice final : public Scheme {
         return result;
     }
 
-   private:
-    static std::vector<FreeResponse> responses_to(const Window& window, const Motion& motion, Cast& cast) {
+ private:
+    static std::vector<FreeResponse> responses_to(const Window& window, const Motion& motion,
+                                                  Cast& cast) {
         cast.fluid->send_each(Kind::constraint, cast.plan.by_place(motion));
         return receive_responses(window, cast);
     }
@@ -59,7 +61,9 @@ SchemeEntry twice_scheme() {
                        {Kind::kick, from_coupler},
                        {Kind::state, to_coupler}},
             .slip_per_mismatch = 0.0,
-            .make = [](const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Twice>(); }};
+            .make = [](const Settings&) -> std::unique_ptr<Scheme> {
+                return std::make_unique<Twice>();
+            }};
 }
 
 /// Discs that land in the third window.
@@ -72,7 +76,7 @@ Job landing_under(const char* known_scheme) {
     return job;
 }
 
-TEST(AFourthScheme, PlaysWithPartnersThatNeverHeardOfIt) {
+TEST(AFourthScheme, WorksWithPartnersThatDoNotKnowIt) {
     const TestFolder joint_folder("scheme-joint"), folder("scheme-twice");
     Job joint = landing_under("joint");
     joint.run(joint_folder);
@@ -81,7 +85,8 @@ TEST(AFourthScheme, PlaysWithPartnersThatNeverHeardOfIt) {
     job.run(folder);
     ASSERT_EQ(job.status.code, ExitCode::done) << job.status.reason;
     for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::done);
-    const Rows rows = read_csv(folder.path() / "history.csv"), expected = read_csv(joint_folder.path() / "history.csv");
+    const Rows rows = read_csv(folder.path() / "history.csv"),
+               expected = read_csv(joint_folder.path() / "history.csv");
     ASSERT_EQ(rows.size(), 8u);
     EXPECT_EQ(cell(rows, 7, "contacts"), 3) << "nothing has landed, nothing was compared";
     for (std::size_t row = 2; row < 8; ++row)
@@ -107,8 +112,9 @@ TEST(AFourthScheme, OutOfOrderMessagesAreRefusedByTheParticipant) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::participant_failed);
-    EXPECT_NE(job.status.reason.find("received \"accept\" from the coupler in window 1, but \"constraint\" from the "
-                                     "coupler is due"),
+    EXPECT_NE(job.status.reason.find(
+                  "received \"accept\" from the coupler in window 1, but \"constraint\" from the "
+                  "coupler is due"),
               std::string::npos)
         << job.status.reason;
 }
@@ -127,8 +133,9 @@ TEST(AFourthScheme, OutOfOrderMessagesAreRefusedByTheCoupler) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::participant_failed);
-    EXPECT_NE(job.status.reason.find("fluid rank 0: received \"kicks\" from the participant in window 1, but "
-                                     "\"response\" from the participant is due"),
+    EXPECT_NE(job.status.reason.find(
+                  "fluid rank 0: received \"kicks\" from the participant in window 1, but "
+                  "\"response\" from the participant is due"),
               std::string::npos)
         << job.status.reason;
 }

@@ -19,14 +19,14 @@ class Outcome : public ::testing::Test {
     const std::vector<std::string> ranks{"coupler", "fluid rank 0", "grains rank 0"};
 };
 
-TEST_F(Outcome, TheCouplersWordCounts) {
+TEST_F(Outcome, TheCouplersMessageCounts) {
     scratch.write("run.json", R"({"exit_code": 6, "error": "grain 3 is through the left wall"})");
     const JobOutcome outcome = settle_outcome(folder, {.status = 134}, ranks);
     EXPECT_EQ(outcome.code, ExitCode::physics_refused);
     EXPECT_EQ(outcome.error, "grain 3 is through the left wall");
 }
 
-TEST_F(Outcome, WithoutAWordAProgramFailed) {
+TEST_F(Outcome, WithoutAMessageAProgramFailed) {
     scratch.write("run.json", R"({"exit_code": null, "case": "box"})");
     const JobOutcome outcome = settle_outcome(folder, {.status = 139}, ranks);
     EXPECT_EQ(outcome.code, ExitCode::participant_failed);
@@ -56,7 +56,7 @@ TEST_F(Outcome, NamesTheProgramThatLeftWithAStatus) {
                 "grains rank 0 ended with status 1");
 }
 
-TEST_F(Outcome, EndingWithoutAWordIsNoSuccess) {
+TEST_F(Outcome, EndingWithoutAMessageIsNoSuccess) {
     EXPECT_EQ(settle_outcome(folder, {.status = 0}, ranks).code, ExitCode::participant_failed);
 }
 

@@ -89,7 +89,7 @@ TEST_F(JobTest, NamesAProgramThatIsNotThere) {
     }
 }
 
-TEST_F(JobTest, FirstSignalIsAWish) {
+TEST_F(JobTest, FirstSignalIsARequest) {
     const std::string stop = (scratch.path() / "STOP").string();
     const Later signal(1, SIGTERM);
     const JobEnd end = run("until [ -e " + stop + " ]; do sleep 0.05; done; exit 7");

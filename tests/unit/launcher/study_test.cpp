@@ -93,7 +93,7 @@ TEST_F(StudyTest, OverridesGoToEveryRun) {
         EXPECT_EQ(run.resolve().settings.real("time.end"), 0.1);
 }
 
-TEST_F(StudyTest, WhatIsWrongInAnyRunIsToldOnceAndBeforeAnyStarts) {
+TEST_F(StudyTest, ErrorsInAnyRunAreReportedOnceAndBeforeAnyStarts) {
     const std::string text = refusal(R"(
 parts:
   first: {case: column.yaml, sweep: {contact.friction: [0.1, 0.2, -1], random.seed: [1, 2]}}
@@ -113,9 +113,9 @@ parts:
   b: {set: {time.end: 1}}
   c: {case: column.yaml, sweep: {random.seed: 3}, sweeep: {}}
 )");
-    EXPECT_SAYS(text, "study.yaml line 4: case: nowhere.yaml is not there");
+    EXPECT_SAYS(text, "study.yaml line 4: case: nowhere.yaml does not exist");
     EXPECT_SAYS(text, "study.yaml line 5: b has no case");
-    EXPECT_SAYS(text, "study.yaml line 6: sweep.random.seed is no list of values");
+    EXPECT_SAYS(text, "study.yaml line 6: sweep.random.seed is not a list of values");
     EXPECT_SAYS(text, "Did you mean sweep?");
     EXPECT_SAYS(text, "4 errors");
 }

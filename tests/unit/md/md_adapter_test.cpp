@@ -157,7 +157,7 @@ TEST(MdAdapter, HoldsAndAnnouncesTheLastImpulse) {
     EXPECT_NEAR(second.angular_velocity[2], 0.004 / (0.5 * area * 0.125), 1e-13);
 }
 
-TEST(MdAdapter, HoldsNothingWhenTold) {
+TEST(MdAdapter, HoldsNothingIfDisabled) {
     Settings settings = md_settings();
     settings.set("coupling.md_hold", false);
     Single md(settings);
@@ -185,7 +185,7 @@ TEST(MdAdapter, AGrainThatTouchedStaysWhereItIs) {
     EXPECT_NEAR(moved.position[1], place - lead, 1e-15);
 }
 
-TEST(MdAdapter, SaysWhatItIs) {
+TEST(MdAdapter, IdentifiesItself) {
     Single md(md_settings());
     const Hello hello = md.adapter.describe();
     EXPECT_EQ(hello.adapter, "yade-md");

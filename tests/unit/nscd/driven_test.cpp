@@ -100,7 +100,7 @@ TEST(Paddle, LiftsAtSpinTimesArm) {
 }
 
 /// A square that spins in a bed of discs.
-Engine stirred_bed(double spin = 1.0) {
+Engine driven_bed(double spin = 1.0) {
     const ShapeTable shapes = {{"disc", {}}, scenes::square_record()};
     EngineSettings settings = scenes::exact(0.3, 1e-6);
     settings.solver_settings.max_iterations = 2000;
@@ -140,8 +140,8 @@ Stirring stir(Engine& engine) {
 
 // The spinning square keeps its motion whatever it meets, and moves the bed. Below its corners
 // there is room for a disc, so that nothing is crushed.
-TEST(DrivenBody, StirsABed) {
-    Engine engine = stirred_bed(), idle = stirred_bed(0.0);
+TEST(DrivenBody, MovesABed) {
+    Engine engine = driven_bed(), idle = driven_bed(0.0);
     const Stirring stirred = stir(engine), at_rest = stir(idle);
     EXPECT_EQ(engine.bodies().twist[0].spin[2], 1.0);
     EXPECT_EQ(engine.bodies().position[0][0], 3.0);
@@ -153,7 +153,7 @@ TEST(DrivenBody, StirsABed) {
 // Walls are part of the state, with and without the bodies.
 TEST(DrivenBody, RestartsBitForBit) {
     const auto make = [] {
-        Engine engine = stirred_bed();
+        Engine engine = driven_bed();
         engine.walls()[1].velocity = {0.1, 0.0, 0.0};
         engine.walls()[0].spin = 0.01;
         return engine;
@@ -173,7 +173,7 @@ TEST(DrivenBody, RestartsBitForBit) {
 }
 
 TEST(DrivenBody, RestoringNeedsTheSameWalls) {
-    const Engine three = stirred_bed();
+    const Engine three = driven_bed();
     Engine one(scenes::exact(0.3), scenes::discs, {scenes::floor(0.3)});
     EXPECT_THROW(one.restore(three.save()), std::invalid_argument);
 }

@@ -241,7 +241,7 @@ TEST(Engine, RefusesBadSettings) {
 // The pairs detected by the step suffice for the overlap after it, unless a body moves farther than
 // the step searched: here a grain with a speed that no body had, through a neighbour that was far
 // away.
-TEST(Engine, KnowsTheOverlapAfterTheMoveWithoutLookingAgain) {
+TEST(Engine, ReportsTheOverlapAfterTheMotionWithoutNewDetection) {
     Engine engine = scenes::settling_pack(6, 8, scenes::exact(0.3, 1e-3));
     double deepest = 0.0;
     for (int n = 0; n < 300; ++n) {

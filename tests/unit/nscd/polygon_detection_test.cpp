@@ -125,7 +125,7 @@ void expect_mirrored(const std::vector<ContactPoint>& points,
 }
 
 // Bit for bit, discs included.
-TEST(PolygonDetection, DoesNotDependOnWhoIsAsked) {
+TEST(PolygonDetection, DoesNotDependOnTheOrderOfThePair) {
     std::mt19937_64 random(7);
     for (int n = 0; n < 2000; ++n) {
         RandomPair pair(random);
@@ -205,7 +205,7 @@ TEST(PolygonDetection, JoinsTwoCornersByALine) {
     expect_near(points[0].arm_a, {0.515, 0.52, 0.0});
 }
 
-TEST(PolygonDetection, PartsBodiesInTheSamePlace) {
+TEST(PolygonDetection, SeparatesCoincidentBodies) {
     for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
         const auto points = between(squares(), two_squares(0.0, 0.0, angle), 0, 1, 0.01);
         ASSERT_FALSE(points.empty());

@@ -43,7 +43,7 @@ std::vector<double> overlaps(double start, double dt, int steps) {
 
 // Each step leaves 80 % of a small overlap, whatever the time step; a deep one (0.1 D) decreases by
 // 0.5 dt.
-TEST(Recovery, TakesOverlapBackSlowly) {
+TEST(Recovery, RemovesOverlapGradually) {
     for (const double dt : {0.02, 0.01, 0.005}) {
         const auto small = overlaps(0.001, dt, 5);
         for (int n = 0; n < 5; ++n) EXPECT_NEAR(small[n], 0.001 * std::pow(0.8, n + 1), 1e-14);

@@ -113,7 +113,7 @@ TEST(Restitution, ChainOfThreeDiscs) {
 
 // e = e_t = 1 under high friction: both components of the contact velocity are reversed, and no
 // energy is lost. Moreau's law with e = 1 does the same.
-TEST(Restitution, SuperballTurnsItsSlipRound) {
+TEST(Restitution, SuperballReversesItsSlip) {
     for (const char* law : {"newton", "moreau"}) {
         EngineSettings settings = bouncing(1.0, 10.0);
         settings.gravity = {};
@@ -215,7 +215,7 @@ TEST(Restitution, EnergyChangesByTheWorkOfImpulses) {
     EXPECT_LT(work, -0.1 * expected) << "there must be impacts, or this tests nothing";
 }
 
-TEST(Restitution, RefusesWhatWouldMakeEnergy) {
+TEST(Restitution, RefusesWhatWouldCreateEnergy) {
     EngineSettings settings = bouncing(0.5);
     settings.theta = 1.0 / 1.5;
     EXPECT_NO_THROW(Engine(settings, scenes::discs, {}));

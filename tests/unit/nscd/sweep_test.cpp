@@ -292,7 +292,7 @@ TEST(Schedule, StretchesCoverAllGroupsAndKnowWhatTheyWaitFor) {
 }
 
 // One body in all contacts: one contact per group, whatever the width.
-TEST(Schedule, AHubIsServedOneContactAtATime) {
+TEST(Schedule, ABodyInAllContactsHasOneContactPerGroup) {
     std::vector<MovedPair> pairs;
     for (std::int32_t k = 1; k <= 200; ++k) pairs.push_back({0, k});
     const Schedule schedule = make_schedule(pairs, std::vector<std::uint8_t>(200, 1), 201, {4, 3});
@@ -405,7 +405,7 @@ TEST(SweepLayout, GoesOnFromTheSameStateInOtherGroups) {
 }
 
 // An inactive contact is not swept until a measuring sweep finds that it closes.
-TEST(SweepPipeline, WakesWhatCloses) {
+TEST(SweepPipeline, ReactivatesClosingContacts) {
     ContactProblem problem;
     problem.bodies.push_back(BodyMobility(1.0, 2.0));
     problem.free.push_back({{0.0, -1.0, 0.0}, {}});

@@ -23,7 +23,7 @@ Engine tower(double friction) {
 }
 
 // Two discs of weight pi/4 each: the floor carries both.
-TEST(ContactRecords, SayWhoPushesWhomAndHow) {
+TEST(ContactRecords, IdentifyBodiesAndForce) {
     const Engine engine = tower(2.0);
     const auto contacts = contact_records(engine);
     ASSERT_EQ(contacts.size(), 2u);
@@ -62,7 +62,7 @@ TEST(ContactRecords, AddUpToTheBodysImpulse) {
 }
 
 // A disc that slides at speed 1 over the floor, and one at rest.
-TEST(ContactRecords, TellSlidingFromSticking) {
+TEST(ContactRecords, DistinguishSlidingFromSticking) {
     Engine engine(exact(0.3), discs, {floor(0.3)});
     nscd::Body moving = disc(1, 0.0, 0.5);
     moving.twist.velocity = {1.0, 0.0, 0.0};
@@ -79,7 +79,7 @@ TEST(ContactRecords, TellSlidingFromSticking) {
 // An attraction of one weight w presses a block of weight w with 2 w: a force of 0.4 w does not
 // make it slide at mu = 0.3. Pulled upwards with 2.5 w, the contact is under traction and does not
 // slide either.
-TEST(ContactRecords, StatusKnowsWhatALawPulls) {
+TEST(ContactRecords, StatusAccountsForAttraction) {
     nscd::EngineSettings settings = exact(0.3);
     const double weight = disc(1, 0.0, 0.5).mass;
     settings.law.adhesion = "wet";
@@ -100,7 +100,7 @@ TEST(ContactRecords, StatusKnowsWhatALawPulls) {
 }
 
 // A slope of 0.2: the disc does not slide (mu = 0.5), and rolls against a resistance of 0.1.
-TEST(ContactRecords, TellRolling) {
+TEST(ContactRecords, ReportRolling) {
     nscd::EngineSettings settings = exact(0.5);
     settings.surfaces = {nscd::Surface{}};
     settings.surfaces[0].friction = 0.5;
@@ -136,7 +136,7 @@ TEST(ContactRecords, APullHasANegativeNormalForce) {
 }
 
 // Free fall within the alert distance: detected, but no contact.
-TEST(ContactRecords, LeaveOutWhatCarriesNothing) {
+TEST(ContactRecords, OmitContactsWithoutImpulse) {
     Engine engine(exact(0.3), discs, {floor(0.3)});
     engine.bodies().add(disc(1, 0.0, 0.505));
     engine.step(dt);

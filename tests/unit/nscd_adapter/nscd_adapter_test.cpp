@@ -194,7 +194,7 @@ TEST(NscdAdapter, RefusesWhatIsNotANumber) {
     std::vector<Kick> kicks = same_velocities(adapter.advance(window(4), {}));
     kicks[0].velocity[0] = std::numeric_limits<double>::quiet_NaN();
     const std::string text = refusal<PhysicsRefused>([&] { adapter.apply_kick(window(4), kicks); });
-    for (const char* part : {"grain 17", "not a number", "window 4"})
+    for (const char* part : {"grain 17", "not finite", "window 4"})
         EXPECT_TRUE(contains(text, part)) << text;
 }
 
@@ -330,7 +330,7 @@ TEST(NscdAdapter, HostMayKeepBodiesItself) {
     EXPECT_EQ(whole.save(), second.save());
 }
 
-TEST(NscdAdapter, SaysWhatItIs) {
+TEST(NscdAdapter, IdentifiesItself) {
     const Hello hello = NscdAdapter("yade-nscd", "YADE 2023.02a").describe();
     EXPECT_EQ(hello.adapter, "yade-nscd");
     EXPECT_EQ(hello.host_code, "YADE 2023.02a");
@@ -418,11 +418,11 @@ TEST(NscdAdapter, JointNeedsExactlyOneResponsePerGrain) {
         adapter.initialise(box_settings(), discs, {grain_at(11, 3, 10), grain_at(22, 7, 10)});
         return refusal<std::runtime_error>([&] { adapter.advance(window(3), responses); });
     };
-    EXPECT_EQ(error({falling_at(11, 0)}), "no response came for grain 22 in window 3");
+    EXPECT_EQ(error({falling_at(11, 0)}), "no response was received for grain 22 in window 3");
     EXPECT_EQ(error({falling_at(11, 0), falling_at(11, 0)}),
-              "two responses came for grain 11 in window 3");
+              "two responses were received for grain 11 in window 3");
     EXPECT_EQ(error({falling_at(99, 0), falling_at(11, 0)}),
-              "a response came for grain 99, which this rank does not have, in window 3");
+              "a response was received for grain 99, which this rank does not have, in window 3");
 }
 
 TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
@@ -436,7 +436,7 @@ TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
     adapter.bodies().rotation_blocked[0] = 1;
     const std::string held =
         refusal<std::runtime_error>([&] { adapter.advance(window(3), {falling_at(11, 0.0)}); });
-    EXPECT_TRUE(contains(held, "grain 11 is held")) << held;
+    EXPECT_TRUE(contains(held, "grain 11 is fixed")) << held;
 }
 
 // Without responses and kicks the contact velocities are final.

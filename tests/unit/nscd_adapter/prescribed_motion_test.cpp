@@ -64,7 +64,7 @@ TEST(WallMotion, TextThatIsNoMotionIsRefused) {
 }
 
 // A sin(w t) with A w^2 = 0.41 g: the disc never leaves the floor.
-TEST(WallMotion, AGrainRidesAShakenFloor) {
+TEST(WallMotion, AGrainFollowsAShakenFloor) {
     Settings settings = dry_box();
     const double period = 2.0 * std::numbers::pi / 2.03;
     settings.set("run.wall_motions", "2 harmonic 0 0.1 0 " + std::to_string(period) + " 0");

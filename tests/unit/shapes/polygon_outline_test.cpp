@@ -49,7 +49,7 @@ TEST(PolygonOutline, IsCentredOnTheCentreOfMass) {
     EXPECT_NEAR(outline.radius, std::sqrt(5.0), 1e-15);
 }
 
-TEST(PolygonOutline, TurnsClockwiseOnesRound) {
+TEST(PolygonOutline, ReversesClockwiseOutlines) {
     const Outline outline = normalised_outline({0, 0, 0, 1, 1, 1, 1, 0});
     EXPECT_TRUE(outline.turned_round);
     EXPECT_GT(area_moments(outline.vertices).area, 0.0);

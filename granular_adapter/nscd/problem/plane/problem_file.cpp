@@ -61,7 +61,7 @@ void write_matrix(std::ostream& out, const DelassusMatrix& w) {
 
 void write_problem(std::ostream& out, const ContactProblem& problem) {
     if (problem.contacts.empty())
-        throw std::invalid_argument("a contact problem without contacts has no file");
+        throw std::invalid_argument("a contact problem without contacts cannot be written");
     if (has_rolling(problem))
         throw std::invalid_argument(
             "contact problems with rolling resistance cannot be written: the format of Siconos has "

@@ -39,7 +39,7 @@ bool available(Instructions instructions) {
 
 template <class Rows>
 Sweeps<Rows> avx2_sweeps() {
-    throw std::invalid_argument("contact sweeps: this program has none for AVX2");
+    throw std::invalid_argument("contact sweeps: this program was built without AVX2");
 }
 
 }  // namespace turbidite::nscd
