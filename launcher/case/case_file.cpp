@@ -167,6 +167,9 @@ void refuse_grain(const Population& population, std::size_t i, const std::string
          .remedy = remedy});
 }
 
+/// Fewer cells show neither a grain's outline nor the flow around it.
+constexpr double least_cells_across = 4.0;
+
 /// Properties of a grain that the fluid or the adapter does not support; the first of each kind is
 /// named.
 void check_abilities(const Population& population, const Settings& settings,
@@ -202,6 +205,16 @@ void check_abilities(const Population& population, const Settings& settings,
                                            return a.prescribed_grains;
                                        })),
                      entries);
+    const double cells = settings.real("fluid.cells_per_diameter");
+    if (const auto i = first([&](const PlacedGrain& g) {
+            return 2.0 * g.radius * cells < least_cells_across * (1.0 - 1e-12);
+        });
+        i < grains.size() && wet)
+        refuse_grain(population, i, fmt::format("diameter {:.3g} D", 2.0 * grains[i].radius),
+                     fmt::format("A grain in a fluid is at least {:.0f} cells wide, and this one "
+                                 "is {:.3g}.",
+                                 least_cells_across, 2.0 * grains[i].radius * cells),
+                     "Use more fluid.cells_per_diameter or larger grains.", entries);
     if (const auto i = first([](const PlacedGrain& g) { return g.density && *g.density <= 1.0; });
         i < grains.size() && wet && settings.text("coupling.scheme") != "joint")
         refuse_grain(population, i, fmt::format("density = {}", *grains[i].density),

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "coupler/keys/key_value.hpp"
+#include "launcher/case/mesh_memory.hpp"
 
 namespace turbidite {
 namespace {
@@ -15,8 +16,9 @@ std::string fluid_line(const ResolvedCase& resolved) {
     if (!settings.flag("fluid.enabled")) return "  fluid: none\n";
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double cells = settings.real("fluid.cells_per_diameter");
-    return fmt::format("  fluid: {:.0f} x {:.0f} cells, Re = {:.4g}\n", size[0] * cells,
-                       size[1] * cells, resolved.scales.reynolds);
+    return fmt::format("  fluid: {:.0f} x {:.0f} cells (about {:.1g} GB), Re = {:.4g}\n",
+                       size[0] * cells, size[1] * cells, fluid_memory(settings),
+                       resolved.scales.reynolds);
 }
 
 std::string md_line(const Settings& settings) {

@@ -7,6 +7,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "launcher/case/keys/key_groups.hpp"
+#include "launcher/case/mesh_memory.hpp"
 #include "launcher/case/scales.hpp"
 #include "launcher/case/transport_schemes.hpp"
 
@@ -101,6 +102,22 @@ Ruling ranks_have_cells(const Settings& s) {
         fmt::format("A rank needs at least {} {} of cells, but there are {}.",
                     real_text(least_layers), s.text("fluid.decomposition"), real_text(layers)),
         fmt::format("Use {} or fewer.", real_text(most))};
+}
+
+Ruling mesh_fits_in_memory(const Settings& s) {
+    if (!s.flag("fluid.enabled")) return std::nullopt;
+    const double cells = fluid_cells(s), needed = fluid_memory(s), limit = memory_limit(s);
+    if (needed <= limit && cells <= most_cells) return std::nullopt;
+    const bool too_many = cells > most_cells;
+    return Objection{
+        too_many ? fmt::format("The mesh would have {:.2g} cells; OpenFOAM counts up to {:.0e}.",
+                               cells, most_cells)
+                 : fmt::format("The mesh of {:.3g} million cells takes about {:.3g} GB, and there "
+                               "are {:.3g} GB{}.",
+                               cells / 1e6, needed, limit,
+                               s.has("limits.memory") ? " (limits.memory)" : " in this machine"),
+        fmt::format("Use a smaller domain.size or fewer cells{}.",
+                    too_many ? "" : ", or set limits.memory for a larger machine")};
 }
 
 Ruling reynolds_follows(const Settings& s) {
@@ -273,6 +290,7 @@ KeyGroup fluid_keys() {
              {"fluid.ranks",
               {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},
               ranks_have_cells},
+             {"fluid.cells_per_diameter", {"fluid.enabled", "domain.size"}, mesh_fits_in_memory},
              {"fluid.reynolds", {"scales.kind"}, reynolds_follows}},
         .notes = notes};
 }

@@ -39,6 +39,14 @@ KeyGroup limit_keys() {
                      .fallback = "0.2",
                      .range = positive,
                      .help = "largest overlap of grains; beyond it the run ends with code 6"},
+                    {.name = "limits.memory",
+                     .type = KeyType::real,
+                     .unit = "GB",
+                     .need = Need::optional,
+                     .range = positive,
+                     .help = "memory that the fluid may take; otherwise that of the machine that "
+                             "checks the case",
+                     .idle = without_fluid},
                 },
             .rules = {{"limits.stall_hard", {"limits.stall_soft"}, limits_in_order}}};
 }

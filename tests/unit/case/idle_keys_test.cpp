@@ -85,29 +85,5 @@ TEST_F(IdleKeys, AResolvedCaseIsQuiet) {
         EXPECT_EQ(note.find("fluid.pressure_tolerance"), std::string::npos) << note;
 }
 
-TEST_F(IdleKeys, LightGrainsInAFluidNeedJoint) {
-    EXPECT_EQ(refusal("", {"grains.density_ratio=0.5", "fluid.enabled=false"}), "");
-    for (const char* ratio : {"grains.density_ratio=0.5", "grains.density_ratio=1"}) {
-        EXPECT_SAYS(refusal("", {ratio, "coupling.scheme=split"}), "Use coupling.scheme: joint");
-        EXPECT_EQ(refusal("", {ratio, "coupling.scheme=joint"}), "");
-    }
-    EXPECT_SAYS(refusal("", {"grains.density_ratio=0", "fluid.enabled=false"}),
-                "grains.density_ratio = 0");
-}
-
-TEST_F(IdleKeys, Equation21NeedsAWeight) {
-    const std::vector<std::string> settling = {"scales.kind=sedimentation",
-                                               "coupling.scheme=joint"};
-    const auto with = [&](const char* ratio) {
-        std::vector<std::string> sets = settling;
-        sets.push_back(ratio);
-        return sets;
-    };
-    EXPECT_SAYS(refusal("", with("grains.density_ratio=1")), "Eq. 21");
-    // Light grains rise as fast as grains that are heavier by as much sink.
-    EXPECT_EQ(load("", with("grains.density_ratio=0.5")).scales.gravity,
-              load("", with("grains.density_ratio=1.5")).scales.gravity);
-}
-
 }  // namespace
 }  // namespace turbidite

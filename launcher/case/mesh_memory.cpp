@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/mesh_memory.hpp"
+
+#include <unistd.h>
+
+#include "coupler/keys/key_value.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double bytes_per_cell = 750.0;
+constexpr double bytes_without_cells = 1e8;
+constexpr double gigabyte = 1e9;
+
+}  // namespace
+
+double fluid_cells(const Settings& settings) {
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    const double per_diameter = settings.real("fluid.cells_per_diameter");
+    return size.at(0) * per_diameter * size.at(1) * per_diameter;
+}
+
+double fluid_memory(const Settings& settings) {
+    return (bytes_without_cells + bytes_per_cell * fluid_cells(settings)) / gigabyte;
+}
+
+double memory_limit(const Settings& settings) {
+    if (settings.has("limits.memory")) return settings.real("limits.memory");
+    const double pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES));
+    return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / gigabyte;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How much memory the fluid of a case takes, over all its ranks, and how much there is.
+#pragma once
+
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// OpenFOAM counts faces with 32 bits, and a mesh of one layer has four per cell.
+inline constexpr double most_cells = 5e8;
+
+/// Cells of the mesh: domain.size times fluid.cells_per_diameter.
+double fluid_cells(const Settings& settings);
+
+/// Resident memory of the fluid program [GB = 1e9 bytes]: 750 bytes per cell (figure bytes_per_cell
+/// of `turbidite bench fluid`) and what OpenFOAM takes by itself.
+double fluid_memory(const Settings& settings);
+
+/// limits.memory, or the memory of this machine [GB].
+double memory_limit(const Settings& settings);
+
+}  // namespace turbidite
