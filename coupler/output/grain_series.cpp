@@ -49,11 +49,13 @@ void GrainSeries::write(double time, std::int64_t step, double window, const Mot
 
 void GrainSeries::write_points(const std::string& name, double window, const Motion& state,
                                const std::vector<Kick>& kicks) const {
-    std::unordered_map<GrainId, Vec3> forces;
-    for (const Kick& kick : kicks) forces[kick.id] = kick.force;
-    const auto force = [&](const GrainState& g) {
-        const auto at = forces.find(g.id);
-        return at == forces.end() ? Vec3{} : at->second;
+    std::unordered_map<GrainId, const Kick*> by_id;
+    for (const Kick& kick : kicks) by_id[kick.id] = &kick;
+    const auto of_kick = [&](Vec3 Kick::*part) {
+        return [&by_id, part](const GrainState& g) {
+            const auto at = by_id.find(g.id);
+            return at == by_id.end() ? Vec3{} : at->second->*part;
+        };
     };
     using Grain = const GrainState&;
     const auto& grains = state.grains;
@@ -78,7 +80,8 @@ void GrainSeries::write_points(const std::string& name, double window, const Mot
                         });
         vtk::vectors(out, "velocity", grains, [](Grain g) { return g.velocity; });
         vtk::vectors(out, "angular_velocity", grains, [](Grain g) { return g.angular_velocity; });
-        vtk::vectors(out, "force", grains, force);
+        vtk::vectors(out, "force", grains, of_kick(&Kick::force));
+        vtk::vectors(out, "torque", grains, of_kick(&Kick::torque));
         vtk::vectors(out, "contact_force", grains,
                      [&](Grain g) { return divided(g.contact_impulse, window); });
         out << "</PointData>\n";

@@ -49,6 +49,20 @@ std::string array_of(const std::string& text, const std::string& name) {
     return text.substr(begin, text.find("</DataArray>", begin) - begin);
 }
 
+// Forces and torques go to the grain that a kick names; a grain without a kick has none.
+TEST(GrainSeries, ForcesAndTorquesAreThoseOfTheKicks) {
+    const TestFolder folder("forces");
+    GrainSeries series(folder.path(), {{"disc", {}}});
+    Kick kick;
+    kick.id = 102;
+    kick.force = {1.5, -2.0, 0.0};
+    kick.torque = {0.0, 0.0, 0.25};
+    series.write(0.0, 1, 0.01, {test_population(), {}}, {kick});
+    const std::string text = slurp(folder.path() / "grains_00000001.vtp");
+    EXPECT_EQ(array_of(text, "force"), "0 0 0\n0 0 0\n1.5 -2 0\n");
+    EXPECT_EQ(array_of(text, "torque"), "0 0 0\n0 0 0\n0 0 0.25\n");
+}
+
 // A triangle rotated by 90 degrees at (3, 2), R = 2, beside a disc. Shapes without corners have no
 // outline.
 TEST(GrainSeries, DrawsPolygonsWhereTheyAre) {
