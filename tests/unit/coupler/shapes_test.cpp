@@ -61,7 +61,10 @@ TEST(ImmersedBody, FollowsTheDesignsFactors) {
     EXPECT_NEAR(reduced.submerged_mass / reduced.mass, 1.0 / 3.0, 1e-15);
     EXPECT_NEAR(reduced.effective_inertia(2, 2) / reduced.inertia(2, 2), 1 - 0.9 * 0.9 * 0.9 * 0.9 / 1.5,
                 1e-15);
-    EXPECT_THROW(immersed_body(*disc, 0.5, 1.0, 1.0, 1.0), std::invalid_argument);
+    const ImmersedBody neutral = immersed_body(*disc, 0.5, 1.0, 1.0, 1.0);
+    EXPECT_NEAR(neutral.effective_mass / neutral.mass, 0.0, 1e-15);
+    const ImmersedBody light = immersed_body(*disc, 0.5, 0.5, 1.0, 1.0);
+    EXPECT_NEAR(light.effective_mass / light.mass, -1.0, 1e-15);
 }
 
 }  // namespace
