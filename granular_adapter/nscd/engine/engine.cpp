@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
 #include "granular_adapter/nscd/detection/reach.hpp"
@@ -78,10 +79,19 @@ StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMob
             "a contact step needs one free velocity and one mobility per "
             "body");
     check_periods(bodies_.radius, settings_.box);
+    release_step();
     detect(free, dt);
     pose(free, std::move(mobilities), dt);
     SolverResult result = solve(dt);
     return hand_out(std::move(result), dt);
+}
+
+/// Frees what the last step left, so that this step gets the same memory again: cached where it
+/// fits into the cache, and its pages mapped where it does not.
+void Engine::release_step() {
+    const auto release = [](auto& array) { array = std::remove_reference_t<decltype(array)>(); };
+    release(points_), release(problem_.contacts);
+    release(guess_), release(solution_), release(impulses_);
 }
 
 /// Finds every contact point that may close within the step.
@@ -93,7 +103,12 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
     check_periods(bodies_.radius, settings_.box);
     points_ = detection_.points(bodies_, walls_, settings_.gravity, reach_, alert_share);
     keys_.clear();
-    for (const ContactPoint& point : points_) keys_.push_back(key(point));
+    keys_.reserve(points_.size());
+    deepest_ = 0.0;
+    for (const ContactPoint& point : points_) {
+        keys_.push_back(key(point));
+        deepest_ = std::max(deepest_, -point.gap);
+    }
 }
 
 /// Sets up the contact problem of these points under the laws, and the initial guess.
@@ -225,15 +240,13 @@ StepReport Engine::hand_out(SolverResult result, double dt) {
     solution_ = std::move(result.impulses);
     bodies_.twist = std::move(result.velocities);
     sum_impulses();
-    double deepest = 0.0;
-    for (const ContactPoint& point : points_) deepest = std::max(deepest, -point.gap);
     return {static_cast<std::int64_t>(points_.size()),
             static_cast<std::int64_t>(memory_.contacts().size()),
             result.iterations,
             result.residual,
             result.change,
             result.converged,
-            deepest};
+            deepest_};
 }
 
 /// Sums contact impulses and their moments by body.

@@ -144,6 +144,7 @@ class Engine {
                       double dt);
     ContactKey key(const ContactPoint& point) const;
     void forget_step();
+    void release_step();
     void take_memory(SavedMemory memory);
 
     EngineSettings settings_;
@@ -156,6 +157,7 @@ class Engine {
     double reach_ = 0.0;  ///< largest gap the last step detected [m]
     double moved_ = 0.0;  ///< upper bound of the decrease of any gap since [m]
     std::vector<ContactPoint> points_;
+    double deepest_ = 0.0;          ///< overlap of the points [m]
     std::vector<ContactKey> keys_;  ///< of the points
     ContactProblem problem_;
     Impulses guess_;

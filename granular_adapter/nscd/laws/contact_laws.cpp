@@ -147,7 +147,7 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
     const std::vector<double> share = shares(contacts.points);
     for (std::size_t k = 0; k < contacts.points.size(); ++k) {
         const ContactPoint& point = contacts.points[k];
-        Contact contact = bare_contact(point);
+        Contact& contact = problem.contacts.emplace_back(bare_contact(point));
         const ContactVector drive = wall_velocity(contacts, point, contact);
         ContactVector approach;
         ContactSituation now = situation(contacts, point);
@@ -166,7 +166,6 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
             attraction_.resize(contacts.points.size(), 0.0);
             attraction_[k] = step * terms.attraction;
         }
-        problem.contacts.push_back(contact);
     }
     if (!attraction_.empty()) pull(problem);
     return problem;
