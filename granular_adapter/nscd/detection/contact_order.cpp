@@ -18,24 +18,7 @@ constexpr double countable_layers = 8.0;
 // Number of colours in one layer: the bits of a word.
 constexpr int colours = 64;
 
-struct Place {
-    double layer;        ///< an integer, increasing downwards
-    std::int32_t point;  ///< index in the order of detection
-    std::int32_t a, b;   ///< bodies of the contact
-};
-
-std::vector<Place> layers(const std::vector<ContactPoint>& points, const Bodies& bodies,
-                          const Vec3& down, double band) {
-    std::vector<Place> places;
-    places.reserve(points.size());
-    for (const ContactPoint& point : points) {
-        const Vec3& centre = bodies.position[static_cast<std::size_t>(point.b)];
-        const double depth = dot(down, centre) + dot(down, point.arm_b);
-        places.push_back(
-            {std::floor(depth / band), static_cast<std::int32_t>(places.size()), point.a, point.b});
-    }
-    return places;
-}
+using Place = TopDownOrder::Place;
 
 /// Sorts from the top layer down, keeping the order of detection within a layer.
 void sort_by_layer(std::vector<Place>& places) {
@@ -97,21 +80,45 @@ void by_colour(std::size_t first, std::size_t last, const std::vector<std::uint8
 
 }  // namespace
 
+TopDownOrder::TopDownOrder(const Bodies& bodies, const Vec3& gravity, double band)
+    : bodies_(bodies), band_(band) {
+    const double weight = norm(gravity);
+    sorts_ = weight > 0.0 && band > 0.0;
+    if (sorts_) down_ = (1.0 / weight) * gravity;
+}
+
+void TopDownOrder::add(const ContactPoint& point) {
+    const auto index = static_cast<std::int32_t>(places_.size());
+    double layer = 0.0;
+    if (sorts_) {
+        const Vec3& centre = bodies_.position[static_cast<std::size_t>(point.b)];
+        layer = std::floor((dot(down_, centre) + dot(down_, point.arm_b)) / band_);
+    }
+    places_.push_back({layer, index, point.a, point.b});
+}
+
+std::vector<std::int32_t> TopDownOrder::take() {
+    std::vector<std::int32_t> order;
+    order.reserve(places_.size());
+    if (sorts_ && !places_.empty()) sort_by_layer(places_);
+    const std::vector<std::uint8_t> colours =
+        sorts_ ? colour(places_, bodies_.size()) : std::vector<std::uint8_t>(places_.size(), 0);
+    for (std::size_t first = 0, last = 0; first < places_.size(); first = last) {
+        last = first + 1;
+        while (last < places_.size() && places_[last].layer == places_[first].layer) ++last;
+        by_colour(first, last, colours, [&](std::size_t i) { order.push_back(places_[i].point); });
+    }
+    places_.clear();
+    return order;
+}
+
 void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, const Vec3& gravity,
                     double band) {
-    const double weight = norm(gravity);
-    if (points.empty() || weight == 0.0 || !(band > 0.0)) return;
-    std::vector<Place> places = layers(points, bodies, (1.0 / weight) * gravity, band);
-    sort_by_layer(places);
-    const std::vector<std::uint8_t> colours = colour(places, bodies.size());
+    TopDownOrder order(bodies, gravity, band);
+    for (const ContactPoint& point : points) order.add(point);
     std::vector<ContactPoint> sorted;
     sorted.reserve(points.size());
-    for (std::size_t first = 0, last = 0; first < places.size(); first = last) {
-        while (last < places.size() && places[last].layer == places[first].layer) ++last;
-        by_colour(first, last, colours, [&](std::size_t i) {
-            sorted.push_back(points[static_cast<std::size_t>(places[i].point)]);
-        });
-    }
+    for (const std::int32_t i : order.take()) sorted.push_back(points[static_cast<std::size_t>(i)]);
     points = std::move(sorted);
 }
 

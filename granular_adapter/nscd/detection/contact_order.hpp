@@ -19,4 +19,29 @@ namespace turbidite::nscd {
 void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, const Vec3& gravity,
                     double band);
 
+/// The same order without the points, for those that are cheaper to find again than to move.
+class TopDownOrder {
+ public:
+    /// Keeps a reference to the bodies.
+    TopDownOrder(const Bodies& bodies, const Vec3& gravity, double band);
+
+    void add(const ContactPoint& point);
+
+    /// Indices of the points added so far, in order.
+    std::vector<std::int32_t> take();
+
+    struct Place {
+        double layer;        ///< an integer, increasing downwards
+        std::int32_t point;  ///< index in the order of detection
+        std::int32_t a, b;   ///< bodies of the contact
+    };
+
+ private:
+    const Bodies& bodies_;
+    double band_;
+    bool sorts_;
+    Vec3 down_{};
+    std::vector<Place> places_;
+};
+
 }  // namespace turbidite::nscd

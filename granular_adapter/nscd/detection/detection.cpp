@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "granular_adapter/nscd/detection/contact_order.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
@@ -29,36 +28,78 @@ void Detection::add_pair(const Bodies& bodies, Pair pair, double alert,
     narrow_.pair({bodies, pair.a, pair.b, offset, alert, &polygons}, points);
 }
 
-std::vector<ContactPoint> Detection::unordered(const Bodies& bodies, const std::vector<Wall>& walls,
-                                               double reach, double share) const {
-    const PlacedPolygons polygons = narrow_.place(bodies);
-    std::vector<double> wide = bodies.radius;
-    for (double& radius : wide) radius *= 1.0 + share;
-    const std::vector<Pair> pairs = candidate_pairs(bodies.position, wide, reach, box_);
+/// A pair of bodies, or a body b and a wall.
+struct Detection::Near {
+    std::int32_t a, b, wall;
+};
+
+/// One configuration and how far to look in it.
+struct Detection::Look {
+    const Bodies& bodies;
+    const std::vector<Wall>& walls;
+    double reach, share;
+    PlacedPolygons polygons;
+};
+
+void Detection::add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const {
+    const std::vector<double>& radius = look.bodies.radius;
+    if (near.wall < 0)
+        return add_pair(look.bodies, {near.a, near.b},
+                        look.reach + look.share * (radius[near.a] + radius[near.b]), look.polygons,
+                        points);
+    narrow_.wall({look.bodies, near.b, look.walls[static_cast<std::size_t>(near.wall)], near.wall,
+                  look.reach + look.share * 2.0 * radius[near.b], &look.polygons},
+                 points);
+}
+
+template <class Visit>
+void Detection::each_near(const Look& look, const Visit& visit) const {
+    std::vector<double> wide = look.bodies.radius;
+    for (double& radius : wide) radius *= 1.0 + look.share;
+    for (const Pair& pair : candidate_pairs(look.bodies.position, wide, look.reach, box_))
+        visit(Near{pair.a, pair.b, -1});
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(look.bodies.size()); ++i)
+        for (std::int32_t w = 0; w < static_cast<std::int32_t>(look.walls.size()); ++w)
+            if (!look.bodies.fixed[i]) visit(Near{-1, i, w});
+}
+
+std::vector<ContactPoint> Detection::unordered(const Look& look) const {
     std::vector<ContactPoint> points;
-    points.reserve(pairs.size());
-    for (const Pair& pair : pairs)
-        add_pair(bodies, pair, reach + share * (bodies.radius[pair.a] + bodies.radius[pair.b]),
-                 polygons, points);
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(bodies.size()); ++i)
-        for (std::int32_t w = 0; w < static_cast<std::int32_t>(walls.size()); ++w)
-            if (!bodies.fixed[i])
-                narrow_.wall({bodies, i, walls[static_cast<std::size_t>(w)], w,
-                              reach + share * 2.0 * bodies.radius[i], &polygons},
-                             points);
+    each_near(look, [&](const Near& near) { add(look, near, points); });
+    return points;
+}
+
+/// Discs have one point at most, and it is cheaper to find it twice, first for its place in the
+/// order, than to write all points down and move them into their order.
+std::vector<ContactPoint> Detection::in_order(const Look& look, TopDownOrder order) const {
+    std::vector<Near> found;
+    std::vector<ContactPoint> point;
+    each_near(look, [&](const Near& near) {
+        point.clear();
+        add(look, near, point);
+        if (point.empty()) return;
+        order.add(point.front());
+        found.push_back(near);
+    });
+    std::vector<ContactPoint> points;
+    points.reserve(found.size());
+    for (const std::int32_t i : order.take()) add(look, found[static_cast<std::size_t>(i)], points);
     return points;
 }
 
 std::vector<ContactPoint> Detection::points(const Bodies& bodies, const std::vector<Wall>& walls,
                                             const Vec3& gravity, double reach, double share) const {
-    std::vector<ContactPoint> points = unordered(bodies, walls, reach, share);
-    const auto smallest = std::min_element(bodies.radius.begin(), bodies.radius.end());
-    if (!points.empty()) order_top_down(points, bodies, gravity, one_height * *smallest);
+    if (bodies.size() == 0) return {};
+    const Look look{bodies, walls, reach, share, narrow_.place(bodies)};
+    const double band = one_height * *std::min_element(bodies.radius.begin(), bodies.radius.end());
+    if (!has_corners()) return in_order(look, {bodies, gravity, band});
+    std::vector<ContactPoint> points = unordered(look);
+    order_top_down(points, bodies, gravity, band);
     return points;
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const {
-    return deepest(unordered(bodies, walls, 0.0, 0.0));
+    return deepest(unordered({bodies, walls, 0.0, 0.0, narrow_.place(bodies)}));
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
+#include "granular_adapter/nscd/detection/contact_order.hpp"
 #include "granular_adapter/nscd/detection/narrow_phase.hpp"
 #include "granular_adapter/nscd/problem/periodic_box.hpp"
 
@@ -34,10 +35,16 @@ class Detection {
                            const std::vector<ContactPoint>& of) const;
 
  private:
+    struct Near;
+    struct Look;
+
     void add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedPolygons& polygons,
                   std::vector<ContactPoint>& points) const;
-    std::vector<ContactPoint> unordered(const Bodies& bodies, const std::vector<Wall>& walls,
-                                        double reach, double share) const;
+    void add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const;
+    template <class Visit>
+    void each_near(const Look& look, const Visit& visit) const;
+    std::vector<ContactPoint> unordered(const Look& look) const;
+    std::vector<ContactPoint> in_order(const Look& look, TopDownOrder order) const;
 
     NarrowPhase narrow_;
     PeriodicBox box_;

@@ -103,19 +103,23 @@ double rounding_floor(const ContactProblem& problem) {
     return rounding_floor(problem, Delassus(problem));
 }
 
+RoundingFloor::RoundingFloor(const ContactProblem& problem) : cancelled_(problem.cancelled) {
+    speeds_.reserve(problem.free.size());
+    for (const Twist& twist : problem.free) speeds_.push_back(norm(twist.velocity));
+}
+
+double RoundingFloor::term(const Contact& contact, const Block& w) const {
+    double speed = speeds_[static_cast<std::size_t>(contact.b)] + norm(contact.bias) + cancelled_;
+    if (contact.a >= 0) speed += speeds_[static_cast<std::size_t>(contact.a)];
+    const double impulse = rounding * speed / w.nn;
+    return impulse * impulse;
+}
+
 double rounding_floor(const ContactProblem& problem, const Delassus& w) {
-    std::vector<double> speeds;
-    speeds.reserve(problem.free.size());
-    for (const Twist& twist : problem.free) speeds.push_back(norm(twist.velocity));
+    const RoundingFloor floor(problem);
     double sum = 0.0;
-    for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
-        const Contact& contact = problem.contacts[k];
-        double speed =
-            speeds[static_cast<std::size_t>(contact.b)] + norm(contact.bias) + problem.cancelled;
-        if (contact.a >= 0) speed += speeds[static_cast<std::size_t>(contact.a)];
-        const double impulse = rounding * speed / w.block(k).nn;
-        sum += impulse * impulse;
-    }
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+        sum += floor.term(problem.contacts[k], w.block(k));
     return sum;
 }
 

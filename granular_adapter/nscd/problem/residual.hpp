@@ -26,12 +26,27 @@
 namespace turbidite::nscd {
 
 class Delassus;
+struct Block;
 
 /// Residual of the natural map, >= 0; zero for a problem without contacts.
 double natural_map_residual(const ContactProblem& problem, const Impulses& r);
 
 /// The part of sum |r|^2 due to rounding alone [(N s)^2].
 double rounding_floor(const ContactProblem& problem);
+
+/// The same, contact by contact, for a caller that loops over the contacts anyway. Keeps no
+/// reference.
+class RoundingFloor {
+ public:
+    explicit RoundingFloor(const ContactProblem& problem);
+
+    /// Of a contact with the diagonal block `w` [(N s)^2].
+    double term(const Contact& contact, const Block& w) const;
+
+ private:
+    std::vector<double> speeds_;  ///< free speed of each body [m/s]
+    double cancelled_;
+};
 
 /// Quad and max.
 struct ChangeMeasures {

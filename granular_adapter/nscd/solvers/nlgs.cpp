@@ -43,9 +43,7 @@ class Iteration {
           w_(call.w),
           settings_(call.settings),
           sweeps_(sweeps<Rows>(call.instructions)),
-          pairs_(moved_pairs(call.problem)),
-          team_(useful_threads(call.settings, call.guess.size())),
-          floor_(rounding_floor(call.problem, call.w)) {
+          team_(useful_threads(call.settings, call.guess.size())) {
         result_.impulses = call.guess;
         for (ContactVector& r : result_.impulses)
             if (!(r.n > 0.0)) r = {};
@@ -68,11 +66,27 @@ class Iteration {
  private:
     void lay_out() {
         result_.velocities = body_velocities(problem_, result_.impulses);
-        std::vector<std::uint8_t> active(pairs_.size());
-        for (std::size_t k = 0; k < active.size(); ++k) active[k] = is_active(k) ? 1 : 0;
+        const std::vector<std::uint8_t> active = read_contacts();
         layout_.emplace(problem_, w_, pairs_, result_.impulses, result_.velocities,
                         schedule(active));
         pipeline_.emplace(sweeps_, *layout_);
+    }
+
+    /// Sets pairs and floor, and returns which contacts are active: one pass, since the contacts of
+    /// a large problem are in no cache.
+    std::vector<std::uint8_t> read_contacts() {
+        const std::size_t count = problem_.contacts.size();
+        const RoundingFloor floor(problem_);
+        const MovedBodies moved(problem_);
+        std::vector<std::uint8_t> active(count);
+        pairs_.reserve(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Contact& contact = problem_.contacts[k];
+            floor_ += floor.term(contact, w_.block(k));
+            pairs_.push_back(moved.of(contact));
+            active[k] = is_active(k) ? 1 : 0;
+        }
+        return active;
     }
 
     Schedule schedule(const std::vector<std::uint8_t>& active) const {
@@ -130,7 +144,7 @@ class Iteration {
     Sweeps<Rows> sweeps_;
     std::vector<MovedPair> pairs_;
     ThreadTeam team_;
-    double floor_;
+    double floor_ = 0.0;
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
     std::optional<SweepPipeline<Rows>> pipeline_;

@@ -10,15 +10,16 @@ bool immovable(const BodyMobility& m) {
 
 }  // namespace
 
+MovedBodies::MovedBodies(const ContactProblem& problem) : moved_(problem.bodies.size()) {
+    for (std::size_t i = 0; i < moved_.size(); ++i)
+        moved_[i] = immovable(problem.bodies[i]) ? -1 : static_cast<std::int32_t>(i);
+}
+
 std::vector<MovedPair> moved_pairs(const ContactProblem& problem) {
-    std::vector<std::int32_t> moved(problem.bodies.size());
-    for (std::size_t i = 0; i < moved.size(); ++i)
-        moved[i] = immovable(problem.bodies[i]) ? -1 : static_cast<std::int32_t>(i);
+    const MovedBodies moved(problem);
     std::vector<MovedPair> pairs;
     pairs.reserve(problem.contacts.size());
-    for (const Contact& contact : problem.contacts)
-        pairs.push_back({contact.a < 0 ? -1 : moved[static_cast<std::size_t>(contact.a)],
-                         moved[static_cast<std::size_t>(contact.b)]});
+    for (const Contact& contact : problem.contacts) pairs.push_back(moved.of(contact));
     return pairs;
 }
 

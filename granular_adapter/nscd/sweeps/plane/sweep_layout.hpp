@@ -15,6 +15,19 @@ namespace turbidite::nscd {
 /// Bodies without mobility are ignored: any number of contacts may use one at the same time.
 std::vector<MovedPair> moved_pairs(const ContactProblem& problem);
 
+/// The same contact by contact.
+class MovedBodies {
+ public:
+    explicit MovedBodies(const ContactProblem& problem);
+    MovedPair of(const Contact& contact) const {
+        return {contact.a < 0 ? -1 : moved_[static_cast<std::size_t>(contact.a)],
+                moved_[static_cast<std::size_t>(contact.b)]};
+    }
+
+ private:
+    std::vector<std::int32_t> moved_;  ///< the body itself, -1: without mobility
+};
+
 /// Memory slots for the bodies of a schedule. A movable body has one. Everything else (a wall, an
 /// immovable body, the body of an empty lane) gets one per contact, so that no update has to wait
 /// for another because of it.
