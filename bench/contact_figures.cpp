@@ -24,7 +24,7 @@ std::vector<Figure> contact_figures() {
         {"contact_cost_growth",
          "time per contact-iteration at 1e6 discs over that at 1e3",
          "ratio",
-         {Kind::at_most, 2.0},
+         {Kind::at_most, 1.7},
          contact_cost_growth},
         {"siconos_over_ours",
          "time of Siconos' NSGS over ours to the same error 1e-4, dry column at 2, 9 and 14 t_c",
