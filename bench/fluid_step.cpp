@@ -12,6 +12,7 @@
 
 #include "bench/fluid_ranks.hpp"
 #include "bench/step_clock.hpp"
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
@@ -58,15 +59,16 @@ class MovingGrains {
     std::int64_t contacts_ = 0;
 };
 
-/// Runs windows as the coupler does; only the fluid is timed.
+/// Runs windows in the order of messages that the scheme of the case gives the fluid; only the
+/// fluid is timed.
 class Player {
  public:
     Player(const Options& options, const ResolvedCase& resolved, FoamAdapter& fluid,
            FluidRanks& ranks)
-        : fluid_(fluid),
+        : order_(find_scheme(resolved.settings.text("run.scheme")).fluid),
+          fluid_(fluid),
           ranks_(ranks),
           grains_(resolved, options.discs),
-          joint_(options.discs && resolved.settings.text("run.scheme") == "joint"),
           tolerance_(resolved.settings.real("coupling.tolerance") *
                      resolved.settings.real("run.velocity_scale")),
           most_rounds_(resolved.settings.integer("coupling.iterations")) {}
@@ -74,62 +76,87 @@ class Player {
     FluidReport play(const Window& window, StepClock& clock) {
         clock.start();
         clock.pause();
-        const Kicks answer = joint_ ? play_joint(window, clock) : play_split(window, clock);
+        window_ = window;
+        clock_ = &clock;
+        const auto in_round = [](const Step& step) { return step.times == Times::per_round; };
+        const auto first = std::find_if(order_.begin(), order_.end(), in_round);
+        const auto after = std::find_if_not(first, order_.end(), in_round);
+        play_steps(order_.begin(), first);
+        for (int round = 0; first != after && round < most_rounds_; ++round) {
+            play_steps(first, after);
+            if (largest_mismatch() <= tolerance_) break;
+        }
+        play_steps(after, order_.end());
+        stop_clock();
         clock.stop();
-        grains_.move(window, ranks_.all(answer.kicks));
-        return answer.report;
+        grains_.move(window, ranks_.all(answer_.kicks));
+        return answer_.report;
     }
 
     std::int64_t contacts() const { return grains_.contacts(); }
 
  private:
-    template <class Work>
-    auto on_clock(StepClock& clock, Work work) {
-        ranks_.meet();
-        clock.resume();
-        auto result = work();
-        ranks_.meet();
-        clock.pause();
+    void play_steps(Order::const_iterator first, Order::const_iterator last) {
+        for (; first != last; ++first) play_step(first->kind);
+    }
+
+    /// What the fluid does with a message, or what it sends.
+    void play_step(Kind kind) {
+        if (kind == Kind::window) timed([&] { fluid_.advance(window_); });
+        if (kind == Kind::bodies) {
+            const std::vector<GrainState> grains = ranks_.here(grains_.now());
+            timed([&] { fluid_.let_fall(window_, grains); });
+        }
+        if (kind == Kind::response) {
+            std::vector<FreeResponse> here;
+            timed([&] { here = fluid_.respond(); });
+            stop_clock();
+            responses_ = ranks_.all(here);
+        }
+        if (kind == Kind::constraint) {
+            stop_clock();
+            const std::vector<GrainState> grains =
+                ranks_.here(grains_.advance(window_, responses_));
+            timed([&] { fluid_.correct(window_, grains); });
+        }
+        if (kind == Kind::kicks) timed([&] { answer_ = fluid_.impose(window_); });
+    }
+
+    double largest_mismatch() const {
+        double result = 0.0;
+        for (const FreeResponse& response : responses_)
+            result = std::max(result, response.mismatch);
         return result;
     }
 
-    Kicks play_split(const Window& window, StepClock& clock) {
-        const std::vector<GrainState> moving = ranks_.here(grains_.advance(window, {}));
-        return on_clock(clock, [&] {
-            fluid_.advance(window);
-            fluid_.correct(window, moving);
-            return fluid_.impose(window);
-        });
+    template <class Work>
+    void timed(Work work) {
+        if (!timing_) {
+            ranks_.meet();
+            clock_->resume();
+        }
+        timing_ = true;
+        work();
     }
 
-    Kicks play_joint(const Window& window, StepClock& clock) {
-        const std::vector<GrainState> before = ranks_.here(grains_.now());
-        std::vector<FreeResponse> responses = ranks_.all(on_clock(clock, [&] {
-            fluid_.advance(window);
-            fluid_.let_fall(window, before);
-            return fluid_.respond();
-        }));
-        double mismatch = 0.0;
-        std::int64_t rounds = 0;
-        do {
-            const std::vector<GrainState> pushed = ranks_.here(grains_.advance(window, responses));
-            responses = ranks_.all(on_clock(clock, [&] {
-                fluid_.correct(window, pushed);
-                return fluid_.respond();
-            }));
-            mismatch = 0.0;
-            for (const FreeResponse& response : responses)
-                mismatch = std::max(mismatch, response.mismatch);
-        } while (mismatch > tolerance_ && ++rounds < most_rounds_);
-        return on_clock(clock, [&] { return fluid_.impose(window); });
+    void stop_clock() {
+        if (!timing_) return;
+        ranks_.meet();
+        clock_->pause();
+        timing_ = false;
     }
 
+    const Order order_;
     FoamAdapter& fluid_;
     FluidRanks& ranks_;
     MovingGrains grains_;
-    bool joint_;
-    double tolerance_;  // [m/s]
+    double tolerance_;  ///< [m/s]
     std::int64_t most_rounds_;
+    Window window_;
+    StepClock* clock_ = nullptr;
+    bool timing_ = false;
+    std::vector<FreeResponse> responses_;
+    Kicks answer_;
 };
 
 /// Times of every part of every timed window [s].
