@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/box_step/row_work.hpp"
 
 namespace turbidite {
@@ -48,6 +47,7 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
         carried_x_[axis].resize(nx_ + 1);
         carried_below_[axis].resize(nx_);
         carried_above_[axis].resize(nx_);
+        if (fluid.second_order) last_flux_[axis].assign(excess_[axis].size(), 0.0);
     }
 }
 
@@ -162,22 +162,50 @@ void BoxStep::hold_flux() {
     held_ = true;
 }
 
+void BoxStep::hold_middle_flux(bool begins) {
+    hold_flux();
+    for (int axis = 0; axis < 2; ++axis) {
+        std::vector<double>& last = last_flux_[axis];
+        std::swap(flux_[axis], last);  // phi1 is the next window's last flux
+        if (begins) flux_[axis] = last;
+        if (!begins) combine_stage(last.size(), 1.5, last.data(), -0.5, flux_[axis].data());
+    }
+}
+
+/// By the scheme of the case. Where that is not limited, sides have their boundary values.
+void BoxStep::carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
+                    std::array<Row, 2>& carried) const {
+    if (fluid_.central)
+        blended_flux(count, *fluid_.central, flux, u, v, carried[0].data(), carried[1].data());
+    else
+        convective_flux(count, 2.0 / fluid_.limiter, flux, u, v, carried[0].data(),
+                        carried[1].data());
+}
+
 /// Momentum carried through the faces above row j.
 void BoxStep::carry_above(int j) {
-    const double two_by_k = 2.0 / fluid_.limiter;
     const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
     const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
     const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
     if (!held_) mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
-    convective_flux(nx_, two_by_k, flux, u, v, carried_above_[0].data(), carried_above_[1].data());
+    carry(nx_, flux, u, v, carried_above_);
+    const bool side = (j == -1 && !rows_->open_below()) || (j == ny_ - 1 && !rows_->open_above());
+    for (int i = 0; fluid_.central && side && i < nx_; ++i) {
+        carried_above_[0][i] = 0.5 * flux[i] * (u.low[i] + u.high[i]);
+        carried_above_[1][i] = 0.5 * flux[i] * (v.low[i] + v.high[i]);
+    }
 }
 
 void BoxStep::transport_row(int j, double dt) {
     const double *u = u_.row(j), *v = v_.row(j);
     const double* flux = held_ ? held_x(j) : flux_x_.data();
     if (!held_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
-    convective_flux(nx_ + 1, 2.0 / fluid_.limiter, flux, along_row(u), along_row(v),
-                    carried_x_[0].data(), carried_x_[1].data());
+    carry(nx_ + 1, flux, along_row(u), along_row(v), carried_x_);
+    if (fluid_.central && !fluid_.velocity.x.periodic())
+        for (const int face : {0, nx_}) {
+            carried_x_[0][face] = 0.5 * flux[face] * (u[face - 1] + u[face]);
+            carried_x_[1][face] = 0.5 * flux[face] * (v[face - 1] + v[face]);
+        }
     for (int axis = 0; axis < 2; ++axis) {
         const double* across = carried_x_[axis].data();
         advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / hy_,

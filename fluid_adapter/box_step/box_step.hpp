@@ -16,8 +16,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
@@ -27,6 +29,9 @@ struct BoxFluid {
     PlaneOperator velocity, pressure;  ///< grid, and the boundary conditions of u and p
     double viscosity = 0.0;            ///< nu [m2/s]
     double limiter = 1.0;              ///< k of limitedLinearV (not the k of step 1)
+    /// Share of linear interpolation where transport is not limited (convective_flux.hpp).
+    std::optional<double> central;
+    bool second_order = false;  ///< in time (second_order.hpp)
 };
 
 /// Of the projected flux phi1, over this rank's cells.
@@ -65,6 +70,13 @@ class BoxStep {
     void hold_flux();
     void release_flux() { held_ = false; }
 
+    /// The flux of second order in time: instead of phi1, 3/2 phi1 - 1/2 of the last window's phi1
+    /// is held, unless `begins`.
+    void hold_middle_flux(bool begins);
+
+    /// phi1 of the last window over |S| on the faces normal to an axis, laid out like excess.
+    std::vector<double>& last_flux(int axis) { return last_flux_[axis]; }
+
     /// Step 3 over dt [s]: u2 becomes u3, implicitly. Calls `take(j)` when row j is complete.
     void diffuse(double dt, const SeparableSolve::RowWork& take);
 
@@ -84,6 +96,8 @@ class BoxStep {
     void check_row();
     void carry_above(int j);
     void transport_row(int j, double dt);
+    void carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
+               std::array<Row, 2>& carried) const;
     void flux_along(int j, const double* u, double kept, double* flux);
     double kept_on_row(int j) const;
     template <class PerCell>
@@ -104,7 +118,8 @@ class BoxStep {
     double factorised_for_ = 0.0;
     double kept_ = 0.0;  // k of step 1 in this window
     std::array<std::vector<double>, 2> excess_;
-    std::array<std::vector<double>, 2> flux_;  // phi1 over |S| if held, laid out like excess_
+    std::array<std::vector<double>, 2> flux_;       // phi1 over |S| if held, laid out like excess_
+    std::array<std::vector<double>, 2> last_flux_;  // where second order asks for it
     bool held_ = false;
     RowReader u_, v_, p_;
     Row flux_x_, flux_below_, flux_above_;

@@ -29,12 +29,30 @@ void carry(int count, double two_by_k, const double* __restrict flux, const doub
     }
 }
 
+TURBIDITE_ROW_WORK
+void carry_blended(int count, double central, const double* __restrict flux,
+                   const double* __restrict u0, const double* __restrict u1,
+                   const double* __restrict u2, const double* __restrict u3,
+                   double* __restrict carried) {
+    const double mean = 0.5 * central, upwind = 1.0 - central;
+    for (int i = 0; i < count; ++i) {
+        const double low = u1[i] + 0.25 * (u2[i] - u0[i]), high = u2[i] - 0.25 * (u3[i] - u1[i]);
+        carried[i] = flux[i] * (mean * (u1[i] + u2[i]) + upwind * (flux[i] > 0.0 ? low : high));
+    }
+}
+
 }  // namespace
 
 void convective_flux(int count, double two_by_k, const double* flux, const AcrossFaces& u,
                      const AcrossFaces& v, double* carried_u, double* carried_v) {
     carry(count, two_by_k, flux, u.far_low, u.low, u.high, u.far_high, v.far_low, v.low, v.high,
           v.far_high, carried_u, carried_v);
+}
+
+void blended_flux(int count, double central, const double* flux, const AcrossFaces& u,
+                  const AcrossFaces& v, double* carried_u, double* carried_v) {
+    carry_blended(count, central, flux, u.far_low, u.low, u.high, u.far_high, carried_u);
+    carry_blended(count, central, flux, v.far_low, v.low, v.high, v.far_high, carried_v);
 }
 
 }  // namespace turbidite

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Momentum carried through a row of faces, as by OpenFOAM's `Gauss limitedLinearV k`. With d the
-// difference of u across the face and d' that across the next face upstream,
+// Momentum carried through a row of faces, as by two families of OpenFOAM's schemes.
+//
+// `Gauss limitedLinearV k`. With d the difference of u across the face and d' that across the next
+// face upstream,
 //
 //     u_f = u_upwind +- l d/2,    l = clamp((2/k) r, 0, 1),    r = d . d'/d . d
 //
 // which is linear interpolation where u is smooth. Both components share one limiter. OpenFOAM
 // writes r with the gradient at the upwind cell, 2 d . (h grad u)/d . d - 1; on equal cells with
-// mirror images beyond the sides the two are the same. Valid C++17.
+// mirror images beyond the sides the two are the same.
+//
+// `Gauss linear`, `Gauss LUST grad` and `Gauss linearUpwind grad` with Gauss' linear gradient: a
+// mean of central and upwind-biased interpolation with the share a = 1, 3/4, 0 of the central one.
+// With U, C, D the cells far upwind, upwind and downwind of the face
+//
+//     u_f = a (u_C + u_D)/2 + (1 - a) (u_C + (u_D - u_U)/4)
+//
+// Linear in u and second order everywhere. Valid C++17.
 #pragma once
 
 namespace turbidite {
@@ -20,5 +30,9 @@ struct AcrossFaces {
 /// carried = flux u_f for both components; two_by_k: 2/k of the limiter.
 void convective_flux(int count, double two_by_k, const double* flux, const AcrossFaces& u,
                      const AcrossFaces& v, double* carried_u, double* carried_v);
+
+/// The same with the share `central` of linear interpolation.
+void blended_flux(int count, double central, const double* flux, const AcrossFaces& u,
+                  const AcrossFaces& v, double* carried_u, double* carried_v);
 
 }  // namespace turbidite

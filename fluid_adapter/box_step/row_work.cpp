@@ -66,4 +66,32 @@ void keep_largest_outflow(int count, double x, const double* __restrict left,
     }
 }
 
+namespace {
+
+TURBIDITE_ROW_WORK
+void combine_two(std::size_t count, double old_share, const double* v, double new_share,
+                 double* __restrict u) {
+    for (std::size_t i = 0; i < count; ++i) u[i] = old_share * v[i] + new_share * u[i];
+}
+
+TURBIDITE_ROW_WORK
+void combine_rate(std::size_t count, double old_share, const double* v, double new_share,
+                  double rate_share, const double* now, const double* before,
+                  double* __restrict u) {
+    for (std::size_t i = 0; i < count; ++i)
+        u[i] = old_share * v[i] + new_share * u[i] + rate_share * (now[i] - before[i]);
+}
+
+}  // namespace
+
+void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
+                   double* u) {
+    combine_two(count, old_share, v, new_share, u);
+}
+
+void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
+                   double rate_share, const double* now, const double* before, double* u) {
+    combine_rate(count, old_share, v, new_share, rate_share, now, before, u);
+}
+
 }  // namespace turbidite

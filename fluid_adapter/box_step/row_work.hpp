@@ -7,6 +7,8 @@
 // between cells i - 1 and i. Valid C++17.
 #pragma once
 
+#include <cstddef>
+
 namespace turbidite {
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -45,5 +47,13 @@ void keep_largest(int count, const double* value, double* largest);
 /// largest[i] = max(largest[i], x (|left| + |right|) + y (|below| + |above|))
 void keep_largest_outflow(int count, double x, const double* left, const double* right, double y,
                           const double* below, const double* above, double* largest);
+
+/// u[i] = old_share v[i] + new_share u[i]
+void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
+                   double* u);
+
+/// u[i] = old_share v[i] + new_share u[i] + rate_share (now[i] - before[i]); v may be now
+void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
+                   double rate_share, const double* now, const double* before, double* u);
 
 }  // namespace turbidite

@@ -11,8 +11,8 @@
 namespace turbidite {
 
 /// At least one, also for a Courant number that is NaN, which is refused elsewhere.
-inline int transport_parts(double courant) {
-    constexpr double limit = 2.0 / 3.0, most = 1000.0;
+inline int transport_parts(double courant, double limit = 2.0 / 3.0) {
+    constexpr double most = 1000.0;
     return std::isfinite(courant)
                ? static_cast<int>(std::clamp(std::ceil(courant / limit), 1.0, most))
                : 1;

@@ -17,10 +17,14 @@ PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size) {
     return plane;
 }
 
-BoxFluid box_fluid(FluidFields& fields, double limiter, const BoxCells& box) {
+BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const BoxCells& box) {
     const Foam::vector size = fields.mesh.bounds().span();
     return {in_metres(homogeneous_laplacian(fields.U, box).plane, size),
-            in_metres(homogeneous_laplacian(fields.p, box).plane, size), fields.nu, limiter};
+            in_metres(homogeneous_laplacian(fields.p, box).plane, size),
+            fields.nu,
+            method.limiter,
+            method.central,
+            method.second_order};
 }
 
 std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& plane,
@@ -35,13 +39,14 @@ std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& p
 
 }  // namespace
 
-BoxFluidStep::BoxFluidStep(FluidFields& fields, double limiter, const BoxCells& box)
-    : BoxFluidStep(fields, box_fluid(fields, limiter, box), box) {}
+BoxFluidStep::BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box)
+    : BoxFluidStep(fields, box_fluid(fields, method, box), box) {}
 
 BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box)
     : fields_(fields),
       rows_(fields.ranks, box.cells[0], box.cells[1], box.place),
       step_(fluid, box_rows(fields.ranks, fluid.pressure, rows_)),
+      in_second_order_(fluid.second_order),
       floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {
     take_velocity();
 }
@@ -84,21 +89,48 @@ Projection BoxFluidStep::project() {
     return {{largest[0], largest[1]}, on_all_ranks(step_.pressure_force())};
 }
 
+double BoxFluidStep::largest_courant() const {
+    return in_second_order_ ? SecondOrder::largest_courant : FluidStep::largest_courant();
+}
+
 std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
+    const double dt = fields_.time.deltaTValue();
     std::vector<BoundaryForce> forces;
-    if (parts > 1) step_.hold_flux();
-    for (int part = 0; part < parts; ++part) {
-        forces.push_back(on_all_ranks(step_.convective_force()));
-        step_.transport(fields_.time.deltaTValue() / parts);
+    if (in_second_order_) {
+        step_.hold_middle_flux(!second_order_.goes_on());
+        forces = second_order_.transport(*this, dt, parts);
+        for (BoundaryForce& force : forces) force = on_all_ranks(force);
+    } else {
+        if (parts > 1) step_.hold_flux();
+        for (int part = 0; part < parts; ++part)
+            forces.push_back(on_all_ranks(convect(dt / parts)));
     }
     step_.release_flux();
     return forces;
 }
 
 BoundaryForce BoxFluidStep::diffuse() {
-    step_.diffuse(fields_.time.deltaTValue(), [](int) {});
+    const double dt = fields_.time.deltaTValue();
+    const BoundaryForce force =
+        in_second_order_ ? second_order_.diffuse(*this, dt) : diffuse_implicitly(dt);
     if (!rows_.in_cell_order()) store();
-    return on_all_ranks(step_.viscous_force());
+    return on_all_ranks(force);
+}
+
+std::vector<VelocityValues> BoxFluidStep::velocity_values() {
+    const auto size = static_cast<std::size_t>(rows_.size());
+    return {{step_.velocity(0), size}, {step_.velocity(1), size}};
+}
+
+SideForce BoxFluidStep::convect(double dt) {
+    const SideForce force = step_.convective_force();
+    step_.transport(dt);
+    return force;
+}
+
+SideForce BoxFluidStep::diffuse_implicitly(double dt) {
+    step_.diffuse(dt, [](int) {});
+    return step_.viscous_force();
 }
 
 /// A direct solve spreads one bad value over all rows of all ranks.
@@ -118,17 +150,29 @@ void BoxFluidStep::put_pressure() {
 }
 
 std::vector<double> BoxFluidStep::memory() {
-    std::vector<double> values = step_.excess(0);
-    values.insert(values.end(), step_.excess(1).begin(), step_.excess(1).end());
+    std::vector<double> values;
+    const auto append = [&](const std::vector<double>& more) {
+        values.insert(values.end(), more.begin(), more.end());
+    };
+    for (int axis = 0; axis < 2; ++axis) append(step_.excess(axis));
+    if (!in_second_order_) return values;
+    for (int axis = 0; axis < 2; ++axis) append(step_.last_flux(axis));
+    second_order_.append_memory(*this, values);
     return values;
 }
 
 void BoxFluidStep::set_memory(const std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(step_.excess(0).size());
-    std::copy(values.begin(), middle, step_.excess(0).begin());
-    std::copy(middle, values.end(), step_.excess(1).begin());
+    const double* next = values.data();
+    const auto take = [&](std::vector<double>& to) {
+        std::copy_n(next, to.size(), to.begin());
+        next += to.size();
+    };
+    for (int axis = 0; axis < 2; ++axis) take(step_.excess(axis));
     const Foam::scalarField& p = fields_.p.primitiveField();
     rows_.gather([&](int c) { return p[c]; }, step_.pressure());
+    if (!in_second_order_) return;
+    for (int axis = 0; axis < 2; ++axis) take(step_.last_flux(axis));
+    second_order_.set_memory(*this, next);
 }
 
 }  // namespace turbidite

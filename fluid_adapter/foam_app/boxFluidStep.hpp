@@ -6,16 +6,17 @@
 // the steps and back after them.
 #pragma once
 
+#include "fluid_adapter/box_step/second_order.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/foam_solver/boxCells.hpp"
 #include "fluid_adapter/ranks/cell_rows.hpp"
 
 namespace turbidite {
 
-class BoxFluidStep final : public FluidStep {
+class BoxFluidStep final : public FluidStep, private SecondOrderHost {
  public:
-    /// `limiter`: k of limitedLinearV. Throws DoesNotFit.
-    BoxFluidStep(FluidFields& fields, double limiter, const BoxCells& box);
+    /// Throws DoesNotFit.
+    BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box);
 
     Projection project() override;
     std::vector<BoundaryForce> transport(int parts) override;
@@ -25,7 +26,9 @@ class BoxFluidStep final : public FluidStep {
     void put_velocity() override;
     void take_velocity() override;
     void put_pressure() override;
-    std::int64_t kind() const override { return 2; }
+    void forget_rates() override { second_order_.forget(); }
+    double largest_courant() const override;
+    std::int64_t kind() const override { return in_second_order_ ? 4 : 2; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
 
@@ -36,9 +39,16 @@ class BoxFluidStep final : public FluidStep {
     void store();
     BoxStep::Force on_all_ranks(BoxStep::Force force) const;
 
+    std::vector<VelocityValues> velocity_values() override;
+    void velocity_changed() override {}
+    SideForce convect(double dt) override;
+    SideForce diffuse_implicitly(double dt) override;
+
     FluidFields& fields_;
     CellRows rows_;
     BoxStep step_;
+    bool in_second_order_;
+    SecondOrder second_order_;
     bool floating_;  // no side fixes p
 };
 

@@ -17,14 +17,42 @@ namespace {
 /// |div phi| D / u_c required of the projection: half of what the run accepts.
 constexpr double divergence_goal = 5e-5;
 
-/// k of the limiter, if the case transports with `Gauss limitedLinearV k`.
-std::optional<double> limiter_of(const FluidFields& fields) {
+/// Whether a gradient scheme of the case is Gauss' linear one.
+bool gauss_linear(const FluidFields& fields, const Foam::word& gradient) {
+    Foam::Istream& scheme = fields.mesh.gradScheme(gradient);
+    return Foam::word(scheme) == "Gauss" && (scheme.eof() || Foam::word(scheme) == "linear");
+}
+
+/// Share of linear interpolation of the schemes that upwind it linearly.
+double central_share(const Foam::word& name) {
+    return name == "LUST" ? 0.75 : 0.0;
+}
+
+/// The case's div(phi,U), if rows of a box know the scheme.
+std::optional<TransportMethod> transport_on_rows(const FluidFields& fields) {
     Foam::Istream& scheme = fields.mesh.divScheme("div(phi,U)");
     if (Foam::word(scheme) != "Gauss" || scheme.eof()) return std::nullopt;
-    if (Foam::word(scheme) != "limitedLinearV" || scheme.eof()) return std::nullopt;
+    const Foam::word name(scheme);
+    TransportMethod method;
+    if (name == "linear") {
+        method.central = 1.0;
+        return method;
+    }
+    if (scheme.eof()) return std::nullopt;  // OpenFOAM says what is missing
+    if (name == "LUST" || name == "linearUpwind") {
+        if (!gauss_linear(fields, Foam::word(scheme))) return std::nullopt;
+        method.central = central_share(name);
+        return method;
+    }
+    if (name != "limitedLinearV") return std::nullopt;
     const double k = Foam::readScalar(scheme);
     if (k < 0.0 || k > 1.0) return std::nullopt;  // refused by OpenFOAM
-    return std::max(k, Foam::SMALL);
+    method.limiter = std::max(k, Foam::SMALL);
+    return method;
+}
+
+bool in_second_order(const Settings& settings) {
+    return settings.text("fluid.time_scheme") == "second-order";
 }
 
 /// Whether the case's fvSolution names our solver for the field.
@@ -50,7 +78,8 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
     check_solver(fields.p, box, "fluid.pressure_solver", "GAMG, PCG");
     check_solver(fields.U, box, "fluid.viscous_solver", "PCG");
     const RunValues run = run_values(settings);
-    return std::make_unique<OperatorStep>(fields, divergence_goal * run.velocity / run.diameter);
+    return std::make_unique<OperatorStep>(fields, divergence_goal * run.velocity / run.diameter,
+                                          in_second_order(settings));
 }
 
 }  // namespace
@@ -59,11 +88,12 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
                                            const CellGrid& grid, const std::vector<int>& cells) {
     const BoxCells box =
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
-    const std::optional<double> limiter = limiter_of(fields);
-    if (!limiter || !solved_by_fft(fields.p) || !solved_by_fft(fields.U))
+    std::optional<TransportMethod> method = transport_on_rows(fields);
+    if (method) method->second_order = in_second_order(settings);
+    if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U))
         return operator_step(settings, fields, box);
     try {
-        return std::make_unique<BoxFluidStep>(fields, *limiter, box);
+        return std::make_unique<BoxFluidStep>(fields, *method, box);
     } catch (const DoesNotFit&) {
         // Accepts more general cases, or reports what does not fit.
         return operator_step(settings, fields, box);

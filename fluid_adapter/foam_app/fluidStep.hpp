@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
@@ -30,6 +31,13 @@ using BoundaryForce = BoxStep::Force;
 struct Projection {
     FluxReport flux;
     BoundaryForce force;
+};
+
+/// Transport on rows of a box (box_step.hpp).
+struct TransportMethod {
+    double limiter = 1.0;
+    std::optional<double> central;
+    bool second_order = false;
 };
 
 class FluidStep {
@@ -56,6 +64,12 @@ class FluidStep {
     virtual void put_velocity() {}   ///< into U
     virtual void take_velocity() {}  ///< from U, which was changed
     virtual void put_pressure() {}   ///< into p
+
+    /// u was changed from outside: what the step knows of earlier windows' rates is void.
+    virtual void forget_rates() {}
+
+    /// Courant number that a sub-step of transport may have.
+    virtual double largest_courant() const { return 2.0 / 3.0; }
 
     /// State beyond u and p: the excess flux, in the step's own order; saved and restored. `kind`
     /// identifies the implementation, and so the order.

@@ -85,7 +85,11 @@ void FluidWindow::project() {
 }
 
 void FluidWindow::transport() {
-    ledger_.add(step_->transport(transport_parts(report_.courant)));
+    ledger_.add(step_->transport(transport_parts()));
+}
+
+int FluidWindow::transport_parts() const {
+    return turbidite::transport_parts(report_.courant, step_->largest_courant());
 }
 
 void FluidWindow::diffuse() {
@@ -128,11 +132,10 @@ void FluidWindow::write_fields() {
     put_fields();
     report_.final_divergence = fields_.largest_divergence();
     Foam::Info << "window " << window_.index << ": Courant number " << report_.courant
-               << ", transport in " << transport_parts(report_.courant)
-               << " parts; largest divergence " << report_.divergence << " 1/s after step 1, "
-               << report_.final_divergence << " 1/s after step 5; multipliers "
-               << report_.multiplier_iterations << " iterations, rms slip "
-               << report_.multiplier_residual << " m/s" << Foam::endl;
+               << ", transport in " << transport_parts() << " parts; largest divergence "
+               << report_.divergence << " 1/s after step 1, " << report_.final_divergence
+               << " 1/s after step 5; multipliers " << report_.multiplier_iterations
+               << " iterations, rms slip " << report_.multiplier_residual << " m/s" << Foam::endl;
     fields_.time.writeNow();
 }
 
@@ -149,6 +152,7 @@ void FluidWindow::add_velocity(const Foam::vector& change) {
     fields_.U.primitiveFieldRef() += change;
     fields_.U.correctBoundaryConditions();
     step_->take_velocity();
+    step_->forget_rates();
     ledger_.forget();
 }
 

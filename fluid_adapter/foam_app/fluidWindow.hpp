@@ -64,6 +64,7 @@ class FluidWindow {
     void begin(const Window& window);
     void project();
     void transport();
+    int transport_parts() const;
     void diffuse();
     void check_finite(bool finite, const char* steps) const;
     template <class Take>

@@ -36,6 +36,9 @@ class FluidField {
     /// dimensions.
     virtual double reference_mass() const = 0;
 
+    /// Other ranks have cells that this one knows.
+    bool has_halo() const { return local_cells() > owned_cells(); }
+
     /// rho_f V_c [kg]; per unit length in two dimensions.
     double cell_mass(int i, int j) const { return reference_mass() * grid().relative_volume(i, j); }
 

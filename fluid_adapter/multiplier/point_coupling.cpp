@@ -33,16 +33,17 @@ void PointCoupling::find_shared(const FluidField& field, const CollocationPoints
             user = user == nobody || user == g ? g : several;
         }
     shared_.assign(points.slots(), is_private);
+    const bool border = field.has_halo();
     for (int slot = 0; slot < points.slots(); ++slot) {
         const StencilCell& at = points.stencilled[slot];
-        if (user_[slot] == several || field.shares(at.cell)) shared_[slot] = number(field, at);
+        if (user_[slot] == several || (border && field.shares(at.cell))) shared_[slot] = number(field, at);
     }
 }
 
 /// The next number, for this cell.
 int PointCoupling::number(const FluidField& field, const StencilCell& at) {
     const int next = static_cast<int>(per_mass_.size());
-    if (field.shares(at.cell)) border_.push_back({next, at.cell});
+    if (field.has_halo() && field.shares(at.cell)) border_.push_back({next, at.cell});
     per_mass_.push_back(1.0 / (field.reference_mass() * at.volume));
     return next;
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -50,6 +49,7 @@ void SaddlePoint::assemble(FluidField& field, const std::vector<ImmersedGrain>& 
 
 void SaddlePoint::find_border() {
     border_.clear();
+    if (!field_->has_halo()) return;
     for (int slot = 0; slot < points_->slots(); ++slot)
         if (const int cell = points_->stencilled[slot].cell; field_->shares(cell))
             border_.push_back({slot, cell});
@@ -183,7 +183,8 @@ void SaddlePoint::spread_multipliers() {
 }
 
 double SaddlePoint::dot(const double* a, const double* b) const {
-    double sum = std::inner_product(a, a + rows(), b, 0.0);
+    using Vector = Eigen::Map<const Eigen::VectorXd>;
+    double sum = Vector(a, rows()).dot(Vector(b, rows()));
     field_->sum_over_ranks(&sum, 1);
     return sum;
 }

@@ -29,6 +29,7 @@ struct CoupledSetup {
     std::int64_t multiplier_iterations = 200;
     double hydrodynamic_radius = 1.0;
     std::string transport_scheme = "Gauss limitedLinearV 1";
+    std::string time_scheme = "first-order";
     std::string pressure_solver = "FFT", viscous_solver = "FFT";
     double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative solvers
 };

@@ -68,6 +68,7 @@ std::optional<double> step_limit_exceeded(const Settings& s, SchemeKind kind, do
     const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
     if (!s.flag("fluid.enabled") || !choice.scheme || choice.scheme->kind != kind)
         return std::nullopt;
+    if (is(s, "fluid.time_scheme", "second-order")) return std::nullopt;  // stable with all of them
     const std::optional<double> reynolds = reynolds_of(s);
     if (!reynolds) return std::nullopt;
     const double limit = 2.0 / (*reynolds * peak * peak);
@@ -251,7 +252,19 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.transport_scheme",
                  .type = KeyType::text,
                  .fallback = "Gauss limitedLinearV 1",
-                 .help = "OpenFOAM scheme of div(phi,U); central ones need a step below 2/(36 Re)",
+                 .help = "OpenFOAM scheme of div(phi,U); central ones in first order need a step "
+                         "below 2/(36 Re)",
+                 .idle = without_fluid},
+                {.name = "fluid.time_scheme",
+                 .type = KeyType::choice,
+                 .fallback = "first-order",
+                 .choices = {{"first-order",
+                              "explicit transport and implicit viscosity by Euler's "
+                              "methods, as in the paper"},
+                             {"second-order",
+                              "Runge-Kutta transport with the flux at the middle of "
+                              "the window, L-stable viscosity"}},
+                 .help = "time integration of transport and viscosity",
                  .idle = without_fluid},
                 {.name = "fluid.pressure_solver",
                  .type = KeyType::choice,
@@ -285,7 +298,8 @@ KeyGroup fluid_keys() {
             {{"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_can_be_cut},
              {"fluid.transport_scheme", {}, scheme_is_known},
              {"fluid.transport_scheme",
-              {"fluid.enabled", "fluid.cells_per_diameter", "time.step", "scales.kind"},
+              {"fluid.enabled", "fluid.cells_per_diameter", "fluid.time_scheme", "time.step",
+               "scales.kind"},
               scheme_is_stable},
              {"fluid.ranks",
               {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},

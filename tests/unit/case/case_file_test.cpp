@@ -287,6 +287,7 @@ TEST_F(CaseFile, CentralTransportIsRefusedBeyondItsStep) {
     EXPECT_SAYS(text, "Use Gauss limitedLinearV 1");
     EXPECT_EQ(refusal("", {"time.step=0.0016"}), "");
     EXPECT_EQ(refusal("", {scheme, "time.step=0.0016", "fluid.enabled=false"}), "");
+    EXPECT_EQ(refusal("", {scheme, "time.step=0.0016", "fluid.time_scheme=second-order"}), "");
 }
 
 // Sub-steps of 2/3 of a cell at 6 u_c: 0.00154 t_c with 72 cells per diameter, whatever the window.
