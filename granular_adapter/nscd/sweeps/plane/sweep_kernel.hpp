@@ -337,33 +337,10 @@ TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
 }
 
-// Groups at rest are tested only once in many sweeps, when they and their bodies have left the
-// cache: prefetched this many groups ahead. Rows beyond the end belong to the next stretch or to
-// nobody, and a prefetch cannot fail.
-constexpr int rows_ahead = 24;
-constexpr int bodies_ahead = 6;
-
-template <class Rows>
-TURBIDITE_INLINE void prefetch_row(const Rows* row) {
-    constexpr int line = 64, lines = 3;
-    for (int i = 0; i < lines; ++i)
-        __builtin_prefetch(reinterpret_cast<const char*>(row) + i * line);
-}
-
-template <class Rows>
-TURBIDITE_INLINE void prefetch_bodies(const Rows& row, const PlaneBody* bodies) {
-    for (int lane = 0; lane < Rows::width; ++lane) {
-        __builtin_prefetch(bodies + row.a[lane]);
-        __builtin_prefetch(bodies + row.b[lane]);
-    }
-}
-
 template <class Rows>
 void sweep_asked(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width>& sums,
                  std::uint8_t* awake) {
     for (Rows* row = begin; row != end; ++row, ++awake) {
-        prefetch_row(row + rows_ahead);
-        if (end - row > bodies_ahead) prefetch_bodies(row[bodies_ahead], bodies);
         *awake = 0;
         if (!needs_update(*row, bodies)) continue;
         update<true>(*row, bodies, sums);
