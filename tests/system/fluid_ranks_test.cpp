@@ -90,6 +90,17 @@ TEST_F(FluidRanks, WithOpenFoamsSolvers) {
     expect_the_same(places("fluid.ranks=1" + matrix), places("fluid.ranks=2" + matrix), "GAMG");
 }
 
+/// Runge-Kutta transport, whose stages each need the neighbours' values.
+TEST_F(FluidRanks, WithSecondOrderInTime) {
+    const std::string second =
+        " --set fluid.time_scheme=second-order --set 'fluid.transport_scheme=Gauss LUST grad(U)'";
+    const std::vector<double> one = places("fluid.ranks=1" + second);
+    expect_the_same(one, places("fluid.ranks=2" + second), "rows");
+    expect_the_same(one, places("fluid.ranks=2 --set fluid.decomposition=columns" + second),
+                    "columns");
+    EXPECT_GT(largest_difference(one, places("fluid.ranks=1")), 1e-6) << "is not the first order";
+}
+
 TEST_F(FluidRanks, MoreRanksThanTheBoxHasRoomForAreRefused) {
     scratch.write("case.yaml", the_case);
     const Answer answer =
