@@ -304,7 +304,9 @@ KeyGroup fluid_keys() {
              {"fluid.ranks",
               {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},
               ranks_have_cells},
-             {"fluid.cells_per_diameter", {"fluid.enabled", "domain.size"}, mesh_fits_in_memory},
+             {"fluid.cells_per_diameter",
+              {"fluid.enabled", "fluid.time_scheme", "domain.size"},
+              mesh_fits_in_memory},
              {"fluid.reynolds", {"scales.kind"}, reynolds_follows}},
         .notes = notes};
 }
