@@ -22,9 +22,10 @@ struct CheckOptions {
 int check_study(const CheckOptions& options) {
     const Study study = read_study(options.file);
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides);
-    for (const PlannedRun& run : plan)
-        require_programs(run.resolve().settings,
-                         needed_programs(run.resolve().settings, find_programs()));
+    for (const PlannedRun& run : plan) {
+        const Settings settings = run.resolve().settings;
+        require_programs(settings, needed_programs(settings, find_programs()));
+    }
     fmt::print("{}: {} runs\nvalid\n", study.name, plan.size());
     return static_cast<int>(ExitCode::done);
 }
