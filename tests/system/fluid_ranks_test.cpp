@@ -56,6 +56,15 @@ class FluidRanks : public ShellTest {
         ASSERT_EQ(several.size(), one.size()) << which;
         EXPECT_LT(largest_difference(one, several), 1e-8) << which;  // D
     }
+
+    /// Two ranks above each other and side by side, with these changes; returns the places of one.
+    std::vector<double> expect_two_ranks_the_same(const std::string& changes) {
+        const std::vector<double> one = places("fluid.ranks=1" + changes);
+        expect_the_same(one, places("fluid.ranks=2" + changes), "rows");
+        expect_the_same(one, places("fluid.ranks=2 --set fluid.decomposition=columns" + changes),
+                        "columns");
+        return one;
+    }
 };
 
 TEST_F(FluidRanks, RowsAndColumnsAndAnyNumberGiveTheHistoryOfOneRank) {
@@ -76,10 +85,7 @@ TEST_F(FluidRanks, WithoutBoundaryPoints) {
 TEST_F(FluidRanks, CyclicSidesAndOpenOnes) {
     const std::string sides =
         " --set domain.left=cyclic --set domain.right=cyclic --set domain.top=free";
-    const std::vector<double> one = places("fluid.ranks=1" + sides);
-    expect_the_same(one, places("fluid.ranks=2" + sides), "rows");
-    expect_the_same(one, places("fluid.ranks=2 --set fluid.decomposition=columns" + sides),
-                    "columns");
+    expect_two_ranks_the_same(sides);
 }
 
 /// OpenFOAM's own solvers, to their tolerance: 1e-12 of a residual norm.
@@ -94,10 +100,7 @@ TEST_F(FluidRanks, WithOpenFoamsSolvers) {
 TEST_F(FluidRanks, WithSecondOrderInTime) {
     const std::string second =
         " --set fluid.time_scheme=second-order --set 'fluid.transport_scheme=Gauss LUST grad(U)'";
-    const std::vector<double> one = places("fluid.ranks=1" + second);
-    expect_the_same(one, places("fluid.ranks=2" + second), "rows");
-    expect_the_same(one, places("fluid.ranks=2 --set fluid.decomposition=columns" + second),
-                    "columns");
+    const std::vector<double> one = expect_two_ranks_the_same(second);
     EXPECT_GT(largest_difference(one, places("fluid.ranks=1")), 1e-6) << "is not the first order";
 }
 
