@@ -86,9 +86,9 @@ void FoamFluidField::work_on(double* x, double* y) {
     }
 }
 
-std::array<const double*, 2> FoamFluidField::import_halo() {
+std::array<const double*, 2> FoamFluidField::import_halo(const double* x, const double* y) {
     if (halo_)
-        halo_->import({velocity_[0], velocity_[1]},
+        halo_->import({x, y},
                       {halo_velocity_[0].data(), halo_velocity_[1].data()});
     return {halo_velocity_[0].data(), halo_velocity_[1].data()};
 }

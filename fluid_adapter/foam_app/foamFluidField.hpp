@@ -30,7 +30,7 @@ class FoamFluidField final : public FluidField {
     double reference_mass() const override { return cell_mass_; }
     bool shares(int cell) const override { return halo_ && (!owns(cell) || in_a_halo_[cell]); }
     double* velocity(int axis) override { return velocity_[axis]; }
-    std::array<const double*, 2> import_halo() override;
+    std::array<const double*, 2> import_halo(const double* x, const double* y) override;
     void share_sums(double* x, double* y) const override;
     void sum_over_ranks(double* values, int count) const override;
     void hold_grains(const GrainId* ids, int count) const override;

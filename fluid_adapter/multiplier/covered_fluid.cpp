@@ -19,24 +19,27 @@ void expect_cells(const CollocationPoints& points, int g, const double* ux, cons
 
 }  // namespace
 
-CellSums sum_cells(const CollocationPoints& points, FluidField& field, int g) {
-    const double* ux = field.velocity(0);
-    const double* uy = field.velocity(1);
-    expect_cells(points, g + 1, ux, uy);
-    double volume = 0.0, rx = 0.0, ry = 0.0, rr = 0.0, x = 0.0, y = 0.0, moment = 0.0;
+CellSums sum_cells(const CollocationPoints& points, int g) {
+    CellSums sums = CellSums::Zero();
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
         const InteriorCell& at = points.interior[i];
-        volume += at.volume;
-        rx += at.volume * at.arm_x;
-        ry += at.volume * at.arm_y;
-        rr += at.volume * (at.arm_x * at.arm_x + at.arm_y * at.arm_y);
+        sums += at.volume * CellSums(1.0, at.arm_x, at.arm_y,
+                                     at.arm_x * at.arm_x + at.arm_y * at.arm_y);
+    }
+    return sums;
+}
+
+Planar sum_velocity(const CollocationPoints& points, const CellVelocity& velocity, int g) {
+    const double *ux = velocity.x, *uy = velocity.y;
+    expect_cells(points, g + 1, ux, uy);
+    double x = 0.0, y = 0.0, moment = 0.0;
+    for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
+        const InteriorCell& at = points.interior[i];
         x += at.volume * ux[at.cell];
         y += at.volume * uy[at.cell];
         moment += at.volume * (at.arm_x * uy[at.cell] - at.arm_y * ux[at.cell]);
     }
-    CellSums sums;
-    sums << volume, rx, ry, rr, x, y, moment;
-    return sums;
+    return {x, y, moment};
 }
 
 Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, double m) {
@@ -48,14 +51,9 @@ Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, d
     return inertia;
 }
 
-Planar body_momentum(const ImmersedGrain& grain, const CellSums& sums, double m) {
-    return grain.momentum() + m * sums.tail<3>();
-}
-
-Planar carry_cells(const CollocationPoints& points, FluidField& field, int g,
-                   const Planar& motion) {
-    double* ux = field.velocity(0);
-    double* uy = field.velocity(1);
+Planar carry_cells(const CollocationPoints& points, const CellVelocity& velocity, int g,
+                   const Planar& motion, double reference_mass) {
+    double *ux = velocity.x, *uy = velocity.y;
     expect_cells(points, g + 1, ux, uy);
     double lost_x = 0.0, lost_y = 0.0, moment = 0.0;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
@@ -69,7 +67,7 @@ Planar carry_cells(const CollocationPoints& points, FluidField& field, int g,
         ux[point.cell] = x;
         uy[point.cell] = y;
     }
-    return field.reference_mass() * Planar(lost_x, lost_y, moment);
+    return reference_mass * Planar(lost_x, lost_y, moment);
 }
 
 }  // namespace turbidite

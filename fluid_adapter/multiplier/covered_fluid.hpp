@@ -19,22 +19,29 @@
 
 namespace turbidite {
 
+/// Velocity components over the rank's own cells [m/s].
+struct CellVelocity {
+    double* x;
+    double* y;
+};
+
 /// Sums over the interior cells of a grain, weighted by V_c over the reference cell's volume: 1,
-/// r_x, r_y, r^2, u_x, u_y, r x u.
-using CellSums = Eigen::Matrix<double, 7, 1>;
+/// r_x, r_y, r^2.
+using CellSums = Eigen::Matrix<double, 4, 1>;
 
 /// The sums over this rank's cells for grain g.
-CellSums sum_cells(const CollocationPoints& points, FluidField& field, int g);
+CellSums sum_cells(const CollocationPoints& points, int g);
+
+/// The same of u_x, u_y, r x u [m/s, m2/s].
+Planar sum_velocity(const CollocationPoints& points, const CellVelocity& velocity, int g);
 
 /// A [kg, kg m, kg m2 per unit length].
 Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums,
                              double reference_mass);
 
-/// P [kg m/s, kg m2/s per unit length].
-Planar body_momentum(const ImmersedGrain& grain, const CellSums& sums, double reference_mass);
-
 /// Sets this rank's interior cells of grain g to the rigid motion; returns the impulse and its
 /// moment lost by the fluid.
-Planar carry_cells(const CollocationPoints& points, FluidField& field, int g, const Planar& motion);
+Planar carry_cells(const CollocationPoints& points, const CellVelocity& velocity, int g,
+                   const Planar& motion, double reference_mass);
 
 }  // namespace turbidite

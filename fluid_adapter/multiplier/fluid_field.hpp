@@ -48,9 +48,9 @@ class FluidField {
     /// Whether other ranks know the cell too: it is in this rank's halo or in another's.
     virtual bool shares(int) const { return false; }
 
-    /// Both components of velocity in the halo cells, in the order of their local indices, as their
-    /// owners have them; by every rank.
-    virtual std::array<const double*, 2> import_halo() { return {}; }
+    /// Both components of a velocity in the halo cells, in the order of their local indices, as
+    /// their owners have them in x and y, over the owned cells; by every rank.
+    virtual std::array<const double*, 2> import_halo(const double*, const double*) { return {}; }
 
     /// Sums, over all ranks that know a cell, the values they hold there, and returns the sum to
     /// each of them. Both components are indexed by local cell, and zero where the rank contributes

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/shapes/shape.hpp"
@@ -36,5 +37,11 @@ struct ImmersedGrain {
                weight_impulse - announced_impulse;
     }
 };
+
+inline std::vector<Planar> momenta_of(const std::vector<ImmersedGrain>& grains) {
+    std::vector<Planar> momenta;
+    for (const ImmersedGrain& grain : grains) momenta.push_back(grain.momentum());
+    return momenta;
+}
 
 }  // namespace turbidite

@@ -109,7 +109,8 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states) {
 
 MultiplierResult ImmersedStep::solve() {
     system_.assemble(field_, grains_, points_);
-    const MultiplierResult result = uzawa_cg(system_, settings_, work_);
+    flow_.begin(system_, {field_.velocity(0), field_.velocity(1)}, momenta_of(grains_));
+    const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
     slip_goal_ = result.goal;
     return result;
 }
@@ -131,13 +132,13 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         throw std::runtime_error("contact impulses were received for " +
                                  std::to_string(with_contacts.size()) +
                                  " grains, but the window has " + std::to_string(grains_.size()));
-    system_.push(changes_);
+    flow_.push(changes_);
     MultiplierSettings settings = settings_;
     settings.tolerance = slip_goal_ / settings.velocity_scale;
     settings.reduction = 1.0;
-    const MultiplierResult result = uzawa_cg(system_, settings, work_);
+    const MultiplierResult result = uzawa_cg(flow_, settings, work_);
     for (std::size_t g = 0; g < grains_.size(); ++g) {
-        const Planar off = system_.motions()[g] - solved_[g];
+        const Planar off = flow_.motions()[g] - solved_[g];
         mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());
     }
     return result;
@@ -162,7 +163,7 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         if (!answers_for(g)) continue;
         const Eigen::Matrix3d& inertia = system_.effective_inertia()[g];
-        const Planar free = system_.motions()[g] - inertia.llt().solve(contact_impulses_[g]);
+        const Planar free = flow_.motions()[g] - inertia.llt().solve(contact_impulses_[g]);
         FreeResponse response;
         response.id = grains_[g].id;
         response.velocity = {free.x(), free.y(), 0.0};
@@ -175,15 +176,15 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
 }
 
 void ImmersedStep::impose() {
-    system_.impose();
+    flow_.impose();
 }
 
 std::vector<Kick> ImmersedStep::kicks() const {
     std::vector<Kick> kicks;
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         if (!answers_for(g)) continue;
-        const Planar& motion = system_.motions()[g];
-        const Planar& impulse = system_.impulses()[g];
+        const Planar& motion = flow_.motions()[g];
+        const Planar& impulse = flow_.impulses()[g];
         Kick kick;
         kick.id = grains_[g].id;
         kick.velocity = {motion.x(), motion.y(), 0.0};
@@ -198,7 +199,7 @@ std::vector<Kick> ImmersedStep::kicks() const {
 Planar ImmersedStep::impulse_to_grains() const {
     Planar sum = Planar::Zero();
     for (std::size_t g = 0; g < grains_.size(); ++g)
-        if (answers_for(g)) sum += system_.impulses()[g];
+        if (answers_for(g)) sum += flow_.impulses()[g];
     return sum;
 }
 

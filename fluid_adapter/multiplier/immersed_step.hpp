@@ -77,7 +77,8 @@ class ImmersedStep {
     std::vector<double> mismatch_;
     PointPlacement placement_;
     CollocationPoints points_;
-    SaddlePoint system_;
+    SaddleOperator system_;
+    ConstrainedFlow flow_;
     MultiplierWorkspace work_;
 };
 

@@ -32,12 +32,13 @@ void MultiplierWorkspace::clear(int rows, std::size_t grains) {
     image.resize(rows);
 }
 
-MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& settings,
+MultiplierResult uzawa_cg(ConstrainedFlow& flow, const MultiplierSettings& settings,
                           MultiplierWorkspace& work) {
+    SaddleOperator& system = flow.system();
     const int rows = system.rows();
     work.clear(rows, system.grains());
     Multipliers &L = work.impulses, &w = work.direction, &z = work.preconditioned;
-    double* r = system.slip().data();
+    double* r = flow.slip().data();
     double* y = work.image.data();
 
     const double points = std::max(1.0, system.points_everywhere());
@@ -58,7 +59,7 @@ MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& setting
         rr = system.dot(r, r);
         ++result.iterations;
     }
-    system.add(L);
+    flow.add(L);
     result.residual = std::sqrt(rr / points);
     result.goal = goal;
     result.converged = result.residual <= goal;

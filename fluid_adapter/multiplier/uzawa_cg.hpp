@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Uzawa's method as preconditioned conjugate gradients on the multipliers (Wachs 2011, appendix,
-// with its two signs corrected): solves S L = s of saddle_point.hpp, whose residual s - S L is the
+// with its two signs corrected): solves S L = s of saddle_operator.hpp, whose residual s - S L is the
 // slip left at the boundary points.
 //
 // Every window starts from L = 0. The points move over the grid, so the multipliers of the last
@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fluid_adapter/multiplier/saddle_point.hpp"
+#include "fluid_adapter/multiplier/constrained_flow.hpp"
 
 namespace turbidite {
 
@@ -40,9 +40,9 @@ struct MultiplierWorkspace {
     void clear(int rows, std::size_t grains);
 };
 
-/// Reduces the slip of the system until both criteria of MultiplierSettings hold, and updates the
-/// system's motions.
-MultiplierResult uzawa_cg(SaddlePoint& system, const MultiplierSettings& settings,
+/// Reduces the slip of the flow until both criteria of MultiplierSettings hold, and updates its
+/// motions.
+MultiplierResult uzawa_cg(ConstrainedFlow& flow, const MultiplierSettings& settings,
                           MultiplierWorkspace& work);
 
 }  // namespace turbidite

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fluid_adapter/multiplier/saddle_point.hpp"
+#include "fluid_adapter/multiplier/saddle_operator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +19,15 @@ struct Problem {
         PointPlacement(rules).place(field, grains, points);
     }
 
+    /// Begins with the present field.
+    void begin() {
+        system.assemble(field, grains, points);
+        flow.begin(system, {field.velocity(0), field.velocity(1)}, momenta_of(grains));
+    }
+
     /// Solves with the present field to a slip below `tolerance`; u is not changed yet.
     MultiplierResult solve(double tolerance) {
-        system.assemble(field, grains, points);
+        begin();
         return solve_on(tolerance);
     }
 
@@ -30,13 +36,14 @@ struct Problem {
         MultiplierSettings settings;
         settings.tolerance = tolerance;
         settings.reduction = 1.0;
-        return uzawa_cg(system, settings, work);
+        return uzawa_cg(flow, settings, work);
     }
 
     MemoryField field;
     std::vector<ImmersedGrain> grains;
     CollocationPoints points;
-    SaddlePoint system;
+    SaddleOperator system;
+    ConstrainedFlow flow;
     MultiplierWorkspace work;
 };
 
@@ -129,9 +136,9 @@ Multipliers with_sums(const Problem& problem, const std::vector<double>& values)
     return result;
 }
 
-TEST(SaddlePoint, OperatorAndPreconditionerAreSymmetricAndPositive) {
+TEST(SaddleOperator, OperatorAndPreconditionerAreSymmetricAndPositive) {
     Problem problem(loose_heap(), true);
-    SaddlePoint& system = problem.system;
+    SaddleOperator& system = problem.system;
     system.assemble(problem.field, problem.grains, problem.points);
     const int rows = system.rows();
     const std::vector<double> a = random_vector(rows, 3), b = random_vector(rows, 4);
@@ -152,9 +159,9 @@ TEST(SaddlePoint, OperatorAndPreconditionerAreSymmetricAndPositive) {
     });
 }
 
-TEST(SaddlePoint, PreconditionerIsTheInverseForAGrainByItself) {
+TEST(SaddleOperator, PreconditionerIsTheInverseForAGrainByItself) {
     Problem problem({disc(1, 3.013, 3.007)}, true);
-    SaddlePoint& system = problem.system;
+    SaddleOperator& system = problem.system;
     system.assemble(problem.field, problem.grains, problem.points);
     const std::vector<double> x = random_vector(system.rows(), 5);
     std::vector<double> image(system.rows());
@@ -164,7 +171,7 @@ TEST(SaddlePoint, PreconditionerIsTheInverseForAGrainByItself) {
     for (int i = 0; i < system.rows(); ++i) EXPECT_NEAR(back.values[i], x[i], 1e-11);
 }
 
-TEST(SaddlePoint, ThePreconditionerKnowsWhatItsResultDoesToTheGrains) {
+TEST(SaddleOperator, ThePreconditionerKnowsWhatItsResultDoesToTheGrains) {
     Problem problem(loose_heap(), true);
     problem.system.assemble(problem.field, problem.grains, problem.points);
     const std::vector<double> r = random_vector(problem.system.rows(), 6);
@@ -207,12 +214,12 @@ TEST(PointCoupling, IsTheProductThroughAllCells) {
     }
 }
 
-TEST(SaddlePoint, OneDiscInStillFluidByHand) {
+TEST(ConstrainedFlow, OneDiscInStillFluidByHand) {
     // U = cM U45 / (cM + m n): rho_s = 1.5 gives cM = pi/8, and n cells of mass m = 1/256.
     Problem problem({disc(1, 3.0, 3.0, {0.0, -1.0, 0.0})}, false);
     problem.solve(1e-4);
     const double cM = 3.14159265358979 / 8.0, mn = problem.points.size() / 256.0;
-    EXPECT_NEAR(problem.system.motions()[0].y(), -cM / (cM + mn), 1e-13);
+    EXPECT_NEAR(problem.flow.motions()[0].y(), -cM / (cM + mn), 1e-13);
 }
 
 struct Case {
@@ -246,7 +253,7 @@ TEST_P(Against, TheDenseReference) {
     DenseReference reference(problem.field, problem.grains, problem.points);
     const std::vector<Planar> wanted = reference.motions(no_pushes(problem));
     EXPECT_TRUE(problem.solve(1e-12).converged);
-    EXPECT_LT(largest_difference(problem.system.motions(), wanted), 1e-9);
+    EXPECT_LT(largest_difference(problem.flow.motions(), wanted), 1e-9);
 }
 
 TEST_P(Against, TheDenseReferenceWithImpulsesThatComeLater) {
@@ -254,9 +261,9 @@ TEST_P(Against, TheDenseReferenceWithImpulsesThatComeLater) {
     DenseReference reference(problem.field, problem.grains, problem.points);
     const std::vector<Planar> wanted = reference.motions(given);
     problem.solve(1e-12);
-    problem.system.push(given);
+    problem.flow.push(given);
     EXPECT_TRUE(problem.solve_on(1e-12).converged);
-    EXPECT_LT(largest_difference(problem.system.motions(), wanted), 1e-9);
+    EXPECT_LT(largest_difference(problem.flow.motions(), wanted), 1e-9);
 }
 
 TEST_P(Against, MomentumOfFluidAndGrains) {
@@ -265,15 +272,15 @@ TEST_P(Against, MomentumOfFluidAndGrains) {
     const std::vector<Planar> given = pushes(problem.grains.size());
     const Planar before = problem.field.momentum();
     problem.solve(1e-1);
-    problem.system.push(given);
+    problem.flow.push(given);
     problem.solve_on(1e-1);
-    problem.system.impose();
+    problem.flow.impose();
     const Planar change = problem.field.momentum() - before;
     Planar taken = Planar::Zero();
     for (std::size_t g = 0; g < problem.grains.size(); ++g) {
         const ImmersedGrain& grain = problem.grains[g];
-        const Planar& impulse = problem.system.impulses()[g];
-        const Planar gained = problem.system.motions()[g] - grain.contact_motion;
+        const Planar& impulse = problem.flow.impulses()[g];
+        const Planar gained = problem.flow.motions()[g] - grain.contact_motion;
         EXPECT_NEAR(grain.effective_mass * gained.x(), impulse.x() + given[g].x(), 1e-12);
         EXPECT_NEAR(grain.effective_mass * gained.y(), impulse.y() + given[g].y(), 1e-12);
         EXPECT_NEAR(grain.effective_inertia * gained.z(), impulse.z() + given[g].z(), 1e-12);
@@ -287,8 +294,8 @@ TEST_P(Against, TheConstraintItself) {
     // After impose, u at every point is the grain's velocity: exactly in covered cells, at boundary
     // points to the tolerance.
     problem.solve(1e-10);
-    problem.system.impose();
-    const std::vector<Planar>& motions = problem.system.motions();
+    problem.flow.impose();
+    const std::vector<Planar>& motions = problem.flow.motions();
     const CollocationPoints& points = problem.points;
     for (int g = 0; g < points.grains(); ++g)
         for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
@@ -333,10 +340,10 @@ TEST_P(WithOrWithoutBoundary, AnAnnouncedImpulseIsNotCountedTwice) {
     Problem first({plain}, GetParam()), second({announced}, GetParam());
     for (Problem* problem : {&first, &second}) {
         problem->solve(1e-12);
-        problem->system.impose();
+        problem->flow.impose();
     }
-    EXPECT_LT((first.system.motions()[0] - second.system.motions()[0]).norm(), 1e-12);
-    EXPECT_LT((first.system.impulses()[0] - second.system.impulses()[0]).norm(), 1e-12);
+    EXPECT_LT((first.flow.motions()[0] - second.flow.motions()[0]).norm(), 1e-12);
+    EXPECT_LT((first.flow.impulses()[0] - second.flow.impulses()[0]).norm(), 1e-12);
 }
 
 TEST_P(WithOrWithoutBoundary, ARigidMotionOfAllIsLeftAlone) {
@@ -348,22 +355,61 @@ TEST_P(WithOrWithoutBoundary, ARigidMotionOfAllIsLeftAlone) {
                       0.0);
     });
     problem.solve(1e-4);
-    problem.system.impose();
-    EXPECT_LT(problem.system.impulses()[0].norm(), 1e-13);
-    EXPECT_LT((problem.system.motions()[0] - motion).norm(), 1e-13);
+    problem.flow.impose();
+    EXPECT_LT(problem.flow.impulses()[0].norm(), 1e-13);
+    EXPECT_LT((problem.flow.motions()[0] - motion).norm(), 1e-13);
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, WithOrWithoutBoundary, testing::Bool());
+
+/// W is linear: a velocity imposed in two parts, one of them in two shares, is the velocity imposed
+/// at once, with the same motions and impulses.
+TEST(ConstrainedFlow, ImposesAVelocityInParts) {
+    Problem whole(loose_heap(), true), parts(loose_heap(), true);
+    MemoryField change(96, 96, Side::wall);
+    change.fill_randomly(21);
+    whole.field.fill_randomly(22);
+    parts.field.fill_randomly(22);
+    const int cells = whole.field.owned_cells();
+    for (int axis = 0; axis < 2; ++axis)
+        for (int c = 0; c < cells; ++c) whole.field.velocity(axis)[c] += change.velocity(axis)[c];
+    whole.solve(1e-12);
+    whole.flow.push(pushes(4));
+    whole.solve_on(1e-12);
+    whole.flow.impose();
+
+    parts.solve(1e-12);
+    parts.flow.impose();
+    ConstrainedFlow response;
+    response.begin(parts.system, {change.velocity(0), change.velocity(1)});
+    MultiplierSettings settings;
+    settings.tolerance = 1e-12;
+    EXPECT_GT(uzawa_cg(response, settings, parts.work).iterations, 0);
+    response.impose();
+    response.scale(4.0);
+    parts.flow.add(response, 0.25);
+    for (int axis = 0; axis < 2; ++axis)
+        for (int c = 0; c < cells; ++c) parts.field.velocity(axis)[c] += change.velocity(axis)[c];
+    parts.flow.push(pushes(4));
+    parts.solve_on(1e-12);
+    parts.flow.impose();
+
+    EXPECT_LT(largest_difference(whole.flow.motions(), parts.flow.motions()), 1e-10);
+    EXPECT_LT(largest_difference(whole.flow.impulses(), parts.flow.impulses()), 1e-10);
+    for (int axis = 0; axis < 2; ++axis)
+        for (int c = 0; c < cells; ++c)
+            ASSERT_NEAR(whole.field.velocity(axis)[c], parts.field.velocity(axis)[c], 1e-10);
+}
 
 TEST(EffectiveInertia, IsWhatAnImpulseMoves) {
     // Exact for a separate grain: a push causes the velocity predicted by the effective inertia.
     Problem problem({disc(1, 3.013, 3.007)}, true);
     problem.solve(1e-13);
     const Planar push(0.3, -0.2, 0.1);
-    problem.system.push({push});
+    problem.flow.push({push});
     problem.solve_on(1e-13);
     const Planar wanted = problem.system.effective_inertia()[0].inverse() * push;
-    EXPECT_LT((problem.system.motions()[0] - wanted).norm(), 1e-11);
+    EXPECT_LT((problem.flow.motions()[0] - wanted).norm(), 1e-11);
 }
 
 TEST(EffectiveInertia, HoldsTheFluidOfAboutTheDisc) {
@@ -382,13 +428,13 @@ TEST(EffectiveInertia, IsNearlyRightAmongNeighbours) {
     // not contain. The difference must be small, or `joint` would need many rounds.
     Problem problem(loose_heap(), true);
     problem.solve(1e-13);
-    const std::vector<Planar> before = problem.system.motions(), given = pushes(4);
-    problem.system.push(given);
+    const std::vector<Planar> before = problem.flow.motions(), given = pushes(4);
+    problem.flow.push(given);
     problem.solve_on(1e-13);
     double largest = 0.0;
     for (int g = 0; g < 4; ++g) {
         const Planar told = problem.system.effective_inertia()[g].inverse() * given[g];
-        const Planar rest = problem.system.motions()[g] - before[g] - told;
+        const Planar rest = problem.flow.motions()[g] - before[g] - told;
         largest = std::max(largest, rest.norm() / told.norm());
     }
     EXPECT_GT(largest, 1e-6);  // the grains do share cells
@@ -427,8 +473,8 @@ TEST(UzawaCg, SaysWhenItRanOutOfIterations) {
     problem.field.fill_randomly(11);
     MultiplierSettings settings;
     settings.iterations = 1;
-    problem.system.assemble(problem.field, problem.grains, problem.points);
-    const MultiplierResult result = uzawa_cg(problem.system, settings, problem.work);
+    problem.begin();
+    const MultiplierResult result = uzawa_cg(problem.flow, settings, problem.work);
     EXPECT_FALSE(result.converged);
     EXPECT_EQ(result.iterations, 1);
     EXPECT_GT(result.residual, 1e-4);
@@ -438,8 +484,8 @@ TEST(UzawaCg, AShortStepIsStillSolvedToAHundredth) {
     // Slip 1e-5 of u_c, below the tolerance of 1e-4: without the second criterion nothing would be
     // solved.
     Problem problem({disc(1, 3.013, 3.007, {0.0, -1e-5, 0.0})}, true);
-    problem.system.assemble(problem.field, problem.grains, problem.points);
-    const MultiplierResult result = uzawa_cg(problem.system, {}, problem.work);
+    problem.begin();
+    const MultiplierResult result = uzawa_cg(problem.flow, {}, problem.work);
     EXPECT_GT(result.iterations, 0);
     EXPECT_LE(result.residual, 1e-7);
 }
@@ -451,7 +497,7 @@ TEST(UzawaCg, NoGrainsNoWork) {
     EXPECT_TRUE(result.converged);
 }
 
-TEST(SaddlePoint, RefusesAGrainWithoutInertia) {
+TEST(SaddleOperator, RefusesAGrainWithoutInertia) {
     ImmersedGrain ghost = disc(7, 30.0, 3.0);  // outside the grid: covers no fluid
     ghost.effective_mass *= -1.0;
     Problem problem({ghost}, true);

@@ -17,7 +17,8 @@
 // preconditioner is S restricted to one grain at a time (boundary_blocks.hpp), which is exact
 // unless grains or ranks share cells.
 //
-// Call order: assemble, then push and uzawa_cg as often as needed, then impose. Valid C++17.
+// Here is S, which depends on where grains and points are; right-hand sides and solutions are in
+// constrained_flow.hpp. Valid C++17.
 #pragma once
 
 #include <vector>
@@ -41,37 +42,23 @@ struct Multipliers {
     }
 };
 
-class SaddlePoint {
+class SaddleOperator {
  public:
-    /// Begins a window with the grains, their points and the fluid after step 3, all kept by
-    /// reference.
+    /// Begins a window with the grains and their points, all kept by reference. By every rank.
+    /// Throws std::runtime_error naming a grain that ties too little fluid.
     void assemble(FluidField& field, const std::vector<ImmersedGrain>& grains,
                   const CollocationPoints& points);
 
-    /// Adds impulses to the grains: (x, y, moment) [N s/m, N s]. All ranks that hold a grain must
-    /// pass the same values.
-    void push(const std::vector<Planar>& impulses);
+    int rows() const { return 2 * points_->boundary_points(); }
+    std::size_t grains() const { return grains_->size(); }
+    FluidField& field() const { return *field_; }
+    const CollocationPoints& points() const { return *points_; }
 
-    /// Computes velocities and impulses for the present L and writes u into the field. Called once,
-    /// last.
-    void impose();
-
-    /// U, omega of every grain for the present L.
-    const std::vector<Planar>& motions() const { return motions_; }
-
-    /// Sum of dt lambda over all points of a grain, and its moment [N s/m, N s]; after impose.
-    const std::vector<Planar>& impulses() const { return impulses_; }
+    /// A^-1, by grain.
+    const std::vector<Eigen::Matrix3d>& inverse_inertia() const { return inverse_; }
 
     /// A + T^T G^-1 T: the effective inertia of each grain.
     const std::vector<Eigen::Matrix3d>& effective_inertia() const { return effective_; }
-
-    // For uzawa_cg:
-
-    int rows() const { return 2 * points_->boundary_points(); }
-    std::size_t grains() const { return grains_->size(); }
-
-    /// The remaining slip, s - S L [m/s].
-    std::vector<double>& slip() { return slip_; }
 
     /// y = S w.
     void apply(const Multipliers& w, double* y);
@@ -79,23 +66,11 @@ class SaddlePoint {
     /// z = the inverse of S's blocks times r.
     void precondition(const double* r, Multipliers& z);
 
-    /// L += w.
-    void add(const Multipliers& w);
-
     /// sum_i a_i b_i over the points of all ranks.
     double dot(const double* a, const double* b) const;
 
     /// Number of boundary points on all ranks.
     double points_everywhere() const;
-
- private:
-    void find_border();
-    void sum_interiors();
-    void factorise();
-    void move_grains();
-    void spread_multipliers();
-    void import_velocity();
-    void expect_velocity(int slot, const double* ux, const double* uy) const;
 
     /// Sums per-grain data over the ranks that hold the grain; one fixed-size vector per grain.
     /// Called by every rank, also by one that holds no grain.
@@ -105,24 +80,22 @@ class SaddlePoint {
         field_->sum_over_holders(first, static_cast<int>(Row::SizeAtCompileTime));
     }
 
+ private:
+    void sum_bodies();
+    void factorise();
+
     FluidField* field_ = nullptr;
     const std::vector<ImmersedGrain>* grains_ = nullptr;
     const CollocationPoints* points_ = nullptr;
     std::vector<GrainId> ids_;
-    std::vector<CellSums> sums_;
+    std::vector<Eigen::Matrix3d> body_;       // A
     std::vector<Eigen::Matrix3d> inverse_;    // A^-1
     std::vector<Eigen::Matrix3d> tied_;       // T^T G^-1 T
     std::vector<Eigen::Matrix3d> effective_;  // A + it
     std::vector<Eigen::Matrix3d> inverse_effective_;
-    std::vector<Planar> momentum_;  // P + J
-    std::vector<Planar> motions_, impulses_;
     BoundaryBlocks blocks_;
     PointCoupling coupling_;
-    Multipliers multipliers_;
-    std::vector<double> slip_;
-    std::vector<PlaneVector> cells_;  // u before the multipliers, later their change of it, by slot
-    std::vector<BorderValue> border_;  // slots of cells that other ranks know too
-    BorderSums border_sums_;
+    std::vector<CellSums> sums_;
     std::vector<Planar> by_grain_;
 };
 

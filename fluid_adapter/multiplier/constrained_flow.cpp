@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/multiplier/constrained_flow.hpp"
+
+#include <algorithm>
+
+#include "fluid_adapter/multiplier/memory_prefetch.hpp"
+
+namespace turbidite {
+
+void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& velocity,
+                            const std::vector<Planar>& momenta) {
+    system_ = &system;
+    velocity_ = velocity;
+    momentum_ = momenta;
+    find_border();
+    multipliers_.assign_zero(system.rows(), system.grains());
+    impulses_.assign(system.grains(), Planar::Zero());
+    slip_.resize(system.rows());
+    sum_momenta();
+    move_grains();
+    import_velocity();
+    BoundaryOperator(points()).apply(cells_.data(), motions_.data(), slip_.data());
+}
+
+void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& change) {
+    by_grain_.assign(system.grains(), Planar::Zero());
+    begin(system, change, by_grain_);
+}
+
+void ConstrainedFlow::find_border() {
+    border_.clear();
+    if (!field().has_halo()) return;
+    for (int slot = 0; slot < points().slots(); ++slot)
+        if (const int cell = points().stencilled[slot].cell; field().shares(cell))
+            border_.push_back({slot, cell});
+}
+
+/// P gains the momentum of the covered fluid.
+void ConstrainedFlow::sum_momenta() {
+    const double m = field().reference_mass();
+    by_grain_.resize(system_->grains());
+    for (std::size_t g = 0; g < by_grain_.size(); ++g)
+        by_grain_[g] = sum_velocity(points(), velocity_, static_cast<int>(g));
+    system_->sum_over_holders(by_grain_);
+    for (std::size_t g = 0; g < by_grain_.size(); ++g) momentum_[g] += m * by_grain_[g];
+}
+
+/// cells = u, the velocities at the slots.
+void ConstrainedFlow::import_velocity() {
+    const auto [halo_x, halo_y] = field().import_halo(velocity_.x, velocity_.y);
+    const int owned = field().owned_cells();
+    cells_.resize(points().slots());
+    for (int slot = 0; slot < points().slots(); ++slot) {
+        expect_velocity(slot);
+        const int cell = points().stencilled[slot].cell;
+        cells_[slot] = cell < owned ? PlaneVector{velocity_.x[cell], velocity_.y[cell]}
+                                    : PlaneVector{halo_x[cell - owned], halo_y[cell - owned]};
+    }
+}
+
+/// U = A^-1 (P + J + T^T L).
+void ConstrainedFlow::move_grains() {
+    motions_.resize(system_->grains());
+    for (std::size_t g = 0; g < motions_.size(); ++g)
+        motions_[g] =
+            system_->inverse_inertia()[g] * (momentum_[g] + multipliers_.on_grains[g]);
+}
+
+void ConstrainedFlow::push(const std::vector<Planar>& impulses) {
+    by_grain_.resize(system_->grains());
+    for (std::size_t g = 0; g < by_grain_.size(); ++g) {
+        momentum_[g] += impulses[g];
+        by_grain_[g] = system_->inverse_inertia()[g] * impulses[g];
+        motions_[g] += by_grain_[g];
+    }
+    BoundaryOperator(points()).subtract_motion(by_grain_.data(), slip_.data());
+}
+
+void ConstrainedFlow::add(const Multipliers& w) {
+    for (std::size_t i = 0; i < w.values.size(); ++i) multipliers_.values[i] += w.values[i];
+    for (std::size_t g = 0; g < w.on_grains.size(); ++g)
+        multipliers_.on_grains[g] += w.on_grains[g];
+    move_grains();
+}
+
+void ConstrainedFlow::impose() {
+    spread_multipliers();
+    by_grain_.resize(system_->grains());
+    BoundaryOperator(points()).sum_by_grain(multipliers_.values.data(), by_grain_.data());
+    for (std::size_t g = 0; g < by_grain_.size(); ++g)
+        by_grain_[g] += carry_cells(points(), velocity_, static_cast<int>(g), motions_[g],
+                                    field().reference_mass());
+    system_->sum_over_holders(by_grain_);
+    const double per_mass = 1.0 / field().reference_mass();
+    for (int slot = 0; slot < points().slots(); ++slot) {
+        expect_velocity(slot);
+        const StencilCell& at = points().stencilled[slot];
+        if (!field().owns(at.cell)) continue;
+        velocity_.x[at.cell] -= per_mass / at.volume * cells_[slot].x;
+        velocity_.y[at.cell] -= per_mass / at.volume * cells_[slot].y;
+    }
+    for (std::size_t g = 0; g < by_grain_.size(); ++g) {
+        impulses_[g] += by_grain_[g];
+        momentum_[g] += multipliers_.on_grains[g];
+    }
+    multipliers_.assign_zero(system_->rows(), system_->grains());
+}
+
+void ConstrainedFlow::add(const ConstrainedFlow& change, double share) {
+    for (std::size_t g = 0; g < motions_.size(); ++g) {
+        momentum_[g] += share * change.momentum_[g];
+        motions_[g] += share * change.motions_[g];
+        impulses_[g] += share * change.impulses_[g];
+    }
+    for (std::size_t i = 0; i < slip_.size(); ++i) slip_[i] += share * change.slip_[i];
+}
+
+void ConstrainedFlow::scale(double keep) {
+    for (std::size_t g = 0; g < motions_.size(); ++g) {
+        momentum_[g] *= keep;
+        motions_[g] *= keep;
+        impulses_[g] *= keep;
+    }
+    for (double& slip : slip_) slip *= keep;
+}
+
+/// Asks for the velocity of a later slot's cell.
+void ConstrainedFlow::expect_velocity(int slot) const {
+    constexpr int ahead = 24;
+    if (slot + ahead >= points().slots()) return;
+    const int cell = points().stencilled[slot + ahead].cell;
+    if (!field().owns(cell)) return;
+    ask_for(&velocity_.x[cell]);
+    ask_for(&velocity_.y[cell]);
+}
+
+/// cells = B^T L, of the points of all ranks.
+void ConstrainedFlow::spread_multipliers() {
+    std::fill(cells_.begin(), cells_.end(), PlaneVector{});
+    BoundaryOperator(points()).spread(multipliers_.values.data(), cells_.data());
+    border_sums_.sum(field(), border_, cells_.data());
+}
+
+}  // namespace turbidite
