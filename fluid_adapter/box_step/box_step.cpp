@@ -66,7 +66,14 @@ void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
 }
 
 FluxReport BoxStep::project(double dt) {
-    kept_ = 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / (hx_ * hy_));  // k = 1/(1 + 4 nu dt/h2)
+    kept_ = kept_excess(dt);
+    begin_projection(dt);
+    for (int j = -1; j <= ny_; ++j) correct_row(j, dt);
+    return checked(dt);
+}
+
+/// Solves for the p that makes S.u + k e solenoidal, and begins to read u and p.
+void BoxStep::begin_projection(double dt) {
     u_.begin(velocity(0));
     v_.begin(velocity(1));
     mean_flux(nx_, v_.row(-1), v_.row(0), kept_on_row(0), excess_y(0), flux_below_.data());
@@ -76,7 +83,9 @@ FluxReport BoxStep::project(double dt) {
     p_.begin(pressure_.values());
     std::fill(largest_divergence_.begin(), largest_divergence_.end(), 0.0);
     std::fill(largest_outflow_.begin(), largest_outflow_.end(), 0.0);
-    for (int j = -1; j <= ny_; ++j) correct_row(j, dt);
+}
+
+FluxReport BoxStep::checked(double dt) const {
     return {largest(largest_divergence_), 0.5 * dt * largest(largest_outflow_)};
 }
 
@@ -108,7 +117,7 @@ void BoxStep::correct_row(int j, double dt) {
         excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
                   excess_y(j));
     }
-    if (j >= 1) check_row();
+    if (j >= 1) check_row(flux_x_.data(), flux_below_.data(), flux_above_.data());
     if (j >= 0 && j < ny_) correct_across(j, dt, here);
     flux_below_.swap(flux_above_);
     corrected_below_.swap(corrected_here_);
@@ -128,15 +137,34 @@ void BoxStep::correct_across(int j, double dt, const double* p) {
     std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
 }
 
-/// Divergence and Courant number of the previous row, from its x fluxes and the fluxes below and
-/// above.
-void BoxStep::check_row() {
-    const double *left = flux_x_.data(), *right = left + 1;
-    divergence_row(nx_, 1.0 / hx_, left, right, 1.0 / hy_, flux_below_.data(), flux_above_.data(),
-                   divergence_.data());
+/// Divergence and Courant number of a row, from its x fluxes and the fluxes below and above.
+void BoxStep::check_row(const double* along, const double* below, const double* above) {
+    divergence_row(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy_, below, above, divergence_.data());
     keep_largest(nx_, divergence_.data(), largest_divergence_.data());
-    keep_largest_outflow(nx_, 1.0 / hx_, left, right, 1.0 / hy_, flux_below_.data(),
-                         flux_above_.data(), largest_outflow_.data());
+    keep_largest_outflow(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy_, below, above,
+                         largest_outflow_.data());
+}
+
+FluxReport BoxStep::hold_solenoidal_flux(double dt) {
+    for (int axis = 0; axis < 2; ++axis) flux_[axis].resize(excess_[axis].size());
+    kept_ = 1.0;
+    begin_projection(dt);
+    for (int j = 0; j <= ny_; ++j) correct_held_row(j, dt);
+    held_ = true;
+    return checked(dt);
+}
+
+/// S.u + e - dt S.grad p on the faces below row j and on its x faces; row j - 1 then has all its
+/// fluxes and is checked.
+void BoxStep::correct_held_row(int j, double dt) {
+    const double* below = p_.row(j - 1);
+    const double* here = p_.row(j);
+    projected_flux(nx_, v_.row(j - 1), v_.row(j), kept_on_row(j), excess_y(j), dt / hy_, below,
+                   here, held_y(j));
+    if (j >= 1) check_row(held_x(j - 1), held_y(j - 1), held_y(j));
+    if (j == ny_) return;
+    flux_along(j, u_.row(j), kept_, held_x(j));
+    correct(nx_ + 1, dt / hx_, here - 1, here, held_x(j), held_x(j));
 }
 
 void BoxStep::transport(double dt) {

@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "fluid_adapter/box_step/box_operators.hpp"
 #include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
@@ -70,6 +71,26 @@ class BoxStep {
     void hold_flux();
     void release_flux() { held_ = false; }
 
+    /// Holds, instead of phi1, the solenoidal flux nearest to S.u + e for transport over dt [s]; u
+    /// and e stay as they are, p is overwritten.
+    FluxReport hold_solenoidal_flux(double dt);
+
+    bool holds_flux() const { return held_; }
+
+    /// k of step 1 for a window of length dt [s]: 1/(1 + 4 nu dt/h2).
+    double kept_excess(double dt) const {
+        return 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / cell_area());
+    }
+
+    double viscosity() const { return fluid_.viscosity; }  ///< nu [m2/s]
+    double cell_area() const { return hx_ * hy_; }         ///< [m2]
+
+    /// Differences on the same rows.
+    BoxOperators operators() { return {fluid_.velocity, fluid_.pressure, *rows_}; }
+
+    /// The solver of p: values of -div/dt become p over rho_f.
+    SeparableSolve& pressure_solve() { return pressure_; }
+
     /// The flux of second order in time: instead of phi1, 3/2 phi1 - 1/2 of the last window's phi1
     /// is held, unless `begins`.
     void hold_middle_flux(bool begins);
@@ -90,10 +111,13 @@ class BoxStep {
  private:
     using Row = std::vector<double>;
 
+    void begin_projection(double dt);
+    FluxReport checked(double dt) const;
     void right_hand_side(int j, double dt);
     void correct_row(int j, double dt);
     void correct_across(int j, double dt, const double* p);
-    void check_row();
+    void check_row(const double* along, const double* below, const double* above);
+    void correct_held_row(int j, double dt);
     void carry_above(int j);
     void transport_row(int j, double dt);
     void carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,

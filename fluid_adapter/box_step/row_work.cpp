@@ -19,6 +19,13 @@ void divergence_row(int count, double x, const double* __restrict left,
 }
 
 TURBIDITE_ROW_WORK
+void add_divergence_row(int count, double x, const double* __restrict left,
+                        const double* __restrict right, double y, const double* __restrict below,
+                        const double* __restrict above, double* __restrict out) {
+    for (int i = 0; i < count; ++i) out[i] += x * (right[i] - left[i]) + y * (above[i] - below[i]);
+}
+
+TURBIDITE_ROW_WORK
 void advance_row(int count, const double* __restrict in, double x, const double* __restrict left,
                  const double* __restrict right, double y, const double* __restrict below,
                  const double* __restrict above, double* __restrict out) {
@@ -64,6 +71,31 @@ void keep_largest_outflow(int count, double x, const double* __restrict left,
                            y * (std::abs(below[i]) + std::abs(above[i]));
         largest[i] = largest[i] < sum ? sum : largest[i];
     }
+}
+
+TURBIDITE_ROW_WORK
+void laplacian_row(int count, double x, double y, const double* __restrict below,
+                   const double* __restrict u, const double* __restrict above,
+                   double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] = x * (u[i - 1] - 2.0 * u[i] + u[i + 1]) + y * (below[i] - 2.0 * u[i] + above[i]);
+}
+
+TURBIDITE_ROW_WORK
+void weighted_difference(int count, const double* __restrict w, const double* __restrict low,
+                         const double* __restrict here, const double* __restrict high,
+                         double* __restrict out) {
+    for (int i = 0; i < count; ++i) out[i] = w[i] * (low[i] - 2.0 * here[i] + high[i]);
+}
+
+TURBIDITE_ROW_WORK
+void add_differences(int count, double x, const double* __restrict left,
+                     const double* __restrict here_x, const double* __restrict right, double y,
+                     const double* __restrict below, const double* __restrict here_y,
+                     const double* __restrict above, double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] += x * (left[i] - 2.0 * here_x[i] + right[i]) +
+                  y * (below[i] - 2.0 * here_y[i] + above[i]);
 }
 
 namespace {

@@ -25,6 +25,10 @@ void mean_flux(int count, const double* low, const double* high, double kept, co
 void divergence_row(int count, double x, const double* left, const double* right, double y,
                     const double* below, const double* above, double* out);
 
+/// out[i] += x (right[i] - left[i]) + y (above[i] - below[i])
+void add_divergence_row(int count, double x, const double* left, const double* right, double y,
+                        const double* below, const double* above, double* out);
+
 /// out[i] = in[i] - step (high[i] - low[i]); out may alias in
 void correct(int count, double step, const double* low, const double* high, const double* in,
              double* out);
@@ -47,6 +51,19 @@ void keep_largest(int count, const double* value, double* largest);
 /// largest[i] = max(largest[i], x (|left| + |right|) + y (|below| + |above|))
 void keep_largest_outflow(int count, double x, const double* left, const double* right, double y,
                           const double* below, const double* above, double* largest);
+
+/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + y (below[i] - 2 u[i] + above[i])
+void laplacian_row(int count, double x, double y, const double* below, const double* u,
+                   const double* above, double* out);
+
+/// out[i] = w[i] (low[i] - 2 here[i] + high[i])
+void weighted_difference(int count, const double* w, const double* low, const double* here,
+                         const double* high, double* out);
+
+/// out[i] += x (left[i] - 2 here_x[i] + right[i]) + y (below[i] - 2 here_y[i] + above[i])
+void add_differences(int count, double x, const double* left, const double* here_x,
+                     const double* right, double y, const double* below, const double* here_y,
+                     const double* above, double* out);
 
 /// u[i] = old_share v[i] + new_share u[i]
 void combine_stage(std::size_t count, double old_share, const double* v, double new_share,

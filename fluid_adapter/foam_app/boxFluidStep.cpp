@@ -40,14 +40,18 @@ std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& p
 }  // namespace
 
 BoxFluidStep::BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box)
-    : BoxFluidStep(fields, box_fluid(fields, method, box), box) {}
+    : BoxFluidStep(fields, box_fluid(fields, method, box), box, method.coupled) {}
 
-BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box)
+BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box,
+                           bool coupled)
     : fields_(fields),
       rows_(fields.ranks, box.cells[0], box.cells[1], box.place),
       step_(fluid, box_rows(fields.ranks, fluid.pressure, rows_)),
       in_second_order_(fluid.second_order),
       floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {
+    if (coupled && !rows_.in_cell_order())
+        throw DoesNotFit("its ranks do not have complete rows of cells");
+    if (coupled) coupled_.emplace(step_);
     take_velocity();
 }
 
@@ -70,9 +74,19 @@ void BoxFluidStep::load() {
 }
 
 void BoxFluidStep::store() {
+    store(step_.velocity(0), step_.velocity(1));
+}
+
+void BoxFluidStep::put_unconstrained() {
+    if (!coupled_) return put_velocity();
+    const RowsOfTwo s = coupled_->unconstrained();
+    store(s.x.data(), s.y.data());
+}
+
+void BoxFluidStep::store(const double* x_rows, const double* y_rows) {
     Foam::vectorField& U = fields_.U.primitiveFieldRef();
-    rows_.scatter(step_.velocity(0), [&](int c, double x) { U[c].x() = x; });
-    rows_.scatter(step_.velocity(1), [&](int c, double y) { U[c].y() = y; });
+    rows_.scatter(x_rows, [&](int c, double x) { U[c].x() = x; });
+    rows_.scatter(y_rows, [&](int c, double y) { U[c].y() = y; });
     fields_.U.correctBoundaryConditions();
 }
 
@@ -83,10 +97,13 @@ BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
 
 Projection BoxFluidStep::project() {
     if (!rows_.in_cell_order()) load();
-    const FluxReport report = step_.project(fields_.time.deltaTValue());
+    const double dt = fields_.time.deltaTValue();
+    if (coupled_) coupled_->begin(dt);
+    const FluxReport report = coupled_ ? step_.hold_solenoidal_flux(dt) : step_.project(dt);
     double largest[] = {report.divergence, report.courant};
     fields_.ranks.max(largest, 2);
-    return {{largest[0], largest[1]}, on_all_ranks(step_.pressure_force())};
+    const BoxStep::Force none{};
+    return {{largest[0], largest[1]}, coupled_ ? none : on_all_ranks(step_.pressure_force())};
 }
 
 double BoxFluidStep::largest_courant() const {
@@ -101,7 +118,7 @@ std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
         forces = second_order_.transport(*this, dt, parts);
         for (BoundaryForce& force : forces) force = on_all_ranks(force);
     } else {
-        if (parts > 1) step_.hold_flux();
+        if (parts > 1 && !step_.holds_flux()) step_.hold_flux();
         for (int part = 0; part < parts; ++part)
             forces.push_back(on_all_ranks(convect(dt / parts)));
     }
@@ -110,11 +127,21 @@ std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
 }
 
 BoundaryForce BoxFluidStep::diffuse() {
+    if (coupled_) {
+        coupled_->predict();
+        return {};
+    }
     const double dt = fields_.time.deltaTValue();
     const BoundaryForce force =
         in_second_order_ ? second_order_.diffuse(*this, dt) : diffuse_implicitly(dt);
     if (!rows_.in_cell_order()) store();
     return on_all_ranks(force);
+}
+
+std::vector<BoundaryForce> BoxFluidStep::end_coupled() {
+    if (!coupled_) return {};
+    coupled_->end();
+    return {on_all_ranks(step_.pressure_force()), on_all_ranks(coupled_->viscous_force())};
 }
 
 std::vector<VelocityValues> BoxFluidStep::velocity_values() {

@@ -21,22 +21,28 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     Projection project() override;
     std::vector<BoundaryForce> transport(int parts) override;
     BoundaryForce diffuse() override;
+    CoupledStep* coupled() override { return coupled_ ? &*coupled_ : nullptr; }
+    std::vector<BoundaryForce> end_coupled() override;
     bool finite() override;
     double* velocity(int axis) override;
     void put_velocity() override;
+    void put_unconstrained() override;
     void take_velocity() override;
     void put_pressure() override;
     void forget_rates() override { second_order_.forget(); }
     double largest_courant() const override;
-    std::int64_t kind() const override { return in_second_order_ ? 4 : 2; }
+    std::int64_t kind() const override {
+        return in_second_order_ ? 4 : coupled_ ? 6 : 2;
+    }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
 
  private:
-    BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box);
+    BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box, bool coupled);
 
     void load();
     void store();
+    void store(const double* x, const double* y);
     BoxStep::Force on_all_ranks(BoxStep::Force force) const;
 
     std::vector<VelocityValues> velocity_values() override;
@@ -49,6 +55,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     BoxStep step_;
     bool in_second_order_;
     SecondOrder second_order_;
+    std::optional<CoupledStep> coupled_;
     bool floating_;  // no side fixes p
 };
 

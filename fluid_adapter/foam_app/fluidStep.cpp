@@ -55,6 +55,18 @@ bool in_second_order(const Settings& settings) {
     return settings.text("fluid.time_scheme") == "second-order";
 }
 
+bool carries_multipliers(const Settings& settings) {
+    return settings.text("fluid.splitting") != "marchuk-yanenko";
+}
+
+/// For what only the rows of a box can do.
+void demand_marchuk_yanenko(const Settings& settings, const std::string& why) {
+    if (carries_multipliers(settings))
+        throw Failure(ExitCode::bad_input, "fluid.splitting = " + settings.text("fluid.splitting") +
+                                               " does not fit this fluid case: " + why +
+                                               "; use marchuk-yanenko");
+}
+
 /// Whether the case's fvSolution names our solver for the field.
 template <class Field>
 bool solved_by_fft(const Field& field) {
@@ -90,11 +102,15 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
     std::optional<TransportMethod> method = transport_on_rows(fields);
     if (method) method->second_order = in_second_order(settings);
-    if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U))
+    if (method) method->coupled = carries_multipliers(settings);
+    if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U)) {
+        demand_marchuk_yanenko(settings, "transport or a linear solver is not of those on rows");
         return operator_step(settings, fields, box);
+    }
     try {
         return std::make_unique<BoxFluidStep>(fields, *method, box);
-    } catch (const DoesNotFit&) {
+    } catch (const DoesNotFit& why) {
+        demand_marchuk_yanenko(settings, why.what());
         // Accepts more general cases, or reports what does not fit.
         return operator_step(settings, fields, box);
     }

@@ -19,6 +19,7 @@
 
 #include "coupler/protocol/settings.hpp"
 #include "fluid_adapter/box_step/box_step.hpp"
+#include "fluid_adapter/coupled_step/coupled_step.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 
@@ -38,6 +39,7 @@ struct TransportMethod {
     double limiter = 1.0;
     std::optional<double> central;
     bool second_order = false;
+    bool coupled = false;  ///< pressure and viscosity are corrected together with the grains
 };
 
 class FluidStep {
@@ -52,6 +54,14 @@ class FluidStep {
     virtual std::vector<BoundaryForce> transport(int parts) = 0;
     virtual BoundaryForce diffuse() = 0;  ///< step 3
 
+    /// The part that corrects pressure and viscosity together with the grains, after `diffuse`;
+    /// null: they are final then (Marchuk-Yanenko). Where it is not null, `project` only makes the
+    /// flux solenoidal and `diffuse` predicts; neither reports forces, `end_coupled` does.
+    virtual CoupledStep* coupled() { return nullptr; }
+
+    /// Ends the window of `coupled`: forces of pressure and viscosity.
+    virtual std::vector<BoundaryForce> end_coupled() { return {}; }
+
     /// After `diffuse`: no velocity is infinite or no number.
     virtual bool finite() = 0;
 
@@ -62,6 +72,7 @@ class FluidStep {
     // Between the step's own values and those of the fields:
 
     virtual void put_velocity() {}   ///< into U
+    virtual void put_unconstrained() { put_velocity(); }  ///< before the grains, in their window
     virtual void take_velocity() {}  ///< from U, which was changed
     virtual void put_pressure() {}   ///< into p
 

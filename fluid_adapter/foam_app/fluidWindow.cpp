@@ -5,6 +5,25 @@
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
+namespace {
+
+bool iterates(const Settings& settings) {
+    return settings.text("fluid.splitting") == "implicit-multiplier";
+}
+
+/// explicit-multiplier corrects once.
+CoupledLimits coupled_limits(const Settings& settings) {
+    const RunValues run = run_values(settings);
+    CoupledLimits limits;
+    if (!iterates(settings)) return limits;
+    const auto most = static_cast<int>(settings.integer("fluid.splitting_iterations"));
+    limits.viscosity = {most, settings.real("fluid.splitting_tolerance")};
+    limits.pressure = {most,
+                       settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter};
+    return limits;
+}
+
+}  // namespace
 
 FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
                          const Settings& settings, const ShapeTable& shapes)
@@ -12,7 +31,9 @@ FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup
       field_(fields_, fluid_domain(settings)),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       ledger_(fields_, field_),
-      multipliers_(field_, settings, shapes) {
+      multipliers_(field_, settings, shapes),
+      coupled_limits_(coupled_limits(settings)),
+      corrects_in_rounds_(iterates(settings)) {
     field_.work_on(step_->velocity(0), step_->velocity(1));
 }
 
@@ -34,6 +55,7 @@ void FluidWindow::correct(const std::vector<GrainState>& grains) {
         return answer("step 5 (multipliers)", [&] { multipliers_.take_constrained(grains); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
                 [&] { note(multipliers_.push(grains)); });
+    if (corrects_in_rounds_) correct_fluid();
 }
 
 std::vector<FreeResponse> FluidWindow::responses() {
@@ -43,8 +65,9 @@ std::vector<FreeResponse> FluidWindow::responses() {
 
 Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
-        if (window_.write_output) step_->put_velocity();  // u3, for lambda
+        if (window_.write_output) step_->put_unconstrained();  // u3, for lambda
         multipliers_.impose();
+        for (const BoundaryForce& force : step_->end_coupled()) ledger_.add(force);
         fields_follow_ = false;
         if (window_.write_output) field_.put_force_density(multipliers_.points());
         field_.store(multipliers_.points());
@@ -68,6 +91,7 @@ void FluidWindow::begin(const Window& window) {
     timings_ = {};
     report_ = {};
     grains_taken_ = false;
+    if (CoupledStep* coupled = step_->coupled()) coupled->keep_unconstrained(window.write_output);
     if (!fields_.time.functionObjects().empty()) put_fields();
     fields_.time.setDeltaT(window.step);
     if (!fields_.time.loop())
@@ -104,7 +128,27 @@ void FluidWindow::answer(const char* name, Take take) {
         field_.load(multipliers_.points());
         note(multipliers_.solve());
     });
+    if (CoupledStep* coupled = step_->coupled()) coupled->place_grains(multipliers_.points());
+    correct_fluid();
     grains_taken_ = true;
+}
+
+/// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.
+void FluidWindow::correct_fluid() {
+    CoupledStep* coupled = step_->coupled();
+    if (!coupled) return;
+    watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
+        multipliers_.impose();
+        RigidGrains grains(multipliers_.system(), multipliers_.flow(),
+                           {step_->velocity(0), step_->velocity(1)}, multipliers_.settings());
+        const CoupledReport report = coupled->correct(grains, coupled_limits_);
+        report_.multiplier_iterations += grains.iterations();
+        report_.multipliers_converged = report_.multipliers_converged && grains.converged();
+        if (std::getenv("TURBIDITE_DEBUG"))
+        Foam::Info << "window " << window_.index << " viscosity " << report.viscosity.iterations
+                   << " " << report.viscosity.residual << " pressure "
+                   << report.pressure.iterations << " " << report.pressure.residual << " mult " << grains.iterations() << Foam::endl;
+    });
 }
 
 /// Accumulates the results of all solves of a window.

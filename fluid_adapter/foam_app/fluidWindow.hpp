@@ -6,6 +6,7 @@
 //     transport   2  convection of u                                  }  advance
 //     diffuse     3  viscosity                                        }
 //     answer      5  the multipliers of the grains, Eqs. 9-10            whenever grains come
+//                    (correct_fluid: pressure and viscosity with rigid grains, coupled_step.hpp)
 //     impose         writes the u of the multipliers; kicks              ends the window
 //
 // A StepWatch (stepWatch.hpp) runs each step; it knows clocks and names. What crosses the
@@ -15,6 +16,7 @@
 #include <memory>
 
 #include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/coupled_step/coupled_step.hpp"
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
@@ -70,6 +72,7 @@ class FluidWindow {
     template <class Take>
     void answer(const char* name, Take take);
     void note(const MultiplierResult& result);
+    void correct_fluid();
     void close_ledger();
     void write_fields();
 
@@ -78,6 +81,8 @@ class FluidWindow {
     std::unique_ptr<FluidStep> step_;
     MomentumLedger ledger_;
     ImmersedStep multipliers_;
+    CoupledLimits coupled_limits_;
+    bool corrects_in_rounds_;  ///< implicit-multiplier: after every contact solve
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;

@@ -26,15 +26,15 @@ struct ImmersedGrain {
     double effective_inertia = 0.0;                             ///< cI about z [kg m]
     Planar contact_motion = Planar::Zero();                     ///< U^{n+4/5}, omega^{n+4/5}
     Planar announced_impulse = Planar::Zero();                  ///< J_h and its moment
-    Planar weight_impulse = Planar::Zero();  ///< (M - m_f) g dt, if U^{n+4/5} does not contain it
+    Planar given_impulse = Planar::Zero();  ///< (M - m_f) g dt + J^n, unless U^{n+4/5} has them
 
-    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt - J_h. J_h is already
-    /// contained in U^{n+4/5} and is subtracted, since the multipliers include it. Finite also
-    /// where cM <= 0.
+    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h. J_h is
+    /// already contained in U^{n+4/5} and is subtracted, since the multipliers include it. Finite
+    /// also where cM <= 0.
     Planar momentum() const {
         return Planar(effective_mass, effective_mass, effective_inertia)
                    .cwiseProduct(contact_motion) +
-               weight_impulse - announced_impulse;
+               given_impulse - announced_impulse;
     }
 };
 

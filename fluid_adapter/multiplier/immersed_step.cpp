@@ -60,6 +60,7 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
       run_(run_values(settings)),
       bodies_(run_, shapes),
       settings_(multiplier_settings(settings, run_)),
+      carries_contacts_(settings.text("fluid.splitting") != "marchuk-yanenko"),
       placement_(point_rules(settings)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
@@ -93,8 +94,14 @@ void ImmersedStep::take(const std::vector<GrainState>& states) {
 
 void ImmersedStep::take_free(const std::vector<GrainState>& states, double step) {
     take(states);
-    for (std::size_t g = 0; g < states.size(); ++g)
-        grains_[g].weight_impulse.y() = -bodies_(states[g]).submerged_mass * run_.gravity * step;
+    for (std::size_t g = 0; g < states.size(); ++g) {
+        Planar& given = grains_[g].given_impulse;
+        given.y() = -bodies_(states[g]).submerged_mass * run_.gravity * step;
+        if (!carries_contacts_) continue;
+        contact_impulses_[g] =
+            planar(states[g].contact_impulse, states[g].contact_angular_impulse);
+        given += contact_impulses_[g];
+    }
 }
 
 void ImmersedStep::take_constrained(const std::vector<GrainState>& states) {

@@ -29,7 +29,8 @@ class ImmersedStep {
     ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes);
 
     /// Takes the grains that touch this rank and places their points; first call of a window. The
-    /// grains are free, and fall for `step` [s].
+    /// grains are free, and fall for `step` [s]; with a splitting that carries multipliers they
+    /// also have the contact impulses of the last window, until `push` corrects them.
     void take_free(const std::vector<GrainState>& grains, double step);
 
     /// The same for grains whose velocities already contain their contact impulses.
@@ -57,6 +58,12 @@ class ImmersedStep {
 
     const CollocationPoints& points() const { return points_; }
 
+    // Between solve and impose, for changes of the velocity from outside:
+
+    SaddleOperator& system() { return system_; }
+    ConstrainedFlow& flow() { return flow_; }
+    const MultiplierSettings& settings() const { return settings_; }
+
  private:
     ImmersedGrain immersed(const GrainState& state) const;
     void take(const std::vector<GrainState>& states);
@@ -67,6 +74,7 @@ class ImmersedStep {
     RunValues run_;
     ImmersedBodies bodies_;
     MultiplierSettings settings_;
+    bool carries_contacts_;  // from window to window
     double slip_goal_ = 0.0;  // rms slip to reach, set by the window's first solve [m/s]
 
     std::vector<ImmersedGrain> grains_;

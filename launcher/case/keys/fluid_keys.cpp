@@ -141,6 +141,10 @@ std::string without_iterative_pressure(const Settings& s) {
 std::string without_iterative_viscosity(const Settings& s) {
     return unless(!is(s, "fluid.viscous_solver", "FFT"), s, "with fluid.viscous_solver: FFT");
 }
+std::string without_iterated_splitting(const Settings& s) {
+    return unless(is(s, "fluid.splitting", "implicit-multiplier"), s,
+                  "unless fluid.splitting is implicit-multiplier");
+}
 std::string without_boundary_points(const Settings& s) {
     return unless(!is(s, "fluid.points", "interior"), s, "with fluid.points: interior");
 }
@@ -208,10 +212,23 @@ KeyGroup fluid_keys() {
                  .fallback = "marchuk-yanenko",
                  .choices =
                      {{"marchuk-yanenko", "as in Topin et al. 2011"},
-                      {"explicit-multiplier", "carries the multipliers into steps 1-3", false},
-                      {"implicit-multiplier", "viscosity solved with the multipliers", false}},
+                      {"explicit-multiplier", "carries pressure and contacts, corrects them once with rigid grains"},
+                      {"implicit-multiplier", "the same, iterated to fluid.splitting_tolerance"}},
                  .help = "order of the fluid's fractional steps",
                  .idle = without_fluid},
+                {.name = "fluid.splitting_tolerance",
+                 .type = KeyType::real,
+                 .unit = "u_c/D",
+                 .fallback = "0.01",
+                 .range = open_unit_interval,
+                 .help = "rms divergence, and relative residual of viscosity, that windows end with",
+                 .idle = without_iterated_splitting},
+                {.name = "fluid.splitting_iterations",
+                 .type = KeyType::integer,
+                 .fallback = "10",
+                 .range = {.lower = 1.0, .upper = 1000.0},
+                 .help = "largest number of pressure iterations per contact solve; of viscosity too",
+                 .idle = without_iterated_splitting},
                 {.name = "fluid.hydrodynamic_radius",
                  .type = KeyType::real,
                  .fallback = "1",

@@ -24,6 +24,7 @@ inline Settings test_settings(const std::string& scheme = "split", bool fluid = 
     s.set("run.slip_tolerance", 1e-4);
     s.set("fluid.multiplier_tolerance", 1e-4);
     s.set("fluid.multiplier_iterations", std::int64_t{200});
+    s.set("fluid.splitting", std::string("marchuk-yanenko"));
     s.set("coupling.tolerance", 1e-9);
     s.set("coupling.iterations", std::int64_t{10});
     s.set("limits.stall_soft", 5.0);

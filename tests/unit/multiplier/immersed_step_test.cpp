@@ -20,6 +20,7 @@ Settings settings(double slip_tolerance = 0.1 * tolerance) {
     result.set("fluid.points", std::string("interior+boundary"));
     result.set("fluid.point_spacing", 1.5);
     result.set("fluid.multiplier_iterations", std::int64_t{200});
+    result.set("fluid.splitting", std::string("marchuk-yanenko"));
     return result;
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/coupled_step/coupled_step.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace turbidite {
+
+void CoupledStep::begin(double dt) {
+    dt_ = dt;
+    pressure_.begin(box_, dt);
+    viscosity_.begin(step_.viscosity() * dt);
+    viscosity_.start_from(box_, {step_.velocity(0), step_.velocity(1)});
+}
+
+void CoupledStep::predict() {
+    double *x = step_.velocity(0), *y = step_.velocity(1);
+    if (keep_) {
+        transported_.x.assign(x, x + box_.size());
+        transported_.y.assign(y, y + box_.size());
+    }
+    const RowsOfTwo& f = viscosity_.impulse();
+    for (std::size_t c = 0; c < box_.size(); ++c) {
+        x[c] += f.x[c];
+        y[c] += f.y[c];
+    }
+    pressure_.subtract_gradient(box_, x, y);
+}
+
+void CoupledStep::place_grains(const CollocationPoints& points) {
+    pressure_.place_grains(box_, points, step_.kept_excess(dt_));
+}
+
+CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& limits) {
+    CoupledReport report;
+    report.viscosity = viscosity_.correct(box_, grains, limits.viscosity);
+    report.pressure = pressure_.correct(box_, grains, limits.pressure);
+    return report;
+}
+
+RowsOfTwo CoupledStep::unconstrained() {
+    RowsOfTwo s = transported_;
+    const RowsOfTwo& f = viscosity_.impulse();
+    for (std::size_t c = 0; c < box_.size(); ++c) {
+        s.x[c] += f.x[c];
+        s.y[c] += f.y[c];
+    }
+    pressure_.subtract_gradient(box_, s.x.data(), s.y.data());
+    return s;
+}
+
+BoxStep::Force CoupledStep::viscous_force() const {
+    const RowsOfTwo& f = viscosity_.impulse();
+    const double per_time = step_.cell_area() / dt_;
+    return {per_time * std::accumulate(f.x.begin(), f.x.end(), 0.0),
+            per_time * std::accumulate(f.y.begin(), f.y.end(), 0.0)};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A window in which pressure and viscosity know that grains are rigid, instead of steps 1, 3 and 5
+// one after the other (Topin 2011, section 2.2). With W the constraint of the grains
+// (rigid_grains.hpp), u^n rigid and nearly solenoidal, P^n the grains' momenta with their weight
+// and the contact impulses of the last window:
+//
+//     begin      f = dt nu L u^n                      viscous impulse of the last velocity
+//     (transport of u^n with a solenoidal flux)
+//     predict    s = transported u^n + f - dt G p^n
+//     (u, U) = W(s, P^n)
+//     correct    f: u = W(s), f = dt nu L u           rigid_viscosity.hpp
+//                p: D u + div e = 0                   rigid_pressure.hpp
+//     end        p^{n+1}, e^{n+1}
+//
+// What a window leaves to the next one is u, p and e. Valid C++17.
+#pragma once
+
+#include "fluid_adapter/coupled_step/rigid_pressure.hpp"
+
+namespace turbidite {
+
+struct CoupledLimits {
+    IterationLimit viscosity;  ///< tolerance: |dt nu L u - f| over |dt nu L u|
+    IterationLimit pressure;   ///< tolerance: rms of div [1/s]
+};
+
+struct CoupledReport {
+    IterationResult viscosity, pressure;  ///< pressure.residual: rms of div [1/s]
+};
+
+class CoupledStep {
+ public:
+    explicit CoupledStep(BoxStep& step) : step_(step), box_(step.operators()), pressure_(step) {}
+
+    /// Before transport over dt [s].
+    void begin(double dt);
+
+    /// After transport.
+    void predict();
+
+    /// Keeps s of the next window.
+    void keep_unconstrained(bool keep) { keep_ = keep; }
+
+    /// Once per window, before the first correct.
+    void place_grains(const CollocationPoints& points);
+
+    CoupledReport correct(RigidGrains& grains, const CoupledLimits& limits);
+
+    /// s of the window with its last f and p, if kept [m/s].
+    RowsOfTwo unconstrained();
+
+    /// Ends the window: p and e become the step's.
+    void end() { pressure_.end(box_); }
+
+    /// Momentum over rho_f that viscosity brought in over this rank's sides, per time and unit
+    /// length [m3/s2].
+    BoxStep::Force viscous_force() const;
+
+ private:
+    BoxStep& step_;
+    BoxOperators box_;
+    RigidPressure pressure_;
+    RigidViscosity viscosity_;
+    RowsOfTwo transported_;
+    double dt_ = 0.0;
+    bool keep_ = false;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/coupled_step/rigid_grains.hpp"
+
+#include <algorithm>
+
+namespace turbidite {
+
+RigidGrains::RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelocity velocity,
+                         const MultiplierSettings& settings)
+    : system_(system),
+      flow_(flow),
+      velocity_(velocity),
+      settings_(settings),
+      cells_(system.field().owned_cells()),
+      all_cells_(static_cast<double>(cells_)) {
+    system.field().sum_over_ranks(&all_cells_, 1);
+    settings_.tolerance = 1.0;  // the slip of a change is judged by its own size
+}
+
+void RigidGrains::make_rigid(RigidChange& change, double reduction) {
+    settings_.reduction = reduction;
+    change.grains.begin(system_, change.velocity());
+    const MultiplierResult result = uzawa_cg(change.grains, settings_, work_);
+    change.grains.impose();
+    iterations_ += result.iterations;
+    converged_ = converged_ && result.converged;
+}
+
+void RigidGrains::combine(RigidChange& change, double keep, const RigidChange& other) const {
+    for (std::size_t c = 0; c < cells_; ++c) {
+        change.x[c] = keep * change.x[c] + other.x[c];
+        change.y[c] = keep * change.y[c] + other.y[c];
+    }
+    change.grains.scale(keep);
+    change.grains.add(other.grains, 1.0);
+}
+
+void RigidGrains::add(const RigidChange& change, double share) {
+    for (std::size_t c = 0; c < cells_; ++c) {
+        velocity_.x[c] += share * change.x[c];
+        velocity_.y[c] += share * change.y[c];
+    }
+    flow_.add(change.grains, share);
+}
+
+double RigidGrains::dot(const double* a, const double* b) const {
+    using Vector = Eigen::Map<const Eigen::VectorXd>;
+    const auto size = static_cast<Eigen::Index>(cells_);
+    double sum = Vector(a, size).dot(Vector(b, size));
+    system_.field().sum_over_ranks(&sum, 1);
+    return sum;
+}
+
+}  // namespace turbidite

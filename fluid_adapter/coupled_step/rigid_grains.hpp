@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The map W from changes of the fluid's velocity to what grains let through of them: fluid inside
+// grains moves as a rigid body, and multipliers tie the boundary points to it
+// (multiplier/constrained_flow.hpp). W is symmetric in the product of momenta, the kinetic energy
+// of fluid and grains, and positive. Valid C++17.
+#pragma once
+
+#include <vector>
+
+#include "fluid_adapter/multiplier/uzawa_cg.hpp"
+
+namespace turbidite {
+
+/// A change of the fluid's velocity made rigid, and what it does to the grains.
+struct RigidChange {
+    std::vector<double> x, y;  ///< over the rank's cells [m/s]
+    ConstrainedFlow grains;
+
+    void resize(std::size_t cells) { x.resize(cells), y.resize(cells); }
+    CellVelocity velocity() { return {x.data(), y.data()}; }
+};
+
+class RigidGrains {
+ public:
+    /// `flow`: of this window, imposed; both are kept by reference.
+    RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelocity velocity,
+                const MultiplierSettings& settings);
+
+    /// change <- W change. The slip is reduced by the factor `reduction`.
+    void make_rigid(RigidChange& change, double reduction);
+
+    /// change <- keep change + other.
+    void combine(RigidChange& change, double keep, const RigidChange& other) const;
+
+    /// The window's velocity, of fluid and grains, += share change.
+    void add(const RigidChange& change, double share);
+
+    /// Sum over the cells of all ranks.
+    double dot(const double* a, const double* b) const;
+
+    double all_cells() const { return all_cells_; }  ///< on all ranks
+    CellVelocity velocity() const { return velocity_; }
+
+    /// Iterations of all solves so far, and whether all of them converged.
+    std::int64_t iterations() const { return iterations_; }
+    bool converged() const { return converged_; }
+
+ private:
+    SaddleOperator& system_;
+    ConstrainedFlow& flow_;
+    CellVelocity velocity_;
+    MultiplierSettings settings_;
+    MultiplierWorkspace work_;
+    std::size_t cells_;
+    double all_cells_;
+    std::int64_t iterations_ = 0;
+    bool converged_ = true;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The pressure of a fluid with rigid grains: with s the velocity without it and W of
+// rigid_grains.hpp,
+//
+//     u = W(s - dt G p),    D u + div e = 0        G, D, e: box_step/box_operators.hpp
+//
+// by conjugate gradients on p from an earlier one: residual r = -(D u + div e), preconditioned by
+// the fluid's own pressure solve -(1/dt) laplacian^-1, which is exact without grains. The operator
+// -dt (D W G + smoothing) is symmetric and not negative. Valid C++17.
+#pragma once
+
+#include "fluid_adapter/box_step/box_step.hpp"
+#include "fluid_adapter/coupled_step/rigid_viscosity.hpp"
+
+namespace turbidite {
+
+class RigidPressure {
+ public:
+    explicit RigidPressure(BoxStep& step) : step_(step) {}
+
+    /// Begins a window of length dt [s]: p is the step's, k the part of e that remains.
+    void begin(BoxOperators& box, double dt);
+
+    /// x, y -= dt G p.
+    void subtract_gradient(BoxOperators& box, double* x, double* y) const;
+
+    /// Takes the grains' places; k is the part of the excess that remains of the last window's.
+    void place_grains(BoxOperators& box, const CollocationPoints& points, double k);
+
+    /// Corrects the window's velocity and p until |r| < tolerance |r of p = 0 without grains|.
+    IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
+
+    /// Ends the window: p and the excess become the step's.
+    void end(BoxOperators& box);
+
+ private:
+    void divergence(BoxOperators& box, const RigidGrains& grains);
+    double rms(const RigidGrains& grains) const;
+    void precondition();
+    void apply(BoxOperators& box);
+
+    BoxStep& step_;
+    double dt_ = 0.0;
+    std::vector<double> p_, outside_, residual_, direction_, image_, preconditioned_;
+    RigidChange rigid_, rigid_direction_;
+};
+
+}  // namespace turbidite

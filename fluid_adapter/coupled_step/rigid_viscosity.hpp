@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Viscosity of a fluid with rigid grains, implicit in time: with s the velocity without it and W of
+// rigid_grains.hpp (affine here: momenta of grains included)
+//
+//     u = W(s + f),    f = dt nu L u
+//
+// by conjugate gradients on the viscous impulse f: the residual r = dt nu L u - f, preconditioned
+// by W itself, needs no transforms, and every iterate u is rigid. The operator I - dt nu L W has
+// eigenvalues from 1 to 1 + 8 nu dt/h2. Valid C++17.
+#pragma once
+
+#include "fluid_adapter/box_step/box_operators.hpp"
+#include "fluid_adapter/coupled_step/rigid_grains.hpp"
+
+namespace turbidite {
+
+struct IterationResult {
+    int iterations = 0;
+    double residual = 0.0;  ///< what is left of the first residual's scale
+    bool converged = true;
+};
+
+struct IterationLimit {
+    int most = 1;
+    double tolerance = 0.0;
+};
+
+class RigidViscosity {
+ public:
+    /// `per_laplacian`: nu dt [m2].
+    void begin(double per_laplacian) { per_laplacian_ = per_laplacian; }
+
+    /// f = dt nu L u of a velocity, where the iteration starts.
+    void start_from(BoxOperators& box, const CellVelocity& velocity);
+
+    /// Corrects the window's velocity and f, at least once, until |r| < tolerance |dt nu L u|.
+    IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
+
+    /// f over the rank's cells [m/s].
+    const RowsOfTwo& impulse() const { return impulse_; }
+
+ private:
+    void laplacian(BoxOperators& box, const CellVelocity& u, RowsOfTwo& out);
+
+    double per_laplacian_ = 0.0;
+    RowsOfTwo impulse_, residual_, direction_, image_;
+    RigidChange rigid_residual_, rigid_direction_;
+};
+
+}  // namespace turbidite
