@@ -10,6 +10,7 @@ FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup
                          const Settings& settings, const ShapeTable& shapes)
     : fields_(directory, ranks),
       field_(fields_, fluid_domain(settings)),
+      sides_(side_motions(settings), fields_),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       ledger_(fields_, field_),
       multipliers_(field_, settings, shapes) {
@@ -70,6 +71,7 @@ void FluidWindow::begin(const Window& window) {
     grains_taken_ = false;
     if (!fields_.time.functionObjects().empty()) put_fields();
     fields_.time.setDeltaT(window.step);
+    if (sides_.set(window.time, window.step)) step_->sides_changed();
     if (!fields_.time.loop())
         throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
                                                         " begins at or after endTime of " +

@@ -18,6 +18,7 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
+#include "fluid_adapter/foam_app/sideVelocity.hpp"
 #include "fluid_adapter/foam_app/stepWatch.hpp"
 #include "fluid_adapter/multiplier/immersed_step.hpp"
 
@@ -75,6 +76,7 @@ class FluidWindow {
 
     FluidFields fields_;
     FoamFluidField field_;
+    SideVelocity sides_;
     std::unique_ptr<FluidStep> step_;
     MomentumLedger ledger_;
     ImmersedStep multipliers_;

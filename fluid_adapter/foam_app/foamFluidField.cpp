@@ -16,7 +16,8 @@ constexpr double placement_tolerance = 1e-4;
 constexpr int halo_layers = 3;
 
 Side side_of(const std::string& kind) {
-    return kind == "wall" ? Side::wall : kind == "cyclic" ? Side::cyclic : Side::open;
+    if (kind == "cyclic") return Side::cyclic;
+    return kind == "free" ? Side::open : Side::wall;  // grains keep to the inside of an inflow too
 }
 
 CellGrid grid_of(const FluidDomain& domain, double thickness) {
@@ -87,9 +88,7 @@ void FoamFluidField::work_on(double* x, double* y) {
 }
 
 std::array<const double*, 2> FoamFluidField::import_halo(const double* x, const double* y) {
-    if (halo_)
-        halo_->import({x, y},
-                      {halo_velocity_[0].data(), halo_velocity_[1].data()});
+    if (halo_) halo_->import({x, y}, {halo_velocity_[0].data(), halo_velocity_[1].data()});
     return {halo_velocity_[0].data(), halo_velocity_[1].data()};
 }
 

@@ -71,7 +71,9 @@ PackingBox packing_box(const Settings& settings) {
 }
 
 SolidSides solid_sides(const Settings& settings) {
-    const auto solid = [&](const char* key) { return settings.text(key) == "wall"; };
+    const auto solid = [&](const char* key) {
+        return settings.text(key) == "wall" || settings.text(key) == "inflow";
+    };
     return {solid("domain.left"), solid("domain.right"), solid("domain.bottom"),
             solid("domain.top")};
 }
@@ -402,6 +404,7 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
     settings.set("run.walls",
                  walls_setting(walls, result.scales, settings.real("contact.friction")));
     settings.set("run.wall_motions", motions_setting(settings, walls, result.scales));
+    settings.set("run.inflow_motions", inflows_setting(settings, result.scales));
     set_materials(settings);
     set_soft_contact(settings, population.grains);
     result.packing = std::move(population.grains);
