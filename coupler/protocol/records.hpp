@@ -75,7 +75,8 @@ struct FreeResponse {
     GrainId id = 0;
     Vec3 velocity{};          ///< U^F [m/s]
     Vec3 angular_velocity{};  ///< omega^F [rad/s]
-    /// Effective inertia, symmetric 6 x 6 (upper_entry): translation first.
+    /// Effective inertia, symmetric 6 x 6 (upper_entry): translation first. All zero for a grain
+    /// whose motion is prescribed: (U, omega) is then that motion, and inertia^-1 stands for zero.
     /// [kg], [kg m], [kg m2]
     std::array<double, 21> inertia{};
     /// Mismatch between contacts and fluid: |U' - U| + R |omega' - omega| of the last contact

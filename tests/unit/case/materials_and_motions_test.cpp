@@ -77,9 +77,6 @@ TEST_F(RichCase, RowsThatMakeNoSenseAreRefused) {
     EXPECT_SAYS(refusal_of_row("1,2,2,fast,0,0,1,steel,free\n"), "vx = fast");
     EXPECT_SAYS(refusal_of_row("1,2,2,0,0,0,0,steel,free\n"), "density = 0");
     EXPECT_SAYS(
-        refusal_of_row("1,2,2,0,0,0,2,steel,fixed\n", {"fluid.enabled=true", "fluid.reynolds=36"}),
-        "In a fluid all grains are free");
-    EXPECT_SAYS(
         refusal_of_row("1,2,2,0,0,0,0.9,steel,free\n", {"fluid.enabled=true", "fluid.reynolds=36"}),
         "density = 0.9");
 }
