@@ -171,6 +171,7 @@ struct FluidReport {
     /// zero to solver tolerance.
     double momentum_defect = 0.0;
     double courant = 0.0;
+    Vec3 mean_velocity{};       ///< of the whole box, cells in grains included [m/s]
     double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
 };
 

@@ -64,6 +64,7 @@ class FluidWindow {
  private:
     void begin(const Window& window);
     void project();
+    void drive();
     void transport();
     int transport_parts() const;
     void diffuse();
@@ -74,6 +75,7 @@ class FluidWindow {
     void close_ledger();
     void write_fields();
 
+    const RunValues run_;
     FluidFields fields_;
     FoamFluidField field_;
     SideVelocity sides_;

@@ -122,6 +122,16 @@ std::array<double, 2> FoamFluidField::velocity_of(int cell) const {
     return {velocity_[0][cell], velocity_[1][cell]};
 }
 
+void FoamFluidField::accelerate(const std::array<double, 2>& change) {
+    if (copies_used_) {
+        fields_.U.primitiveFieldRef() += Foam::vector(change[0], change[1], 0.0);
+        fields_.U.correctBoundaryConditions();
+        return;
+    }
+    for (int axis = 0; axis < 2; ++axis)
+        for (int cell = 0; cell < owned_; ++cell) velocity_[axis][cell] += change[axis];
+}
+
 Foam::vector FoamFluidField::momentum() const {
     if (copies_used_) return fields_.momentum();
     return fields_.momentum(velocity_[0], velocity_[1]);
