@@ -20,6 +20,7 @@ inline void set_run_keys(Settings& s) {
          {"diameter", "velocity_scale", "time_scale", "gravity", "grain_weight", "fluid_density"})
         s.set(std::string("run.") + unit, 1.0);
     s.set("run.viscosity", 0.1);
+    s.set("run.acceleration_x", 0.0), s.set("run.acceleration_y", 0.0);
     s.set("run.step", 0.01);
     s.set("run.windows", std::int64_t{6});
     s.set("run.output_every", std::int64_t{2});

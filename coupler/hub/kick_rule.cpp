@@ -76,6 +76,7 @@ double KickRule::defect(const std::vector<Kick>& kicks, const Motion& before, co
     Balance linear, angular;
     for (const Kick& kick : kicks) {
         const GrainState& grain = before.grains.at(before_.place(kick.id));
+        if (grain.prescribed) continue;  // what holds it takes the rest
         const GrainState& with_contact = contact.grains.at(contact_.place(kick.id));
         const ImmersedBody immersed = bodies_(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);

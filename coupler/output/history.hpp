@@ -22,6 +22,7 @@ struct Row {
     const Motion* state = nullptr;
     const ContactReport* contact = nullptr;  ///< null before the first window
     const FluidReport* fluid = nullptr;      ///< null in dry runs and before the first window
+    Vec3 fluid_force{};                      ///< sum of F_h over the grains [N]
     const JointReport* joint = nullptr;      ///< null under other schemes
     std::optional<SinceRow> since;           ///< empty before the first window
     std::optional<double> grain_balance;     ///< KickRule::defect

@@ -57,6 +57,12 @@ std::string stress(Cell c, double PlaneTensor::*part) {
     return number(c.network->virial.*part / (c.mean.solid + c.pores) / pressure_unit(c));
 }
 
+/// A component of the sum of F_h over rho_f u_c^2 D.
+double force(Cell c, std::size_t axis) {
+    return c.row.fluid_force[axis] /
+           (c.run.fluid_density * c.run.velocity * c.run.velocity * c.run.diameter);
+}
+
 struct Column {
     const char* name;
     Text text;
@@ -127,6 +133,16 @@ const std::vector<Column> columns = {
          return number(*c.network->normal_force / (pressure_unit(c) * c.run.diameter));
      }},
     {"sliding_share", [](Cell c) { return network(c, &ContactNetwork::sliding_share); }},
+    {"flow_x",
+     [](Cell c) {
+         return fluid(c, [](Cell r) { return r.row.fluid->mean_velocity[0] / r.run.velocity; });
+     }},
+    {"flow_y",
+     [](Cell c) {
+         return fluid(c, [](Cell r) { return r.row.fluid->mean_velocity[1] / r.run.velocity; });
+     }},
+    {"fluid_force_x", [](Cell c) { return fluid(c, [](Cell r) { return force(r, 0); }); }},
+    {"fluid_force_y", [](Cell c) { return fluid(c, [](Cell r) { return force(r, 1); }); }},
 };
 
 template <class Part>

@@ -47,6 +47,8 @@ Row RunOutput::row() const {
     row.time = static_cast<double>(row.step) * window_.step;
     row.contact = &last_.motion.report;
     row.fluid = wet_ ? &last_.kicks.report : nullptr;
+    for (const Kick& kick : last_.kicks.kicks)
+        for (std::size_t i = 0; i < 3; ++i) row.fluid_force[i] += kick.force[i];
     row.joint = last_.joint ? &*last_.joint : nullptr;
     row.grain_balance = last_.grain_balance;
     row.since = since_row_;

@@ -171,11 +171,13 @@ ScriptedFluid::DraggedGrain ScriptedFluid::dragged(const GrainState& grain, doub
     const ImmersedBody body = bodies_(grain);
     DraggedGrain motion;
     motion.id = grain.id;
+    motion.prescribed = grain.prescribed;
     motion.mass = body.effective_mass + drag_ * step;
     motion.inertia = body.effective_inertia(2, 2);
     // (M_eff + gamma dt) U = M_eff U^n + J
     const Vec3 coasting = plus({}, body.effective_mass / motion.mass, grain.velocity);
-    motion.velocity = plus(coasting, 1.0 / motion.mass, impulse);
+    motion.velocity =
+        grain.prescribed ? grain.velocity : plus(coasting, 1.0 / motion.mass, impulse);
     motion.angular_velocity = grain.angular_velocity;
     return motion;
 }
@@ -206,6 +208,7 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
 
 /// The change of the contact impulses, and the error of the contact solve.
 void ScriptedFluid::push(DraggedGrain& own, const GrainState& solved) {
+    if (own.prescribed) return;
     const Vec3 change = plus(solved.contact_impulse, -1.0, own.pushed);
     const Vec3 turn = plus(solved.contact_angular_impulse, -1.0, own.angular_pushed);
     own.velocity = plus(own.velocity, 1.0 / own.mass, change);
@@ -220,6 +223,11 @@ FreeResponse ScriptedFluid::response(const DraggedGrain& grain) const {
     const double mass = response_factor_ * grain.mass, inertia = response_factor_ * grain.inertia;
     FreeResponse response;
     response.id = grain.id;
+    if (grain.prescribed) {
+        response.velocity = grain.velocity;
+        response.angular_velocity = grain.angular_velocity;
+        return response;
+    }
     response.velocity = plus(grain.velocity, -1.0 / mass, grain.pushed);
     response.angular_velocity = plus(grain.angular_velocity, -1.0 / inertia, grain.angular_pushed);
     for (std::size_t i = 0; i < 6; ++i)

@@ -81,6 +81,7 @@ class ScriptedFluid : public FluidAdapter {
     /// in its velocity.
     struct DraggedGrain {
         GrainId id = 0;
+        bool prescribed = false;
         Vec3 velocity{}, angular_velocity{};
         double mass = 0.0, inertia = 0.0;
         Vec3 pushed{}, angular_pushed{};

@@ -13,11 +13,10 @@ namespace turbidite {
 /// Major versions must be equal; the smaller of the two minor versions applies, down to
 /// `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 4;
+inline constexpr std::int32_t protocol_minor = 5;
 
-/// The oldest supported minor version: since then the coupler sends the order of a window, and
-/// `accept` ends it under every scheme with a fluid.
-inline constexpr std::int32_t oldest_minor = 4;
+/// The oldest supported minor version: since then the fluid reports its mean velocity.
+inline constexpr std::int32_t oldest_minor = 5;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 

@@ -75,7 +75,8 @@ struct FreeResponse {
     GrainId id = 0;
     Vec3 velocity{};          ///< U^F [m/s]
     Vec3 angular_velocity{};  ///< omega^F [rad/s]
-    /// Effective inertia, symmetric 6 x 6 (upper_entry): translation first.
+    /// Effective inertia, symmetric 6 x 6 (upper_entry): translation first. All zero for a grain
+    /// whose motion is prescribed: (U, omega) is then that motion, and inertia^-1 stands for zero.
     /// [kg], [kg m], [kg m2]
     std::array<double, 21> inertia{};
     /// Mismatch between contacts and fluid: |U' - U| + R |omega' - omega| of the last contact
@@ -170,6 +171,7 @@ struct FluidReport {
     /// zero to solver tolerance.
     double momentum_defect = 0.0;
     double courant = 0.0;
+    Vec3 mean_velocity{};       ///< of the whole box, cells in grains included [m/s]
     double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
 };
 

@@ -12,6 +12,7 @@ void read_fluid(const Settings& settings, RunValues& run) {
     run.fluid_density = settings.real("run.fluid_density");
     run.viscosity = settings.real("run.viscosity");
     run.hydrodynamic_radius = settings.real("fluid.hydrodynamic_radius");
+    run.acceleration = {settings.real("run.acceleration_x"), settings.real("run.acceleration_y")};
 }
 
 }  // namespace

@@ -22,10 +22,11 @@ struct RunValues {
     double gravity = 0.0;       ///< g, along -y [m/s2]
     double grain_weight = 0.0;  ///< m g of a disc of diameter D in air, per unit length [N/m]
 
-    bool wet = false;                  ///< with a fluid
-    double fluid_density = 0.0;        ///< rho_f; 0 when dry [kg/m3]
-    double viscosity = 0.0;            ///< nu; 0 when dry [m2/s]
-    double hydrodynamic_radius = 1.0;  ///< R_h/R; 1 when dry
+    bool wet = false;                      ///< with a fluid
+    double fluid_density = 0.0;            ///< rho_f; 0 when dry [kg/m3]
+    double viscosity = 0.0;                ///< nu; 0 when dry [m2/s]
+    double hydrodynamic_radius = 1.0;      ///< R_h/R; 1 when dry
+    std::array<double, 2> acceleration{};  ///< uniform body force on the fluid over rho_f [m/s2]
 
     double step = 0.0;              ///< dt, the length of a window [s]
     std::int64_t windows = 0;       ///< of the whole run

@@ -13,7 +13,7 @@
 //     run.scheme                              order of a window: coupling.scheme, or dry
 //     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
-//     run.wall_motions                      granular_adapter/grains/wall_motions
+//     run.wall_motions  run.inflow_motions  prescribed_motion.hpp
 //     run.materials                         names of materials 1, 2, ..., separated by spaces;
 //                                           coefficients are contact.materials.NAME.*
 //

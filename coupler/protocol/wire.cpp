@@ -119,7 +119,7 @@ constexpr auto visit_kicks = [](auto& code, auto& kicks) {
     auto& r = kicks.report;
     code(r.multiplier_iterations), code(r.multiplier_residual), code(r.multipliers_converged);
     code(r.divergence), code(r.final_divergence), code(r.momentum_defect);
-    code(r.courant), code(r.wall_seconds);
+    code(r.courant), array(code, r.mean_velocity), code(r.wall_seconds);
 };
 
 constexpr auto visit_response = [](auto& code, auto& r) {

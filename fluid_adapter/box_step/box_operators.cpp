@@ -18,15 +18,15 @@ PlaneOperator even(PlaneOperator plane) {
 }  // namespace
 
 BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& pressure,
-                           BoxRows& rows)
+                           BoxRows& rows, const std::array<SideValues, 2>& sides)
     : nx_(pressure.x.cells),
       ny_(rows.count()),
       hx_(pressure.x.spacing),
       hy_(pressure.y.spacing),
       periodic_(pressure.x.periodic()),
       rows_(rows),
-      u_(velocity, rows),
-      v_(velocity, rows),
+      velocity_{RowReader(velocity, rows, &sides[0]), RowReader(velocity, rows, &sides[1])},
+      change_{RowReader(velocity, rows), RowReader(velocity, rows)},
       p_(pressure, rows),
       w_(even(pressure), rows),
       ends_(pressure, rows) {
@@ -45,21 +45,28 @@ void BoxOperators::subtract_gradient(double step, const double* p, double* x, do
     }
 }
 
-void BoxOperators::laplacian(double share, const double* u, double* out) {
-    u_.begin(u);
-    for (int j = 0; j < ny_; ++j)
-        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), u_.row(j - 1), u_.row(j),
-                      u_.row(j + 1), out + at(j));
+void BoxOperators::laplacian(double share, int axis, SidesHold sides, const double* u,
+                             double* out) {
+    RowReader& rows = readers(sides)[axis];
+    rows.begin(u);
+    for (int j = 0; j < ny_; ++j) {
+        const double* below = rows.row(j - 1);
+        const double* here = rows.row(j);
+        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
+                      out + at(j));
+    }
 }
 
-void BoxOperators::divergence(double share, const double* x, const double* y, double* out) {
-    u_.begin(x);
-    v_.begin(y);
+void BoxOperators::divergence(double share, SidesHold sides, const double* x, const double* y,
+                              double* out) {
+    auto& [u, v] = readers(sides);
+    u.begin(x);
+    v.begin(y);
     for (int j = 0; j < ny_; ++j) {
-        const double* u = u_.row(j);
-        const double* below = v_.row(j - 1);
-        divergence_row(nx_, 0.5 * share / hx_, u - 1, u + 1, 0.5 * share / hy_, below,
-                       v_.row(j + 1), out + at(j));
+        const double* here = u.row(j);
+        const double* below = v.row(j - 1);
+        divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / hy_, below,
+                       v.row(j + 1), out + at(j));
     }
 }
 
@@ -84,7 +91,7 @@ void BoxOperators::second_difference_along(int j, const double* w, Row& q) {
     const double* p = p_.row(j);
     double* inside = q.data() + RowReader::beyond;
     weighted_difference(nx_, w, p - 1, p, p + 1, inside);
-    ends_.extend(inside);
+    ends_.extend(inside, j);
 }
 
 /// q = w d2 p along y.

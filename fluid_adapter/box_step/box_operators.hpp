@@ -15,6 +15,7 @@
 // between two such cells carry S.u and no more, and the operator stays symmetric. Valid C++17.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fluid_adapter/box_step/row_reader.hpp"
@@ -28,10 +29,14 @@ struct RowsOfTwo {
     void resize(std::size_t size) { x.resize(size), y.resize(size); }
 };
 
+/// A velocity has the values that sides prescribe; a change of one is zero there.
+enum class SidesHold { velocity, nothing };
+
 class BoxOperators {
  public:
-    /// `rows` must outlive it.
-    BoxOperators(const PlaneOperator& velocity, const PlaneOperator& pressure, BoxRows& rows);
+    /// `rows` and the values on the sides, of both components, must outlive it.
+    BoxOperators(const PlaneOperator& velocity, const PlaneOperator& pressure, BoxRows& rows,
+                 const std::array<SideValues, 2>& sides);
 
     std::size_t size() const { return static_cast<std::size_t>(nx_) * ny_; }
 
@@ -40,11 +45,11 @@ class BoxOperators {
     /// x, y -= step G p
     void subtract_gradient(double step, const double* p, double* x, double* y);
 
-    /// out = share L u, of one component
-    void laplacian(double share, const double* u, double* out);
+    /// out = share L u, of the component along `axis`
+    void laplacian(double share, int axis, SidesHold sides, const double* u, double* out);
 
     /// out = share D (x, y)
-    void divergence(double share, const double* x, const double* y, double* out);
+    void divergence(double share, SidesHold sides, const double* x, const double* y, double* out);
 
     /// out += share div e, with e laid out as BoxStep::excess
     void add_divergence_of_excess(double share, const double* along_x, const double* along_y,
@@ -63,6 +68,9 @@ class BoxOperators {
  private:
     using Row = std::vector<double>;
 
+    std::array<RowReader, 2>& readers(SidesHold sides) {
+        return sides == SidesHold::velocity ? velocity_ : change_;
+    }
     std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
     void second_difference_along(int j, const double* w, Row& q);
     void second_difference_across(int j, const double* w, Row& q);
@@ -72,7 +80,8 @@ class BoxOperators {
     double hx_, hy_;
     bool periodic_;
     BoxRows& rows_;
-    RowReader u_, v_, p_, w_;
+    std::array<RowReader, 2> velocity_, change_;
+    RowReader p_, w_;
     RowReader ends_;  // extends rows of q
     Row along_, below_, here_, above_;
 };

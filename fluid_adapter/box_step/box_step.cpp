@@ -32,8 +32,8 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
       pressure_(fluid.pressure, rows_->pencils()),
       viscous_{SeparableSolve(fluid.velocity, rows_->pencils()),
                SeparableSolve(fluid.velocity, rows_->pencils())},
-      u_(fluid.velocity, *rows_),
-      v_(fluid.velocity, *rows_),
+      u_(fluid.velocity, *rows_, &side_velocity_[0]),
+      v_(fluid.velocity, *rows_, &side_velocity_[1]),
       p_(fluid.pressure, *rows_) {
     pressure_.factorise({0.0, 1.0});
     excess_[0].assign(static_cast<std::size_t>(nx_ + 1) * ny_, 0.0);
@@ -43,6 +43,8 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
     for (Row* row : {&flux_below_, &flux_above_, &corrected_below_, &corrected_here_,
                      &largest_divergence_, &largest_outflow_, &divergence_})
         row->resize(nx_);
+    for (SideValues& values : side_velocity_)
+        for (int side = 0; side < 4; ++side) values[side].assign(side < 2 ? ny_ : nx_, 0.0);
     for (int axis = 0; axis < 2; ++axis) {
         carried_x_[axis].resize(nx_ + 1);
         carried_below_[axis].resize(nx_);
@@ -128,7 +130,7 @@ void BoxStep::correct_across(int j, double dt, const double* p) {
     const double* u = u_.row(j);
     double* corrected = corrected_u_.data() + RowReader::beyond;
     correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, u, corrected);  // u1 = u - dt dp/dx
-    u_.extend(corrected);
+    u_.extend(corrected, j);
     // phi1 = S.u + k e - dt dp/dx,   e = phi1 - S.u1
     flux_along(j, u, kept_, flux_x_.data());
     correct(nx_ + 1, dt / hx_, p - 1, p, flux_x_.data(), flux_x_.data());
@@ -200,7 +202,7 @@ void BoxStep::hold_middle_flux(bool begins) {
     }
 }
 
-/// By the scheme of the case. Where that is not limited, sides have their boundary values.
+/// By the scheme of the case, inside the box.
 void BoxStep::carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
                     std::array<Row, 2>& carried) const {
     if (fluid_.central)
@@ -218,7 +220,7 @@ void BoxStep::carry_above(int j) {
     if (!held_) mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
     carry(nx_, flux, u, v, carried_above_);
     const bool side = (j == -1 && !rows_->open_below()) || (j == ny_ - 1 && !rows_->open_above());
-    for (int i = 0; fluid_.central && side && i < nx_; ++i) {
+    for (int i = 0; side && i < nx_; ++i) {  // the boundary value
         carried_above_[0][i] = 0.5 * flux[i] * (u.low[i] + u.high[i]);
         carried_above_[1][i] = 0.5 * flux[i] * (v.low[i] + v.high[i]);
     }
@@ -229,8 +231,8 @@ void BoxStep::transport_row(int j, double dt) {
     const double* flux = held_ ? held_x(j) : flux_x_.data();
     if (!held_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
     carry(nx_ + 1, flux, along_row(u), along_row(v), carried_x_);
-    if (fluid_.central && !fluid_.velocity.x.periodic())
-        for (const int face : {0, nx_}) {
+    if (!fluid_.velocity.x.periodic())
+        for (const int face : {0, nx_}) {  // the boundary value
             carried_x_[0][face] = 0.5 * flux[face] * (u[face - 1] + u[face]);
             carried_x_[1][face] = 0.5 * flux[face] * (v[face - 1] + v[face]);
         }
@@ -245,28 +247,47 @@ void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
     if (factorised_for_ != dt)
         for (SeparableSolve& solve : viscous_) solve.factorise({1.0, fluid_.viscosity * dt});
     factorised_for_ = dt;
+    add_side_velocity(dt);
     viscous_[0].solve();
     viscous_[1].solve([](int) {}, take);
 }
 
-/// Sums per_cell(side, cell, face) |S| over the cells along the non-cyclic sides. Sides 0 to 3 are
-/// left, right, bottom, top; `face` is the index of the boundary face in excess(side/2).
+/// What a prescribed u_b contributes to the right-hand side of step 3: dt nu 2 u_b/h2, since the
+/// solve itself takes the image beyond the side to be -u.
+void BoxStep::add_side_velocity(double dt) {
+    const double across_x = 2.0 * fluid_.viscosity * dt / (hx_ * hx_);
+    const double across_y = 2.0 * fluid_.viscosity * dt / (hy_ * hy_);
+    for (int axis = 0; axis < 2; ++axis) {
+        for (int j = 0; j < ny_; ++j) {
+            row_of(axis, j)[0] += across_x * at_side(axis, 0, j);
+            row_of(axis, j)[nx_ - 1] += across_x * at_side(axis, 1, j);
+        }
+        for (int i = 0; i < nx_; ++i) {
+            if (!rows_->open_below()) row_of(axis, 0)[i] += across_y * at_side(axis, 2, i);
+            if (!rows_->open_above()) row_of(axis, ny_ - 1)[i] += across_y * at_side(axis, 3, i);
+        }
+    }
+}
+
+/// Sums per_cell(side, at, cell, face) |S| over the cells along the non-cyclic sides. Sides 0 to 3
+/// are left, right, bottom, top; `at` is the place along the side, `face` the index of the boundary
+/// face in excess(side/2).
 template <class PerCell>
 BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
     Force sum{};
-    const auto add = [&](int side, std::size_t cell, std::size_t face, double length) {
-        const Force one = per_cell(side, cell, face);
+    const auto add = [&](int side, int at, std::size_t cell, std::size_t face, double length) {
+        const Force one = per_cell(side, at, cell, face);
         for (int axis = 0; axis < 2; ++axis) sum[axis] += length * one[axis];
     };
     const std::size_t nx = nx_, ny = ny_;
     if (!fluid_.velocity.x.periodic())
         for (std::size_t j = 0; j < ny; ++j) {
-            add(0, j * nx, j * (nx + 1), hy_);
-            add(1, j * nx + nx - 1, j * (nx + 1) + nx, hy_);
+            add(0, j, j * nx, j * (nx + 1), hy_);
+            add(1, j, j * nx + nx - 1, j * (nx + 1) + nx, hy_);
         }
-    for (std::size_t i = 0; i < nx && !rows_->open_below(); ++i) add(2, i, i, hx_);
+    for (std::size_t i = 0; i < nx && !rows_->open_below(); ++i) add(2, i, i, i, hx_);
     for (std::size_t i = 0; i < nx && !rows_->open_above(); ++i)
-        add(3, (ny - 1) * nx + i, ny * nx + i, hx_);
+        add(3, i, (ny - 1) * nx + i, ny * nx + i, hx_);
     return sum;
 }
 
@@ -285,7 +306,7 @@ double at_face(const PlaneOperator& plane, int side) {
 }  // namespace
 
 BoxStep::Force BoxStep::pressure_force() {
-    return over_sides([&](int side, std::size_t cell, std::size_t) {
+    return over_sides([&](int side, int, std::size_t cell, std::size_t) {
         Force force{};
         force[side / 2] =
             (side % 2 == 0 ? 1.0 : -1.0) * at_face(fluid_.pressure, side) * pressure()[cell];
@@ -294,9 +315,10 @@ BoxStep::Force BoxStep::pressure_force() {
 }
 
 BoxStep::Force BoxStep::convective_force() {
-    return over_sides([&](int side, std::size_t cell, std::size_t face) {
+    return over_sides([&](int side, int at, std::size_t cell, std::size_t face) {
         const double share = at_face(fluid_.velocity, side);
-        const Force u{share * velocity(0)[cell], share * velocity(1)[cell]};
+        const Force u{share * velocity(0)[cell] + at_side(0, side, at),
+                      share * velocity(1)[cell] + at_side(1, side, at)};
         const int axis = side / 2;
         const double flux = held_ ? flux_[axis][face] : u[axis] + excess_[axis][face];
         const double inward = side % 2 == 0 ? flux : -flux;
@@ -305,10 +327,13 @@ BoxStep::Force BoxStep::convective_force() {
 }
 
 BoxStep::Force BoxStep::viscous_force() {
-    return over_sides([&](int side, std::size_t cell, std::size_t) {
+    return over_sides([&](int side, int at, std::size_t cell, std::size_t) {
         const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
-        const double rate = fluid_.viscosity * difference / (side < 2 ? hx_ : hy_);
-        return Force{rate * velocity(0)[cell], rate * velocity(1)[cell]};
+        const double per_length = fluid_.viscosity / (side < 2 ? hx_ : hy_);
+        const auto rate = [&](int axis) {  // nu (u_{-1} - u_0)/h
+            return per_length * (difference * velocity(axis)[cell] + 2.0 * at_side(axis, side, at));
+        };
+        return Force{rate(0), rate(1)};
     });
 }
 

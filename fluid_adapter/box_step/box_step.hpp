@@ -49,9 +49,16 @@ class BoxStep {
     /// The whole box on one rank.
     explicit BoxStep(const BoxFluid& fluid);
 
+    BoxStep(const BoxStep&) = delete;  // its readers refer to its values on the sides
+    BoxStep& operator=(const BoxStep&) = delete;
+
     /// One component of u [m/s], in rows of x.cells values: set it before `project`; holds the
     /// result after `diffuse`.
     double* velocity(int axis) { return viscous_[axis].values(); }
+
+    /// One component of u on the sides [m/s], where the boundary condition holds a value; zero
+    /// unless set, and to be left zero on other sides. Holds until it is set again.
+    SideValues& side_velocity(int axis) { return side_velocity_[axis]; }
 
     /// p over rho_f [m2/s2], up to a constant where no side fixes it; valid after `project`.
     double* pressure() { return pressure_.values(); }
@@ -86,7 +93,9 @@ class BoxStep {
     double cell_area() const { return hx_ * hy_; }         ///< [m2]
 
     /// Differences on the same rows.
-    BoxOperators operators() { return {fluid_.velocity, fluid_.pressure, *rows_}; }
+    BoxOperators operators() {
+        return {fluid_.velocity, fluid_.pressure, *rows_, side_velocity_};
+    }
 
     /// The solver of p: values of -div/dt become p over rho_f.
     SeparableSolve& pressure_solve() { return pressure_; }
@@ -124,6 +133,8 @@ class BoxStep {
                std::array<Row, 2>& carried) const;
     void flux_along(int j, const double* u, double kept, double* flux);
     double kept_on_row(int j) const;
+    void add_side_velocity(double dt);
+    double at_side(int axis, int side, int at) const { return side_velocity_[axis][side][at]; }
     template <class PerCell>
     Force over_sides(PerCell per_cell);
 
@@ -145,6 +156,7 @@ class BoxStep {
     std::array<std::vector<double>, 2> flux_;       // phi1 over |S| if held, laid out like excess_
     std::array<std::vector<double>, 2> last_flux_;  // where second order asks for it
     bool held_ = false;
+    std::array<SideValues, 2> side_velocity_;
     RowReader u_, v_, p_;
     Row flux_x_, flux_below_, flux_above_;
     Row corrected_u_, corrected_below_, corrected_here_;

@@ -9,9 +9,10 @@ double mirrored(End end) {
     return end == End::dirichlet ? -1.0 : 1.0;
 }
 
-RowReader::RowReader(const PlaneOperator& plane, BoxRows& rows)
+RowReader::RowReader(const PlaneOperator& plane, BoxRows& rows, const SideValues* sides)
     : plane_(plane),
       rows_(rows),
+      sides_(sides),
       edges_(static_cast<std::size_t>(2 * beyond) * plane.x.cells),
       outside_(edges_.size()),
       slots_(static_cast<std::size_t>(kept) * (plane.x.cells + padding)) {}
@@ -29,20 +30,28 @@ void RowReader::look_outside(const double* values) {
     rows_.exchange(edges_.data(), outside_.data());
     // Rows in edges: first, second, last but one, last; in outside: -2, -1, n, n + 1.
     if (!rows_.open_below()) {
-        mirror(0, 1, plane_.y.lower);
-        mirror(1, 0, plane_.y.lower);
+        mirror(0, 1, 2);
+        mirror(1, 0, 2);
     }
     if (!rows_.open_above()) {
-        mirror(3, 2, plane_.y.upper);
-        mirror(2, 3, plane_.y.upper);
+        mirror(3, 2, 3);
+        mirror(2, 3, 3);
     }
 }
 
-/// Fills row `to` of outside with the mirror image of row `from` of edges.
-void RowReader::mirror(int from, int to, End end) {
+/// Fills row `to` of outside with the image of row `from` of edges beyond side 2 (bottom) or 3.
+void RowReader::mirror(int from, int to, int side) {
     const std::size_t nx = plane_.x.cells;
-    const double factor = mirrored(end);
+    const double factor = mirrored(side == 2 ? plane_.y.lower : plane_.y.upper);
     for (std::size_t i = 0; i < nx; ++i) outside_[to * nx + i] = factor * edges_[from * nx + i];
+    for (std::size_t i = 0; sides_ && i < nx; ++i)
+        outside_[to * nx + i] += 2.0 * (*sides_)[side][i];
+}
+
+/// Of side 0 (left) or 1, beside row j.
+double RowReader::on_side(int side, int j) const {
+    const bool own = sides_ && j >= 0 && j < rows_.count();
+    return own ? (*sides_)[side][j] : 0.0;
 }
 
 void RowReader::load(int j) {
@@ -54,10 +63,10 @@ void RowReader::load(int j) {
     double* row =
         slots_.data() + static_cast<std::size_t>((j + beyond) % kept) * (nx + padding) + beyond;
     std::copy_n(from, nx, row);
-    extend(row);
+    extend(row, j);
 }
 
-void RowReader::extend(double* row) const {
+void RowReader::extend(double* row, int j) const {
     const int nx = plane_.x.cells;
     if (plane_.x.periodic()) {
         row[-1] = row[nx - 1];
@@ -67,10 +76,11 @@ void RowReader::extend(double* row) const {
         return;
     }
     const double left = mirrored(plane_.x.lower), right = mirrored(plane_.x.upper);
-    row[-1] = left * row[0];
-    row[-2] = left * row[1];
-    row[nx] = right * row[nx - 1];
-    row[nx + 1] = right * row[nx - 2];
+    const double twice_left = 2.0 * on_side(0, j), twice_right = 2.0 * on_side(1, j);
+    row[-1] = left * row[0] + twice_left;
+    row[-2] = left * row[1] + twice_left;
+    row[nx] = right * row[nx - 1] + twice_right;
+    row[nx + 1] = right * row[nx - 2] + twice_right;
 }
 
 const double* RowReader::row(int j) {

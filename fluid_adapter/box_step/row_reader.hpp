@@ -3,7 +3,8 @@
 // Reads the rows of a rank's field in order, each extended by two values at both ends, with two
 // more rows below the first and above the last, so that stencils need not know about sides or
 // ranks. Beyond a side lies the mirror image of the inside (the side is half a cell from the
-// centres, separable_operator.hpp); elsewhere, what box_rows.hpp says.
+// centres, separable_operator.hpp), shifted where the side prescribes a value (side_values.hpp);
+// elsewhere, what box_rows.hpp says.
 //
 // Rows are copies: the caller may overwrite the field behind the reader. Valid C++17.
 #pragma once
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "fluid_adapter/box_step/box_rows.hpp"
+#include "fluid_adapter/box_step/side_values.hpp"
 
 namespace turbidite {
 
@@ -19,8 +21,8 @@ class RowReader {
  public:
     static constexpr int beyond = BoxRows::beyond;
 
-    /// `rows` must outlive it.
-    RowReader(const PlaneOperator& plane, BoxRows& rows);
+    /// `rows` must outlive it, and so must the values on the sides; null: none are prescribed.
+    RowReader(const PlaneOperator& plane, BoxRows& rows, const SideValues* sides = nullptr);
 
     /// Restarts at the first row. `values`: the rank's rows of x.cells values, contiguous. Called
     /// by every rank.
@@ -30,8 +32,9 @@ class RowReader {
     /// requested in ascending order; the last `kept` rows remain valid.
     const double* row(int j);
 
-    /// Fills the values beyond both ends of a row.
-    void extend(double* row) const;
+    /// Fills the values beyond both ends of row j. Rows beyond the rank's own take the sides to be
+    /// at rest: no stencil reaches into their corners.
+    void extend(double* row, int j) const;
 
     static constexpr int kept = 4;
     static constexpr int padding = 2 * beyond;
@@ -39,10 +42,12 @@ class RowReader {
  private:
     void load(int j);
     void look_outside(const double* values);
-    void mirror(int from, int to, End end);
+    void mirror(int from, int to, int side);
+    double on_side(int side, int j) const;
 
     PlaneOperator plane_;
     BoxRows& rows_;
+    const SideValues* sides_;
     const double* values_ = nullptr;
     int loaded_ = 0;                       // index of the last row read
     std::vector<double> edges_, outside_;  // as in box_rows.hpp

@@ -40,7 +40,7 @@ void RigidPressure::place_grains(BoxOperators& box, const CollocationPoints& poi
 /// r = -(D u + div e), with the present p's part of e.
 void RigidPressure::divergence(BoxOperators& box, const RigidGrains& grains) {
     residual_.resize(box.size());
-    box.divergence(-1.0, grains.velocity().x, grains.velocity().y, residual_.data());
+    box.divergence(-1.0, SidesHold::velocity, grains.velocity().x, grains.velocity().y, residual_.data());
     box.add_divergence_of_excess(-1.0, step_.excess(0).data(), step_.excess(1).data(),
                                  residual_.data());
     box.add_smoothing(-dt_, outside_.data(), p_.data(), residual_.data());
@@ -57,7 +57,7 @@ void RigidPressure::precondition() {
 /// image = A d, with W(-dt G d) known.
 void RigidPressure::apply(BoxOperators& box) {
     image_.resize(box.size());
-    box.divergence(1.0, rigid_direction_.x.data(), rigid_direction_.y.data(), image_.data());
+    box.divergence(1.0, SidesHold::nothing, rigid_direction_.x.data(), rigid_direction_.y.data(), image_.data());
     box.add_smoothing(dt_, outside_.data(), direction_.data(), image_.data());
 }
 

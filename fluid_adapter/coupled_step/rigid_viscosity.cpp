@@ -28,19 +28,20 @@ void combine(RowsOfTwo& a, double keep, double share, const RowsOfTwo& b) {
 }  // namespace
 
 /// out = dt nu L u
-void RigidViscosity::laplacian(BoxOperators& box, const CellVelocity& u, RowsOfTwo& out) {
+void RigidViscosity::laplacian(BoxOperators& box, SidesHold sides, const CellVelocity& u,
+                               RowsOfTwo& out) {
     out.resize(box.size());
-    box.laplacian(per_laplacian_, u.x, out.x.data());
-    box.laplacian(per_laplacian_, u.y, out.y.data());
+    box.laplacian(per_laplacian_, 0, sides, u.x, out.x.data());
+    box.laplacian(per_laplacian_, 1, sides, u.y, out.y.data());
 }
 
 void RigidViscosity::start_from(BoxOperators& box, const CellVelocity& velocity) {
-    laplacian(box, velocity, impulse_);
+    laplacian(box, SidesHold::velocity, velocity, impulse_);
 }
 
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
                                         const IterationLimit& limit) {
-    laplacian(box, grains.velocity(), residual_);
+    laplacian(box, SidesHold::velocity, grains.velocity(), residual_);
     const double scale = norm(grains, residual_);
     combine(residual_, 1.0, -1.0, impulse_);  // r = dt nu L u - f
     IterationResult result;
@@ -58,7 +59,7 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
             grains.combine(rigid_direction_, rz_new / rz, rigid_residual_);
         }
         rz = rz_new;
-        laplacian(box, rigid_direction_.velocity(), image_);
+        laplacian(box, SidesHold::nothing, rigid_direction_.velocity(), image_);
         combine(image_, -1.0, 1.0, direction_);  // A d = d - dt nu L W d
         const double curvature = dot(grains, image_, rigid_direction_.x, rigid_direction_.y);
         if (!(curvature > 0.0)) break;

@@ -41,7 +41,7 @@ class RigidViscosity {
     const RowsOfTwo& impulse() const { return impulse_; }
 
  private:
-    void laplacian(BoxOperators& box, const CellVelocity& u, RowsOfTwo& out);
+    void laplacian(BoxOperators& box, SidesHold sides, const CellVelocity& u, RowsOfTwo& out);
 
     double per_laplacian_ = 0.0;
     RowsOfTwo impulse_, residual_, direction_, image_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
+#include "fluid_adapter/foam_app/sideVelocity.hpp"
 #include "fluid_adapter/ranks/rank_rows.hpp"
 
 namespace turbidite {
@@ -19,7 +20,7 @@ PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size) {
 
 BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const BoxCells& box) {
     const Foam::vector size = fields.mesh.bounds().span();
-    return {in_metres(homogeneous_laplacian(fields.U, box).plane, size),
+    return {in_metres(laplacian_with_values(fields.U, box).plane, size),
             in_metres(homogeneous_laplacian(fields.p, box).plane, size),
             fields.nu,
             method.limiter,
@@ -45,14 +46,17 @@ BoxFluidStep::BoxFluidStep(FluidFields& fields, const TransportMethod& method, c
 BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box,
                            bool coupled)
     : fields_(fields),
+      box_(box),
       rows_(fields.ranks, box.cells[0], box.cells[1], box.place),
       step_(fluid, box_rows(fields.ranks, fluid.pressure, rows_)),
       in_second_order_(fluid.second_order),
-      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {
+      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()),
+      first_row_(rows_.rows_of_rank()[fields.ranks.rank()].first) {
     if (coupled && !rows_.in_cell_order())
         throw DoesNotFit("its ranks do not have complete rows of cells");
     if (coupled) coupled_.emplace(step_);
     take_velocity();
+    sides_changed();
 }
 
 double* BoxFluidStep::velocity(int axis) {
@@ -65,6 +69,16 @@ void BoxFluidStep::put_velocity() {
 
 void BoxFluidStep::take_velocity() {
     if (rows_.in_cell_order()) load();
+}
+
+void BoxFluidStep::sides_changed() {
+    const std::array<SideValues, 2> held = held_on_sides(fields_, box_);
+    for (int axis = 0; axis < 2; ++axis)
+        for (int side = 0; side < 4; ++side) {
+            std::vector<double>& own = step_.side_velocity(axis)[side];
+            std::copy_n(held[axis][side].begin() + (side < 2 ? first_row_ : 0), own.size(),
+                        own.begin());
+        }
 }
 
 void BoxFluidStep::load() {

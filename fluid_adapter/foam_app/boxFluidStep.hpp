@@ -28,6 +28,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     void put_velocity() override;
     void put_unconstrained() override;
     void take_velocity() override;
+    void sides_changed() override;
     void put_pressure() override;
     void forget_rates() override { second_order_.forget(); }
     double largest_courant() const override;
@@ -51,12 +52,14 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     SideForce diffuse_implicitly(double dt) override;
 
     FluidFields& fields_;
+    BoxCells box_;
     CellRows rows_;
     BoxStep step_;
     bool in_second_order_;
     SecondOrder second_order_;
     std::optional<CoupledStep> coupled_;
     bool floating_;  // no side fixes p
+    int first_row_;  // in the box, of this rank's complete rows
 };
 
 }  // namespace turbidite

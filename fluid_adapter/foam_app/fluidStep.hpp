@@ -76,6 +76,9 @@ class FluidStep {
     virtual void take_velocity() {}  ///< from U, which was changed
     virtual void put_pressure() {}   ///< into p
 
+    /// The values that U holds on sides of the box were changed, before `project`.
+    virtual void sides_changed() {}
+
     /// u was changed from outside: what the step knows of earlier windows' rates is void.
     virtual void forget_rates() {}
 

@@ -27,8 +27,10 @@ CoupledLimits coupled_limits(const Settings& settings) {
 
 FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
                          const Settings& settings, const ShapeTable& shapes)
-    : fields_(directory, ranks),
+    : run_(run_values(settings)),
+      fields_(directory, ranks),
       field_(fields_, fluid_domain(settings)),
+      sides_(side_motions(settings), fields_),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       ledger_(fields_, field_),
       multipliers_(field_, settings, shapes),
@@ -94,6 +96,7 @@ void FluidWindow::begin(const Window& window) {
     if (CoupledStep* coupled = step_->coupled()) coupled->keep_unconstrained(window.write_output);
     if (!fields_.time.functionObjects().empty()) put_fields();
     fields_.time.setDeltaT(window.step);
+    if (sides_.set(window.time, window.step)) step_->sides_changed();
     if (!fields_.time.loop())
         throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
                                                         " begins at or after endTime of " +
@@ -102,10 +105,21 @@ void FluidWindow::begin(const Window& window) {
 }
 
 void FluidWindow::project() {
+    drive();
     const Projection projection = step_->project();
     ledger_.add(projection.force);
     report_.divergence = projection.flux.divergence;
     report_.courant = projection.flux.courant;
+}
+
+/// u += a dt in every cell, those of grains included: the force on a grain contains that of the
+/// mean pressure gradient. It acts with the pressure, before the projection.
+void FluidWindow::drive() {
+    const auto [x, y] = run_.acceleration;
+    if (x == 0.0 && y == 0.0) return;
+    field_.accelerate({x * window_.step, y * window_.step});
+    const double area = run_.size[0] * run_.size[1];
+    ledger_.add(BoundaryForce{x * area, y * area});
 }
 
 void FluidWindow::transport() {
@@ -166,6 +180,9 @@ void FluidWindow::close_ledger() {
     Planar to_grains = multipliers_.impulse_to_grains();
     field_.sum_over_ranks(to_grains.data(), 2);
     report_.momentum_defect = ledger_.close({to_grains.x(), to_grains.y(), 0.0});
+    const Foam::vector mean =
+        ledger_.momentum() / (run_.fluid_density * run_.size[0] * run_.size[1]);
+    report_.mean_velocity = {mean.x(), mean.y(), 0.0};
 }
 
 void FluidWindow::check_finite(bool finite, const char* steps) const {

@@ -20,6 +20,7 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
+#include "fluid_adapter/foam_app/sideVelocity.hpp"
 #include "fluid_adapter/foam_app/stepWatch.hpp"
 #include "fluid_adapter/multiplier/immersed_step.hpp"
 
@@ -65,6 +66,7 @@ class FluidWindow {
  private:
     void begin(const Window& window);
     void project();
+    void drive();
     void transport();
     int transport_parts() const;
     void diffuse();
@@ -76,8 +78,10 @@ class FluidWindow {
     void close_ledger();
     void write_fields();
 
+    const RunValues run_;
     FluidFields fields_;
     FoamFluidField field_;
+    SideVelocity sides_;
     std::unique_ptr<FluidStep> step_;
     MomentumLedger ledger_;
     ImmersedStep multipliers_;

@@ -16,7 +16,8 @@ constexpr double placement_tolerance = 1e-4;
 constexpr int halo_layers = 3;
 
 Side side_of(const std::string& kind) {
-    return kind == "wall" ? Side::wall : kind == "cyclic" ? Side::cyclic : Side::open;
+    if (kind == "cyclic") return Side::cyclic;
+    return kind == "free" ? Side::open : Side::wall;  // grains keep to the inside of an inflow too
 }
 
 CellGrid grid_of(const FluidDomain& domain, double thickness) {
@@ -87,9 +88,7 @@ void FoamFluidField::work_on(double* x, double* y) {
 }
 
 std::array<const double*, 2> FoamFluidField::import_halo(const double* x, const double* y) {
-    if (halo_)
-        halo_->import({x, y},
-                      {halo_velocity_[0].data(), halo_velocity_[1].data()});
+    if (halo_) halo_->import({x, y}, {halo_velocity_[0].data(), halo_velocity_[1].data()});
     return {halo_velocity_[0].data(), halo_velocity_[1].data()};
 }
 
@@ -121,6 +120,16 @@ void FoamFluidField::for_cells_of(const CollocationPoints& points, Visit visit) 
 std::array<double, 2> FoamFluidField::velocity_of(int cell) const {
     if (copies_used_) return {fields_.U[cell].x(), fields_.U[cell].y()};
     return {velocity_[0][cell], velocity_[1][cell]};
+}
+
+void FoamFluidField::accelerate(const std::array<double, 2>& change) {
+    if (copies_used_) {
+        fields_.U.primitiveFieldRef() += Foam::vector(change[0], change[1], 0.0);
+        fields_.U.correctBoundaryConditions();
+        return;
+    }
+    for (int axis = 0; axis < 2; ++axis)
+        for (int cell = 0; cell < owned_; ++cell) velocity_[axis][cell] += change[axis];
 }
 
 Foam::vector FoamFluidField::momentum() const {

@@ -45,6 +45,9 @@ class FoamFluidField final : public FluidField {
     /// u of one of this rank's cells, wherever it is [m/s].
     std::array<double, 2> velocity_of(int cell) const;
 
+    /// Adds a velocity to u in every cell [m/s].
+    void accelerate(const std::array<double, 2>& change);
+
     /// Momentum of all fluid [N s/m].
     Foam::vector momentum() const;
 

@@ -26,13 +26,18 @@ std::string switching_condition(const VolField<Type>& field) {
     return {};
 }
 
+/// What the boundary may contribute to the right-hand side.
+enum class Held { anything, values, nothing };
+
 /// Names a patch that contributes to the right-hand side, because the value or gradient it holds is
-/// not zero; empty if there is none.
+/// not zero, and may not; empty if there is none.
 template <class Type>
-std::string inhomogeneous_condition(const Foam::fvMatrix<Type>& matrix) {
+std::string inhomogeneous_condition(const Foam::fvMatrix<Type>& matrix, Held allowed) {
+    if (allowed == Held::anything) return {};
     forAll(matrix.psi().boundaryField(), patch) {
         const auto& condition = matrix.psi().boundaryField()[patch];
         if (condition.coupled() || condition.size() == 0) continue;
+        if (allowed == Held::values && condition.fixesValue()) continue;
         if (Foam::max(Foam::mag(matrix.boundaryCoeffs()[patch])) > 0.0)
             return "the value or gradient fixed on patch " + condition.patch().name() +
                    " is not zero";
@@ -65,29 +70,29 @@ BoxOperator read(const Foam::fvMatrix<Type>& matrix, const BoxCells& box) {
 }
 
 template <class Type>
-BoxOperator lasting_operator(VolField<Type>& field, const BoxCells& box, bool homogeneous) {
+BoxOperator lasting_operator(VolField<Type>& field, const BoxCells& box, Held allowed) {
     demand(box.ranks, switching_condition(field));
     const auto matrix = laplacian(field);
-    if (homogeneous) demand(box.ranks, inhomogeneous_condition(matrix));
+    demand(box.ranks, inhomogeneous_condition(matrix, allowed));
     return read(matrix, box);
 }
 
 }  // namespace
 
 BoxOperator laplacian_operator(Foam::volScalarField& p, const BoxCells& box) {
-    return lasting_operator(p, box, false);
+    return lasting_operator(p, box, Held::anything);
 }
 
 BoxOperator laplacian_operator(Foam::volVectorField& U, const BoxCells& box) {
-    return lasting_operator(U, box, false);
+    return lasting_operator(U, box, Held::anything);
 }
 
 BoxOperator homogeneous_laplacian(Foam::volScalarField& p, const BoxCells& box) {
-    return lasting_operator(p, box, true);
+    return lasting_operator(p, box, Held::nothing);
 }
 
-BoxOperator homogeneous_laplacian(Foam::volVectorField& U, const BoxCells& box) {
-    return lasting_operator(U, box, true);
+BoxOperator laplacian_with_values(Foam::volVectorField& U, const BoxCells& box) {
+    return lasting_operator(U, box, Held::values);
 }
 
 }  // namespace turbidite

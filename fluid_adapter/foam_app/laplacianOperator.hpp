@@ -17,6 +17,8 @@ BoxOperator laplacian_operator(Foam::volVectorField& U, const BoxCells& box);
 
 /// The same for homogeneous conditions only: the values or gradients held are zero.
 BoxOperator homogeneous_laplacian(Foam::volScalarField& p, const BoxCells& box);
-BoxOperator homogeneous_laplacian(Foam::volVectorField& U, const BoxCells& box);
+
+/// The same where only the gradients held have to be zero.
+BoxOperator laplacian_with_values(Foam::volVectorField& U, const BoxCells& box);
 
 }  // namespace turbidite

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Checks the momentum balance of the fluid: its momentum changes only by what crosses its
-// boundaries and by what the grains take. Per window,
+// boundaries, by the body force of the case and by what the grains take. Per window,
 //
-//     P^{n+1} - P^n  =  - sum over grains of dt lambda  +  sum over boundary faces of impulses
+//     P^{n+1} - P^n  =  dt rho_f a V  - sum over grains of dt lambda
+//                                      + sum over boundary faces of impulses
 //
 // where the impulses are those of pressure (step 1), convection (2) and viscosity (3). They are
 // computed from boundary values only, so that the balance is an independent check of the sum over
@@ -36,6 +37,9 @@ class MomentumLedger {
 
     /// Whether P^{n+1} is finite.
     bool finite() const;
+
+    /// P^{n+1}, after `close`.
+    const Foam::vector& momentum() const { return *current_; }
 
     /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the
     /// largest of the terms; zero if all of them are zero.

@@ -24,6 +24,7 @@ class OperatorStep final : public FluidStep, private SecondOrderHost {
     std::vector<BoundaryForce> transport(int parts) override;
     BoundaryForce diffuse() override;
     bool finite() override;
+    void sides_changed() override { viscosity_.forget_sides(); }
     void forget_rates() override { second_order_.forget(); }
     double largest_courant() const override;
     std::int64_t kind() const override { return in_second_order_ ? 3 : 1; }

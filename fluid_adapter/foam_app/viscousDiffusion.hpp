@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Step 3, viscosity, implicit: (u3 - u2)/dt = nu laplacian(u3), with OpenFOAM's matrix, which is
-// reassembled if dt changes, and the solver that fvSolution names.
+// reassembled if dt or a value held on a side changes, and the solver that fvSolution names.
 #pragma once
 
 #include <fvMatrices.H>
@@ -18,6 +18,9 @@ class ViscousDiffusion {
 
     /// Advances u2 to u3 over dt [s]. Throws PhysicsRefused if the solver does not converge.
     void solve(Foam::scalar dt);
+
+    /// Values that U holds on sides, which are part of the matrix, were changed.
+    void forget_sides() { assembled_for_ = 0.0; }
 
  private:
     void assemble(Foam::scalar dt);

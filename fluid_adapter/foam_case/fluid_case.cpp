@@ -9,6 +9,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
+#include "fluid_adapter/foam_case/side_motion.hpp"
 
 namespace turbidite {
 namespace {
@@ -150,27 +151,42 @@ std::string decomposition(const Settings& settings) {
         rows ? 1 : ranks, rows ? ranks : 1);
 }
 
-std::string boundary_field(const FluidDomain& domain, const std::string& at_wall,
-                           const std::string& at_free) {
+/// Conditions on the four sides: `closed(side)` on walls and inflows, `at_free` on free sides.
+template <class Closed>
+std::string boundary_field(const FluidDomain& domain, Closed closed, const std::string& at_free) {
     std::string text = "boundaryField\n{\n";
     for (int side = 0; side < 4; ++side) {
         const std::string& kind = domain.sides[side];
-        const std::string& value = kind == "wall"   ? at_wall
-                                   : kind == "free" ? at_free
-                                                    : "type cyclic;";
+        const std::string value = kind == "cyclic" ? "type cyclic;"
+                                  : kind == "free" ? at_free
+                                                   : closed(side);
         text += fmt::format("    {} {{ {} }}\n", side_names[side], value);
     }
     return text + "    frontAndBack { type empty; }\n}\n";
 }
 
-std::string initial_velocity(const FluidDomain& domain) {
+/// The mean velocity of the first window; the fluid program sets that of every window, with its
+/// profile.
+std::string side_velocity(const SideMotion& side, double step) {
+    if (!side.motion) return "type noSlip;";
+    const auto [x, y] = side.velocity(0.0, step);
+    return fmt::format("type fixedValue; value uniform ({:.17g} {:.17g} 0);", x, y);
+}
+
+std::string initial_velocity(const FluidDomain& domain, const Settings& settings) {
+    const std::array<SideMotion, 4> motions = side_motions(settings);
+    const double step = run_values(settings).step;
     return "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\n" +
-           boundary_field(domain, "type noSlip;", "type zeroGradient;");
+           boundary_field(
+               domain, [&](int side) { return side_velocity(motions[side], step); },
+               "type zeroGradient;");
 }
 
 std::string initial_pressure(const FluidDomain& domain) {
     return "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\n" +
-           boundary_field(domain, "type zeroGradient;", "type fixedValue; value uniform 0;");
+           boundary_field(
+               domain, [](int) { return "type zeroGradient;"; },
+               "type fixedValue; value uniform 0;");
 }
 
 std::string transport_properties(const RunValues& run) {
@@ -190,7 +206,7 @@ void write_fluid_case(const Settings& settings, const std::filesystem::path& dir
     write(directory, "system", "blockMeshDict", "dictionary", block_mesh(domain));
     write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings));
     write(directory, "constant", "transportProperties", "dictionary", transport_properties(run));
-    write(directory, "0", "U", "volVectorField", initial_velocity(domain));
+    write(directory, "0", "U", "volVectorField", initial_velocity(domain, settings));
     write(directory, "0", "p", "volScalarField", initial_pressure(domain));
     // ParaView's reader opens a case by an empty file of this name.
     std::ofstream(directory / "fluid.foam");

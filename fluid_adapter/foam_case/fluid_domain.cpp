@@ -26,10 +26,10 @@ int cell_count(const char* key, double size, double per_length) {
 
 std::string side(const Settings& settings, const std::string& name) {
     const std::string value = settings.text("domain." + name);
-    if (value != "wall" && value != "free" && value != "cyclic")
+    if (value != "wall" && value != "free" && value != "cyclic" && value != "inflow")
         throw Failure(
             ExitCode::bad_input,
-            fmt::format("domain.{} = \"{}\"; allowed are wall, free, cyclic", name, value));
+            fmt::format("domain.{} = \"{}\"; allowed are wall, free, cyclic, inflow", name, value));
     return value;
 }
 

@@ -15,7 +15,7 @@ struct FluidDomain {
     std::array<double, 2> size{};  ///< [m]
     std::array<int, 2> cells{};
     double thickness = 0.0;  ///< of the single layer of cells [m]; results are per unit length
-    /// wall, free or cyclic: left, right, bottom, top.
+    /// wall, free, cyclic or inflow: left, right, bottom, top.
     std::array<std::string, 4> sides{};
 };
 

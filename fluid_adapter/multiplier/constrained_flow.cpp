@@ -8,10 +8,12 @@
 namespace turbidite {
 
 void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& velocity,
-                            const std::vector<Planar>& momenta) {
+                            const std::vector<Planar>& momenta,
+                            const std::vector<Planar>& prescribed) {
     system_ = &system;
     velocity_ = velocity;
     momentum_ = momenta;
+    prescribed_ = prescribed;
     find_border();
     multipliers_.assign_zero(system.rows(), system.grains());
     impulses_.assign(system.grains(), Planar::Zero());
@@ -23,8 +25,8 @@ void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& velocity
 }
 
 void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& change) {
-    by_grain_.assign(system.grains(), Planar::Zero());
-    begin(system, change, by_grain_);
+    const std::vector<Planar> none(system.grains(), Planar::Zero());
+    begin(system, change, none, none);
 }
 
 void ConstrainedFlow::find_border() {
@@ -58,12 +60,12 @@ void ConstrainedFlow::import_velocity() {
     }
 }
 
-/// U = A^-1 (P + J + T^T L).
+/// U = A^-1 (P + J + T^T L), or as prescribed, where A^-1 = 0.
 void ConstrainedFlow::move_grains() {
     motions_.resize(system_->grains());
     for (std::size_t g = 0; g < motions_.size(); ++g)
-        motions_[g] =
-            system_->inverse_inertia()[g] * (momentum_[g] + multipliers_.on_grains[g]);
+        motions_[g] = prescribed_[g] + system_->inverse_inertia()[g] *
+                                           (momentum_[g] + multipliers_.on_grains[g]);
 }
 
 void ConstrainedFlow::push(const std::vector<Planar>& impulses) {
@@ -109,6 +111,7 @@ void ConstrainedFlow::impose() {
 void ConstrainedFlow::add(const ConstrainedFlow& change, double share) {
     for (std::size_t g = 0; g < motions_.size(); ++g) {
         momentum_[g] += share * change.momentum_[g];
+        prescribed_[g] += share * change.prescribed_[g];
         motions_[g] += share * change.motions_[g];
         impulses_[g] += share * change.impulses_[g];
     }
@@ -118,6 +121,7 @@ void ConstrainedFlow::add(const ConstrainedFlow& change, double share) {
 void ConstrainedFlow::scale(double keep) {
     for (std::size_t g = 0; g < motions_.size(); ++g) {
         momentum_[g] *= keep;
+        prescribed_[g] *= keep;
         motions_[g] *= keep;
         impulses_[g] *= keep;
     }

@@ -25,6 +25,7 @@ struct ImmersedGrain {
     double effective_mass = 0.0;                                ///< cM [kg/m]
     double effective_inertia = 0.0;                             ///< cI about z [kg m]
     Planar contact_motion = Planar::Zero();                     ///< U^{n+4/5}, omega^{n+4/5}
+    bool prescribed = false;                     ///< keeps contact_motion, whatever acts on it
     Planar announced_impulse = Planar::Zero();                  ///< J_h and its moment
     Planar given_impulse = Planar::Zero();  ///< (M - m_f) g dt + J^n, unless U^{n+4/5} has them
 
@@ -42,6 +43,14 @@ inline std::vector<Planar> momenta_of(const std::vector<ImmersedGrain>& grains) 
     std::vector<Planar> momenta;
     for (const ImmersedGrain& grain : grains) momenta.push_back(grain.momentum());
     return momenta;
+}
+
+/// Zero for grains that are free.
+inline std::vector<Planar> prescribed_motions(const std::vector<ImmersedGrain>& grains) {
+    std::vector<Planar> motions;
+    for (const ImmersedGrain& grain : grains)
+        motions.push_back(grain.prescribed ? grain.contact_motion : Planar::Zero());
+    return motions;
 }
 
 }  // namespace turbidite

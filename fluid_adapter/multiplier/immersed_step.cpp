@@ -77,6 +77,7 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     grain.effective_mass = body.effective_mass;
     grain.effective_inertia = body.effective_inertia(2, 2);
     grain.contact_motion = planar(state.velocity, state.angular_velocity);
+    grain.prescribed = state.prescribed;
     return grain;
 }
 
@@ -116,7 +117,8 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states) {
 
 MultiplierResult ImmersedStep::solve() {
     system_.assemble(field_, grains_, points_);
-    flow_.begin(system_, {field_.velocity(0), field_.velocity(1)}, momenta_of(grains_));
+    flow_.begin(system_, {field_.velocity(0), field_.velocity(1)}, momenta_of(grains_),
+                prescribed_motions(grains_));
     const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
     slip_goal_ = result.goal;
     return result;
@@ -169,17 +171,25 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
     std::vector<FreeResponse> responses;
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         if (!answers_for(g)) continue;
-        const Eigen::Matrix3d& inertia = system_.effective_inertia()[g];
-        const Planar free = flow_.motions()[g] - inertia.llt().solve(contact_impulses_[g]);
-        FreeResponse response;
-        response.id = grains_[g].id;
-        response.velocity = {free.x(), free.y(), 0.0};
-        response.angular_velocity = {0.0, 0.0, free.z()};
-        response.inertia = in_space(inertia);
-        response.mismatch = mismatch_[g];
-        responses.push_back(response);
+        responses.push_back(response(g));
     }
     return responses;
+}
+
+/// A grain of prescribed motion moves as it did, whatever the impulses, and has no inertia to send.
+FreeResponse ImmersedStep::response(std::size_t g) const {
+    Planar free = flow_.motions()[g];
+    FreeResponse response;
+    response.id = grains_[g].id;
+    response.mismatch = mismatch_[g];
+    if (!grains_[g].prescribed) {
+        const Eigen::Matrix3d& inertia = system_.effective_inertia()[g];
+        free -= inertia.llt().solve(contact_impulses_[g]);
+        response.inertia = in_space(inertia);
+    }
+    response.velocity = {free.x(), free.y(), 0.0};
+    response.angular_velocity = {0.0, 0.0, free.z()};
+    return response;
 }
 
 void ImmersedStep::impose() {

@@ -68,6 +68,7 @@ class ImmersedStep {
     ImmersedGrain immersed(const GrainState& state) const;
     void take(const std::vector<GrainState>& states);
     bool answers_for(std::size_t grain) const;
+    FreeResponse response(std::size_t g) const;
 
     FluidField& field_;
     std::vector<std::shared_ptr<const Shape>> shapes_;

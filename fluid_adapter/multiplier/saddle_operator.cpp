@@ -57,11 +57,20 @@ void SaddleOperator::factorise() {
     inverse_.resize(grains_->size());
     inverse_effective_.resize(grains_->size());
     for (std::size_t g = 0; g < grains_->size(); ++g) {
+        if ((*grains_)[g].prescribed) {
+            hold(g);
+            continue;
+        }
         inverse_[g] = body_[g].inverse();
         effective_[g] = body_[g] + tied_[g];
         demand_positive(effective_[g], ids_[g]);
         inverse_effective_[g] = effective_[g].inverse();
     }
+}
+
+/// A grain of prescribed motion has A^-1 = (A + T^T G^-1 T)^-1 = 0: no impulse moves it.
+void SaddleOperator::hold(std::size_t g) {
+    inverse_[g] = inverse_effective_[g] = effective_[g] = Eigen::Matrix3d::Zero();
 }
 
 /// S w = G w + T A^-1 T^T w.

@@ -13,6 +13,8 @@
 //
 //     S L = s,    S = B m^-1 B^T + T A^-1 T^T,    s: the slip B u3 - T A^-1 (P + J) at L = 0
 //
+// A grain of prescribed motion has A^-1 = 0: its U is given, and what holds it takes T^T L + J.
+//
 // S is symmetric, and positive whenever every A is, also for grains as light as the fluid. The
 // preconditioner is S restricted to one grain at a time (boundary_blocks.hpp), which is exact
 // unless grains or ranks share cells.
@@ -57,7 +59,7 @@ class SaddleOperator {
     /// A^-1, by grain.
     const std::vector<Eigen::Matrix3d>& inverse_inertia() const { return inverse_; }
 
-    /// A + T^T G^-1 T: the effective inertia of each grain.
+    /// A + T^T G^-1 T: the effective inertia of each grain; zero where its motion is prescribed.
     const std::vector<Eigen::Matrix3d>& effective_inertia() const { return effective_; }
 
     /// y = S w.
@@ -83,6 +85,7 @@ class SaddleOperator {
  private:
     void sum_bodies();
     void factorise();
+    void hold(std::size_t g);
 
     FluidField* field_ = nullptr;
     const std::vector<ImmersedGrain>* grains_ = nullptr;

@@ -14,10 +14,10 @@ namespace {
 using nscd::is_finite;
 
 BorderKind parse_side(const std::string& key, const std::string& text) {
-    if (text == "wall") return BorderKind::wall;
+    if (text == "wall" || text == "inflow") return BorderKind::wall;
     if (text == "free") return BorderKind::free;
     if (text == "cyclic") return BorderKind::cyclic;
-    throw std::invalid_argument(key + " = \"" + text + "\"; allowed: wall, free, cyclic");
+    throw std::invalid_argument(key + " = \"" + text + "\"; allowed: wall, free, cyclic, inflow");
 }
 
 std::string place(const Vec3& x) {

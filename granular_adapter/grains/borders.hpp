@@ -3,6 +3,7 @@
 // The four sides of the domain as seen by a grains adapter:
 //
 //     wall     a straight wall with the surface of the grains; a centre beyond it ends the run
+//     inflow   the same: fluid enters through a porous plate at rest, on which grains may lie
 //     free     grains whose centre is more than R past the side are removed and counted
 //     cyclic   positions wrap, and the minimum image is used
 //

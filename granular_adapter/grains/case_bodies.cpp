@@ -69,7 +69,7 @@ std::optional<GrainId> first_light_grain(const RunValues& run, const ShapeTable&
                                          const std::vector<GrainState>& grains) {
     const ImmersedBodies inertia(run, shapes);
     for (const GrainState& state : grains)
-        if (!denser_than_the_fluid(inertia(state))) return state.id;
+        if (!state.prescribed && !denser_than_the_fluid(inertia(state))) return state.id;
     return std::nullopt;
 }
 

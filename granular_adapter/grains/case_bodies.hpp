@@ -17,7 +17,8 @@ namespace turbidite {
 void add_grains(nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
                 const std::vector<GrainState>& grains);
 
-/// The first grain whose effective mass or inertia is not positive; `grains` as for add_grains.
+/// The first grain of free motion whose effective mass or inertia is not positive; `grains` as for
+/// add_grains.
 std::optional<GrainId> first_light_grain(const RunValues& run, const ShapeTable& shapes,
                                          const std::vector<GrainState>& grains);
 

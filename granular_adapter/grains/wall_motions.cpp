@@ -1,129 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/grains/wall_motions.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-
-#include "granular_adapter/nscd/problem/vec3.hpp"
-
 namespace turbidite {
-namespace {
-
-using nscd::operator+;
-using nscd::operator-;
-using nscd::operator*;
-
-WallShift operator+(const WallShift& a, const WallShift& b) {
-    return {a.displacement + b.displacement, a.angle + b.angle};
-}
-WallShift operator*(double factor, const WallShift& shift) {
-    return {factor * shift.displacement, factor * shift.angle};
-}
-
-/// `constant VX VY SPIN`.
-class Constant final : public WallMotion {
- public:
-    explicit Constant(const std::vector<double>& numbers)
-        : rate_{{numbers.at(0), numbers.at(1), 0.0}, numbers.at(2)} {}
-    WallShift at(double time) const override { return time * rate_; }
-
- private:
-    WallShift rate_;
-};
-
-/// `harmonic X Y ANGLE PERIOD PHASE`.
-class Harmonic final : public WallMotion {
- public:
-    explicit Harmonic(const std::vector<double>& numbers)
-        : amplitude_{{numbers.at(0), numbers.at(1), 0.0}, numbers.at(2)},
-          period_(numbers.at(3)),
-          phase_(numbers.at(4)) {}
-    WallShift at(double time) const override {
-        const double angle = 2.0 * std::numbers::pi * time / period_ + phase_;
-        return (std::sin(angle) - std::sin(phase_)) * amplitude_;
-    }
-
- private:
-    WallShift amplitude_;
-    double period_;
-    double phase_;
-};
-
-/// `table T X Y ANGLE T X Y ANGLE ...`, with times ascending from 0.
-class Table final : public WallMotion {
- public:
-    explicit Table(const std::vector<double>& numbers) {
-        if (numbers.empty() || numbers.size() % 4 != 0)
-            throw std::invalid_argument("a table has four numbers per row");
-        for (std::size_t i = 0; i < numbers.size(); i += 4)
-            rows_.push_back({numbers[i], {{numbers[i + 1], numbers[i + 2], 0.0}, numbers[i + 3]}});
-    }
-    WallShift at(double time) const override {
-        const auto after = std::find_if(rows_.begin(), rows_.end(),
-                                        [&](const Row& row) { return row.time > time; });
-        if (after == rows_.begin()) return after->shift;
-        if (after == rows_.end()) return rows_.back().shift;
-        const Row &from = *(after - 1), &to = *after;
-        const double part = (time - from.time) / (to.time - from.time);
-        return (1.0 - part) * from.shift + part * to.shift;
-    }
-
- private:
-    struct Row {
-        double time;
-        WallShift shift;
-    };
-    std::vector<Row> rows_;
-};
-
-template <class Motion>
-std::shared_ptr<const WallMotion> make(const std::vector<double>& numbers) {
-    return std::make_shared<Motion>(numbers);
-}
-
-struct MotionEntry {
-    const char* kind;
-    std::shared_ptr<const WallMotion> (*make)(const std::vector<double>&);
-};
-constexpr MotionEntry motion_list[] = {
-    {"constant", make<Constant>}, {"harmonic", make<Harmonic>}, {"table", make<Table>}};
-
-/// "2 harmonic 0.1 0 0 3 0".
-MovedWall moved_wall(const std::string& text) {
-    std::istringstream in(text);
-    std::int32_t wall = 0;
-    std::string kind;
-    in >> wall >> kind;
-    std::vector<double> numbers;
-    for (double number; in >> number;) numbers.push_back(number);
-    for (const MotionEntry& entry : motion_list)
-        if (kind == entry.kind && in.eof()) return {wall, entry.make(numbers)};
-    throw std::invalid_argument(
-        "run.wall_motions: \"" + text +
-        "\" is not a wall motion: allowed are constant, harmonic and table with their numbers");
-}
-
-}  // namespace
-
-std::vector<MovedWall> moved_walls(const Settings& settings) {
-    std::vector<MovedWall> moved;
-    if (!settings.has("run.wall_motions")) return moved;
-    std::istringstream list(settings.text("run.wall_motions"));
-    for (std::string text; std::getline(list, text, ';');) moved.push_back(moved_wall(text));
-    return moved;
-}
 
 void set_velocities(std::vector<nscd::Wall>& walls, const std::vector<MovedWall>& moved,
                     double time, double step) {
     for (nscd::Wall& wall : walls)
         for (const MovedWall& entry : moved) {
             if (entry.wall != wall.key) continue;
-            const WallShift rate =
-                (1.0 / step) * (entry.motion->at(time + step) + -1.0 * entry.motion->at(time));
+            const WallShift rate = entry.motion->rate(time, step);
             wall.velocity = rate.displacement;
             wall.spin = rate.angle;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd_adapter/free_motion.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
@@ -31,6 +32,34 @@ std::string grain(const nscd::Bodies& bodies, std::size_t i) {
     return "grain " + std::to_string(bodies.id[i]);
 }
 
+bool motion_is_prescribed(const FreeResponse& response) {
+    return std::all_of(response.inertia.begin(), response.inertia.end(),
+                       [](double entry) { return entry == 0.0; });
+}
+
+/// The fluid knows which grains were fixed when the window began, and nothing of a single degree of
+/// freedom.
+void demand_agreement(const nscd::Bodies& bodies, std::size_t i, bool held,
+                      const std::string& when) {
+    const bool fixed = bodies.fixed[i] != 0;
+    if (held == fixed && !bodies.rotation_blocked[i]) return;
+    const char* fault = fixed  ? " is fixed by its host "
+                        : held ? " is released by its host "
+                               : " is kept from rotating by its host ";
+    throw std::runtime_error(grain(bodies, i) + fault + when +
+                             ", but not in the fluid: fix grains completely and before the run "
+                             "(motion = fixed in grains.file), or use coupling.scheme: split");
+}
+
+nscd::BodyMobility mobility_of(const nscd::Bodies& bodies, std::size_t i,
+                               const FreeResponse& response, const std::string& when) {
+    const auto mobility = nscd::inverse(in_plane(response.inertia));
+    if (!mobility)
+        throw PhysicsRefused("the effective inertia of " + grain(bodies, i) +
+                             " is not positive definite " + when);
+    return *mobility;
+}
+
 }  // namespace
 
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
@@ -38,17 +67,11 @@ FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeRespons
     FreeMotion result;
     const auto ordered = by_grain(bodies.id, responses, "response", when);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies.fixed[i] || bodies.rotation_blocked[i])
-            throw std::runtime_error(grain(bodies, i) + " is fixed by its host " + when +
-                                     ", but the fluid moves every grain for which it sends a "
-                                     "response; use coupling.scheme: split");
-        const nscd::Twist twist = in_plane(*ordered[i]);
-        const auto mobility = nscd::inverse(in_plane(ordered[i]->inertia));
-        if (!mobility)
-            throw PhysicsRefused("the effective inertia of " + grain(bodies, i) +
-                                 " is not positive definite " + when);
-        result.velocities.push_back(twist);
-        result.mobilities.push_back(*mobility);
+        const bool held = motion_is_prescribed(*ordered[i]);
+        demand_agreement(bodies, i, held, when);
+        result.velocities.push_back(in_plane(*ordered[i]));
+        result.mobilities.push_back(held ? nscd::BodyMobility{}
+                                         : mobility_of(bodies, i, *ordered[i], when));
     }
     return result;
 }

@@ -15,12 +15,12 @@ namespace turbidite {
 
 struct FreeMotion {
     std::vector<nscd::Twist> velocities;         ///< U^F, omega^F
-    std::vector<nscd::BodyMobility> mobilities;  ///< A^-1, A the effective inertia
+    std::vector<nscd::BodyMobility> mobilities;  ///< A^-1, A the effective inertia; 0: fixed
 };
 
 /// `when` ends the sentence of an error ("in window 3"). Throws std::runtime_error naming a grain
-/// with no response or two, or one that the host has fixed; PhysicsRefused if an effective inertia
-/// is not positive definite.
+/// with no response or two, or one that is fixed in the host or in the fluid but not in both;
+/// PhysicsRefused if an effective inertia is not positive definite.
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
                        const std::string& when);
 

@@ -71,7 +71,9 @@ PackingBox packing_box(const Settings& settings) {
 }
 
 SolidSides solid_sides(const Settings& settings) {
-    const auto solid = [&](const char* key) { return settings.text(key) == "wall"; };
+    const auto solid = [&](const char* key) {
+        return settings.text(key) == "wall" || settings.text(key) == "inflow";
+    };
     return {solid("domain.left"), solid("domain.right"), solid("domain.bottom"),
             solid("domain.top")};
 }
@@ -195,16 +197,13 @@ void check_abilities(const Population& population, const Settings& settings,
                         adapters_that([](const GrainsAdapter& a) { return a.shapes.size() > 1; })),
             entries);
     if (const auto i = first([](const PlacedGrain& g) { return g.prescribed; });
-        i < grains.size() && (wet || !adapter.prescribed_grains))
-        refuse_grain(population, i, "motion is fixed or driven",
-                     wet ? "In a fluid all grains are free in this version."
-                         : fmt::format("{} supports free grains only.", adapter.name),
-                     wet ? "Use motion = free, or fluid.enabled: false."
-                         : fmt::format("Use motion = free, or grains.adapter: {}.",
-                                       adapters_that([](const GrainsAdapter& a) {
-                                           return a.prescribed_grains;
-                                       })),
-                     entries);
+        i < grains.size() && !adapter.prescribed_grains)
+        refuse_grain(
+            population, i, "motion is fixed or driven",
+            fmt::format("{} supports free grains only.", adapter.name),
+            fmt::format("Use motion = free, or grains.adapter: {}.",
+                        adapters_that([](const GrainsAdapter& a) { return a.prescribed_grains; })),
+            entries);
     const double cells = settings.real("fluid.cells_per_diameter");
     if (const auto i = first([&](const PlacedGrain& g) {
             return 2.0 * g.radius * cells < least_cells_across * (1.0 - 1e-12);
@@ -215,7 +214,9 @@ void check_abilities(const Population& population, const Settings& settings,
                                  "is {:.3g}.",
                                  least_cells_across, 2.0 * grains[i].radius * cells),
                      "Use more fluid.cells_per_diameter or larger grains.", entries);
-    if (const auto i = first([](const PlacedGrain& g) { return g.density && *g.density <= 1.0; });
+    if (const auto i = first([](const PlacedGrain& g) {
+            return g.density && *g.density <= 1.0 && !g.prescribed;
+        });
         i < grains.size() && wet && settings.text("coupling.scheme") != "joint")
         refuse_grain(population, i, fmt::format("density = {}", *grains[i].density),
                      "Without coupling.scheme: joint, grains in a fluid must be denser than it.",
@@ -402,6 +403,7 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
     settings.set("run.walls",
                  walls_setting(walls, result.scales, settings.real("contact.friction")));
     settings.set("run.wall_motions", motions_setting(settings, walls, result.scales));
+    settings.set("run.inflow_motions", inflows_setting(settings, result.scales));
     set_materials(settings);
     set_soft_contact(settings, population.grains);
     result.packing = std::move(population.grains);

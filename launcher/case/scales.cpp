@@ -87,6 +87,10 @@ void set_run_values(Settings& settings, const Scales& scales) {
                                          scales.fluid_density * scales.gravity);
     settings.set("run.fluid_density", wet ? scales.fluid_density : 0.0);
     settings.set("run.viscosity", wet ? scales.viscosity : 0.0);
+    const std::vector<double> acceleration =
+        real_list("fluid.acceleration", settings.text("fluid.acceleration"));
+    settings.set("run.acceleration_x", acceleration.at(0) * scales.velocity / scales.time);
+    settings.set("run.acceleration_y", acceleration.at(1) * scales.velocity / scales.time);
     settings.set("run.size_x", size.at(0) * scales.diameter);
     settings.set("run.size_y", size.at(1) * scales.diameter);
     settings.set("run.size_z", scales.diameter);

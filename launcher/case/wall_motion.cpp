@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/prescribed_motion.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains_adapters.hpp"
 
@@ -148,18 +151,41 @@ bool is_known(const Settings& s, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_inflow(const Settings& s, const std::string& side) {
+    return is(s, ("domain." + side).c_str(), "inflow");
+}
+
+/// Whether a motion leaves a wall normal to this axis in its plane.
+bool slides(const Settings& s, const std::string& name, int axis) {
+    for (const char* part : {"velocity", "amplitude"})
+        if (numbers(s, name, part).at(axis) != 0.0) return false;
+    const auto rows = numbers(s, name, "table");
+    for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
+        if (rows[i + 1 + axis] != 0.0) return false;
+    return true;
+}
+
 std::optional<Objection> bad_side(const Settings& s, const std::string& side) {
     const std::string& name = s.text("domain." + side + "_motion");
     if (!is_known(s, name)) return unknown_motion(s);
-    if (!is(s, ("domain." + side).c_str(), "wall"))
-        return Objection{
-            fmt::format("Only walls can move, but domain.{} = {}.", side, s.text("domain." + side)),
-            fmt::format("Use domain.{}: wall, or remove it.", side)};
+    const bool wall = is(s, ("domain." + side).c_str(), "wall");
+    if (!wall && !is_inflow(s, side))
+        return Objection{fmt::format("Only walls can move, and fluid enters only through inflows, "
+                                     "but domain.{} = {}.",
+                                     side, s.text("domain." + side)),
+                         fmt::format("Use domain.{}: wall or inflow, or remove it.", side)};
     if (turns(s, name))
         return Objection{"A side of the box does not turn.", "Remove spin and turn."};
-    if (s.flag("fluid.enabled"))
-        return Objection{"The fluid does not support moving sides in this version.",
-                         "Set fluid.enabled: false, or remove it."};
+    if (!wall) return std::nullopt;
+    const int across = side == "left" || side == "right" ? 0 : 1;
+    if (s.flag("fluid.enabled") && !slides(s, name, across))
+        return Objection{
+            fmt::format("In a fluid a side slides along itself only: the {} component of its "
+                        "motion must be 0.",
+                        across == 0 ? "x" : "y"),
+            fmt::format("Set it to 0, set fluid.enabled: false, or let fluid in with domain.{}: "
+                        "inflow.",
+                        side)};
     if (grains_adapter(s).moving_sides) return std::nullopt;
     return Objection{
         fmt::format("{} does not support moving sides.", s.text("grains.adapter")),
@@ -191,6 +217,74 @@ void append(std::string& text, std::int32_t wall, const Settings& s, const std::
                         fmt::join(kind.numbers(s, name, scales), " "));
 }
 
+/// The motions of those sides that are inflows, or of those that are not.
+std::string side_motions(const Settings& settings, const Scales& scales, bool inflows) {
+    std::string text;
+    for (std::int32_t i = 0; i < first_inner_wall; ++i)
+        if (const std::string key = std::string("domain.") + sides[i] + "_motion";
+            settings.has(key) && is_inflow(settings, sides[i]) == inflows)
+            append(text, i, settings, settings.text(key), scales);
+    return text;
+}
+
+bool has_free_side(const Settings& s) {
+    return std::any_of(std::begin(sides), std::end(sides), [&](const char* side) {
+        return is(s, (std::string("domain.") + side).c_str(), "free");
+    });
+}
+
+/// The volumes that have entered and left through inflows by a time [D2].
+struct Exchanged {
+    double net = 0.0, either_way = 0.0;
+};
+
+Exchanged exchanged(const std::vector<MovedWall>& inflows, const std::vector<double>& size,
+                    double time) {
+    Exchanged sum;
+    for (const MovedWall& inflow : inflows) {
+        const int axis = inflow.wall / 2;
+        const double inward = inflow.wall % 2 == 0 ? 1.0 : -1.0;
+        const double volume = inward * inflow.motion->at(time).displacement[axis] * size[1 - axis];
+        sum.net += volume;
+        sum.either_way += std::abs(volume);
+    }
+    return sum;
+}
+
+/// The first time at which more fluid has entered a box without a free side than has left it, of
+/// many until the end [t_c].
+std::optional<double> overfull(const Settings& s) {
+    Settings in_diameters;
+    Scales unit;
+    unit.diameter = unit.velocity = unit.time = 1.0;
+    in_diameters.set("run.inflow_motions", side_motions(s, unit, true));
+    const auto inflows = moved_walls(in_diameters, "run.inflow_motions");
+    const auto size = real_list("domain.size", s.text("domain.size"));
+    constexpr int samples = 1000;
+    for (int n = 1; n <= samples; ++n) {
+        const double time = s.real("time.end") * n / samples;
+        const Exchanged volume = exchanged(inflows, size, time);
+        if (std::abs(volume.net) > 1e-9 * volume.either_way) return time;
+    }
+    return std::nullopt;
+}
+
+/// What enters must leave.
+void check_balance(const Settings& s, CaseEntries& entries) {
+    const auto first = std::find_if(std::begin(sides), std::end(sides),
+                                    [&](const char* side) { return is_inflow(s, side); });
+    const bool known = s.has("domain.size") && s.has("time.end");
+    if (first == std::end(sides) || has_free_side(s) || !known) return;
+    if (const auto time = overfull(s))
+        object(
+            std::string("domain.") + *first,
+            {fmt::format("The box has no free side, and by {:.3g} t_c not as much fluid has left "
+                         "through its inflows as has entered.",
+                         *time),
+             "Make a side free, or let the same flux leave through an opposite inflow."},
+            s, entries);
+}
+
 }  // namespace
 
 void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
@@ -202,15 +296,16 @@ void check_motions(const Settings& settings, const std::vector<InnerWall>& walls
                 object(key, *objection, settings, entries);
     for (const InnerWall& wall : walls)
         if (!wall.motion.empty()) check_inner_wall(settings, wall, entries);
+    if (entries.problems.empty()) check_balance(settings, entries);
+}
+
+std::string inflows_setting(const Settings& settings, const Scales& scales) {
+    return side_motions(settings, scales, true);
 }
 
 std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,
                             const Scales& scales) {
-    std::string text;
-    for (std::int32_t i = 0; i < first_inner_wall; ++i)
-        if (const std::string key = std::string("domain.") + sides[i] + "_motion";
-            settings.has(key))
-            append(text, i, settings, settings.text(key), scales);
+    std::string text = side_motions(settings, scales, false);
     for (std::size_t i = 0; i < walls.size(); ++i)
         if (!walls[i].motion.empty())
             append(text, first_inner_wall + static_cast<std::int32_t>(i), settings, walls[i].motion,

@@ -2,7 +2,7 @@
 //
 // Prescribed motions of walls, defined below domain.motions and named by a side of the box
 // (domain.left_motion) or a wall inside it (column motion). Their definition is in
-// granular_adapter/grains/wall_motions.hpp.
+// coupler/protocol/prescribed_motion.hpp.
 #pragma once
 
 #include <string>
@@ -20,8 +20,11 @@ namespace turbidite {
 void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
                    CaseEntries& entries);
 
-/// The value of `run.wall_motions`: `WALL KIND NUMBERS...` in run units, separated by `;`.
+/// The value of `run.wall_motions`, in run units.
 std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,
                             const Scales& scales);
+
+/// The value of `run.inflow_motions`, in run units.
+std::string inflows_setting(const Settings& settings, const Scales& scales);
 
 }  // namespace turbidite

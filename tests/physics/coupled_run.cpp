@@ -32,6 +32,9 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("domain.right", setup.right);
     settings.set("domain.bottom", setup.bottom);
     settings.set("domain.top", setup.top);
+    settings.set("run.wall_motions", setup.wall_motions);
+    settings.set("run.inflow_motions", setup.inflow_motions);
+    settings.set("domain.left_profile", setup.left_profile);
 }
 
 void set_fluid_values(Settings& settings, const CoupledSetup& setup) {

@@ -88,6 +88,22 @@ TEST_F(FluidRanks, CyclicSidesAndOpenOnes) {
     expect_two_ranks_the_same(sides);
 }
 
+/// Fluid enters through the bottom and the right, with profiles that cross the ranks' borders, and
+/// the left wall slides.
+TEST_F(FluidRanks, SidesThatMove) {
+    const std::string sides =
+        " --set domain.top=free --set domain.bottom=inflow --set domain.right=inflow"
+        " --set domain.bottom_profile=parabolic --set domain.right_profile=parabolic"
+        " --set domain.bottom_motion=up --set domain.motions.up.kind=constant"
+        " --set domain.motions.up.velocity=[0,0.2]"
+        " --set domain.right_motion=in --set domain.motions.in.kind=harmonic"
+        " --set domain.motions.in.amplitude=[-0.2,0.1] --set domain.motions.in.period=6"
+        " --set domain.left_motion=up";
+    const std::vector<double> one = expect_two_ranks_the_same(sides);
+    EXPECT_GT(largest_difference(one, places("fluid.ranks=1 --set domain.top=free")), 1e-3)
+        << "the sides do not move the grains";
+}
+
 /// OpenFOAM's own solvers, to their tolerance: 1e-12 of a residual norm.
 TEST_F(FluidRanks, WithOpenFoamsSolvers) {
     const std::string matrix =

@@ -12,7 +12,9 @@ namespace {
 std::vector<Choice> side_choices() {
     return {{"wall", "no slip; grains stay inside"},
             {"free", "zero gradient of velocity, pressure 0; grains that leave are removed"},
-            {"cyclic", "joined to the opposite side"}};
+            {"cyclic", "joined to the opposite side"},
+            {"inflow",
+             "fluid enters with the velocity of the side's motion; for grains a plate at rest"}};
 }
 
 KeySpec side(const std::string& name) {
@@ -40,6 +42,42 @@ Ruling bottom_top(const Settings& s) {
     return opposite_sides(s, "domain.bottom", "domain.top");
 }
 
+constexpr const char* side_names[] = {"left", "right", "bottom", "top"};
+
+/// An inflow is a side of the fluid, with a velocity.
+template <int side>
+Ruling inflow_has_a_velocity(const Settings& s) {
+    const std::string key = std::string("domain.") + side_names[side];
+    if (s.text(key) != "inflow") return std::nullopt;
+    if (!s.flag("fluid.enabled"))
+        return Objection{"Without a fluid nothing enters.",
+                         "Use wall, which an inflow is for the grains."};
+    if (s.has(key + "_motion")) return std::nullopt;
+    return Objection{
+        fmt::format("The fluid enters with the velocity of the motion that {}_motion names.", key),
+        fmt::format("Describe one below domain.motions, for example stream: {{kind: constant, "
+                    "velocity: [1, 0]}}, and set {}_motion: stream.",
+                    key)};
+}
+
+template <int side>
+std::string without_inflow(const Settings& s) {
+    const std::string key = std::string("domain.") + side_names[side];
+    return s.text(key) == "inflow" ? "" : fmt::format("with {}: {}", key, s.text(key));
+}
+
+template <int side>
+KeySpec side_profile() {
+    return {.name = std::string("domain.") + side_names[side] + "_profile",
+            .type = KeyType::choice,
+            .fallback = "uniform",
+            .choices = {{"uniform", "the velocity of the motion everywhere"},
+                        {"parabolic", "6 s (1 - s) of it, s from 0 to 1 along the side"}},
+            .help = std::string("profile of the fluid that enters through the ") +
+                    side_names[side] + " side; its mean is the velocity of the motion",
+            .idle = without_inflow<side>};
+}
+
 Ruling whole_cells(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const double cells = s.real("fluid.cells_per_diameter");
@@ -60,8 +98,9 @@ KeySpec side_motion(const std::string& name) {
     return {.name = "domain." + name + "_motion",
             .type = KeyType::text,
             .need = Need::optional,
-            .help = "name of the motion that the " + name +
-                    " side follows, described below domain.motions; dry cases"};
+            .help = "name of the motion of the " + name +
+                    " side, described below domain.motions: of a wall (in a fluid only along "
+                    "itself), or of the fluid that enters through an inflow"};
 }
 
 KeySpec motion_part(const char* name, KeyType type, const char* unit, const char* help) {
@@ -95,6 +134,10 @@ KeyTable motion_keys() {
 
 KeyTable with_motions(KeyTable table) {
     for (const char* name : {"left", "right", "bottom", "top"}) table.push_back(side_motion(name));
+    table.push_back(side_profile<0>());
+    table.push_back(side_profile<1>());
+    table.push_back(side_profile<2>());
+    table.push_back(side_profile<3>());
     for (KeySpec& key : motion_keys()) table.push_back(std::move(key));
     return table;
 }
@@ -132,6 +175,10 @@ KeyGroup domain_keys() {
         }),
         .rules = {{"domain.left", {"domain.right"}, left_right},
                   {"domain.bottom", {"domain.top"}, bottom_top},
+                  {"domain.left", {"fluid.enabled"}, inflow_has_a_velocity<0>},
+                  {"domain.right", {"fluid.enabled"}, inflow_has_a_velocity<1>},
+                  {"domain.bottom", {"fluid.enabled"}, inflow_has_a_velocity<2>},
+                  {"domain.top", {"fluid.enabled"}, inflow_has_a_velocity<3>},
                   {"domain.size", {"fluid.enabled", "fluid.cells_per_diameter"}, whole_cells}}};
 }
 

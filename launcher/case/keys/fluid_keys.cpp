@@ -92,6 +92,22 @@ Ruling scheme_is_stable(const Settings& s) {
 // more layers than its halo.
 constexpr double least_layers = 4.0;
 
+/// Between walls, a uniform force changes the pressure and nothing else.
+Ruling acceleration_is_along_cyclic_sides(const Settings& s) {
+    if (!s.flag("fluid.enabled")) return std::nullopt;
+    const std::vector<double> force = real_list("fluid.acceleration", s.text("fluid.acceleration"));
+    const char* sides[] = {"domain.left", "domain.bottom"};
+    const char* partners[] = {"domain.right", "domain.top"};
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        if (force.at(axis) != 0.0 && !is(s, sides[axis], "cyclic"))
+            return Objection{
+                fmt::format("{} is {}: a uniform force drives a flow between cyclic sides only.",
+                            sides[axis], s.text(sides[axis])),
+                fmt::format("Use {} and {}: cyclic, or 0 for this component.", sides[axis],
+                            partners[axis])};
+    return std::nullopt;
+}
+
 Ruling ranks_have_cells(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
@@ -219,16 +235,28 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.splitting_tolerance",
                  .type = KeyType::real,
                  .unit = "u_c/D",
-                 .fallback = "0.01",
+                 .fallback = "0.001",
                  .range = open_unit_interval,
-                 .help = "rms divergence, and relative residual of viscosity, that windows end with",
+                 .help = "rms divergence, and relative residual of viscosity, that a window may "
+                         "end with",
                  .idle = without_iterated_splitting},
                 {.name = "fluid.splitting_iterations",
                  .type = KeyType::integer,
-                 .fallback = "10",
-                 .range = {.lower = 1.0, .upper = 1000.0},
-                 .help = "largest number of pressure iterations per contact solve; of viscosity too",
+                 .fallback = "200",
+                 .range = {.lower = 1.0, .upper = 10000.0},
+                 .help = "largest number of iterations of pressure, and of viscosity, per contact "
+                         "solve",
                  .idle = without_iterated_splitting},
+                {.name = "fluid.acceleration",
+                 .type = KeyType::real_list,
+                 .unit = "u_c/t_c",
+                 .fallback = "[0, 0]",
+                 .help =
+                     "uniform body force on the fluid over rho_f, along cyclic sides: minus the "
+                     "gradient of the mean pressure; part of the force on a grain",
+                 .allowed = "A list of two numbers.",
+                 .remedy = "Write for example acceleration: [0.1, 0].",
+                 .idle = without_fluid},
                 {.name = "fluid.hydrodynamic_radius",
                  .type = KeyType::real,
                  .fallback = "1",
@@ -313,6 +341,9 @@ KeyGroup fluid_keys() {
             },
         .rules =
             {{"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_can_be_cut},
+             {"fluid.acceleration",
+              {"fluid.enabled", "domain.left", "domain.bottom"},
+              acceleration_is_along_cyclic_sides},
              {"fluid.transport_scheme", {}, scheme_is_known},
              {"fluid.transport_scheme",
               {"fluid.enabled", "fluid.cells_per_diameter", "fluid.time_scheme", "time.step",

@@ -77,9 +77,6 @@ TEST_F(RichCase, RowsThatMakeNoSenseAreRefused) {
     EXPECT_SAYS(refusal_of_row("1,2,2,fast,0,0,1,steel,free\n"), "vx = fast");
     EXPECT_SAYS(refusal_of_row("1,2,2,0,0,0,0,steel,free\n"), "density = 0");
     EXPECT_SAYS(
-        refusal_of_row("1,2,2,0,0,0,2,steel,fixed\n", {"fluid.enabled=true", "fluid.reynolds=36"}),
-        "In a fluid all grains are free");
-    EXPECT_SAYS(
         refusal_of_row("1,2,2,0,0,0,0.9,steel,free\n", {"fluid.enabled=true", "fluid.reynolds=36"}),
         "density = 0.9");
 }
@@ -152,10 +149,71 @@ TEST_F(MovingWalls, WhatMakesNoSenseIsRefused) {
                 "times increase");
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.motions.m.spin=1"})), "does not turn");
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.right=free"})), "Only walls can move");
-    EXPECT_SAYS(refusal("", with({kind + "constant", "fluid.enabled=true"})),
-                "The fluid does not support moving sides");
+    EXPECT_SAYS(refusal("", with({kind + "constant", "domain.motions.m.velocity=[-1, 0]",
+                                  "fluid.enabled=true"})),
+                "the x component of its motion must be 0");
     EXPECT_SAYS(refusal("", with({kind + "constant", "grains.adapter=yade-md"})),
                 "yade-md does not support moving sides");
+}
+
+class SidesOfTheFluid : public CaseTest {
+ protected:
+    SidesOfTheFluid()
+        : CaseTest(
+              "domain:\n"
+              "  size: [10, 20]\n"
+              "  motions:\n"
+              "    slide: {kind: constant, velocity: [0, 2]}\n"
+              "    rise: {kind: harmonic, amplitude: [0, 1], period: 2}\n"
+              "    press: {kind: table, table: [0, 0, 0, 1, 0.1, 0]}\n"
+              "grains: {count: 1, adapter: standalone-nscd}\n"
+              "fluid: {reynolds: 36}\n"
+              "time: {step: 0.01, end: 1}\n") {}
+};
+
+TEST_F(SidesOfTheFluid, WallsSlideAndInflowsLetFluidIn) {
+    const ResolvedCase resolved =
+        load("", {"domain.left_motion=slide", "domain.bottom=inflow", "domain.bottom_motion=rise",
+                  "domain.top=free", "domain.bottom_profile=parabolic"});
+    EXPECT_EQ(resolved.settings.text("run.wall_motions"), "0 constant 0 2 0");
+    EXPECT_EQ(resolved.settings.text("run.inflow_motions"), "2 harmonic 0 1 0 2 0");
+    EXPECT_EQ(resolved.settings.text("domain.bottom_profile"), "parabolic");
+    for (const std::string& note : resolved.notes)
+        EXPECT_EQ(note.find("no effect"), std::string::npos) << note;
+}
+
+TEST_F(SidesOfTheFluid, WhatMovesIntoTheFluidIsRefused) {
+    for (const char* motion : {"slide", "rise"})
+        EXPECT_SAYS(refusal("", {std::string("domain.top_motion=") + motion}),
+                    "the y component of its motion must be 0");
+    EXPECT_SAYS(refusal("", {"domain.left_motion=press"}), "domain.left_motion = press");
+    EXPECT_NO_THROW(load("", {"domain.bottom_motion=press"}));
+}
+
+TEST_F(SidesOfTheFluid, AnInflowNeedsAVelocityAndAFluid) {
+    EXPECT_SAYS(refusal("", {"domain.left=inflow", "domain.right=free"}), "domain.left = inflow");
+    EXPECT_SAYS(refusal("", {"domain.left=inflow", "domain.right=free"}), "domain.left_motion");
+    EXPECT_SAYS(
+        refusal("", {"domain.left=inflow", "domain.left_motion=press", "fluid.enabled=false"}),
+        "Without a fluid nothing enters");
+    EXPECT_SAYS(refusal("", {"domain.left=inflow", "domain.left_motion=nobody"}),
+                "no motion of this name");
+}
+
+TEST_F(SidesOfTheFluid, WhatEntersMustLeave) {
+    const std::vector<std::string> closed{"domain.bottom=inflow", "domain.bottom_motion=rise"};
+    EXPECT_SAYS(refusal("", closed), "The box has no free side");
+    std::vector<std::string> through = closed;
+    through.insert(through.end(), {"domain.top=inflow", "domain.top_motion=rise"});
+    EXPECT_NO_THROW(load("", through));
+    through.back() = "domain.top_motion=slide";
+    EXPECT_SAYS(refusal("", through), "domain.bottom = inflow");
+}
+
+TEST_F(SidesOfTheFluid, AProfileWithoutAnInflowIsNoted) {
+    const auto notes = load("", {"domain.left_profile=parabolic"}).notes;
+    ASSERT_FALSE(notes.empty());
+    EXPECT_SAYS(notes.back(), "domain.left_profile has no effect with domain.left: wall");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
     joint.effective_inertia = true;
     const auto sentences = mismatches(hello, joint);
     ASSERT_EQ(sentences.size(), 7u);
-    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.4, the case needs 1.x");
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.5, the case needs 1.x");
     EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
     EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
 }
@@ -67,14 +67,14 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
     EXPECT_TRUE(mismatches(knowing, joint).empty());
 }
 
-// A participant of version 1.3 waits for the shapes when the order of a window arrives.
-TEST(Handshake, AVersionWithoutWindowOrderIsRefused) {
+// A report of the fluid without its mean velocity would be malformed.
+TEST(Handshake, AVersionWithAnotherReportIsRefused) {
     Hello old = fitting();
-    old.protocol_minor = 3;
+    old.protocol_minor = 4;
     const auto sentences = mismatches(old, expected());
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: protocol version is 1.3, the case needs 1.4 or later (rebuild the "
+              "grains rank 0: protocol version is 1.4, the case needs 1.5 or later (rebuild the "
               "adapter)");
 }
 

@@ -54,6 +54,11 @@ class DenseReference {
         Eigen::VectorXd inverse(3 * grains_.size()), free(3 * grains_.size());
         for (std::size_t g = 0; g < grains_.size(); ++g) {
             const double m = grains_[g].effective_mass, I = grains_[g].effective_inertia;
+            if (grains_[g].prescribed) {
+                inverse.segment<3>(3 * g).setZero();
+                free.segment<3>(3 * g) = grains_[g].contact_motion;
+                continue;
+            }
             inverse.segment<3>(3 * g) << 1.0 / m, 1.0 / m, 1.0 / I;
             free.segment<3>(3 * g) =
                 inverse.segment<3>(3 * g).cwiseProduct(grains_[g].momentum() + pushes[g]);

@@ -144,6 +144,36 @@ TEST(ImmersedStep, WithoutContactsFreeGrainsAreThoseThatFellBefore) {
             EXPECT_NEAR(free[g].velocity[axis], kicks[g].velocity[axis], 2e-4);  // tolerances
 }
 
+TEST(ImmersedStep, PrescribedGrainsKeepTheirMotionAndTheFluidIsPushed) {
+    Scene scene;
+    const Planar before = scene.field.momentum();
+    std::vector<GrainState> grains = neighbours();
+    grains[0].prescribed = grains[1].prescribed = true;
+    grains[1].velocity = {};
+    scene.five.take_free(grains, step);
+    scene.five.solve();
+    std::vector<FreeResponse> responses = scene.five.responses();
+    for (int g : {0, 1}) {
+        EXPECT_EQ(responses[g].velocity, grains[g].velocity);
+        for (const double entry : responses[g].inertia) EXPECT_EQ(entry, 0.0);
+        responses[g].inertia = responses[2].inertia;  // for after_contacts, which inverts it
+    }
+    std::vector<GrainState> pushed = after_contacts(grains, responses);
+    for (int g : {0, 1}) {
+        pushed[g].velocity = grains[g].velocity;
+        pushed[g].angular_velocity = {};
+    }
+    scene.five.push(pushed);
+    EXPECT_EQ(scene.five.responses()[0].mismatch, 0.0);
+    EXPECT_GT(scene.five.responses()[2].mismatch, 0.0);
+    scene.five.impose();
+    const std::vector<Kick> kicks = scene.five.kicks();
+    for (int g : {0, 1}) EXPECT_EQ(kicks[g].velocity, grains[g].velocity);
+    EXPECT_GT(kicks[0].multiplier_impulse[1], 0.1);  // it is driven down against the fluid
+    const Planar change = scene.field.momentum() - before;
+    EXPECT_NEAR(change.y(), -scene.five.impulse_to_grains().y(), 1e-12);
+}
+
 TEST(ImmersedStep, AGrainOnItsWayOutIsAnsweredFor) {
     MemoryField field(96, 96, Side::open);
     ImmersedStep five(field, settings(1e-4), {{"disc", {}}});

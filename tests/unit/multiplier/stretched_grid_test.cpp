@@ -112,7 +112,8 @@ TEST_P(StretchedGrid, KeepsMomentumAndAgreesWithADenseSolve) {
     settings.tolerance = 1e-12;
     settings.reduction = 1.0;
     system.assemble(field, grains, points);
-    flow.begin(system, {field.velocity(0), field.velocity(1)}, momenta_of(grains));
+    flow.begin(system, {field.velocity(0), field.velocity(1)}, momenta_of(grains),
+               prescribed_motions(grains));
     EXPECT_TRUE(uzawa_cg(flow, settings, work).converged);
     flow.impose();
     Planar change = field.momentum() - before;

@@ -425,6 +425,37 @@ TEST(NscdAdapter, JointNeedsExactlyOneResponsePerGrain) {
               "a response was received for grain 99, which this rank does not have, in window 3");
 }
 
+// A response without inertia: the grain keeps its motion, and others come to rest on it.
+TEST(NscdAdapter, JointKeepsThePrescribedMotionThatTheFluidAnswersWith) {
+    NscdAdapter adapter;
+    GrainState driven = grain_at(11, 3, 10);
+    driven.prescribed = true;
+    driven.velocity = {0.0, 0.25, 0.0};
+    adapter.initialise(box_settings(), discs, {driven, grain_at(22, 3, 11)});
+    FreeResponse held;
+    held.id = 11;
+    held.velocity = driven.velocity;
+    FreeResponse falling = falling_at(22, 0.0);
+    falling.velocity[1] = -0.5;
+    const Motion motion = adapter.advance(window(0), {held, falling});
+    EXPECT_EQ(motion.grains[0].velocity, driven.velocity);
+    EXPECT_NEAR(motion.grains[1].velocity[1], 0.25, 1e-9);
+    EXPECT_GT(motion.grains[1].contact_impulse[1], 0.1);
+}
+
+TEST(NscdAdapter, JointRefusesGrainsThatAreFixedOnOneSideOnly) {
+    const auto error = [](bool fixed, const FreeResponse& response) {
+        NscdAdapter adapter;
+        adapter.initialise(box_settings(), discs, {grain_at(11, 3, 10)});
+        adapter.bodies().fixed[0] = fixed;
+        return refusal<std::runtime_error>([&] { adapter.advance(window(3), {response}); });
+    };
+    FreeResponse held;
+    held.id = 11;
+    EXPECT_TRUE(contains(error(true, falling_at(11, 0.0)), "grain 11 is fixed by its host"));
+    EXPECT_TRUE(contains(error(false, held), "grain 11 is released by its host in window 3"));
+}
+
 TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
     NscdAdapter adapter;
     adapter.initialise(box_settings(), discs, {grain_at(11, 3, 10)});
@@ -436,7 +467,7 @@ TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
     adapter.bodies().rotation_blocked[0] = 1;
     const std::string held =
         refusal<std::runtime_error>([&] { adapter.advance(window(3), {falling_at(11, 0.0)}); });
-    EXPECT_TRUE(contains(held, "grain 11 is fixed")) << held;
+    EXPECT_TRUE(contains(held, "grain 11 is kept from rotating by its host in window 3")) << held;
 }
 
 // Without responses and kicks the contact velocities are final.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// What one component of u is on the four sides of a box where it is prescribed: on a wall that
+// slides, or where fluid enters. Zero on all others, so that beyond a side lies
+//
+//     u_{-1} = f u_0 + 2 u_b          f: +-1, row_reader.hpp;  u_b: 0 unless f = -1
+//
+// and the mean of both is the value at the face. Valid C++17.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace turbidite {
+
+/// Left and right by row of this rank, bottom and top by column [m/s].
+using SideValues = std::array<std::vector<double>, 4>;
+
+}  // namespace turbidite

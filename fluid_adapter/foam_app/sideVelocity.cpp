@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/sideVelocity.hpp"
+
+#include <cmath>
+
+#include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/foam_case/fluid_domain.hpp"
+
+namespace turbidite {
+namespace {
+
+/// 0 to 3 for a face that looks left, right, down, up out of the box.
+int side_of(const Foam::vector& outward) {
+    if (std::abs(outward.x()) > std::abs(outward.y())) return outward.x() < 0.0 ? 0 : 1;
+    return outward.y() < 0.0 ? 2 : 3;
+}
+
+/// Shares of the profile on the faces of a patch along an axis of the box.
+std::vector<double> shares_of(const Foam::fvPatch& patch, int axis, const SideMotion& motion,
+                              const FluidFields& fields) {
+    const Foam::boundBox& box = fields.mesh.bounds();
+    const Foam::scalar origin = box.min()[axis], length = box.span()[axis];
+    std::vector<double> shares;
+    forAll(patch, face) {
+        const Foam::scalar half = 0.5 * patch.magSf()[face] / fields.thickness;
+        const Foam::scalar at = patch.Cf()[face][axis] - origin;
+        shares.push_back(motion.share((at - half) / length, (at + half) / length));
+    }
+    return shares;
+}
+
+}  // namespace
+
+SideVelocity::SideVelocity(const std::array<SideMotion, 4>& motions, FluidFields& fields)
+    : motions_(motions), fields_(fields) {
+    for (int side = 0; side < 4; ++side) {
+        if (!motions_[side].motion) continue;
+        const Foam::label patch = fields.mesh.boundary().findPatchID(side_names[side]);
+        if (patch < 0 || !fields.U.boundaryField()[patch].fixesValue())
+            throw Failure(ExitCode::bad_input,
+                          std::string("domain.") + side_names[side] +
+                              "_motion prescribes a velocity, but 0/U of the fluid case holds no "
+                              "value on patch " +
+                              side_names[side] + "; use type fixedValue there");
+        const int along = side < 2 ? 1 : 0;
+        patches_.push_back(
+            {patch, &motions_[side],
+             shares_of(fields.mesh.boundary()[patch], along, motions_[side], fields)});
+    }
+}
+
+bool SideVelocity::set(double time, double step) {
+    for (const MovedPatch& moved : patches_) {
+        const auto [x, y] = moved.motion->velocity(time, step);
+        const Foam::vector v(x, y, 0.0);
+        Foam::fvPatchVectorField& side = fields_.U.boundaryFieldRef()[moved.patch];
+        Foam::vectorField values(side.size());
+        forAll(values, face) values[face] = moved.shares[face] * v;
+        side == values;  // sets the value itself
+    }
+    return !patches_.empty();
+}
+
+std::array<SideValues, 2> held_on_sides(const FluidFields& fields, const BoxCells& box) {
+    const std::array<int, 2> length = {box.cells[1], box.cells[0]};
+    const int per_component = 2 * (length[0] + length[1]);
+    const auto first = [&](int side) {
+        return side < 2 ? side * length[0] : 2 * length[0] + (side - 2) * length[1];
+    };
+    std::vector<double> values(2 * per_component, 0.0);
+    for (const auto& condition : fields.U.boundaryField()) {
+        if (condition.coupled() || !condition.fixesValue()) continue;
+        const Foam::labelUList& cells = condition.patch().faceCells();
+        forAll(cells, face) {
+            const int side = side_of(condition.patch().Sf()[face]);
+            const int place = box.place[cells[face]];
+            const int at = first(side) + (side < 2 ? box.row(place) : box.column(place));
+            for (int axis = 0; axis < 2; ++axis)
+                values[axis * per_component + at] = condition[face][axis];
+        }
+    }
+    box.ranks.sum(values.data(), static_cast<int>(values.size()));
+    std::array<SideValues, 2> sides;
+    for (int axis = 0; axis < 2; ++axis)
+        for (int side = 0; side < 4; ++side) {
+            const auto from = values.begin() + axis * per_component + first(side);
+            sides[axis][side].assign(from, from + length[side / 2]);
+        }
+    return sides;
+}
+
+}  // namespace turbidite

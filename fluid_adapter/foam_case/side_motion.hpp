@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The velocity that a case prescribes on a side of the fluid: of a wall that slides along itself
+// (domain.SIDE_motion of a wall), or of the fluid that enters (the same of an inflow), with its
+// profile across the side (domain.SIDE_profile):
+//
+//     uniform     v                  v: rate of the motion over a window, prescribed_motion.hpp
+//     parabolic   6 v s (1 - s)      s: place along the side, 0 to 1; v is the mean
+//
+// Faces take the mean of the profile over their length, so that the flux through the side does not
+// depend on the mesh. Valid C++17.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+struct SideMotion {
+    std::shared_ptr<const WallMotion> motion;  ///< null: at rest
+    bool parabolic = false;
+
+    /// v of the window [time, time + step] [m/s].
+    std::array<double, 2> velocity(double time, double step) const;
+
+    /// Mean of the profile over [from, to], places along the side, in units of v.
+    double share(double from, double to) const;
+};
+
+/// Of left, right, bottom, top. Throws std::invalid_argument for motions of another format, and for
+/// an unknown profile.
+std::array<SideMotion, 4> side_motions(const Settings& settings);
+
+}  // namespace turbidite
