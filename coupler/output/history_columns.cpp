@@ -63,6 +63,12 @@ double force(Cell c, std::size_t axis) {
            (c.run.fluid_density * c.run.velocity * c.run.velocity * c.run.diameter);
 }
 
+/// Empty with marchuk-yanenko.
+template <class Value>
+std::string splitting(Cell c, Value value) {
+    return c.row.fluid && c.row.fluid->splitting ? number(value(*c.row.fluid->splitting)) : "";
+}
+
 struct Column {
     const char* name;
     Text text;
@@ -143,6 +149,20 @@ const std::vector<Column> columns = {
      }},
     {"fluid_force_x", [](Cell c) { return fluid(c, [](Cell r) { return force(r, 0); }); }},
     {"fluid_force_y", [](Cell c) { return fluid(c, [](Cell r) { return force(r, 1); }); }},
+    {"pressure_iterations",
+     [](Cell c) {
+         return splitting(c, [](const auto& s) { return double(s.pressure_iterations); });
+     }},
+    {"viscous_iterations",
+     [](Cell c) { return splitting(c, [](const auto& s) { return double(s.viscous_iterations); }); }},
+    {"remaining_divergence",
+     [](Cell c) {
+         return splitting(c, [&](const auto& s) {
+             return s.divergence * c.run.diameter / c.run.velocity;
+         });
+     }},
+    {"viscous_residual",
+     [](Cell c) { return splitting(c, [](const auto& s) { return s.viscous_residual; }); }},
 };
 
 template <class Part>

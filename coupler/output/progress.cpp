@@ -34,6 +34,12 @@ std::string fluid_text(const FluidReport& report, const RunValues& run) {
         fmt::format("  multipliers {} its, {:.0e}{}  Courant {:.2f}", report.multiplier_iterations,
                     report.multiplier_residual / run.velocity,
                     report.multipliers_converged ? "" : not_converged, report.courant);
+    if (const auto& splitting = report.splitting)
+        text += fmt::format("  pressure {} its, div {:.0e} u_c/D, viscosity {} its, {:.0e}{}",
+                            splitting->pressure_iterations,
+                            splitting->divergence * run.diameter / run.velocity,
+                            splitting->viscous_iterations, splitting->viscous_residual,
+                            splitting->converged ? "" : not_converged);
     if (report.final_divergence > 0.0)  // computed in windows with output
         text += fmt::format("  divergence after step 5 {:.0e} u_c/D",
                             report.final_divergence * run.diameter / run.velocity);

@@ -61,6 +61,10 @@ void RunStatistics::take_in(const FluidReport& report) {
     fluid.balance = std::max(fluid.balance, report.momentum_defect);
     fluid.slip = std::max(fluid.slip, report.multiplier_residual / velocity_);
     fluid.unconverged_windows += report.multipliers_converged ? 0 : 1;
+    if (!report.splitting) return;
+    fluid.remaining_divergence =
+        std::max(fluid.remaining_divergence, report.splitting->divergence / rate);
+    fluid.unsplit_windows += report.splitting->converged ? 0 : 1;
 }
 
 void RunStatistics::take_in(const JointReport& report) {

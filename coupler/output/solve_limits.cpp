@@ -30,6 +30,16 @@ std::string multiplier_sentence(const RunStatistics& s, const SolveLimits& limit
         s.maxima.fluid->slip, limits.slip);
 }
 
+std::string splitting_sentence(const RunStatistics& s, const SolveLimits& limits) {
+    return fmt::format(
+        "in {} of {} windows pressure or viscosity with rigid grains used up its {} iterations "
+        "(fluid.splitting_iterations); rms divergence up to {:.1e} u_c/D, {:g} required. Allow "
+        "more iterations, a larger fluid.splitting_tolerance, or open pores with a smaller "
+        "fluid.hydrodynamic_radius.",
+        s.maxima.fluid->unsplit_windows, s.windows_done, limits.splitting.iterations,
+        s.maxima.fluid->remaining_divergence, limits.splitting.tolerance);
+}
+
 std::string joint_sentence(const RunStatistics& s, const SolveLimits& limits) {
     return fmt::format(
         "in {} of {} windows contacts and fluid differ by more than coupling.tolerance = {:g} u_c "
@@ -45,6 +55,8 @@ SolveLimits solve_limits(const Settings& settings) {
     limits.contact = limit(settings, "contact.iterations", "contact.tolerance");
     limits.multipliers =
         limit(settings, "fluid.multiplier_iterations", "fluid.multiplier_tolerance");
+    limits.splitting =
+        limit(settings, "fluid.splitting_iterations", "fluid.splitting_tolerance");
     limits.joint = limit(settings, "coupling.iterations", "coupling.tolerance");
     if (settings.has("run.slip_tolerance")) limits.slip = settings.real("run.slip_tolerance");
     return limits;
@@ -57,6 +69,8 @@ std::vector<std::string> unconverged_sentences(const RunStatistics& statistics,
     if (maxima.unconverged_windows > 0) sentences.push_back(contact_sentence(statistics, limits));
     if (maxima.fluid && maxima.fluid->unconverged_windows > 0)
         sentences.push_back(multiplier_sentence(statistics, limits));
+    if (maxima.fluid && maxima.fluid->unsplit_windows > 0)
+        sentences.push_back(splitting_sentence(statistics, limits));
     if (maxima.joint && maxima.joint->unconverged_windows > 0)
         sentences.push_back(joint_sentence(statistics, limits));
     return sentences;

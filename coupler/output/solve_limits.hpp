@@ -18,6 +18,7 @@ struct SolveLimit {
 
 struct SolveLimits {
     SolveLimit contact;      ///< contact.iterations, contact.tolerance (natural map, scaled)
+    SolveLimit splitting;    ///< fluid.splitting_iterations, fluid.splitting_tolerance [u_c/D]
     SolveLimit multipliers;  ///< fluid.multiplier_iterations, fluid.multiplier_tolerance [u_c]
     SolveLimit joint;        ///< coupling.iterations, coupling.tolerance [u_c]
     double slip = 0.0;       ///< run.slip_tolerance [u_c]

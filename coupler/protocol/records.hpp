@@ -159,6 +159,16 @@ struct Motion {
     std::optional<std::vector<ContactRecord>> contacts = {};
 };
 
+/// What is left at the end of a window by a splitting that corrects pressure and viscosity together
+/// with rigid grains; of all its solves.
+struct SplittingReport {
+    std::int64_t pressure_iterations = 0;
+    std::int64_t viscous_iterations = 0;
+    double divergence = 0.0;        ///< rms of div u at the end of the window [1/s]
+    double viscous_residual = 0.0;  ///< of the viscous impulses, over their norm
+    bool converged = true;          ///< all solves; true where none iterates to a tolerance
+};
+
 /// Report of the fluid side.
 struct FluidReport {
     std::int64_t multiplier_iterations = 0;
@@ -171,6 +181,7 @@ struct FluidReport {
     /// zero to solver tolerance.
     double momentum_defect = 0.0;
     double courant = 0.0;
+    std::optional<SplittingReport> splitting = {};  ///< empty with marchuk-yanenko
     Vec3 mean_velocity{};       ///< of the whole box, cells in grains included [m/s]
     double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
 };

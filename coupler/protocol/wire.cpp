@@ -114,12 +114,18 @@ constexpr auto visit_kick = [](auto& code, auto& k) {
     array(code, k.force), array(code, k.torque);
 };
 
+constexpr auto visit_splitting = [](auto& code, auto& s) {
+    code(s.pressure_iterations), code(s.viscous_iterations);
+    code(s.divergence), code(s.viscous_residual), code(s.converged);
+};
+
 constexpr auto visit_kicks = [](auto& code, auto& kicks) {
     list(code, kicks.kicks, visit_kick);
     auto& r = kicks.report;
     code(r.multiplier_iterations), code(r.multiplier_residual), code(r.multipliers_converged);
     code(r.divergence), code(r.final_divergence), code(r.momentum_defect);
-    code(r.courant), array(code, r.mean_velocity), code(r.wall_seconds);
+    code(r.courant), maybe(code, r.splitting, visit_splitting);
+    array(code, r.mean_velocity), code(r.wall_seconds);
 };
 
 constexpr auto visit_response = [](auto& code, auto& r) {

@@ -31,118 +31,189 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
       w_(even(pressure), rows),
       ends_(pressure, rows) {
     along_.resize(nx_ + RowReader::padding);
-    for (Row* row : {&below_, &here_, &above_}) row->resize(nx_);
+    for (Row* row : {&below_, &here_, &above_, &image_}) row->resize(nx_);
 }
 
-void BoxOperators::subtract_gradient(double step, const double* p, double* x, double* y) {
-    p_.begin(p);
-    for (int j = 0; j < ny_; ++j) {
-        const double* below = p_.row(j - 1);
-        const double* here = p_.row(j);
-        const double* above = p_.row(j + 1);
-        correct(nx_, 0.5 * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
-        correct(nx_, 0.5 * step / hy_, below, above, y + at(j), y + at(j));
-    }
-}
-
-void BoxOperators::laplacian(double share, int axis, SidesHold sides, const double* u,
-                             double* out) {
-    RowReader& rows = readers(sides)[axis];
+void BoxOperators::laplacian(double share, int axis, const double* u, double* f) {
+    RowReader& rows = velocity_[axis];
     rows.begin(u);
     for (int j = 0; j < ny_; ++j) {
         const double* below = rows.row(j - 1);
         const double* here = rows.row(j);
         laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      out + at(j));
+                      f + at(j));
     }
 }
 
-void BoxOperators::divergence(double share, SidesHold sides, const double* x, const double* y,
-                              double* out) {
-    auto& [u, v] = readers(sides);
-    u.begin(x);
-    v.begin(y);
+void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, double* x,
+                           double* y) {
+    p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
-        const double* here = u.row(j);
-        const double* below = v.row(j - 1);
-        divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / hy_, below,
-                       v.row(j + 1), out + at(j));
+        const double* below = p_.row(j - 1);
+        const double* here = p_.row(j);
+        const double* above = p_.row(j + 1);
+        add_row(nx_, 1.0, f.x.data() + at(j), x + at(j));
+        add_row(nx_, 1.0, f.y.data() + at(j), y + at(j));
+        correct(nx_, 0.5 * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
+        correct(nx_, 0.5 * step / hy_, below, above, y + at(j), y + at(j));
     }
 }
 
-void BoxOperators::add_divergence_of_excess(double share, const double* along_x,
-                                            const double* along_y, double* out) const {
+void BoxOperators::gradient(double step, const double* p, double* x, double* y) {
+    std::fill(image_.begin(), image_.end(), 0.0);
+    p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
-        const double* left = along_x + static_cast<std::size_t>(j) * (nx_ + 1);
-        add_divergence_row(nx_, share / hx_, left, left + 1, share / hy_, along_y + at(j),
-                           along_y + at(j + 1), out + at(j));
+        const double* below = p_.row(j - 1);
+        const double* here = p_.row(j);
+        const double* above = p_.row(j + 1);
+        correct(nx_, 0.5 * step / hx_, here - 1, here + 1, image_.data(), x + at(j));
+        correct(nx_, 0.5 * step / hy_, below, above, image_.data(), y + at(j));
     }
+}
+
+std::array<double, 2> BoxOperators::viscous_residual(double share, int axis, const double* u,
+                                                     const double* f, double* r) {
+    RowReader& rows = velocity_[axis];
+    rows.begin(u);
+    std::array<double, 2> sums{};
+    for (int j = 0; j < ny_; ++j) {
+        const double* below = rows.row(j - 1);
+        const double* here = rows.row(j);
+        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
+                      r + at(j));
+        add_row(nx_, -1.0, f + at(j), r + at(j));
+        sums[0] += dot_row(nx_, r + at(j), r + at(j));
+        sums[1] += dot_row(nx_, f + at(j), f + at(j));
+    }
+    return sums;
+}
+
+ImageProducts BoxOperators::viscous_image(double share, int axis, const double* d, const double* v,
+                                          const double* r, double* image) {
+    RowReader& rows = change_[axis];
+    rows.begin(v);
+    ImageProducts products;
+    for (int j = 0; j < ny_; ++j) {
+        double* out = image ? image + at(j) : image_.data();
+        const double* below = rows.row(j - 1);
+        const double* here = rows.row(j);
+        laplacian_row(nx_, -share / (hx_ * hx_), -share / (hy_ * hy_), below, here,
+                      rows.row(j + 1), out);
+        add_row(nx_, 1.0, d + at(j), out);
+        products.direction += dot_row(nx_, out, here);
+        products.residual += dot_row(nx_, out, r + at(j));
+        products.itself += dot_row(nx_, out, out);
+        products.step += dot_row(nx_, r + at(j), here);
+    }
+    return products;
+}
+
+/// out = share D (u, v) of row j.
+void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v, double* out) {
+    const double* here = u.row(j);
+    const double* below = v.row(j - 1);
+    divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / hy_, below,
+                   v.row(j + 1), out);
+}
+
+double BoxOperators::flux_residual(double step, const double* w, const double* p, const double* x,
+                                   const double* y, const ExcessFlux& excess, double* r) {
+    velocity_[0].begin(x);
+    velocity_[1].begin(y);
+    begin_smoothing(w, p);
+    double sum = 0.0;
+    for (int j = 0; j < ny_; ++j) {
+        double* out = r + at(j);
+        divergence_of(j, -1.0, velocity_[0], velocity_[1], out);
+        const double* left = excess.x + along(j);
+        add_divergence_row(nx_, -1.0 / hx_, left, left + 1, -1.0 / hy_, excess.y + at(j),
+                           excess.y + at(j + 1), out);
+        add_smoothing(j, -step, out);
+        sum += dot_row(nx_, out, out);
+    }
+    return sum;
+}
+
+ImageProducts BoxOperators::flux_image(double step, const double* w, const double* d,
+                                       const double* x, const double* y, const double* r,
+                                       double* image) {
+    change_[0].begin(x);
+    change_[1].begin(y);
+    begin_smoothing(w, d);
+    ImageProducts products;
+    for (int j = 0; j < ny_; ++j) {
+        double* out = image ? image + at(j) : image_.data();
+        divergence_of(j, 1.0, change_[0], change_[1], out);
+        add_smoothing(j, step, out);
+        products.direction += dot_row(nx_, out, d + at(j));
+        products.residual += dot_row(nx_, out, r + at(j));
+        products.itself += dot_row(nx_, out, out);
+        products.step += dot_row(nx_, r + at(j), d + at(j));
+    }
+    return products;
 }
 
 void BoxOperators::begin_smoothing(const double* w, const double* p) {
     w_.begin(w);
     p_.begin(p);
-    second_difference_across(-1, w_.row(-1), below_);
-    second_difference_across(0, w_.row(0), here_);
+    second_difference_across(-1, below_);
+    second_difference_across(0, here_);
 }
 
-/// q = w d2 p along x, extended beyond both ends as p is.
-void BoxOperators::second_difference_along(int j, const double* w, Row& q) {
+/// along = w d2 p along x of row j, extended beyond both ends as p is.
+void BoxOperators::second_difference_along(int j) {
     const double* p = p_.row(j);
-    double* inside = q.data() + RowReader::beyond;
-    weighted_difference(nx_, w, p - 1, p, p + 1, inside);
+    double* inside = along_.data() + RowReader::beyond;
+    weighted_difference(nx_, w_.row(j), p - 1, p, p + 1, inside);
     ends_.extend(inside, j);
 }
 
-/// q = w d2 p along y.
-void BoxOperators::second_difference_across(int j, const double* w, Row& q) {
+/// q = w d2 p along y of row j.
+void BoxOperators::second_difference_across(int j, Row& q) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
-    weighted_difference(nx_, w, below, here, p_.row(j + 1), q.data());
+    weighted_difference(nx_, w_.row(j), below, here, p_.row(j + 1), q.data());
 }
 
-void BoxOperators::add_smoothing(double share, const double* w, const double* p, double* out) {
-    begin_smoothing(w, p);
+/// out += share Q p of row j; rows in ascending order.
+void BoxOperators::add_smoothing(int j, double share, double* out) {
     const double x = 0.25 * share / (hx_ * hx_), y = 0.25 * share / (hy_ * hy_);
     const double* q = along_.data() + RowReader::beyond;
-    for (int j = 0; j < ny_; ++j) {
-        second_difference_along(j, w_.row(j), along_);
-        second_difference_across(j + 1, w_.row(j + 1), above_);
-        add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(),
-                        out + at(j));
-        below_.swap(here_);
-        here_.swap(above_);
-    }
+    second_difference_along(j);
+    second_difference_across(j + 1, above_);
+    add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(), out);
+    below_.swap(here_);
+    here_.swap(above_);
 }
 
-void BoxOperators::keep_excess(double k, const double* w, double* along_x, double* along_y) {
+void BoxOperators::keep_excess(double k, const double* w, const ExcessFlux& excess) {
     w_.begin(w);
     for (int j = 0; j <= ny_; ++j) {
-        const double* here = w_.row(j);
         const double* below = w_.row(j - 1);
+        const double* here = w_.row(j);
         const bool side = (j == 0 && !rows_.open_below()) || (j == ny_ && !rows_.open_above());
-        double* across = along_y + at(j);
+        double* across = excess.y + at(j);
         for (int i = 0; i < nx_; ++i) across[i] *= side ? 0.0 : k * std::max(below[i], here[i]);
         if (j == ny_) break;
-        double* along = along_x + static_cast<std::size_t>(j) * (nx_ + 1);
-        for (int i = 0; i <= nx_; ++i) along[i] *= k * std::max(here[i - 1], here[i]);
-        if (!periodic_) along[0] = along[nx_] = 0.0;
+        double* left = excess.x + along(j);
+        for (int i = 0; i <= nx_; ++i) left[i] *= k * std::max(here[i - 1], here[i]);
+        if (!periodic_) left[0] = left[nx_] = 0.0;
     }
 }
 
-void BoxOperators::add_to_excess(double step, const double* w, const double* p, double* along_x,
-                                 double* along_y) {
+void BoxOperators::add_to_excess(double step, const double* w, const double* p,
+                                 const ExcessFlux& excess) {
     begin_smoothing(w, p);
     const double x = 0.25 * step / hx_, y = 0.25 * step / hy_;
     const double* q = along_.data() + RowReader::beyond;
     for (int j = 0; j <= ny_; ++j) {
-        double* across = along_y + at(j);
+        double* across = excess.y + at(j);
         correct(nx_, -y, below_.data(), here_.data(), across, across);
         if (j == ny_) break;
-        second_difference_along(j, w_.row(j), along_);
-        second_difference_across(j + 1, w_.row(j + 1), above_);
-        double* along = along_x + static_cast<std::size_t>(j) * (nx_ + 1);
-        correct(nx_ + 1, -x, q - 1, q, along, along);
+        second_difference_along(j);
+        second_difference_across(j + 1, above_);
+        double* left = excess.x + along(j);
+        correct(nx_ + 1, -x, q - 1, q, left, left);
         below_.swap(here_);
         here_.swap(above_);
     }

@@ -9,10 +9,14 @@
 //     L u    = sum over axes of d2 u/h2
 //     flux   = S.u + e,    e = k e_old + dt (q_{+1} - q)/(4h) on the face between two cells,
 //                          q = w d2 p
+//     Q p    = sum over axes of d2 q/(4 h2)
 //
-// With w = 1 the flux is what the projection (box_step.hpp) leaves for this p: D S.G p plus the
-// part of e is the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
-// between two such cells carry S.u and no more, and the operator stays symmetric. Valid C++17.
+// With w = 1 the flux is what the projection (box_step.hpp) leaves for this p: -D G p + Q p is
+// minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
+// between two such cells carry S.u and no more, and Q stays symmetric.
+//
+// Each function reads and writes its arrays once, a row at a time; sums that the caller needs are
+// taken while a row is in cache, and are those of this rank. Valid C++17.
 #pragma once
 
 #include <array>
@@ -27,10 +31,26 @@ struct RowsOfTwo {
     std::vector<double> x, y;
 
     void resize(std::size_t size) { x.resize(size), y.resize(size); }
+    std::vector<double>& operator[](int axis) { return axis == 0 ? x : y; }
+    const std::vector<double>& operator[](int axis) const { return axis == 0 ? x : y; }
 };
 
-/// A velocity has the values that sides prescribe; a change of one is zero there.
-enum class SidesHold { velocity, nothing };
+/// Of the image A d of a direction d.
+struct ImageProducts {
+    double direction = 0.0;  ///< with d, in the product the method uses
+    double residual = 0.0;   ///< with r
+    double itself = 0.0;
+    double step = 0.0;       ///< of d with r, in the same product as `direction`
+
+    static constexpr int count = 4;
+    double* data() { return &direction; }
+};
+static_assert(sizeof(ImageProducts) == ImageProducts::count * sizeof(double));
+
+/// Both components of the excess flux, laid out as BoxStep::excess.
+struct ExcessFlux {
+    double *x, *y;
+};
 
 class BoxOperators {
  public:
@@ -40,41 +60,52 @@ class BoxOperators {
 
     std::size_t size() const { return static_cast<std::size_t>(nx_) * ny_; }
 
-    // By every rank; arrays of this rank's rows.
+    // By every rank; arrays of this rank's rows. A velocity has the values that sides prescribe, a
+    // change of a velocity is zero there.
 
-    /// x, y -= step G p
-    void subtract_gradient(double step, const double* p, double* x, double* y);
+    /// f = share L u, of the component of a velocity along `axis`
+    void laplacian(double share, int axis, const double* u, double* f);
 
-    /// out = share L u, of the component along `axis`
-    void laplacian(double share, int axis, SidesHold sides, const double* u, double* out);
+    /// x, y += f - step G p, one component of f each
+    void predict(double step, const double* p, const RowsOfTwo& f, double* x, double* y);
 
-    /// out = share D (x, y)
-    void divergence(double share, SidesHold sides, const double* x, const double* y, double* out);
+    /// x, y = -step G p
+    void gradient(double step, const double* p, double* x, double* y);
 
-    /// out += share div e, with e laid out as BoxStep::excess
-    void add_divergence_of_excess(double share, const double* along_x, const double* along_y,
-                                  double* out) const;
+    /// r = share L u - f, of the component of a velocity; returns r.r and f.f
+    std::array<double, 2> viscous_residual(double share, int axis, const double* u, const double* f,
+                                           double* r);
 
-    /// out += share sum over axes of d2 (w d2 p)/(4 h2)
-    void add_smoothing(double share, const double* w, const double* p, double* out);
+    /// A d = d - share L v, of one component of v = W d, a change; its products with v, r, itself,
+    /// and that of r with v. `image`: where it is kept, unless null.
+    ImageProducts viscous_image(double share, int axis, const double* d, const double* v,
+                                const double* r, double* image);
+
+    /// r = -(D u + div e + step Q p) of a velocity; returns r.r
+    double flux_residual(double step, const double* w, const double* p, const double* x,
+                         const double* y, const ExcessFlux& excess, double* r);
+
+    /// A d = D (x, y) + step Q d of a change of velocity; its products with d, r, itself, and that
+    /// of r with d. `image`: where it is kept, unless null.
+    ImageProducts flux_image(double step, const double* w, const double* d, const double* x,
+                             const double* y, const double* r, double* image);
 
     /// e = k e, on faces with a cell of w = 1; 0 on others and on the sides of the box
-    void keep_excess(double k, const double* w, double* along_x, double* along_y);
+    void keep_excess(double k, const double* w, const ExcessFlux& excess);
 
     /// e += step (q_{+1} - q)/(4h)
-    void add_to_excess(double step, const double* w, const double* p, double* along_x,
-                       double* along_y);
+    void add_to_excess(double step, const double* w, const double* p, const ExcessFlux& excess);
 
  private:
     using Row = std::vector<double>;
 
-    std::array<RowReader, 2>& readers(SidesHold sides) {
-        return sides == SidesHold::velocity ? velocity_ : change_;
-    }
     std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
-    void second_difference_along(int j, const double* w, Row& q);
-    void second_difference_across(int j, const double* w, Row& q);
+    std::size_t along(int j) const { return static_cast<std::size_t>(j) * (nx_ + 1); }
+    void divergence_of(int j, double share, RowReader& u, RowReader& v, double* out);
     void begin_smoothing(const double* w, const double* p);
+    void second_difference_along(int j);
+    void second_difference_across(int j, Row& q);
+    void add_smoothing(int j, double share, double* out);
 
     int nx_, ny_;
     double hx_, hy_;
@@ -83,7 +114,7 @@ class BoxOperators {
     std::array<RowReader, 2> velocity_, change_;
     RowReader p_, w_;
     RowReader ends_;  // extends rows of q
-    Row along_, below_, here_, above_;
+    Row along_, below_, here_, above_, image_;
 };
 
 }  // namespace turbidite

@@ -98,6 +98,24 @@ void add_differences(int count, double x, const double* __restrict left,
                   y * (below[i] - 2.0 * here_y[i] + above[i]);
 }
 
+TURBIDITE_ROW_WORK
+void add_row(int count, double share, const double* __restrict change, double* __restrict u) {
+    for (int i = 0; i < count; ++i) u[i] += share * change[i];
+}
+
+TURBIDITE_ROW_WORK
+double dot_row(int count, const double* __restrict a, const double* __restrict b) {
+    constexpr int lanes = 8;
+    double sums[lanes] = {};
+    int i = 0;
+    for (; i + lanes <= count; i += lanes)
+        for (int k = 0; k < lanes; ++k) sums[k] += a[i + k] * b[i + k];
+    for (; i < count; ++i) sums[0] += a[i] * b[i];
+    double sum = 0.0;
+    for (const double part : sums) sum += part;
+    return sum;
+}
+
 namespace {
 
 TURBIDITE_ROW_WORK

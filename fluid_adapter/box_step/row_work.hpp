@@ -65,6 +65,12 @@ void add_differences(int count, double x, const double* left, const double* here
                      const double* right, double y, const double* below, const double* here_y,
                      const double* above, double* out);
 
+/// u[i] += share change[i]
+void add_row(int count, double share, const double* change, double* u);
+
+/// sum of a[i] b[i], in an order that does not depend on the processor
+double dot_row(int count, const double* a, const double* b);
+
 /// u[i] = old_share v[i] + new_share u[i]
 void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
                    double* u);

@@ -9,8 +9,7 @@ namespace turbidite {
 void CoupledStep::begin(double dt) {
     dt_ = dt;
     pressure_.begin(box_, dt);
-    viscosity_.begin(step_.viscosity() * dt);
-    viscosity_.start_from(box_, {step_.velocity(0), step_.velocity(1)});
+    viscosity_.begin(box_, step_.viscosity() * dt, {step_.velocity(0), step_.velocity(1)});
 }
 
 void CoupledStep::predict() {
@@ -19,12 +18,7 @@ void CoupledStep::predict() {
         transported_.x.assign(x, x + box_.size());
         transported_.y.assign(y, y + box_.size());
     }
-    const RowsOfTwo& f = viscosity_.impulse();
-    for (std::size_t c = 0; c < box_.size(); ++c) {
-        x[c] += f.x[c];
-        y[c] += f.y[c];
-    }
-    pressure_.subtract_gradient(box_, x, y);
+    pressure_.predict(box_, viscosity_.impulse(), x, y);
 }
 
 void CoupledStep::place_grains(const CollocationPoints& points) {
@@ -40,12 +34,7 @@ CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& lim
 
 RowsOfTwo CoupledStep::unconstrained() {
     RowsOfTwo s = transported_;
-    const RowsOfTwo& f = viscosity_.impulse();
-    for (std::size_t c = 0; c < box_.size(); ++c) {
-        s.x[c] += f.x[c];
-        s.y[c] += f.y[c];
-    }
-    pressure_.subtract_gradient(box_, s.x.data(), s.y.data());
+    pressure_.predict(box_, viscosity_.impulse(), s.x.data(), s.y.data());
     return s;
 }
 

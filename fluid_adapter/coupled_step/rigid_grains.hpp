@@ -18,6 +18,7 @@ struct RigidChange {
     ConstrainedFlow grains;
 
     void resize(std::size_t cells) { x.resize(cells), y.resize(cells); }
+    const std::vector<double>& operator[](int axis) const { return axis == 0 ? x : y; }
     CellVelocity velocity() { return {x.data(), y.data()}; }
 };
 
@@ -38,6 +39,10 @@ class RigidGrains {
 
     /// Sum over the cells of all ranks.
     double dot(const double* a, const double* b) const;
+
+    void sum_over_ranks(double* values, int count) const {
+        system_.field().sum_over_ranks(values, count);
+    }
 
     double all_cells() const { return all_cells_; }  ///< on all ranks
     CellVelocity velocity() const { return velocity_; }

@@ -3,22 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace turbidite {
 namespace {
 
 constexpr double slip_reduction = 1e-2;  // of a direction's slip; what is left is part of the flow's
-
-/// a = keep a + share b
-void combine(std::vector<double>& a, double keep, double share, const std::vector<double>& b) {
-    for (std::size_t c = 0; c < a.size(); ++c) a[c] = keep * a[c] + share * b[c];
-}
-
-double dot(const RigidGrains& grains, const std::vector<double>& a, const std::vector<double>& b) {
-    return grains.dot(a.data(), b.data());
-}
 
 }  // namespace
 
@@ -27,23 +16,44 @@ void RigidPressure::begin(BoxOperators& box, double dt) {
     p_.assign(step_.pressure(), step_.pressure() + box.size());
 }
 
-void RigidPressure::subtract_gradient(BoxOperators& box, double* x, double* y) const {
-    box.subtract_gradient(dt_, p_.data(), x, y);
-}
-
 void RigidPressure::place_grains(BoxOperators& box, const CollocationPoints& points, double k) {
     outside_.assign(box.size(), 1.0);
     for (const InteriorCell& inside : points.interior) outside_[inside.cell] = 0.0;
-    box.keep_excess(k, outside_.data(), step_.excess(0).data(), step_.excess(1).data());
+    box.keep_excess(k, outside_.data(), excess());
 }
 
-/// r = -(D u + div e), with the present p's part of e.
-void RigidPressure::divergence(BoxOperators& box, const RigidGrains& grains) {
+IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
+                                       const IterationLimit& limit) {
+    double square = find_residual(box, grains);
+    const double cells = grains.all_cells();
+    IterationResult result;
+    result.residual = std::sqrt(square / cells);
+    double rz = 0.0;  // of the last direction
+    while (result.residual > limit.tolerance && result.iterations < limit.most) {
+        choose_direction(box, grains, result.iterations == 0, rz);
+        const ImageProducts image = apply(box, grains, limit.most > 1);
+        if (!(image.direction > 0.0)) break;
+        if (result.iterations == 0) rz = image.step;
+        const double alpha = rz / image.direction;
+        move(grains, alpha, limit.most > 1);
+        // |r - alpha A d|^2
+        square = std::max(0.0, square - 2.0 * alpha * image.residual +
+                                   alpha * alpha * image.itself);
+        ++result.iterations;
+        result.residual = std::sqrt(square / cells);
+    }
+    result.converged = result.residual <= limit.tolerance;
+    return result;
+}
+
+/// r = -(D u + div e); returns |r|^2.
+double RigidPressure::find_residual(BoxOperators& box, const RigidGrains& grains) {
     residual_.resize(box.size());
-    box.divergence(-1.0, SidesHold::velocity, grains.velocity().x, grains.velocity().y, residual_.data());
-    box.add_divergence_of_excess(-1.0, step_.excess(0).data(), step_.excess(1).data(),
-                                 residual_.data());
-    box.add_smoothing(-dt_, outside_.data(), p_.data(), residual_.data());
+    const CellVelocity u = grains.velocity();
+    double square = box.flux_residual(dt_, outside_.data(), p_.data(), u.x, u.y, excess(),
+                                      residual_.data());
+    grains.sum_over_ranks(&square, 1);
+    return square;
 }
 
 /// z = -(1/dt) laplacian^-1 r
@@ -54,63 +64,46 @@ void RigidPressure::precondition() {
     preconditioned_.assign(values, values + residual_.size());
 }
 
-/// image = A d, with W(-dt G d) known.
-void RigidPressure::apply(BoxOperators& box) {
-    image_.resize(box.size());
-    box.divergence(1.0, SidesHold::nothing, rigid_direction_.x.data(), rigid_direction_.y.data(), image_.data());
-    box.add_smoothing(dt_, outside_.data(), direction_.data(), image_.data());
+/// d = z + beta d, with W(-dt G d).
+void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, bool first,
+                                     double& rz) {
+    precondition();
+    rigid_.resize(box.size());
+    box.gradient(dt_, preconditioned_.data(), rigid_.x.data(), rigid_.y.data());
+    grains.make_rigid(rigid_, slip_reduction);
+    if (first) {
+        std::swap(direction_, preconditioned_);
+        std::swap(rigid_direction_, rigid_);
+        return;
+    }
+    const double last = rz;
+    rz = grains.dot(residual_.data(), preconditioned_.data());
+    const double beta = rz / last;
+    for (std::size_t c = 0; c < direction_.size(); ++c)
+        direction_[c] = beta * direction_[c] + preconditioned_[c];
+    grains.combine(rigid_direction_, beta, rigid_);
 }
 
-/// rms of the residual over the cells of all ranks [1/s].
-double RigidPressure::rms(const RigidGrains& grains) const {
-    return std::sqrt(dot(grains, residual_, residual_) / grains.all_cells());
+/// A d, kept if there may be another iteration.
+ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
+    if (keep) image_.resize(box.size());
+    ImageProducts products = box.flux_image(
+        dt_, outside_.data(), direction_.data(), rigid_direction_.x.data(),
+        rigid_direction_.y.data(), residual_.data(), keep ? image_.data() : nullptr);
+    grains.sum_over_ranks(products.data(), ImageProducts::count);
+    return products;
 }
 
-IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
-                                       const IterationLimit& limit) {
-    divergence(box, grains);
-    IterationResult result;
-    result.residual = rms(grains);
-    double rz = 0.0;
-    while (result.residual > limit.tolerance && result.iterations < limit.most) {
-        precondition();
-        const double rz_new = dot(grains, residual_, preconditioned_);
-        rigid_.x.assign(box.size(), 0.0);
-        rigid_.y.assign(box.size(), 0.0);
-        box.subtract_gradient(dt_, preconditioned_.data(), rigid_.x.data(), rigid_.y.data());
-        grains.make_rigid(rigid_, slip_reduction);  // W(-dt G z)
-        if (result.iterations == 0) {
-            direction_ = preconditioned_;
-            rigid_direction_ = rigid_;
-        } else {
-            combine(direction_, rz_new / rz, 1.0, preconditioned_);
-            grains.combine(rigid_direction_, rz_new / rz, rigid_);
-        }
-        rz = rz_new;
-        apply(box);
-        const double curvature = dot(grains, direction_, image_);
-        if (!(curvature > 0.0)) break;
-        const double alpha = rz / curvature;
-        combine(p_, 1.0, alpha, direction_);
-        grains.add(rigid_direction_, alpha);
-        combine(residual_, 1.0, -alpha, image_);
-        ++result.iterations;
-        result.residual = rms(grains);
-    }
-    result.converged = result.residual <= limit.tolerance;
-    if (std::getenv("TURBIDITE_DUMP")) {
-        std::FILE* f = std::fopen("/root/sp/dump.bin", "wb");
-        for (auto* v : {&residual_, &outside_, &p_}) std::fwrite(v->data(), 8, v->size(), f);
-        std::fwrite(grains.velocity().x, 8, p_.size(), f);
-        std::fwrite(grains.velocity().y, 8, p_.size(), f);
-        std::fclose(f);
-    }
-    return result;
+/// p += alpha d, u += alpha W(-dt G d), r -= alpha A d.
+void RigidPressure::move(RigidGrains& grains, double alpha, bool again) {
+    for (std::size_t c = 0; c < p_.size(); ++c) p_[c] += alpha * direction_[c];
+    grains.add(rigid_direction_, alpha);
+    for (std::size_t c = 0; again && c < residual_.size(); ++c)
+        residual_[c] -= alpha * image_[c];
 }
 
 void RigidPressure::end(BoxOperators& box) {
-    box.add_to_excess(dt_, outside_.data(), p_.data(), step_.excess(0).data(),
-                      step_.excess(1).data());
+    box.add_to_excess(dt_, outside_.data(), p_.data(), excess());
     std::copy(p_.begin(), p_.end(), step_.pressure());
 }
 

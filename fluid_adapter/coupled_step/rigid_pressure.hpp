@@ -22,8 +22,10 @@ class RigidPressure {
     /// Begins a window of length dt [s]: p is the step's, k the part of e that remains.
     void begin(BoxOperators& box, double dt);
 
-    /// x, y -= dt G p.
-    void subtract_gradient(BoxOperators& box, double* x, double* y) const;
+    /// x, y += f - dt G p, f the viscous impulse.
+    void predict(BoxOperators& box, const RowsOfTwo& f, double* x, double* y) const {
+        box.predict(dt_, p_.data(), f, x, y);
+    }
 
     /// Takes the grains' places; k is the part of the excess that remains of the last window's.
     void place_grains(BoxOperators& box, const CollocationPoints& points, double k);
@@ -35,15 +37,17 @@ class RigidPressure {
     void end(BoxOperators& box);
 
  private:
-    void divergence(BoxOperators& box, const RigidGrains& grains);
-    double rms(const RigidGrains& grains) const;
+    double find_residual(BoxOperators& box, const RigidGrains& grains);
     void precondition();
-    void apply(BoxOperators& box);
+    void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz);
+    ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
+    void move(RigidGrains& grains, double alpha, bool again);
+    ExcessFlux excess() { return {step_.excess(0).data(), step_.excess(1).data()}; }
 
     BoxStep& step_;
     double dt_ = 0.0;
     std::vector<double> p_, outside_, residual_, direction_, image_, preconditioned_;
-    RigidChange rigid_, rigid_direction_;
+    RigidChange rigid_, rigid_direction_;  // W(-dt G z), W(-dt G d)
 };
 
 }  // namespace turbidite

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/coupled_step/rigid_viscosity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace turbidite {
@@ -8,71 +9,102 @@ namespace {
 
 constexpr double slip_reduction = 1e-2;  // of a direction's slip; what is left is part of the flow's
 
-double dot(const RigidGrains& grains, const RowsOfTwo& a, const std::vector<double>& x,
-           const std::vector<double>& y) {
-    return grains.dot(a.x.data(), x.data()) + grains.dot(a.y.data(), y.data());
-}
-
-double norm(const RigidGrains& grains, const RowsOfTwo& a) {
-    return std::sqrt(dot(grains, a, a.x, a.y));
-}
-
-/// a = keep a + share b
-void combine(RowsOfTwo& a, double keep, double share, const RowsOfTwo& b) {
-    for (std::size_t c = 0; c < a.x.size(); ++c) {
-        a.x[c] = keep * a.x[c] + share * b.x[c];
-        a.y[c] = keep * a.y[c] + share * b.y[c];
-    }
-}
-
 }  // namespace
 
-/// out = dt nu L u
-void RigidViscosity::laplacian(BoxOperators& box, SidesHold sides, const CellVelocity& u,
-                               RowsOfTwo& out) {
-    out.resize(box.size());
-    box.laplacian(per_laplacian_, 0, sides, u.x, out.x.data());
-    box.laplacian(per_laplacian_, 1, sides, u.y, out.y.data());
-}
-
-void RigidViscosity::start_from(BoxOperators& box, const CellVelocity& velocity) {
-    laplacian(box, SidesHold::velocity, velocity, impulse_);
+void RigidViscosity::begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity) {
+    per_laplacian_ = per_laplacian;
+    impulse_.resize(box.size());
+    box.laplacian(per_laplacian_, 0, velocity.x, impulse_.x.data());
+    box.laplacian(per_laplacian_, 1, velocity.y, impulse_.y.data());
 }
 
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
                                         const IterationLimit& limit) {
-    laplacian(box, SidesHold::velocity, grains.velocity(), residual_);
-    const double scale = norm(grains, residual_);
-    combine(residual_, 1.0, -1.0, impulse_);  // r = dt nu L u - f
+    double square = find_residual(box, grains);
     IterationResult result;
-    double rz = 0.0;
-    while (scale > 0.0) {
-        rigid_residual_.x = residual_.x;
-        rigid_residual_.y = residual_.y;
-        grains.make_rigid(rigid_residual_, slip_reduction);  // z = W r
-        const double rz_new = dot(grains, residual_, rigid_residual_.x, rigid_residual_.y);
-        if (result.iterations == 0) {
-            direction_ = residual_;
-            rigid_direction_ = rigid_residual_;
-        } else {
-            combine(direction_, rz_new / rz, 1.0, residual_);
-            grains.combine(rigid_direction_, rz_new / rz, rigid_residual_);
-        }
-        rz = rz_new;
-        laplacian(box, SidesHold::nothing, rigid_direction_.velocity(), image_);
-        combine(image_, -1.0, 1.0, direction_);  // A d = d - dt nu L W d
-        const double curvature = dot(grains, image_, rigid_direction_.x, rigid_direction_.y);
-        if (!(curvature > 0.0)) break;
-        const double alpha = rz / curvature;
-        combine(impulse_, 1.0, alpha, direction_);
-        grains.add(rigid_direction_, alpha);
-        combine(residual_, 1.0, -alpha, image_);
+    double rz = 0.0;  // of the last direction
+    while (square > 0.0) {
+        choose_direction(grains, result.iterations == 0, rz);
+        const ImageProducts image = apply(box, grains, limit.most > 1);
+        if (!(image.direction > 0.0)) break;
+        if (result.iterations == 0) rz = image.step;
+        const double alpha = rz / image.direction;
+        move(grains, alpha, limit.most > 1);
+        // |r - alpha A d|^2
+        square = std::max(0.0, square - 2.0 * alpha * image.residual +
+                                   alpha * alpha * image.itself);
         ++result.iterations;
-        result.residual = norm(grains, residual_) / scale;
+        result.residual = std::sqrt(square / scale_);
         result.converged = result.residual <= limit.tolerance;
         if (result.converged || result.iterations >= limit.most) break;
     }
     return result;
+}
+
+/// r = dt nu L u - f; returns |r|^2.
+double RigidViscosity::find_residual(BoxOperators& box, const RigidGrains& grains) {
+    residual_.resize(box.size());
+    const CellVelocity u = grains.velocity();
+    const auto [rx, fx] = box.viscous_residual(per_laplacian_, 0, u.x, impulse_.x.data(),
+                                               residual_.x.data());
+    const auto [ry, fy] = box.viscous_residual(per_laplacian_, 1, u.y, impulse_.y.data(),
+                                               residual_.y.data());
+    double sums[] = {rx + ry, fx + fy};
+    grains.sum_over_ranks(sums, 2);
+    scale_ = std::max(sums[0], sums[1]);
+    return sums[0];
+}
+
+/// z = W r, and d = r + beta d with W d.
+void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& rz) {
+    rigid_residual_.x = residual_.x;
+    rigid_residual_.y = residual_.y;
+    grains.make_rigid(rigid_residual_, slip_reduction);
+    if (first) {
+        std::swap(rigid_direction_, rigid_residual_);
+        direction_ = nullptr;
+        return;
+    }
+    const double last = rz;
+    rz = grains.dot(residual_.x.data(), rigid_residual_.x.data()) +
+         grains.dot(residual_.y.data(), rigid_residual_.y.data());
+    const double beta = rz / last;
+    for (int axis = 0; axis < 2; ++axis)
+        for (std::size_t c = 0; c < residual_[axis].size(); ++c)
+            later_[axis][c] = beta * later_[axis][c] + residual_[axis][c];
+    grains.combine(rigid_direction_, beta, rigid_residual_);
+    direction_ = &later_;
+}
+
+/// A d = d - dt nu L W d, kept if there may be another iteration.
+ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
+    if (keep) image_.resize(box.size());
+    const RowsOfTwo& d = direction_ ? *direction_ : residual_;
+    ImageProducts sum;
+    for (int axis = 0; axis < 2; ++axis) {
+        const ImageProducts one = box.viscous_image(
+            per_laplacian_, axis, d[axis].data(), rigid_direction_[axis].data(),
+            residual_[axis].data(), keep ? image_[axis].data() : nullptr);
+        sum.direction += one.direction;
+        sum.residual += one.residual;
+        sum.itself += one.itself;
+        sum.step += one.step;
+    }
+    grains.sum_over_ranks(sum.data(), ImageProducts::count);
+    return sum;
+}
+
+/// f += alpha d, u += alpha W d, r -= alpha A d.
+void RigidViscosity::move(RigidGrains& grains, double alpha, bool again) {
+    const RowsOfTwo& d = direction_ ? *direction_ : residual_;
+    for (int axis = 0; axis < 2; ++axis)
+        for (std::size_t c = 0; c < d[axis].size(); ++c) impulse_[axis][c] += alpha * d[axis][c];
+    grains.add(rigid_direction_, alpha);
+    if (!again) return;
+    if (!direction_) later_ = residual_;  // the first direction
+    for (int axis = 0; axis < 2; ++axis)
+        for (std::size_t c = 0; c < image_[axis].size(); ++c)
+            residual_[axis][c] -= alpha * image_[axis][c];
 }
 
 }  // namespace turbidite

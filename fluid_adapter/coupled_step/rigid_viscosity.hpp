@@ -28,23 +28,26 @@ struct IterationLimit {
 
 class RigidViscosity {
  public:
-    /// `per_laplacian`: nu dt [m2].
-    void begin(double per_laplacian) { per_laplacian_ = per_laplacian; }
+    /// Begins a window: `per_laplacian` is nu dt [m2], f = dt nu L u of this velocity.
+    void begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity);
 
-    /// f = dt nu L u of a velocity, where the iteration starts.
-    void start_from(BoxOperators& box, const CellVelocity& velocity);
-
-    /// Corrects the window's velocity and f, at least once, until |r| < tolerance |dt nu L u|.
+    /// Corrects the window's velocity and f, at least once, until |r| < tolerance |f|.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// f over the rank's cells [m/s].
     const RowsOfTwo& impulse() const { return impulse_; }
 
  private:
-    void laplacian(BoxOperators& box, SidesHold sides, const CellVelocity& u, RowsOfTwo& out);
+    double find_residual(BoxOperators& box, const RigidGrains& grains);
+    void choose_direction(RigidGrains& grains, bool first, double& rz);
+    ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
+    void move(RigidGrains& grains, double alpha, bool again);
 
     double per_laplacian_ = 0.0;
-    RowsOfTwo impulse_, residual_, direction_, image_;
+    double scale_ = 0.0;  // |f|^2, or |r|^2 if that is larger
+    RowsOfTwo impulse_, residual_, image_;
+    RowsOfTwo later_;                       // d of all iterations but the first, where it is r
+    const RowsOfTwo* direction_ = nullptr;  // null: r
     RigidChange rigid_residual_, rigid_direction_;
 };
 

@@ -155,14 +155,23 @@ void FluidWindow::correct_fluid() {
         multipliers_.impose();
         RigidGrains grains(multipliers_.system(), multipliers_.flow(),
                            {step_->velocity(0), step_->velocity(1)}, multipliers_.settings());
-        const CoupledReport report = coupled->correct(grains, coupled_limits_);
+        note(coupled->correct(grains, coupled_limits_));
         report_.multiplier_iterations += grains.iterations();
         report_.multipliers_converged = report_.multipliers_converged && grains.converged();
-        if (std::getenv("TURBIDITE_DEBUG"))
-        Foam::Info << "window " << window_.index << " viscosity " << report.viscosity.iterations
-                   << " " << report.viscosity.residual << " pressure "
-                   << report.pressure.iterations << " " << report.pressure.residual << " mult " << grains.iterations() << Foam::endl;
     });
+}
+
+/// Iterations of all corrections of a window; what is left, by the last one.
+void FluidWindow::note(const CoupledReport& result) {
+    if (!report_.splitting) report_.splitting.emplace();
+    SplittingReport& splitting = *report_.splitting;
+    splitting.pressure_iterations += result.pressure.iterations;
+    splitting.viscous_iterations += result.viscosity.iterations;
+    splitting.divergence = result.pressure.residual;
+    splitting.viscous_residual = result.viscosity.residual;
+    if (corrects_in_rounds_)
+        splitting.converged =
+            splitting.converged && result.pressure.converged && result.viscosity.converged;
 }
 
 /// Accumulates the results of all solves of a window.

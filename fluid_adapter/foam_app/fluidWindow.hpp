@@ -74,6 +74,7 @@ class FluidWindow {
     template <class Take>
     void answer(const char* name, Take take);
     void note(const MultiplierResult& result);
+    void note(const CoupledReport& result);
     void correct_fluid();
     void close_ledger();
     void write_fields();

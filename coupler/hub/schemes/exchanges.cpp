@@ -66,7 +66,20 @@ void demand_finite(const std::vector<FreeResponse>& responses, std::int64_t wind
                             r.id, window));
 }
 
+/// All ranks of a fluid solve together and find the same.
+void add(SplittingReport& total, const SplittingReport& share) {
+    total.pressure_iterations = std::max(total.pressure_iterations, share.pressure_iterations);
+    total.viscous_iterations = std::max(total.viscous_iterations, share.viscous_iterations);
+    total.divergence = largest(total.divergence, share.divergence);
+    total.viscous_residual = largest(total.viscous_residual, share.viscous_residual);
+    total.converged = total.converged && share.converged;
+}
+
 void add(FluidReport& total, const FluidReport& share) {
+    if (share.splitting) {
+        if (!total.splitting) total.splitting.emplace();
+        add(*total.splitting, *share.splitting);
+    }
     total.multiplier_iterations =
         std::max(total.multiplier_iterations, share.multiplier_iterations);
     total.multiplier_residual = largest(total.multiplier_residual, share.multiplier_residual);

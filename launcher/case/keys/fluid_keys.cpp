@@ -144,6 +144,32 @@ Ruling reynolds_follows(const Settings& s) {
         "Remove it."};
 }
 
+/// What splittings other than the paper's need, beside their own names.
+struct Needed {
+    const char* key;
+    const char* value;
+    const char* why;
+};
+constexpr Needed needed_with_rigid_grains[] = {
+    {"coupling.scheme", "joint", "they carry contact impulses from window to window"},
+    {"fluid.pressure_solver", "FFT", "its exact solve is their preconditioner"},
+    {"fluid.viscous_solver", "FFT", "they work on the rows of a uniform box"},
+    {"fluid.decomposition", "rows", "they work on complete rows of cells"},
+    {"fluid.time_scheme", "first-order", "viscosity is implicit over the whole window"},
+};
+
+Ruling splitting_has_what_it_needs(const Settings& s) {
+    if (!s.flag("fluid.enabled") || is(s, "fluid.splitting", "marchuk-yanenko"))
+        return std::nullopt;
+    for (const Needed& needed : needed_with_rigid_grains)
+        if (!is(s, needed.key, needed.value))
+            return Objection{fmt::format("This splitting needs {} = {}, since {}; it is {}.",
+                                         needed.key, needed.value, needed.why, s.text(needed.key)),
+                             fmt::format("Set {}: {}, or use marchuk-yanenko.", needed.key,
+                                         needed.value)};
+    return std::nullopt;
+}
+
 std::string unless(bool used, const Settings& s, const char* reason) {
     if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
     return used ? "" : reason;
@@ -355,6 +381,10 @@ KeyGroup fluid_keys() {
              {"fluid.cells_per_diameter",
               {"fluid.enabled", "fluid.time_scheme", "domain.size"},
               mesh_fits_in_memory},
+             {"fluid.splitting",
+              {"fluid.enabled", "coupling.scheme", "fluid.pressure_solver", "fluid.viscous_solver",
+               "fluid.decomposition", "fluid.time_scheme"},
+              splitting_has_what_it_needs},
              {"fluid.reynolds", {"scales.kind"}, reynolds_follows}},
         .notes = notes};
 }

@@ -24,7 +24,8 @@ TEST(History, HeaderIsTheContract) {
                   "wall_coupling,grain_balance,fluid_balance,joint_rounds,joint_mismatch,"
                   "contact_quad,contact_max,unconverged,coordination,loose_grains,"
                   "fabric_anisotropy,fabric_angle,sigma_xx,sigma_xy,sigma_yy,mean_normal_force,"
-                  "sliding_share,flow_x,flow_y,fluid_force_x,fluid_force_y"),
+                  "sliding_share,flow_x,flow_y,fluid_force_x,fluid_force_y,pressure_iterations,"
+                  "viscous_iterations,remaining_divergence,viscous_residual"),
               0u);
 }
 

@@ -109,13 +109,18 @@ TEST(Wire, WhatAnAdapterDoesNotHaveStaysEmpty) {
 TEST(Wire, KicksComeBack) {
     Kicks kicks;
     kicks.kicks.push_back({7, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 2}, {3, 5, 8}, {13, 21, 34}});
-    kicks.report = {9, awkward, false, 1e-5, 2.0, 1e-9, 0.4, {0.1, -0.2, 0.0}, 0.03};
+    kicks.report = {9,   awkward, false, 1e-5, 2.0, 1e-9, 0.4, SplittingReport{3, 2, 1e-3, awkward, false},
+                    {0.1, -0.2, 0.0}, 0.03};
     const auto back = decode<Kicks>(encode(kicks));
     ASSERT_EQ(back.kicks.size(), 1u);
     EXPECT_EQ(back.kicks[0].id, 7);
     EXPECT_EQ(back.kicks[0].velocity, (Vec3{1, 2, 3}));
     EXPECT_EQ(back.kicks[0].multiplier_angular_impulse, (Vec3{1, 1, 2}));
     EXPECT_EQ(back.kicks[0].torque, (Vec3{13, 21, 34}));
+    ASSERT_TRUE(back.report.splitting);
+    EXPECT_EQ(back.report.splitting->pressure_iterations, 3);
+    EXPECT_EQ(back.report.splitting->viscous_residual, awkward);
+    EXPECT_FALSE(back.report.splitting->converged);
     EXPECT_EQ(back.report.multiplier_residual, awkward);
     EXPECT_FALSE(back.report.multipliers_converged);
     EXPECT_EQ(back.report.momentum_defect, 1e-9);
