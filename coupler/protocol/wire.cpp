@@ -120,6 +120,7 @@ constexpr auto visit_kicks = [](auto& code, auto& kicks) {
     code(r.multiplier_iterations), code(r.multiplier_residual), code(r.multipliers_converged);
     code(r.divergence), code(r.final_divergence), code(r.momentum_defect);
     code(r.courant), array(code, r.mean_velocity), code(r.wall_seconds);
+    list(code, r.probes, plain);
 };
 
 constexpr auto visit_response = [](auto& code, auto& r) {

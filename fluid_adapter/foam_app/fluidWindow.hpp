@@ -18,6 +18,8 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
+#include "fluid_adapter/foam_app/outputFields.hpp"
+#include "fluid_adapter/foam_app/probes.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
 #include "fluid_adapter/foam_app/stepWatch.hpp"
 #include "fluid_adapter/multiplier/immersed_step.hpp"
@@ -82,6 +84,8 @@ class FluidWindow {
     std::unique_ptr<FluidStep> step_;
     MomentumLedger ledger_;
     ImmersedStep multipliers_;
+    OutputFields output_;
+    Probes probes_;
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;
