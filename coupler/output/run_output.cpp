@@ -12,6 +12,7 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
       history_(history, run, shapes),
       grains_(series, shapes),
       contacts_(series),
+      probes_(history.parent_path() / "probes.csv", run),
       statistics_(run) {}
 
 void RunOutput::begin(Motion state) {
@@ -60,6 +61,7 @@ void RunOutput::write() {
     grains_.write(now.time, now.step, window_.step, last_.state, last_.kicks.kicks);
     contacts_.write(now.time, now.step, window_.step, last_.state);
     history_.append(now);
+    probes_.append(now.time, last_.kicks.report.probes);
     since_row_ = {};
 }
 

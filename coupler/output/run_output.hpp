@@ -9,12 +9,14 @@
 #include "coupler/output/contact_series.hpp"
 #include "coupler/output/grain_series.hpp"
 #include "coupler/output/history.hpp"
+#include "coupler/output/probe_series.hpp"
 
 namespace turbidite {
 
 class RunOutput {
  public:
-    /// `history`: the file; `series`: the folder of grains.pvd.
+    /// `history`: the file, beside which probes.csv is written; `series`: the folder of
+    /// grains.pvd.
     RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
               const RunValues& run, const ShapeTable& shapes);
 
@@ -45,6 +47,7 @@ class RunOutput {
     History history_;
     GrainSeries grains_;
     ContactSeries contacts_;
+    ProbeSeries probes_;
     RunStatistics statistics_;
     SinceRow since_row_;
     Window window_;

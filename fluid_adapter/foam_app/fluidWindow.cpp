@@ -34,8 +34,13 @@ FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       ledger_(fields_, field_),
       multipliers_(field_, settings, shapes),
+<<<<<<< HEAD
       coupled_limits_(coupled_limits(settings)),
       corrects_in_rounds_(iterates(settings)) {
+=======
+      output_(fields_, settings),
+      probes_(settings) {
+>>>>>>> hub/main
     field_.work_on(step_->velocity(0), step_->velocity(1));
 }
 
@@ -206,6 +211,8 @@ void FluidWindow::write_fields() {
                << report_.divergence << " 1/s after step 1, " << report_.final_divergence
                << " 1/s after step 5; multipliers " << report_.multiplier_iterations
                << " iterations, rms slip " << report_.multiplier_residual << " m/s" << Foam::endl;
+    report_.probes = probes_.values(fields_, field_);
+    output_.compute(field_, multipliers_.grains());
     fields_.time.writeNow();
 }
 

@@ -20,6 +20,8 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
 #include "fluid_adapter/foam_app/momentumLedger.hpp"
+#include "fluid_adapter/foam_app/outputFields.hpp"
+#include "fluid_adapter/foam_app/probes.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
 #include "fluid_adapter/foam_app/stepWatch.hpp"
 #include "fluid_adapter/multiplier/immersed_step.hpp"
@@ -86,8 +88,13 @@ class FluidWindow {
     std::unique_ptr<FluidStep> step_;
     MomentumLedger ledger_;
     ImmersedStep multipliers_;
+<<<<<<< HEAD
     CoupledLimits coupled_limits_;
     bool corrects_in_rounds_;  ///< implicit-multiplier: after every contact solve
+=======
+    OutputFields output_;
+    Probes probes_;
+>>>>>>> hub/main
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;

@@ -19,6 +19,7 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     for (int g = 0; g < points.grains(); ++g) {
         factors_.begin_matrix();
         const int begin = points.boundary_begin[g];
+        meets_image_ = meets_image(field.grid(), g);
         for (int p = begin; p < points.boundary_begin[g + 1]; ++p)
             add_row(begin, p, per_mass, coupling);
         if (!factors_.factorise())
@@ -29,6 +30,19 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     }
 }
 
+/// Whether the stencils of a grain reach round a cyclic axis, so that points far apart share cells.
+bool BoundaryBlocks::meets_image(const CellGrid& grid, int g) const {
+    const auto begin = points_->box.begin() + points_->boundary_begin[g];
+    const auto end = points_->box.begin() + points_->boundary_begin[g + 1];
+    if (begin == end) return false;
+    StencilBox all = *begin;
+    for (auto box = begin; box != end; ++box)
+        all = {std::min(all.low_x, box->low_x), std::max(all.high_x, box->high_x),
+               std::min(all.low_y, box->low_y), std::max(all.high_y, box->high_y)};
+    return (grid.cyclic(0) && all.high_x - all.low_x >= grid.counts[0]) ||
+           (grid.cyclic(1) && all.high_y - all.low_y >= grid.counts[1]);
+}
+
 /// G_pq = sum over shared cells of w_p w_q / m_c.
 void BoundaryBlocks::add_row(int begin, int p, double per_mass, PointCoupling& coupling) {
     const CollocationPoints& points = *points_;
@@ -37,7 +51,7 @@ void BoundaryBlocks::add_row(int begin, int p, double per_mass, PointCoupling& c
     row_.assign(p - begin + 1, 0.0);
     int first = p;
     for (int q = p; q >= begin; --q) {
-        if (!points.box[p].meets(points.box[q])) continue;
+        if (!meets_image_ && !points.box[p].meets(points.box[q])) continue;
         const double all = per_mass * overlap(on_slots_, q);
         const double own = uses_shared_ ? per_mass * overlap(on_private_, q) : all;
         row_[q - begin] = all;

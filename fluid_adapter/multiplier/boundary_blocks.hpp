@@ -39,6 +39,7 @@ class BoundaryBlocks {
 
  private:
     void add_row(int begin, int p, double per_mass, PointCoupling& coupling);
+    bool meets_image(const CellGrid& grid, int g) const;
     void mark(int p, const PointCoupling& coupling);
     double overlap(const std::vector<double>& on_slots, int p) const;
     Eigen::Matrix3d tie(int g);
@@ -49,6 +50,7 @@ class BoundaryBlocks {
     std::vector<double> on_slots_;
     std::vector<double> on_private_;       // the same without shared cells
     bool uses_shared_ = false;             // the point does
+    bool meets_image_ = false;             // the grain does, across a cyclic side
     std::vector<double> row_;              // of the matrix that is being assembled
     std::vector<double> columns_;          // right-hand sides of one grain
     std::vector<Eigen::Vector3d> images_;  // G^-1 of the columns 1, r_x, r_y; by point

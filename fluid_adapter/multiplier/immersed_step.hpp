@@ -56,6 +56,9 @@ class ImmersedStep {
     /// impose.
     Planar impulse_to_grains() const;
 
+    /// The grains of the window, as the multipliers see them.
+    const std::vector<ImmersedGrain>& grains() const { return grains_; }
+
     const CollocationPoints& points() const { return points_; }
 
     // Between solve and impose, for changes of the velocity from outside:

@@ -59,6 +59,15 @@ void set_run_times(Settings& settings, double time_scale) {
     settings.set("run.output_every", std::int64_t{every});
 }
 
+/// output.probes in run units: x and y of each point, one after the other.
+void set_probes(Settings& settings, double diameter) {
+    if (!settings.has("output.probes") || !settings.flag("fluid.enabled")) return;
+    std::string points;
+    for (const double x : real_list("output.probes", settings.text("output.probes")))
+        points += (points.empty() ? "" : " ") + real_text(x * diameter);
+    settings.set("run.probes", points);
+}
+
 }  // namespace
 
 double sedimentation_velocity(double diameter, double gravity, double density_ratio,
@@ -94,6 +103,7 @@ void set_run_values(Settings& settings, const Scales& scales) {
     settings.set("run.size_x", size.at(0) * scales.diameter);
     settings.set("run.size_y", size.at(1) * scales.diameter);
     settings.set("run.size_z", scales.diameter);
+    set_probes(settings, scales.diameter);
     set_run_times(settings, scales.time);
 }
 

@@ -121,6 +121,30 @@ TEST_F(HeldGrains, ANeutralGrainFollowsADrivenFluid) {
     EXPECT_NEAR(run.at("fluid_force_x").back(), 0.5 * std::numbers::pi / 4.0, 1e-9);
 }
 
+// The probe in the grain shows its velocity; the others show the same on any number of ranks.
+TEST_F(HeldGrains, ProbesAndFieldsAreWrittenWhenAsked) {
+    scratch.write("grains.csv", "id,x,y,vx,motion\n1,1.5,1,0.3,driven\n");
+    scratch.write("case.yaml", in_a_cyclic_box);
+    std::vector<Columns> probes;
+    for (const std::string ranks : {"1", "2"}) {
+        play(
+            " --set \"output.fields=vorticity solid\" --set \"output.probes=[1.5, 1, 2.5, 1.5, 0, "
+            "2]\" --set output.interval=0.2 --set fluid.multiplier_tolerance=1e-9 --set "
+            "fluid.ranks=" +
+            ranks);
+        probes.push_back(columns_of(text(run_folder() / "probes.csv")));
+        const std::string folder = ranks == "1" ? "fluid/" : "fluid/processor1/";
+        for (const char* field : {"vorticity", "solid", "lambda", "p", "U"})
+            EXPECT_TRUE(std::filesystem::exists(run_folder() / (folder + "0.4/" + field)));
+    }
+    ASSERT_EQ(probes[0].at("time"), (std::vector<double>{0.2, 0.4}));
+    EXPECT_NEAR(probes[0].at("velocity_x_1").back(), 0.3, 1e-9);
+    EXPECT_GT(probes[0].at("velocity_x_2").back(), 0.01);
+    EXPECT_NE(probes[0].at("pressure_2").back(), probes[0].at("pressure_3").back());
+    for (const auto& [name, values] : probes[0])
+        EXPECT_LT(largest_difference(values, probes[1].at(name)), 1e-7) << name;
+}
+
 TEST_F(HeldGrains, ABodyForceBetweenWallsIsRefused) {
     scratch.write("grains.csv", a_pile);
     scratch.write("case.yaml", in_a_box);

@@ -88,7 +88,8 @@ void add(FluidReport& total, const FluidReport& share) {
     total.final_divergence = largest(total.final_divergence, share.final_divergence);
     total.momentum_defect = largest(total.momentum_defect, share.momentum_defect);
     total.courant = largest(total.courant, share.courant);
-    total.mean_velocity = share.mean_velocity;  // the same on all ranks
+    total.mean_velocity = share.mean_velocity;  // these are the same on all ranks
+    total.probes = share.probes;
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
 }
 

@@ -3,6 +3,7 @@
 // Windows and outputs.
 #include <fmt/format.h>
 #include <cmath>
+#include <sstream>
 
 #include "coupler/keys/key_value.hpp"
 #include "launcher/case/keys/key_groups.hpp"
@@ -25,6 +26,30 @@ Ruling countable_windows(const Settings& s) {
     return Objection{fmt::format("time.end = {} t_c would take more than {:.0e} windows.",
                                  s.text("time.end"), most_windows),
                      "Use a larger step."};
+}
+
+Ruling fields_are_known(const Settings& s) {
+    std::istringstream names(s.text("output.fields"));
+    for (std::string name; names >> name;)
+        if (name != "vorticity" && name != "solid")
+            return Objection{
+                fmt::format("There is no field {}; there are vorticity and solid.", name),
+                "Write for example fields: vorticity solid."};
+    return std::nullopt;
+}
+
+Ruling probes_are_inside(const Settings& s) {
+    const std::vector<double> points = real_list("output.probes", s.text("output.probes"));
+    const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
+    if (points.empty() || points.size() % 2 != 0)
+        return Objection{"A list of numbers, two for each point.",
+                         "Write for example probes: [1, 2, 3, 2]."};
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (points[k] < 0.0 || points[k] > size.at(k % 2))
+            return Objection{
+                fmt::format("Point {} is outside the box of {}.", k / 2 + 1, s.text("domain.size")),
+                "Use points inside."};
+    return std::nullopt;
 }
 
 void notes(const Settings& settings, std::vector<std::string>& notes) {
@@ -65,6 +90,21 @@ KeyGroup time_keys() {
                      .fallback = "0.5",
                      .range = positive,
                      .help = "interval of rows of history.csv and of pictures; whole windows"},
+                    {.name = "output.fields",
+                     .type = KeyType::text,
+                     .need = Need::optional,
+                     .help = "fields of the fluid besides velocity, pressure and multipliers, with "
+                             "spaces between: vorticity, solid (share of a cell covered by grains)",
+                     .idle = without_fluid},
+                    {.name = "output.probes",
+                     .type = KeyType::real_list,
+                     .unit = "D",
+                     .need = Need::optional,
+                     .help = "points x, y, one after the other, at which probes.csv gives the "
+                             "fluid's pressure and velocity",
+                     .allowed = "A list of numbers, two for each point.",
+                     .entries = 0,
+                     .idle = without_fluid},
                     {.name = "checkpoint.interval",
                      .type = KeyType::real,
                      .unit = "t_c",
@@ -74,7 +114,9 @@ KeyGroup time_keys() {
                      .available = false},
                 },
             .rules = {{"time.end", {"time.step"}, at_least_one_window},
-                      {"time.step", {"time.end"}, countable_windows}},
+                      {"time.step", {"time.end"}, countable_windows},
+                      {"output.fields", {}, fields_are_known},
+                      {"output.probes", {"domain.size"}, probes_are_inside}},
             .notes = notes};
 }
 

@@ -29,6 +29,14 @@ TEST_F(FluidLimits, LightGrainsInAFluidNeedJoint) {
                 "grains.density_ratio = 0");
 }
 
+TEST_F(FluidLimits, ExtraFieldsAndProbesAreNamedAndPlaced) {
+    EXPECT_SAYS(refusal("", {"output.fields=vorticity curl"}), "There is no field curl");
+    EXPECT_SAYS(refusal("", {"output.probes=[1, 2, 3]"}), "two for each point");
+    EXPECT_SAYS(refusal("", {"output.probes=[1, 2, 3, 25]"}), "Point 2 is outside the box");
+    const ResolvedCase both = load("", {"output.fields=solid vorticity", "output.probes=[1, 24]"});
+    EXPECT_EQ(both.settings.text("run.probes"), "1 24");
+}
+
 TEST_F(FluidLimits, Equation21NeedsAWeight) {
     const std::vector<std::string> settling = {"scales.kind=sedimentation",
                                                "coupling.scheme=joint"};

@@ -109,8 +109,16 @@ TEST(Wire, WhatAnAdapterDoesNotHaveStaysEmpty) {
 TEST(Wire, KicksComeBack) {
     Kicks kicks;
     kicks.kicks.push_back({7, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 2}, {3, 5, 8}, {13, 21, 34}});
-    kicks.report = {9,   awkward, false, 1e-5, 2.0, 1e-9, 0.4, SplittingReport{3, 2, 1e-3, awkward, false},
-                    {0.1, -0.2, 0.0}, 0.03};
+    kicks.report = {9,
+                    awkward,
+                    false,
+                    1e-5,
+                    2.0,
+                    1e-9,
+                    0.4,
+                    SplittingReport{3, 2, 1e-3, awkward, false},
+                    {0.1, -0.2, 0.0},
+                    0.03};
     const auto back = decode<Kicks>(encode(kicks));
     ASSERT_EQ(back.kicks.size(), 1u);
     EXPECT_EQ(back.kicks[0].id, 7);
@@ -126,6 +134,7 @@ TEST(Wire, KicksComeBack) {
     EXPECT_EQ(back.report.momentum_defect, 1e-9);
     EXPECT_EQ(back.report.mean_velocity, (Vec3{0.1, -0.2, 0.0}));
     EXPECT_EQ(back.report.wall_seconds, 0.03);
+    EXPECT_EQ(back.report.probes, (std::vector<double>{1.5, -2.5}));
 }
 
 TEST(Wire, HelloComesBack) {

@@ -230,6 +230,35 @@ TEST(PointCoupling, IsTheProductThroughAllCells) {
     }
 }
 
+// In a cyclic box of 1.2 D a grain shares cells with its own images, 3 cells away.
+TEST(ConstrainedFlow, AGrainThatMeetsItsOwnImageSatisfiesTheConstraint) {
+    for (const bool prescribed : {true, false}) {
+        std::vector<ImmersedGrain> grains = {disc(1, 0.613, 0.607, {0.1, -0.5, 0.7})};
+        grains[0].prescribed = prescribed;
+        MemoryField field(19, 19, Side::cyclic);
+        field.fill_randomly(8);
+        CollocationPoints points;
+        PointPlacement({}).place(field, grains, points);
+        DenseReference reference(field, grains, points);
+        const std::vector<Planar> wanted = reference.motions({Planar::Zero()});
+        SaddleOperator system;
+        ConstrainedFlow flow;
+        MultiplierWorkspace work;
+        MultiplierSettings settings;
+        settings.tolerance = 1e-12;
+        system.assemble(field, grains, points);
+        flow.begin(system, {field.velocity(0), field.velocity(1)}, momenta_of(grains),
+                   prescribed_motions(grains));
+        EXPECT_TRUE(uzawa_cg(flow, settings, work).converged);
+        EXPECT_LT(largest_difference(flow.motions(), wanted), 1e-9);
+        flow.impose();
+        const BoundaryOperator boundary(points);
+        std::vector<double> slip(boundary.rows());
+        boundary.apply(at_slots(field, points).data(), flow.motions().data(), slip.data());
+        for (const double value : slip) EXPECT_NEAR(value, 0.0, 1e-8);
+    }
+}
+
 TEST(ConstrainedFlow, OneDiscInStillFluidByHand) {
     // U = cM U45 / (cM + m n): rho_s = 1.5 gives cM = pi/8, and n cells of mass m = 1/256.
     Problem problem({disc(1, 3.0, 3.0, {0.0, -1.0, 0.0})}, false);
@@ -332,24 +361,19 @@ TEST_P(Against, TheConstraintItself) {
     for (const double value : slip) EXPECT_NEAR(value, 0.0, 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Against,
-                         testing::Values(Case{"apart_interior", three_discs, false, 1.0},
-                                         Case{"apart", three_discs, true, 1.0},
-                                         Case{"loose", loose_heap, true, 1.0},
-                                         Case{"dense", dense_packing, true, 1.0},
-                                         Case{"dense_interior", dense_packing, false, 1.0},
-                                         Case{"held", held_heap, true, 1.0},
-                                         Case{"held_dense", held_packing, true, 1.0},
-                                         Case{"held_interior", held_heap, false, 1.0},
-                                         Case{"held_light", held_heap, true, -0.4},
-                                         Case{"light", loose_heap, true, -0.4},
-                                         Case{"lighter", loose_heap, true, -1.2},
-                                         Case{"lighter_dense", small_packing, true, -1.2},
-                                         Case{"nearly_singular", small_packing, true, -1.4},
-                                         Case{"lightest", loose_heap, true, -1.8},
-                                         Case{"lightest_dense", small_packing, true, -1.8},
-                                         Case{"light_interior", loose_heap, false, -0.4}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Against,
+    testing::Values(
+        Case{"apart_interior", three_discs, false, 1.0}, Case{"apart", three_discs, true, 1.0},
+        Case{"loose", loose_heap, true, 1.0}, Case{"dense", dense_packing, true, 1.0},
+        Case{"dense_interior", dense_packing, false, 1.0}, Case{"held", held_heap, true, 1.0},
+        Case{"held_dense", held_packing, true, 1.0}, Case{"held_interior", held_heap, false, 1.0},
+        Case{"held_light", held_heap, true, -0.4}, Case{"light", loose_heap, true, -0.4},
+        Case{"lighter", loose_heap, true, -1.2}, Case{"lighter_dense", small_packing, true, -1.2},
+        Case{"nearly_singular", small_packing, true, -1.4},
+        Case{"lightest", loose_heap, true, -1.8}, Case{"lightest_dense", small_packing, true, -1.8},
+        Case{"light_interior", loose_heap, false, -0.4}),
+    [](const auto& info) { return info.param.name; });
 
 class WithOrWithoutBoundary : public testing::TestWithParam<bool> {};
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/output/probe_series.hpp"
+
+#include <fmt/format.h>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+void ProbeSeries::begin(std::size_t points) {
+    out_.open(file_, std::ios::trunc);
+    out_ << "time";
+    for (std::size_t k = 1; k <= points; ++k)
+        out_ << fmt::format(",pressure_{0},velocity_x_{0},velocity_y_{0}", k);
+    out_ << std::endl;
+}
+
+void ProbeSeries::append(double time, const std::vector<double>& values) {
+    if (values.empty()) return;
+    if (!out_.is_open()) begin(values.size() / 3);
+    const double u = run_.velocity;
+    out_ << fmt::format("{:.10g}", time / run_.time);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        out_ << fmt::format(",{:.10g}", values[k] / (k % 3 == 0 ? u * u : u));
+    out_ << std::endl;
+    if (!out_)
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + file_.string() + ": is the disk full?");
+}
+
+}  // namespace turbidite

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// probes.csv: pressure and velocity of the fluid at the points of output.probes, one row per output
+// interval, dimensionless like history.csv. The file is created with its first row; without probes
+// there is none.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "coupler/protocol/run_values.hpp"
+
+namespace turbidite {
+
+class ProbeSeries {
+ public:
+    ProbeSeries(std::filesystem::path file, const RunValues& run)
+        : file_(std::move(file)), run_(run) {}
+
+    /// `values`: p/rho_f [m2/s2], u, v [m/s] at each point. Throws Failure when the disk is full.
+    void append(double time, const std::vector<double>& values);
+
+ private:
+    void begin(std::size_t points);
+
+    std::filesystem::path file_;
+    RunValues run_;
+    std::ofstream out_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fields that are written with U, p and lambda when output.fields names them:
+//
+//     vorticity   dv/dx - du/dy [1/s]
+//     solid       share of the cell covered by grains, where the multipliers found them
+#pragma once
+
+#include <memory>
+
+#include "coupler/protocol/settings.hpp"
+#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+
+namespace turbidite {
+
+class OutputFields {
+ public:
+    OutputFields(FluidFields& fields, const Settings& settings);
+
+    /// From U and these grains, before OpenFOAM writes.
+    void compute(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains);
+
+ private:
+    FluidFields& fields_;
+    std::unique_ptr<Foam::volScalarField> vorticity_, solid_;
+};
+
+}  // namespace turbidite

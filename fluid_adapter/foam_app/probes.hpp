@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pressure and velocity at the points of output.probes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "coupler/protocol/settings.hpp"
+#include "fluid_adapter/foam_app/foamFluidField.hpp"
+
+namespace turbidite {
+
+class Probes {
+ public:
+    /// Reads run.probes: x and y of each point, one after the other [m].
+    explicit Probes(const Settings& settings);
+
+    /// p/rho_f [m2/s2], u and v [m/s] at each point, from the fields; the same on all ranks.
+    std::vector<double> values(const FluidFields& fields, const FoamFluidField& field) const;
+
+ private:
+    std::vector<std::array<double, 2>> points_;  // [m]
+};
+
+}  // namespace turbidite

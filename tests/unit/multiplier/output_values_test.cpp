@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Covered shares of cells and values between cell centres, as written for output.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <numeric>
+
+#include "fluid_adapter/multiplier/cell_stencil.hpp"
+#include "fluid_adapter/multiplier/covered_share.hpp"
+#include "tests/unit/multiplier/memory_field.hpp"
+
+namespace turbidite {
+namespace {
+
+double covered_area(const MemoryField& field, const std::vector<ImmersedGrain>& grains) {
+    const std::vector<double> shares = covered_share(field, grains);
+    for (const double share : shares) EXPECT_LE(share, 1.0);
+    return std::accumulate(shares.begin(), shares.end(), 0.0) / 256.0;  // h = 1/16
+}
+
+TEST(CoveredShare, AddsUpToTheAreaOfTheGrains) {
+    const double disc_area = std::numbers::pi / 4.0;
+    const MemoryField field(48, 48, Side::wall), cyclic(48, 48, Side::cyclic);
+    EXPECT_NEAR(covered_area(field, {disc(1, 1.013, 1.009)}), disc_area, 2e-3);
+    EXPECT_NEAR(covered_area(field, {disc(1, 1.0, 1.0), disc(2, 2.0, 2.0)}), 2 * disc_area, 4e-3);
+    EXPECT_NEAR(covered_area(cyclic, {disc(1, 2.9, 0.1)}), disc_area, 2e-3);
+    EXPECT_NEAR(covered_area(field, {disc(1, 0.0, 1.5)}), disc_area / 2.0, 2e-3);
+    // Where grains overlap, a cell is covered once.
+    EXPECT_NEAR(covered_area(field, {disc(1, 1.0, 1.0), disc(2, 1.0, 1.0)}), disc_area, 0.05);
+}
+
+TEST(CoveredShare, IsOneInsideAndZeroOutside) {
+    const MemoryField field(48, 48, Side::wall);
+    const std::vector<double> shares = covered_share(field, {disc(1, 1.0, 1.0)});
+    EXPECT_EQ(shares[16 + 48 * 16], 1.0);
+    EXPECT_EQ(shares[40 + 48 * 40], 0.0);
+}
+
+TEST(BilinearStencil, IsExactForALinearFieldAwayFromSides) {
+    const MemoryField field({0.0, 0.25, 0.5, 0.75, 1.0, 1.25}, {0.0, 0.5, 0.8, 1.0, 1.4, 2.0},
+                            Side::wall);
+    const auto linear = [](double x, double y) { return 1.0 + 2.0 * x - 3.0 * y; };
+    double value = 0.0, weights = 0.0;
+    for (const StencilEntry& at : bilinear_stencil(field.grid(), {0.9, 1.1})) {
+        value += at.weight * linear(field.grid().centre(0, at.i), field.grid().centre(1, at.j));
+        weights += at.weight;
+    }
+    EXPECT_NEAR(value, linear(0.9, 1.1), 1e-14);
+    EXPECT_NEAR(weights, 1.0, 1e-14);
+}
+
+TEST(BilinearStencil, TakesTheNearestCentreAtAWallAndTheOtherSideOfACyclicBox) {
+    const MemoryField field(8, 8, Side::wall, 0.25), cyclic(8, 8, Side::cyclic, 0.25);
+    double at_corner = 0.0, across = 0.0;
+    for (const StencilEntry& at : bilinear_stencil(field.grid(), {2.0, 0.0}))
+        if (at.i == 7 && at.j == 0) at_corner += at.weight;
+    EXPECT_NEAR(at_corner, 1.0, 1e-14);
+    for (const StencilEntry& at : bilinear_stencil(cyclic.grid(), {2.0, 0.0}))
+        if (at.i == 0 && at.j == 7) across += at.weight;
+    EXPECT_NEAR(across, 0.25, 1e-14);
+}
+
+}  // namespace
+}  // namespace turbidite
