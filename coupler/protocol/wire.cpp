@@ -124,13 +124,9 @@ constexpr auto visit_kicks = [](auto& code, auto& kicks) {
     auto& r = kicks.report;
     code(r.multiplier_iterations), code(r.multiplier_residual), code(r.multipliers_converged);
     code(r.divergence), code(r.final_divergence), code(r.momentum_defect);
-<<<<<<< HEAD
     code(r.courant), maybe(code, r.splitting, visit_splitting);
     array(code, r.mean_velocity), code(r.wall_seconds);
-=======
-    code(r.courant), array(code, r.mean_velocity), code(r.wall_seconds);
     list(code, r.probes, plain);
->>>>>>> hub/main
 };
 
 constexpr auto visit_response = [](auto& code, auto& r) {

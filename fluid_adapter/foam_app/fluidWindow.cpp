@@ -34,13 +34,10 @@ FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       ledger_(fields_, field_),
       multipliers_(field_, settings, shapes),
-<<<<<<< HEAD
       coupled_limits_(coupled_limits(settings)),
-      corrects_in_rounds_(iterates(settings)) {
-=======
+      corrects_in_rounds_(iterates(settings)),
       output_(fields_, settings),
       probes_(settings) {
->>>>>>> hub/main
     field_.work_on(step_->velocity(0), step_->velocity(1));
 }
 

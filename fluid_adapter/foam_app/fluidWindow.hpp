@@ -88,13 +88,10 @@ class FluidWindow {
     std::unique_ptr<FluidStep> step_;
     MomentumLedger ledger_;
     ImmersedStep multipliers_;
-<<<<<<< HEAD
     CoupledLimits coupled_limits_;
     bool corrects_in_rounds_;  ///< implicit-multiplier: after every contact solve
-=======
     OutputFields output_;
     Probes probes_;
->>>>>>> hub/main
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;

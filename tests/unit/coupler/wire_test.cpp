@@ -118,7 +118,8 @@ TEST(Wire, KicksComeBack) {
                     0.4,
                     SplittingReport{3, 2, 1e-3, awkward, false},
                     {0.1, -0.2, 0.0},
-                    0.03};
+                    0.03,
+                    {1.5, -2.5}};
     const auto back = decode<Kicks>(encode(kicks));
     ASSERT_EQ(back.kicks.size(), 1u);
     EXPECT_EQ(back.kicks[0].id, 7);
