@@ -28,8 +28,24 @@ void CoupledStep::place_grains(const CollocationPoints& points) {
 CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& limits) {
     CoupledReport report;
     report.viscosity = viscosity_.correct(box_, grains, limits.viscosity);
-    report.pressure = pressure_.correct(box_, grains, limits.pressure);
+    correct_pressure(grains, limits, report);
     return report;
+}
+
+/// Each direction leaves some slip. Once that is removed the divergence is looked at again.
+void CoupledStep::correct_pressure(RigidGrains& grains, const CoupledLimits& limits,
+                                   CoupledReport& report) {
+    report.pressure = pressure_.correct(box_, grains, limits.pressure);
+    IterationLimit left = limits.pressure;
+    for (bool again = limits.iterated; again;) {
+        report.slip = grains.settle();
+        left.most = limits.pressure.most - report.pressure.iterations;
+        const IterationResult more = pressure_.correct(box_, grains, left);
+        report.pressure.iterations += more.iterations;
+        report.pressure.residual = more.residual;
+        report.pressure.converged = more.converged;
+        again = more.iterations > 0;
+    }
 }
 
 RowsOfTwo CoupledStep::unconstrained() {

@@ -21,12 +21,14 @@
 namespace turbidite {
 
 struct CoupledLimits {
+    bool iterated = false;     ///< to the tolerances; otherwise one correction of each
     IterationLimit viscosity;  ///< tolerance: |dt nu L u - f| over |dt nu L u|
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
 };
 
 struct CoupledReport {
     IterationResult viscosity, pressure;  ///< pressure.residual: rms of div [1/s]
+    MultiplierResult slip;                ///< if iterated
 };
 
 class CoupledStep {
@@ -58,6 +60,8 @@ class CoupledStep {
     BoxStep::Force viscous_force() const;
 
  private:
+    void correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
+
     BoxStep& step_;
     BoxOperators box_;
     RigidPressure pressure_;

@@ -14,14 +14,25 @@ RigidGrains::RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelo
       cells_(system.field().owned_cells()),
       all_cells_(static_cast<double>(cells_)) {
     system.field().sum_over_ranks(&all_cells_, 1);
-    settings_.tolerance = 1.0;  // the slip of a change is judged by its own size
 }
 
 void RigidGrains::make_rigid(RigidChange& change, double reduction) {
-    settings_.reduction = reduction;
+    MultiplierSettings settings = settings_;
+    settings.tolerance = 1.0;  // the slip of a change is judged by its own size
+    settings.reduction = reduction;
     change.grains.begin(system_, change.velocity());
-    const MultiplierResult result = uzawa_cg(change.grains, settings_, work_);
+    note(uzawa_cg(change.grains, settings, work_));
     change.grains.impose();
+}
+
+MultiplierResult RigidGrains::settle() {
+    const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
+    note(result);
+    flow_.impose();
+    return result;
+}
+
+void RigidGrains::note(const MultiplierResult& result) {
     iterations_ += result.iterations;
     converged_ = converged_ && result.converged;
 }

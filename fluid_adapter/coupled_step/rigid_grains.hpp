@@ -24,7 +24,8 @@ struct RigidChange {
 
 class RigidGrains {
  public:
-    /// `flow`: of this window, imposed; both are kept by reference.
+    /// `flow`: of this window, imposed; both are kept by reference. `settings`: what its slip must
+    /// reach at the end.
     RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelocity velocity,
                 const MultiplierSettings& settings);
 
@@ -36,6 +37,9 @@ class RigidGrains {
 
     /// The window's velocity, of fluid and grains, += share change.
     void add(const RigidChange& change, double share);
+
+    /// Removes the slip that changes have left in the window's velocity; returns what remains.
+    MultiplierResult settle();
 
     /// Sum over the cells of all ranks.
     double dot(const double* a, const double* b) const;
@@ -52,6 +56,8 @@ class RigidGrains {
     bool converged() const { return converged_; }
 
  private:
+    void note(const MultiplierResult& result);
+
     SaddleOperator& system_;
     ConstrainedFlow& flow_;
     CellVelocity velocity_;

@@ -21,9 +21,11 @@ void RigidViscosity::begin(BoxOperators& box, double per_laplacian, const CellVe
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
                                         const IterationLimit& limit) {
     double square = find_residual(box, grains);
+    if (square == 0.0) return {};
     IterationResult result;
+    result.residual = std::sqrt(square / scale_);
     double rz = 0.0;  // of the last direction
-    while (square > 0.0) {
+    while (result.residual > limit.tolerance && result.iterations < limit.most) {
         choose_direction(grains, result.iterations == 0, rz);
         const ImageProducts image = apply(box, grains, limit.most > 1);
         if (!(image.direction > 0.0)) break;
@@ -35,9 +37,8 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
                                    alpha * alpha * image.itself);
         ++result.iterations;
         result.residual = std::sqrt(square / scale_);
-        result.converged = result.residual <= limit.tolerance;
-        if (result.converged || result.iterations >= limit.most) break;
     }
+    result.converged = result.residual <= limit.tolerance;
     return result;
 }
 

@@ -17,7 +17,7 @@ namespace turbidite {
 
 struct IterationResult {
     int iterations = 0;
-    double residual = 0.0;  ///< what is left of the first residual's scale
+    double residual = 0.0;
     bool converged = true;
 };
 
@@ -31,7 +31,7 @@ class RigidViscosity {
     /// Begins a window: `per_laplacian` is nu dt [m2], f = dt nu L u of this velocity.
     void begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity);
 
-    /// Corrects the window's velocity and f, at least once, until |r| < tolerance |f|.
+    /// Corrects the window's velocity and f until |r| < tolerance |f|.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// f over the rank's cells [m/s].

@@ -17,6 +17,7 @@ CoupledLimits coupled_limits(const Settings& settings) {
     CoupledLimits limits;
     if (!iterates(settings)) return limits;
     const auto most = static_cast<int>(settings.integer("fluid.splitting_iterations"));
+    limits.iterated = true;
     limits.viscosity = {most, settings.real("fluid.splitting_tolerance")};
     limits.pressure = {most,
                        settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter};
@@ -35,7 +36,6 @@ FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup
       ledger_(fields_, field_),
       multipliers_(field_, settings, shapes),
       coupled_limits_(coupled_limits(settings)),
-      corrects_in_rounds_(iterates(settings)),
       output_(fields_, settings),
       probes_(settings) {
     field_.work_on(step_->velocity(0), step_->velocity(1));
@@ -59,7 +59,7 @@ void FluidWindow::correct(const std::vector<GrainState>& grains) {
         return answer("step 5 (multipliers)", [&] { multipliers_.take_constrained(grains); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
                 [&] { note(multipliers_.push(grains)); });
-    if (corrects_in_rounds_) correct_fluid();
+    if (coupled_limits_.iterated) correct_fluid();
 }
 
 std::vector<FreeResponse> FluidWindow::responses() {
@@ -156,7 +156,7 @@ void FluidWindow::correct_fluid() {
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         multipliers_.impose();
         RigidGrains grains(multipliers_.system(), multipliers_.flow(),
-                           {step_->velocity(0), step_->velocity(1)}, multipliers_.settings());
+                           {step_->velocity(0), step_->velocity(1)}, multipliers_.continued());
         note(coupled->correct(grains, coupled_limits_));
         report_.multiplier_iterations += grains.iterations();
         report_.multipliers_converged = report_.multipliers_converged && grains.converged();
@@ -171,9 +171,10 @@ void FluidWindow::note(const CoupledReport& result) {
     splitting.viscous_iterations += result.viscosity.iterations;
     splitting.divergence = result.pressure.residual;
     splitting.viscous_residual = result.viscosity.residual;
-    if (corrects_in_rounds_)
-        splitting.converged =
-            splitting.converged && result.pressure.converged && result.viscosity.converged;
+    if (!coupled_limits_.iterated) return;
+    splitting.converged =
+        splitting.converged && result.pressure.converged && result.viscosity.converged;
+    report_.multiplier_residual = result.slip.residual;
 }
 
 /// Accumulates the results of all solves of a window.

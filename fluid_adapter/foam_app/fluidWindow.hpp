@@ -89,7 +89,6 @@ class FluidWindow {
     MomentumLedger ledger_;
     ImmersedStep multipliers_;
     CoupledLimits coupled_limits_;
-    bool corrects_in_rounds_;  ///< implicit-multiplier: after every contact solve
     OutputFields output_;
     Probes probes_;
 

@@ -124,6 +124,13 @@ MultiplierResult ImmersedStep::solve() {
     return result;
 }
 
+MultiplierSettings ImmersedStep::continued() const {
+    MultiplierSettings settings = settings_;
+    settings.tolerance = slip_goal_ / settings.velocity_scale;
+    settings.reduction = 1.0;
+    return settings;
+}
+
 MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {
     changes_.assign(grains_.size(), Planar::Zero());
     solved_.assign(grains_.size(), Planar::Zero());
@@ -142,10 +149,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
                                  std::to_string(with_contacts.size()) +
                                  " grains, but the window has " + std::to_string(grains_.size()));
     flow_.push(changes_);
-    MultiplierSettings settings = settings_;
-    settings.tolerance = slip_goal_ / settings.velocity_scale;
-    settings.reduction = 1.0;
-    const MultiplierResult result = uzawa_cg(flow_, settings, work_);
+    const MultiplierResult result = uzawa_cg(flow_, continued(), work_);
     for (std::size_t g = 0; g < grains_.size(); ++g) {
         const Planar off = flow_.motions()[g] - solved_[g];
         mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());

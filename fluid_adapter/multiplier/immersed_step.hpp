@@ -65,7 +65,7 @@ class ImmersedStep {
 
     SaddleOperator& system() { return system_; }
     ConstrainedFlow& flow() { return flow_; }
-    const MultiplierSettings& settings() const { return settings_; }
+    MultiplierSettings continued() const;  ///< to the slip that the window's first solve had to reach
 
  private:
     ImmersedGrain immersed(const GrainState& state) const;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/box_step/box_operators.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/coupled_step/tank.hpp"
+
+namespace turbidite {
+namespace {
+
+class Operators : public testing::TestWithParam<Side> {
+ protected:
+    std::size_t size() const { return box.size(); }
+
+    /// D (-dt G p) + dt Q p with this w, and its product with r.
+    std::vector<double> image_of(const std::vector<double>& p, const std::vector<double>& w) {
+        std::vector<double> x(size()), y(size()), image(size()), r(size(), 0.0);
+        box.gradient(time_step, p.data(), x.data(), y.data());
+        box.flux_image(time_step, w.data(), p.data(), x.data(), y.data(), r.data(), image.data());
+        return image;
+    }
+
+    BoxStep step{box_fluid(GetParam(), 0.01)};
+    BoxOperators box{step.operators()};
+};
+
+/// The step's own pressure solve inverts the operator without grains.
+TEST_P(Operators, WithoutGrainsThePressureSolveIsTheInverse) {
+    std::vector<double> p(size());
+    fill_randomly(p, 1);
+    const std::vector<double> image = image_of(p, std::vector<double>(size(), 1.0));
+    double* values = step.pressure_solve().values();
+    for (std::size_t c = 0; c < size(); ++c) values[c] = image[c] / time_step;
+    step.pressure_solve().solve();
+    const double level = GetParam() == Side::open ? 0.0 : p[0] - values[0];
+    for (std::size_t c = 0; c < size(); ++c) ASSERT_NEAR(values[c] + level, p[c], 1e-10);
+}
+
+TEST_P(Operators, AreSymmetricWithCellsInsideGrains) {
+    std::vector<double> a(size()), b(size()), w(size());
+    fill_randomly(a, 1), fill_randomly(b, 2), fill_randomly(w, 3);
+    for (double& value : w) value = value > 0.0 ? 1.0 : 0.0;
+    const std::vector<double> image_a = image_of(a, w), image_b = image_of(b, w);
+    EXPECT_NEAR(product(a, image_b), product(b, image_a), 1e-10 * std::abs(product(a, image_b)));
+    EXPECT_GT(product(a, image_a), 0.0);
+}
+
+/// What is added to the excess for p changes the residual by what the residual already knew.
+TEST_P(Operators, TheExcessIsTheFluxOfTheResidual) {
+    std::vector<double> p(size()), w(size()), before(size()), after(size());
+    fill_randomly(p, 1), fill_randomly(w, 3);
+    for (double& value : w) value = value > 0.0 ? 1.0 : 0.0;
+    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data()};
+    fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
+    box.keep_excess(0.5, w.data(), excess);
+    double *x = step.velocity(0), *y = step.velocity(1);
+    std::fill_n(x, size(), 0.0), std::fill_n(y, size(), 0.0);
+    box.flux_residual(time_step, w.data(), p.data(), x, y, excess, before.data());
+    box.add_to_excess(time_step, w.data(), p.data(), excess);
+    const std::vector<double> none(size(), 0.0);
+    box.flux_residual(time_step, w.data(), none.data(), x, y, excess, after.data());
+    EXPECT_GT(product(before, before), 1.0);
+    for (std::size_t c = 0; c < size(); ++c) ASSERT_NEAR(after[c], before[c], 1e-10);
+}
+
+TEST_P(Operators, NoExcessBetweenCellsInsideGrains) {
+    std::vector<double> w(size(), 0.0), p(size());
+    fill_randomly(p, 4);
+    fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
+    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data()};
+    box.keep_excess(0.5, w.data(), excess);
+    box.add_to_excess(time_step, w.data(), p.data(), excess);
+    for (int axis = 0; axis < 2; ++axis)
+        for (const double e : step.excess(axis)) ASSERT_EQ(e, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, Operators, testing::Values(Side::wall, Side::open, Side::cyclic),
+                         [](const auto& info) {
+                             return info.param == Side::wall   ? "wall"
+                                    : info.param == Side::open ? "open"
+                                                               : "cyclic";
+                         });
+
+}  // namespace
+}  // namespace turbidite
