@@ -51,6 +51,14 @@ def end_of(column):
     return value
 
 
+def end_norm(x, y):
+    """Norm of a vector in the last row."""
+    def value(run):
+        parts = [end_of(column)(run) for column in (x, y)]
+        return None if None in parts else float(np.hypot(*parts))
+    return value
+
+
 def peak_part(part):
     def value(run):
         found = peaks.peak(run)
@@ -70,6 +78,10 @@ MEASURED = [
     Measured('end_height', 'Mean height at the end', r'$\langle y \rangle\,/\,D$', end_of('mean_position_y')),
     Measured('end_velocity', 'Mean velocity at the end', r'$|\langle u \rangle|\,/\,u_c$',
              end_of('mean_velocity_norm')),
+    Measured('end_flow', 'Mean velocity of the whole box at the end', r'$|\langle u_f \rangle|\,/\,u_c$',
+             end_norm('flow_x', 'flow_y')),
+    Measured('end_force', 'Force of the fluid on all grains at the end', r'$|\Sigma F|\,/\,\rho_f u_c^2 D$',
+             end_norm('fluid_force_x', 'fluid_force_y')),
     Measured('overlap', 'Largest overlap', r'overlap $/\,D$', maximum('max_penetration', 'penetration')),
     Measured('grain_balance', 'Defect of the grains\' momentum', 'relative', maximum('grain_balance', 'grain_balance')),
     Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', maximum('', 'unconverged_windows')),
