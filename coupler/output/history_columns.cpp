@@ -154,12 +154,13 @@ const std::vector<Column> columns = {
          return splitting(c, [](const auto& s) { return double(s.pressure_iterations); });
      }},
     {"viscous_iterations",
-     [](Cell c) { return splitting(c, [](const auto& s) { return double(s.viscous_iterations); }); }},
+     [](Cell c) {
+         return splitting(c, [](const auto& s) { return double(s.viscous_iterations); });
+     }},
     {"remaining_divergence",
      [](Cell c) {
-         return splitting(c, [&](const auto& s) {
-             return s.divergence * c.run.diameter / c.run.velocity;
-         });
+         return splitting(
+             c, [&](const auto& s) { return s.divergence * c.run.diameter / c.run.velocity; });
      }},
     {"viscous_residual",
      [](Cell c) { return splitting(c, [](const auto& s) { return s.viscous_residual; }); }},

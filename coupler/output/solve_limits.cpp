@@ -55,8 +55,7 @@ SolveLimits solve_limits(const Settings& settings) {
     limits.contact = limit(settings, "contact.iterations", "contact.tolerance");
     limits.multipliers =
         limit(settings, "fluid.multiplier_iterations", "fluid.multiplier_tolerance");
-    limits.splitting =
-        limit(settings, "fluid.splitting_iterations", "fluid.splitting_tolerance");
+    limits.splitting = limit(settings, "fluid.splitting_iterations", "fluid.splitting_tolerance");
     limits.joint = limit(settings, "coupling.iterations", "coupling.tolerance");
     if (settings.has("run.slip_tolerance")) limits.slip = settings.real("run.slip_tolerance");
     return limits;

@@ -45,8 +45,7 @@ void BoxOperators::laplacian(double share, int axis, const double* u, double* f)
     }
 }
 
-void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, double* x,
-                           double* y) {
+void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, double* x, double* y) {
     p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
         const double* below = p_.row(j - 1);
@@ -97,8 +96,8 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
         double* out = image ? image + at(j) : image_.data();
         const double* below = rows.row(j - 1);
         const double* here = rows.row(j);
-        laplacian_row(nx_, -share / (hx_ * hx_), -share / (hy_ * hy_), below, here,
-                      rows.row(j + 1), out);
+        laplacian_row(nx_, -share / (hx_ * hx_), -share / (hy_ * hy_), below, here, rows.row(j + 1),
+                      out);
         add_row(nx_, 1.0, d + at(j), out);
         products.direction += dot_row(nx_, out, here);
         products.residual += dot_row(nx_, out, r + at(j));

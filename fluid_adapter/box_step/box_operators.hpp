@@ -40,7 +40,7 @@ struct ImageProducts {
     double direction = 0.0;  ///< with d, in the product the method uses
     double residual = 0.0;   ///< with r
     double itself = 0.0;
-    double step = 0.0;       ///< of d with r, in the same product as `direction`
+    double step = 0.0;  ///< of d with r, in the same product as `direction`
 
     static constexpr int count = 4;
     double* data() { return &direction; }

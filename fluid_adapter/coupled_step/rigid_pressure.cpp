@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace turbidite {
-namespace {
-
-constexpr double slip_reduction = 1e-2;  // of a direction's slip; what is left is part of the flow's
-
-}  // namespace
-
 void RigidPressure::begin(BoxOperators& box, double dt) {
     dt_ = dt;
     p_.assign(step_.pressure(), step_.pressure() + box.size());
@@ -30,15 +24,15 @@ IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
     result.residual = std::sqrt(square / cells);
     double rz = 0.0;  // of the last direction
     while (result.residual > limit.tolerance && result.iterations < limit.most) {
-        choose_direction(box, grains, result.iterations == 0, rz);
+        choose_direction(box, grains, result.iterations == 0, rz, limit);
         const ImageProducts image = apply(box, grains, limit.most > 1);
         if (!(image.direction > 0.0)) break;
         if (result.iterations == 0) rz = image.step;
         const double alpha = rz / image.direction;
         move(grains, alpha, limit.most > 1);
         // |r - alpha A d|^2
-        square = std::max(0.0, square - 2.0 * alpha * image.residual +
-                                   alpha * alpha * image.itself);
+        square =
+            std::max(0.0, square - 2.0 * alpha * image.residual + alpha * alpha * image.itself);
         ++result.iterations;
         result.residual = std::sqrt(square / cells);
     }
@@ -50,8 +44,8 @@ IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
 double RigidPressure::find_residual(BoxOperators& box, const RigidGrains& grains) {
     residual_.resize(box.size());
     const CellVelocity u = grains.velocity();
-    double square = box.flux_residual(dt_, outside_.data(), p_.data(), u.x, u.y, excess(),
-                                      residual_.data());
+    double square =
+        box.flux_residual(dt_, outside_.data(), p_.data(), u.x, u.y, excess(), residual_.data());
     grains.sum_over_ranks(&square, 1);
     return square;
 }
@@ -65,12 +59,12 @@ void RigidPressure::precondition() {
 }
 
 /// d = z + beta d, with W(-dt G d).
-void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, bool first,
-                                     double& rz) {
+void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
+                                     const IterationLimit& limit) {
     precondition();
     rigid_.resize(box.size());
     box.gradient(dt_, preconditioned_.data(), rigid_.x.data(), rigid_.y.data());
-    grains.make_rigid(rigid_, slip_reduction);
+    grains.make_rigid(rigid_, limit.slip_reduction());
     if (first) {
         std::swap(direction_, preconditioned_);
         std::swap(rigid_direction_, rigid_);
@@ -87,9 +81,9 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
 /// A d, kept if there may be another iteration.
 ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
     if (keep) image_.resize(box.size());
-    ImageProducts products = box.flux_image(
-        dt_, outside_.data(), direction_.data(), rigid_direction_.x.data(),
-        rigid_direction_.y.data(), residual_.data(), keep ? image_.data() : nullptr);
+    ImageProducts products =
+        box.flux_image(dt_, outside_.data(), direction_.data(), rigid_direction_.x.data(),
+                       rigid_direction_.y.data(), residual_.data(), keep ? image_.data() : nullptr);
     grains.sum_over_ranks(products.data(), ImageProducts::count);
     return products;
 }
@@ -98,8 +92,7 @@ ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains,
 void RigidPressure::move(RigidGrains& grains, double alpha, bool again) {
     for (std::size_t c = 0; c < p_.size(); ++c) p_[c] += alpha * direction_[c];
     grains.add(rigid_direction_, alpha);
-    for (std::size_t c = 0; again && c < residual_.size(); ++c)
-        residual_[c] -= alpha * image_[c];
+    for (std::size_t c = 0; again && c < residual_.size(); ++c) residual_[c] -= alpha * image_[c];
 }
 
 void RigidPressure::end(BoxOperators& box) {

@@ -39,7 +39,8 @@ class RigidPressure {
  private:
     double find_residual(BoxOperators& box, const RigidGrains& grains);
     void precondition();
-    void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz);
+    void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
+                          const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
     void move(RigidGrains& grains, double alpha, bool again);
     ExcessFlux excess() { return {step_.excess(0).data(), step_.excess(1).data()}; }

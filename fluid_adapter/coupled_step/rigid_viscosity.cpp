@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace turbidite {
-namespace {
-
-constexpr double slip_reduction = 1e-2;  // of a direction's slip; what is left is part of the flow's
-
-}  // namespace
-
 void RigidViscosity::begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity) {
     per_laplacian_ = per_laplacian;
     impulse_.resize(box.size());
@@ -26,15 +20,15 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
     result.residual = std::sqrt(square / scale_);
     double rz = 0.0;  // of the last direction
     while (result.residual > limit.tolerance && result.iterations < limit.most) {
-        choose_direction(grains, result.iterations == 0, rz);
+        choose_direction(grains, result.iterations == 0, rz, limit);
         const ImageProducts image = apply(box, grains, limit.most > 1);
         if (!(image.direction > 0.0)) break;
         if (result.iterations == 0) rz = image.step;
         const double alpha = rz / image.direction;
         move(grains, alpha, limit.most > 1);
         // |r - alpha A d|^2
-        square = std::max(0.0, square - 2.0 * alpha * image.residual +
-                                   alpha * alpha * image.itself);
+        square =
+            std::max(0.0, square - 2.0 * alpha * image.residual + alpha * alpha * image.itself);
         ++result.iterations;
         result.residual = std::sqrt(square / scale_);
     }
@@ -46,10 +40,10 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
 double RigidViscosity::find_residual(BoxOperators& box, const RigidGrains& grains) {
     residual_.resize(box.size());
     const CellVelocity u = grains.velocity();
-    const auto [rx, fx] = box.viscous_residual(per_laplacian_, 0, u.x, impulse_.x.data(),
-                                               residual_.x.data());
-    const auto [ry, fy] = box.viscous_residual(per_laplacian_, 1, u.y, impulse_.y.data(),
-                                               residual_.y.data());
+    const auto [rx, fx] =
+        box.viscous_residual(per_laplacian_, 0, u.x, impulse_.x.data(), residual_.x.data());
+    const auto [ry, fy] =
+        box.viscous_residual(per_laplacian_, 1, u.y, impulse_.y.data(), residual_.y.data());
     double sums[] = {rx + ry, fx + fy};
     grains.sum_over_ranks(sums, 2);
     scale_ = std::max(sums[0], sums[1]);
@@ -57,10 +51,11 @@ double RigidViscosity::find_residual(BoxOperators& box, const RigidGrains& grain
 }
 
 /// z = W r, and d = r + beta d with W d.
-void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& rz) {
+void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& rz,
+                                      const IterationLimit& limit) {
     rigid_residual_.x = residual_.x;
     rigid_residual_.y = residual_.y;
-    grains.make_rigid(rigid_residual_, slip_reduction);
+    grains.make_rigid(rigid_residual_, limit.slip_reduction());
     if (first) {
         std::swap(rigid_direction_, rigid_residual_);
         direction_ = nullptr;
@@ -83,9 +78,9 @@ ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains
     const RowsOfTwo& d = direction_ ? *direction_ : residual_;
     ImageProducts sum;
     for (int axis = 0; axis < 2; ++axis) {
-        const ImageProducts one = box.viscous_image(
-            per_laplacian_, axis, d[axis].data(), rigid_direction_[axis].data(),
-            residual_[axis].data(), keep ? image_[axis].data() : nullptr);
+        const ImageProducts one =
+            box.viscous_image(per_laplacian_, axis, d[axis].data(), rigid_direction_[axis].data(),
+                              residual_[axis].data(), keep ? image_[axis].data() : nullptr);
         sum.direction += one.direction;
         sum.residual += one.residual;
         sum.itself += one.itself;

@@ -196,6 +196,8 @@ std::vector<double> BoxFluidStep::memory() {
         values.insert(values.end(), more.begin(), more.end());
     };
     for (int axis = 0; axis < 2; ++axis) append(step_.excess(axis));
+    // The next window begins with p itself: the field has another level where no side fixes it.
+    if (coupled_) values.insert(values.end(), step_.pressure(), step_.pressure() + rows_.size());
     if (!in_second_order_) return values;
     for (int axis = 0; axis < 2; ++axis) append(step_.last_flux(axis));
     second_order_.append_memory(*this, values);
@@ -204,15 +206,17 @@ std::vector<double> BoxFluidStep::memory() {
 
 void BoxFluidStep::set_memory(const std::vector<double>& values) {
     const double* next = values.data();
-    const auto take = [&](std::vector<double>& to) {
-        std::copy_n(next, to.size(), to.begin());
-        next += to.size();
+    const auto take = [&](double* to, std::size_t size) {
+        std::copy_n(next, size, to);
+        next += size;
     };
-    for (int axis = 0; axis < 2; ++axis) take(step_.excess(axis));
+    const auto take_flux = [&](std::vector<double>& to) { take(to.data(), to.size()); };
+    for (int axis = 0; axis < 2; ++axis) take_flux(step_.excess(axis));
     const Foam::scalarField& p = fields_.p.primitiveField();
     rows_.gather([&](int c) { return p[c]; }, step_.pressure());
+    if (coupled_) take(step_.pressure(), rows_.size());
     if (!in_second_order_) return;
-    for (int axis = 0; axis < 2; ++axis) take(step_.last_flux(axis));
+    for (int axis = 0; axis < 2; ++axis) take_flux(step_.last_flux(axis));
     second_order_.set_memory(*this, next);
 }
 

@@ -46,7 +46,9 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.hydrodynamic_radius", setup.hydrodynamic_radius);
     settings.set("fluid.multiplier_tolerance", setup.tolerance);
     settings.set("fluid.multiplier_iterations", setup.multiplier_iterations);
-    settings.set("fluid.splitting", std::string("marchuk-yanenko"));
+    settings.set("fluid.splitting", setup.splitting);
+    settings.set("fluid.splitting_tolerance", 1e-4);
+    settings.set("fluid.splitting_iterations", std::int64_t{200});
     settings.set("fluid.transport_scheme", setup.transport_scheme);
     settings.set("fluid.time_scheme", setup.time_scheme);
     settings.set("fluid.pressure_solver", setup.pressure_solver);

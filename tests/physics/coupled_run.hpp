@@ -32,6 +32,7 @@ struct CoupledSetup {
     double hydrodynamic_radius = 1.0;
     std::string transport_scheme = "Gauss limitedLinearV 1";
     std::string time_scheme = "first-order";
+    std::string splitting = "marchuk-yanenko";
     std::string pressure_solver = "FFT", viscous_solver = "FFT";
     double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative solvers
 };

@@ -142,5 +142,33 @@ TEST(SettlingDiscState, RestoredFluidGoesOnTheSame) {
     EXPECT_EQ(first.kicks[0].multiplier_impulse, second.kicks[0].multiplier_impulse);
 }
 
+/// Under `joint`, with pressure and excess flux carried from window to window.
+TEST(SettlingDiscState, RestoredSplittingsGoOnTheSame) {
+    for (const char* splitting : {"explicit-multiplier", "implicit-multiplier"}) {
+        CoupledSetup setup = settling("interior+boundary");
+        setup.splitting = splitting;
+        CoupledRun run(setup, {disc_at(setup, 2.03, 3.0)});
+        const std::vector<GrainState> grains = run.grains();
+        const auto play = [&](int n) {
+            const Window window{n, n * setup.step, setup.step, false, false};
+            run.fluid().advance(window);
+            run.fluid().let_fall(window, grains);
+            run.fluid().correct(window, grains);
+            return run.fluid().impose(window);
+        };
+        for (int n = 0; n < 5; ++n) play(n);
+        const SavedState saved = run.fluid().save();
+        const Kicks first = play(5);
+        run.fluid().restore(saved);
+        const Kicks second = play(5);
+        ASSERT_TRUE(first.report.splitting) << splitting;
+        EXPECT_GT(first.report.splitting->pressure_iterations, 0) << splitting;
+        EXPECT_EQ(first.kicks[0].velocity, second.kicks[0].velocity) << splitting;
+        EXPECT_EQ(first.kicks[0].multiplier_impulse, second.kicks[0].multiplier_impulse)
+            << splitting;
+        EXPECT_EQ(first.report.splitting->divergence, second.report.splitting->divergence);
+    }
+}
+
 }  // namespace
 }  // namespace turbidite

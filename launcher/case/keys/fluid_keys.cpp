@@ -163,10 +163,10 @@ Ruling splitting_has_what_it_needs(const Settings& s) {
         return std::nullopt;
     for (const Needed& needed : needed_with_rigid_grains)
         if (!is(s, needed.key, needed.value))
-            return Objection{fmt::format("This splitting needs {} = {}, since {}; it is {}.",
-                                         needed.key, needed.value, needed.why, s.text(needed.key)),
-                             fmt::format("Set {}: {}, or use marchuk-yanenko.", needed.key,
-                                         needed.value)};
+            return Objection{
+                fmt::format("This splitting needs {} = {}, since {}; it is {}.", needed.key,
+                            needed.value, needed.why, s.text(needed.key)),
+                fmt::format("Set {}: {}, or use marchuk-yanenko.", needed.key, needed.value)};
     return std::nullopt;
 }
 
@@ -254,7 +254,8 @@ KeyGroup fluid_keys() {
                  .fallback = "marchuk-yanenko",
                  .choices =
                      {{"marchuk-yanenko", "as in Topin et al. 2011"},
-                      {"explicit-multiplier", "carries pressure and contacts, corrects them once with rigid grains"},
+                      {"explicit-multiplier",
+                       "carries pressure and contacts, corrects them once with rigid grains"},
                       {"implicit-multiplier", "the same, iterated to fluid.splitting_tolerance"}},
                  .help = "order of the fluid's fractional steps",
                  .idle = without_fluid},

@@ -34,8 +34,7 @@ class Correction : public testing::TestWithParam<Side> {
                  ++i) {
                 const InteriorCell& at = tank.points.interior[i];
                 largest = std::max(
-                    {largest,
-                     std::abs(tank.step.velocity(0)[at.cell] - U.x() + U.z() * at.arm_y),
+                    {largest, std::abs(tank.step.velocity(0)[at.cell] - U.x() + U.z() * at.arm_y),
                      std::abs(tank.step.velocity(1)[at.cell] - U.y() - U.z() * at.arm_x)});
             }
         }
@@ -119,10 +118,11 @@ TEST_P(Correction, ViscosityIsImplicit) {
         still.resize(tank.size());
         implicit.begin(tank.box, viscosity * time_step, {still.x.data(), still.y.data()});
         RigidGrains grains = tank.rigid();
-        EXPECT_GE(implicit.correct(tank.box, grains, to_the_end).iterations, 2);
-        for (int round = 0; round < 12; ++round) {
+        const IterationLimit limit{400, 1e-5};
+        EXPECT_GE(implicit.correct(tank.box, grains, limit).iterations, 2);
+        for (int round = 0; round < 6; ++round) {
             EXPECT_TRUE(grains.settle().converged);
-            EXPECT_TRUE(implicit.correct(tank.box, grains, to_the_end).converged);
+            EXPECT_TRUE(implicit.correct(tank.box, grains, limit).converged);
         }
         EXPECT_TRUE(grains.settle().converged);
         EXPECT_LT(deformation(tank), 1e-10);
@@ -133,7 +133,7 @@ TEST_P(Correction, ViscosityIsImplicit) {
             tank.box.laplacian(viscosity * time_step, axis, tank.step.velocity(axis),
                                f[axis].data());
             for (std::size_t c = 0; c < tank.size(); ++c) {
-                EXPECT_NEAR(f[axis][c], implicit.impulse()[axis][c], 1e-6);
+                EXPECT_NEAR(f[axis][c], implicit.impulse()[axis][c], 1e-3);
                 again[axis][c] = s[axis][c] + implicit.impulse()[axis][c];
             }
         }

@@ -76,8 +76,7 @@ struct Tank {
     Planar momentum() {
         Planar sum = Planar::Zero();
         for (std::size_t c = 0; c < size(); ++c)
-            sum += cell_size * cell_size *
-                   Planar(step.velocity(0)[c], step.velocity(1)[c], 0.0);
+            sum += cell_size * cell_size * Planar(step.velocity(0)[c], step.velocity(1)[c], 0.0);
         return sum;
     }
 

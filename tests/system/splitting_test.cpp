@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Splittings that correct pressure and viscosity with rigid grains: a dense column of discs whose
+// closed pores hold it, and one with open pores that slumps.
+#include "tests/system/history_columns.hpp"
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+const char* const column = R"(
+domain: {size: [14, 9], left: wall, bottom: wall, right: free, top: free}
+grains:
+  adapter: standalone-nscd
+  generator: lattice
+  region: [7, 6]
+  compacity: 0.9069
+  jitter: 0.0001
+  density_ratio: 1.5
+fluid: {reynolds: 89, cells_per_diameter: 8}
+contact: {friction: 0.3}
+coupling: {scheme: joint}
+scales: {kind: avalanche}
+time: {step: 0.01, end: 0.5}
+output: {interval: 0.1}
+)";
+
+class Splitting : public ShellTest {
+ protected:
+    Columns play(const std::string& changes) {
+        scratch.write("case.yaml", column);
+        const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
+                                    " run case.yaml --force --out run --set " + changes);
+        EXPECT_EQ(answer.code, 0) << changes << answer.out << answer.err;
+        if (answer.code != 0) return {};
+        EXPECT_LT(record().at("maxima").at("grain_balance").get<double>(), 1e-10) << changes;
+        EXPECT_LT(record().at("maxima").at("fluid_balance").get<double>(), 1e-10) << changes;
+        return columns_of(text(run_folder() / "history.csv"));
+    }
+
+    static double speed(const Columns& history) { return history.at("mean_velocity_norm").back(); }
+
+    /// Of grains that press on each other.
+    static double speed_in_contact(const Columns& history) {
+        EXPECT_GT(history.at("contacts").back(), 40.0);
+        return speed(history);
+    }
+};
+
+/// Touching discs close every pore, so nothing may move: what does is the splitting error. (One
+/// correction per window is not enough here: its creep comes and goes.)
+TEST_F(Splitting, ADenseColumnDoesNotCreep) {
+    const Columns plain = play("fluid.splitting=marchuk-yanenko");
+    EXPECT_GT(speed_in_contact(plain), 3e-3);
+    EXPECT_TRUE(std::isnan(plain.at("pressure_iterations").back()));
+    const Columns history =
+        play("fluid.splitting=implicit-multiplier --set fluid.splitting_tolerance=5e-4");
+    EXPECT_LT(largest(history.at("mean_velocity_norm")), 1e-3);
+    EXPECT_GT(history.at("pressure_iterations")[1], 0.0);
+    EXPECT_LE(history.at("remaining_divergence")[1], 5e-4);
+}
+
+/// With open pores the time step no longer matters.
+TEST_F(Splitting, AnOpenColumnDoesNotDependOnTheStep) {
+    const std::string open = " --set fluid.hydrodynamic_radius=0.85 --set grains.compacity=0.85";
+    for (const char* splitting : {"explicit-multiplier", "implicit-multiplier"}) {
+        const std::string with = std::string("fluid.splitting=") + splitting + open;
+        const double coarse = speed_in_contact(play(with + " --set time.step=0.02"));
+        const double fine = speed_in_contact(play(with + " --set time.step=0.005"));
+        EXPECT_GT(fine, 2e-3) << splitting;
+        EXPECT_NEAR(coarse, fine, 0.05 * fine) << splitting;
+    }
+}
+
+TEST_F(Splitting, TwoRanksGiveTheHistoryOfOne) {
+    const std::string with =
+        "fluid.splitting=implicit-multiplier --set fluid.hydrodynamic_radius=0.85 --set "
+        "fluid.multiplier_tolerance=1e-8 --set fluid.splitting_tolerance=1e-6 --set "
+        "fluid.ranks=";
+    const double one = speed_in_contact(play(with + "1")), two = speed_in_contact(play(with + "2"));
+    EXPECT_GT(one, 1e-3);
+    EXPECT_NEAR(one, two, 1e-4 * one);
+}
+
+TEST_F(Splitting, IsRefusedWithWhatItCannotWorkWith) {
+    scratch.write("case.yaml", column);
+    for (const auto& [key, value] :
+         std::vector<std::pair<std::string, std::string>>{{"coupling.scheme", "split"},
+                                                          {"fluid.pressure_solver", "GAMG"},
+                                                          {"fluid.viscous_solver", "PCG"},
+                                                          {"fluid.time_scheme", "second-order"}}) {
+        const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
+                                    " check case.yaml --set fluid.splitting=explicit-multiplier "
+                                    "--set " +
+                                    key + "=" + value);
+        EXPECT_EQ(answer.code, 2) << key;
+        EXPECT_SAYS(answer.err + answer.out, "This splitting needs " + key);
+    }
+}
+
+}  // namespace
+}  // namespace turbidite
