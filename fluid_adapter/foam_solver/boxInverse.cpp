@@ -5,7 +5,8 @@ namespace turbidite {
 namespace {
 
 bool same(const AxisOperator& a, const AxisOperator& b) {
-    return a.cells == b.cells && a.spacing == b.spacing && a.lower == b.lower && a.upper == b.upper;
+    return a.cells == b.cells && a.spacing == b.spacing && a.lower == b.lower &&
+           a.upper == b.upper && a.sizes == b.sizes;
 }
 
 bool same(const PlaneOperator& a, const PlaneOperator& b) {
