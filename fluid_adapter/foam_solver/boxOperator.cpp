@@ -194,23 +194,25 @@ bool are_equal(const std::vector<double>& values) {
     return *most - *least <= coefficient_tolerance * std::abs(*most);
 }
 
+double most_frequent(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    double found = values[0];
+    for (std::size_t j = 0, longest = 0; j < values.size();) {
+        const std::size_t from = j;
+        while (j < values.size() && values[j] <= (1.0 + coefficient_tolerance) * values[from]) ++j;
+        if (j - from > longest) found = values[from];
+        longest = std::max(longest, j - from);
+    }
+    return found;
+}
+
 /// Heights of the rows over the most frequent one, if they differ; means of the axes are then those
 /// of the latter, and the excess is divided by the heights.
 void read_heights(const SolverMatrix& system, const BoxCells& box,
                   const std::vector<PatchCoefficient>& patches, Reading& reading) {
     const RowMeans rows = row_means(system, box, patches, reading.sign);
     if (reading.cyclic[1] || (are_equal(rows.along) && are_equal(rows.across))) return;
-    std::vector<double> sorted = rows.along;
-    std::sort(sorted.begin(), sorted.end());
-    double reference = sorted[0];
-    for (std::size_t j = 0, longest = 0; j < sorted.size();) {
-        const std::size_t from = j;
-        while (j < sorted.size() && sorted[j] <= (1.0 + coefficient_tolerance) * sorted[from]) ++j;
-        if (j - from > longest) {
-            longest = j - from;
-            reference = sorted[from];
-        }
-    }
+    const double reference = most_frequent(rows.along);
     for (const double along : rows.along) {
         const double height = along / reference;
         const bool is_reference = std::abs(height - 1.0) <= coefficient_tolerance;
