@@ -13,6 +13,7 @@ namespace {
 
 /// The operator with the spacing of the mesh in metres.
 PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size) {
+    if (plane.y.stretched()) throw DoesNotFit("rows of cells have different heights");
     plane.x.spacing = box_size.x() / plane.x.cells;
     plane.y.spacing = box_size.y() / plane.y.cells;
     return plane;

@@ -5,7 +5,8 @@ namespace turbidite {
 namespace {
 
 bool same(const AxisOperator& a, const AxisOperator& b) {
-    return a.cells == b.cells && a.spacing == b.spacing && a.lower == b.lower && a.upper == b.upper;
+    return a.cells == b.cells && a.spacing == b.spacing && a.lower == b.lower &&
+           a.upper == b.upper && a.sizes == b.sizes;
 }
 
 bool same(const PlaneOperator& a, const PlaneOperator& b) {
@@ -32,11 +33,22 @@ double* BoxInverse::reference_value() const {
     return place >= 0 && place < rows.count * box_.cells[0] ? solve_->values() + place : nullptr;
 }
 
+/// Equations per volume, where rows have different heights.
+void BoxInverse::divide_by_height(double* values) const {
+    if (!operator_.plane.y.stretched()) return;
+    const Span& rows = rows_.rows_of_rank()[box_.ranks.rank()];
+    for (int j = 0; j < rows.count; ++j)
+        for (int i = 0; i < box_.cells[0]; ++i)
+            values[static_cast<std::size_t>(j) * box_.cells[0] + i] /=
+                operator_.height(rows.first + j);
+}
+
 void BoxInverse::apply(const Foam::solveScalarField& r, Foam::solveScalarField& x) {
     double* values = solve_->values();
     rows_.gather([&](int c) { return operator_.sign * r[c]; }, values);
     double level = 0.0;
     if (operator_.reference < 0) {
+        divide_by_height(values);
         solve_->solve();
     } else {
         double sum = 0.0;
@@ -44,6 +56,7 @@ void BoxInverse::apply(const Foam::solveScalarField& r, Foam::solveScalarField& 
         box_.ranks.sum(&sum, 1);
         double* at_reference = reference_value();
         if (at_reference) *at_reference -= sum;
+        divide_by_height(values);
         solve_->solve();
         level = at_reference ? sum / operator_.stiffening - *at_reference : 0.0;
         box_.ranks.sum(&level, 1);

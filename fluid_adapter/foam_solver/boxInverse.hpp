@@ -31,6 +31,7 @@ class BoxInverse {
 
  private:
     double* reference_value() const;
+    void divide_by_height(double* values) const;
 
     const BoxCells& box_;
     CellRows& rows_;

@@ -29,6 +29,18 @@ struct Reading {
     double inside = 0.0;              // mean excess of the cells not at a side
     std::array<double, 4> at_side{};  // of those at left, right, bottom, top, without corners
     double everywhere = 0.0;          // of all cells
+    std::vector<double> height;       // g_j, where rows differ; excess is then that over g_j
+
+    double height_of(int row) const { return height.empty() ? 1.0 : height[row]; }
+    /// What a value held at this side adds to the excess over g_j.
+    double held(int side) const {
+        const double h = side < 2 || height.empty() ? 1.0
+                         : side == 2                ? height.front()
+                                                    : height.back();
+        return 2.0 * mean[side / 2] / (h * h);
+    }
+    /// The coefficient between rows j and j + 1.
+    double between_rows(int j) const { return 2.0 * mean[1] / (height_of(j) + height_of(j + 1)); }
 };
 
 std::string number(double value) {
@@ -150,6 +162,68 @@ void read_means(const SolverMatrix& system, const BoxCells& box,
     for (double& mean : reading.mean) mean *= reading.sign;
 }
 
+/// Means of the coefficients along x by row, and along y by the lower of two rows.
+struct RowMeans {
+    std::vector<double> along, across;
+};
+
+RowMeans row_means(const SolverMatrix& system, const BoxCells& box,
+                   const std::vector<PatchCoefficient>& patches, double sign) {
+    const int ny = box.cells[1];
+    std::vector<double> sums(4 * static_cast<std::size_t>(ny), 0.0);  // two sums, two counts
+    const auto add = [&](int axis, int a, int b, double value, double share) {
+        const std::size_t at = axis * ny + std::min(box.row(a), box.row(b));
+        sums[at] += share * sign * value;
+        sums[at + 2 * ny] += share;
+    };
+    for_each_inner(system, box, [&](int axis, int low, int high, double value) {
+        add(axis, box.place[low], box.place[high], -value, 1.0);
+    });
+    for (const PatchCoefficient& of : patches)
+        if (!of.closes) add(of.axis, box.place[of.cell], of.beyond, -of.value, 0.5);
+    box.ranks.sum(sums.data(), static_cast<int>(sums.size()));
+    const auto mean = [&](int at) { return sums[at] / sums[at + 2 * ny]; };
+    RowMeans means;
+    for (int j = 0; j < ny; ++j) means.along.push_back(mean(j));
+    for (int j = 0; j + 1 < ny; ++j) means.across.push_back(mean(ny + j));
+    return means;
+}
+
+bool are_equal(const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *most - *least <= coefficient_tolerance * std::abs(*most);
+}
+
+double most_frequent(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    double found = values[0];
+    for (std::size_t j = 0, longest = 0; j < values.size();) {
+        const std::size_t from = j;
+        while (j < values.size() && values[j] <= (1.0 + coefficient_tolerance) * values[from]) ++j;
+        if (j - from > longest) found = values[from];
+        longest = std::max(longest, j - from);
+    }
+    return found;
+}
+
+/// Heights of the rows over the most frequent one, if they differ; means of the axes are then those
+/// of the latter, and the excess is divided by the heights.
+void read_heights(const SolverMatrix& system, const BoxCells& box,
+                  const std::vector<PatchCoefficient>& patches, Reading& reading) {
+    const RowMeans rows = row_means(system, box, patches, reading.sign);
+    if (reading.cyclic[1] || (are_equal(rows.along) && are_equal(rows.across))) return;
+    const double reference = most_frequent(rows.along);
+    for (const double along : rows.along) {
+        const double height = along / reference;
+        const bool is_reference = std::abs(height - 1.0) <= coefficient_tolerance;
+        reading.height.push_back(is_reference ? 1.0 : height);
+    }
+    double sum = 0.0;
+    for (std::size_t j = 0; j < rows.across.size(); ++j)
+        sum += 0.5 * (reading.height[j] + reading.height[j + 1]) * rows.across[j];
+    reading.mean = {reference, sum / static_cast<double>(rows.across.size())};
+}
+
 void read_excess(const SolverMatrix& system, const BoxCells& box,
                  const std::vector<PatchCoefficient>& patches, Reading& reading) {
     const double s = reading.sign;
@@ -167,6 +241,11 @@ void read_excess(const SolverMatrix& system, const BoxCells& box,
     for (const PatchCoefficient& of : patches) excess[of.cell] += s * of.value;
     box.ranks.max(&largest, 1);
     reading.noise = rounding * largest;
+}
+
+void divide_by_height(const BoxCells& box, Reading& reading) {
+    for (std::size_t c = 0; c < reading.excess.size(); ++c)
+        reading.excess[c] /= reading.height_of(box.row(box.place[c]));
 }
 
 /// The only cell with an excess, if all others have none.
@@ -208,12 +287,15 @@ void read_sides(const BoxCells& box, Reading& reading) {
     reading.everywhere = sums[5] / (static_cast<double>(nx) * ny);
 }
 
-Reading read(const SolverMatrix& system, const BoxCells& box) {
+/// `rows_differ`: rows may have different heights; otherwise the mean coefficients are read.
+Reading read(const SolverMatrix& system, const BoxCells& box, bool rows_differ) {
     Reading reading;
     const std::vector<PatchCoefficient> patches = patch_coefficients(system, box);
     read_means(system, box, patches, reading);
+    if (rows_differ) read_heights(system, box, patches, reading);
     read_excess(system, box, patches, reading);
     take_reference(box, reading);
+    divide_by_height(box, reading);
     read_sides(box, reading);
     return reading;
 }
@@ -221,7 +303,7 @@ Reading read(const SolverMatrix& system, const BoxCells& box) {
 End end_of(const Reading& reading, double alpha, int axis, bool high) {
     if (reading.cyclic[axis]) return End::periodic;
     const double share = reading.at_side[2 * axis + high] - alpha;
-    return share > reading.mean[axis] ? End::dirichlet : End::neumann;
+    return share > 0.5 * reading.held(2 * axis + high) ? End::dirichlet : End::neumann;
 }
 
 BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
@@ -232,6 +314,8 @@ BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
     found.plane.x = {box.cells[0], 1.0, end(0, false), end(0, true)};
     found.plane.y = {box.cells[1], std::sqrt(reading.mean[0] / reading.mean[1]), end(1, false),
                      end(1, true)};
+    for (const double height : reading.height)
+        found.plane.y.sizes.push_back(height * found.plane.y.spacing);
     found.problem = {alpha, reading.mean[0]};
     found.reference = reading.reference;
     found.stiffening = reading.stiffening;
@@ -240,18 +324,24 @@ BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
 
 void check_coefficients(const SolverMatrix& system, const BoxCells& box, const Reading& reading) {
     std::string fault;
-    const auto check_one = [&](int axis, int cell, double value) {
-        const double expected = -reading.sign * reading.mean[axis];
-        if (std::abs(value - expected) <= coefficient_tolerance * reading.mean[axis]) return;
+    const auto check_one = [&](int axis, int cell, int row, double value) {
+        const double magnitude = reading.height.empty() ? reading.mean[axis]
+                                 : axis == 0            ? reading.mean[0] * reading.height_of(row)
+                                                        : reading.between_rows(row);
+        const double expected = -reading.sign * magnitude;
+        if (std::abs(value - expected) <= coefficient_tolerance * magnitude) return;
         if (!fault.empty()) return;
         fault = std::string("the coefficients along ") + axis_names[axis] +
-                " are not all equal: " + number(value) + " at " + cell_name(box, cell) + ", " +
-                number(expected) + " on average";
+                (reading.height.empty() ? " are not all equal: " : " do not fit rows of cells: ") +
+                number(value) + " at " + cell_name(box, cell) + ", " + number(expected) +
+                (reading.height.empty() ? " on average" : " expected");
     };
-    for_each_inner(system, box,
-                   [&](int axis, int low, int, double value) { check_one(axis, low, value); });
+    const auto lower_row = [&](int a, int b) { return std::min(box.row(a), box.row(b)); };
+    for_each_inner(system, box, [&](int axis, int low, int high, double value) {
+        check_one(axis, low, lower_row(box.place[low], box.place[high]), value);
+    });
     for (const PatchCoefficient& of : patch_coefficients(system, box))
-        check_one(of.axis, of.cell, of.value);
+        check_one(of.axis, of.cell, lower_row(box.place[of.cell], of.beyond), of.value);
     demand(box.ranks, fault);
 }
 
@@ -263,8 +353,8 @@ double expected_excess(const BoxOperator& found, const Reading& reading, int i, 
         return (at == 0 && axis.lower == End::dirichlet) +
                (at == axis.cells - 1 && axis.upper == End::dirichlet);
     };
-    return found.problem.alpha + 2.0 * reading.mean[0] * holds(x, i) +
-           2.0 * reading.mean[1] * holds(y, j);
+    const double across = reading.held(j == 0 ? 2 : 3);
+    return found.problem.alpha + reading.held(0) * holds(x, i) + across * holds(y, j);
 }
 
 std::string misfit(const BoxOperator& found, const Reading& reading, const BoxCells& box, int cell,
@@ -272,8 +362,8 @@ std::string misfit(const BoxOperator& found, const Reading& reading, const BoxCe
     return "the diagonal at " + cell_name(box, cell) + " exceeds its neighbours by " +
            number(reading.excess[cell]) + " where " + number(expected) +
            " would fit a side with a single condition (" + number(found.problem.alpha) +
-           " inside, plus " + number(2.0 * reading.mean[0]) + " or " +
-           number(2.0 * reading.mean[1]) + " for a value held at a side)";
+           " inside, plus " + number(reading.held(0)) + " or " + number(reading.held(2)) +
+           " for a value held at a side)";
 }
 
 void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxCells& box) {
@@ -295,7 +385,7 @@ void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxC
 }  // namespace
 
 BoxOperator exact_operator(const SolverMatrix& system, const BoxCells& box) {
-    const Reading reading = read(system, box);
+    const Reading reading = read(system, box, true);
     check_coefficients(system, box, reading);
     const BoxOperator found = operator_of(reading, box);
     check_diagonal(found, reading, box);
@@ -303,7 +393,7 @@ BoxOperator exact_operator(const SolverMatrix& system, const BoxCells& box) {
 }
 
 BoxOperator nearest_operator(const SolverMatrix& system, const BoxCells& box) {
-    const Reading reading = read(system, box);
+    const Reading reading = read(system, box, false);
     BoxOperator found = operator_of(reading, box);
     found.problem.alpha = std::max(found.problem.alpha, 0.0);
     // A few faces may hold a value although their side as a whole does not. Then constants are not

@@ -10,7 +10,11 @@
 //
 // determines the rest: alpha of a time derivative or a sink, which sides hold a value, and the cell
 // at which fvMatrix::setReference made the matrix regular. Separable means that c is one number per
-// axis, and that nothing acts apart from the matrix but the right-hand side. Both functions are
+// axis, and that nothing acts apart from the matrix but the right-hand side.
+//
+// Rows of cells may have different heights (a mesh that is graded along y, without cyclic sides
+// there). With heights g_j over that of most rows, c along x is g_j c_x, c along y is
+// 2 c_y/(g_j + g_{j+1}), and equations are those of the operator times g_j. Both functions are
 // called by all ranks and give the same result on all.
 #pragma once
 
@@ -30,12 +34,15 @@ struct SolverMatrix {
 
 struct BoxOperator {
     double sign = 1.0;      ///< s
-    PlaneOperator plane;    ///< spacing 1 along x and sqrt(c_x/c_y) along y
+    PlaneOperator plane;    ///< spacing 1 along x and sqrt(c_x/c_y) along y, times g_j
     Helmholtz problem;      ///< alpha, and beta = c_x
     int reference = -1;     ///< place of the cell with delta; -1: none
     double stiffening = 0;  ///< delta
 
     /// Constants are in the kernel of the operator without the reference.
+    /// g_j of row j.
+    double height(int j) const { return plane.y.size(j) / plane.y.spacing; }
+
     bool floating() const {
         return problem.alpha == 0.0 && plane.x.has_zero_mode() && plane.y.has_zero_mode();
     }

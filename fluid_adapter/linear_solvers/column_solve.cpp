@@ -39,12 +39,33 @@ void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
     std::vector<double> shift;
     for (const double mu : mu_) shift.push_back((problem.alpha / problem.beta + mu) * per_r);
     if (singular_) shift[0] = 1.0;  // any regular value: mode 0 is replaced later
-    const int last = open_length() - 1;
-    e_.compute(shift, along_.diagonal(0) * per_r, along_.diagonal(1) * per_r,
-               along_.diagonal(last) * per_r, open_length());
+    rows_ = rows_over_r(per_r);
+    if (along_.stretched())
+        e_.compute(shift, rows_);
+    else
+        e_.compute(shift, rows_.front().diagonal, rows_[1].diagonal, rows_.back().diagonal,
+                   open_length());
     if (!along_.periodic()) return;
     for (double& d : shift) d += along_.diagonal(along_.cells - 1) * per_r;
     close_the_ring(shift);
+}
+
+/// g_j, a_j and what is left of the diagonal.
+std::vector<EliminationRow> ColumnSolve::rows_over_r(double per_r) const {
+    std::vector<EliminationRow> rows;
+    for (int j = 0; j < open_length(); ++j) {
+        if (!along_.stretched()) {
+            rows.push_back({1.0, along_.diagonal(j) * per_r, 1.0});
+            continue;
+        }
+        const double h = along_.spacing, size = along_.size(j) / h;
+        const auto at_end = [&](End end) { return end == End::dirichlet ? 2.0 / size : 0.0; };
+        const bool last = j + 1 == along_.cells;
+        const double above = last ? 0.0 : h / along_.distance(j);
+        const double below = j > 0 ? rows.back().above : at_end(along_.lower);
+        rows.push_back({size, below + above + (last ? at_end(along_.upper) : 0.0), above});
+    }
+    return rows;
 }
 
 /// w = T^-1 (e_first + e_last) by the same recurrences, and the divisor for the last unknown.
@@ -73,21 +94,24 @@ void ColumnSolve::up(int j, double* values) {
     if (j >= open_length()) return;
     double* row = values + at(j);
     const double* below = j > 0 ? values + at(j - 1) : nullptr;
-    // z_j = (s f_j + z_{j-1}) e_j
+    const double scale = rows_[j].size * scale_, a = j > 0 ? rows_[j - 1].above : 0.0;
+    // z_j = (g_j s f_j + a_{j-1} z_{j-1}) e_j
     e_.for_row(j, [&](int begin, int end, const double* e) {
         if (below)
-            for (int k = begin; k < end; ++k) row[k] = (scale_ * row[k] + below[k]) * e[k - begin];
+            for (int k = begin; k < end; ++k)
+                row[k] = (scale * row[k] + a * below[k]) * e[k - begin];
         else
-            for (int k = begin; k < end; ++k) row[k] *= scale_ * e[k - begin];
+            for (int k = begin; k < end; ++k) row[k] *= scale * e[k - begin];
     });
 }
 
-/// Back substitution: x_j = z_j + e_j x_{j+1}.
+/// Back substitution: x_j = z_j + a_j e_j x_{j+1}.
 void ColumnSolve::substitute(int j, double* values) const {
     double* row = values + at(j);
     const double* above = values + at(j + 1);
+    const double a = rows_[j].above;
     e_.for_row(j, [&](int begin, int end, const double* e) {
-        for (int k = begin; k < end; ++k) row[k] += e[k - begin] * above[k];
+        for (int k = begin; k < end; ++k) row[k] += e[k - begin] * (a * above[k]);
     });
 }
 
@@ -121,27 +145,30 @@ void ColumnSolve::down(int j, double* values) {
     if (j == 0) values[0] = constants_[0];
 }
 
-/// The mode of constants, with D_j = x_{j+1} - x_j = D_{j-1} - s f_j summed twice from one end.
-/// There is no D_{-1} beyond a neumann end; on a periodic axis the D sum to zero.
+/// The mode of constants, with D_j = a_j (x_{j+1} - x_j) = D_{j-1} - g_j s f_j summed twice from
+/// one end. There is no D_{-1} beyond a neumann end; on a periodic axis the D sum to zero.
 double ColumnSolve::solve_constants() {
     const int n = along_.cells;
-    double mean = 0.0;
-    for (const double f : constants_) mean += f / n;
+    const auto size = [&](int j) { return along_.stretched() ? rows_[j].size : 1.0; };
+    double mean = 0.0, length = 0.0;
+    for (int j = 0; j < n; ++j) length += size(j);
+    for (int j = 0; j < n; ++j) mean += size(j) * constants_[j] / length;
     double slope = 0.0, total = 0.0;
-    for (double& f : constants_) {
-        slope -= scale_ * (f - mean);
-        f = slope;
+    for (int j = 0; j < n; ++j) {
+        slope -= size(j) * scale_ * (constants_[j] - mean);
+        constants_[j] = slope;
         total += slope;
     }
     const double first = along_.periodic() ? -total / n : 0.0;
     double x = 0.0, sum = 0.0;
-    for (double& d : constants_) {
-        const double next = x + d + first;
-        d = x;
-        sum += x;
-        x = next;
+    for (int j = 0; j < n; ++j) {
+        const double slope_above = constants_[j];
+        constants_[j] = x;
+        sum += size(j) * x;
+        if (j + 1 == n) break;
+        x = along_.stretched() ? x + slope_above / rows_[j].above : x + slope_above + first;
     }
-    for (double& value : constants_) value -= sum / n;
+    for (double& value : constants_) value -= sum / length;
     return mean / normalisation_;  // mode 0 of a row is its mean times the normalisation
 }
 

@@ -12,10 +12,17 @@
 //     z_j = (s f_j + z_{j-1}) e_j         s = 1/(r normalisation)
 //     x_j = z_j + e_j x_{j+1}
 //
-// After a few rows e no longer depends on the row (elimination_factors.hpp), so that a sweep over a
-// row moves little more than one value per cell. Rows are eliminated one by one, upwards and then
-// downwards, with `turn` in between: the caller can fill, transform and read out a row while it is
-// in cache.
+// On a stretched axis row j is multiplied by its height over the reference, g_j = h_j/h, which
+// makes the matrix symmetric, with off-diagonals -a_j = -h/d_j:
+//
+//     e_j = 1/(g_j (d - 2) + a_{j-1} + a_j - a_{j-1}^2 e_{j-1})
+//     z_j = (g_j s f_j + a_{j-1} z_{j-1}) e_j
+//     x_j = z_j + a_j e_j x_{j+1}
+//
+// After a few equal rows e no longer depends on the row (elimination_factors.hpp), so that a sweep
+// over a row moves little more than one value per cell. Rows are eliminated one by one, upwards and
+// then downwards, with `turn` in between: the caller can fill, transform and read out a row while
+// it is in cache.
 //
 // On a periodic axis the last unknown is found separately. The others satisfy
 // T x' = f' + (e_first + e_last) x_{n-1}, so with w = T^-1 (e_first + e_last), stored,
@@ -23,7 +30,8 @@
 //     x_{n-1} = (s f_{n-1} + z_0 + z_{n-2})/(d_{n-1} - w_0 - w_{n-2}),  x' = z + w x_{n-1}
 //
 // The mode of constants (mu_k = 0, alpha = 0, L singular) has a solution only if its f sums to
-// zero: the mean is subtracted from f and returned, and x gets zero mean. This mode is solved
+// zero: the mean is subtracted from f and returned, and x gets zero mean, both weighted with the
+// cells' heights. This mode is solved
 // separately, in `turn`.
 //
 // Measured against a second transform along y with a diagonal solve in between: 2 times as fast at
@@ -74,6 +82,7 @@ class ColumnSolve {
     double solve(double* values);
 
  private:
+    std::vector<EliminationRow> rows_over_r(double per_r) const;
     void close_the_ring(const std::vector<double>& diagonal);
     void close_last(double* values);
     void substitute(int j, double* values) const;
@@ -88,6 +97,7 @@ class ColumnSolve {
     double scale_ = 1.0;     // s
     double normalisation_ = 1.0;
     std::vector<double> mu_, w_;
+    std::vector<EliminationRow> rows_;  // of the matrix over r, without the closing one
     EliminationFactors e_;
     std::vector<double> closing_;    // 1/(d_{n-1} - w_0 - w_{n-2})
     std::vector<double> closed_;     // x_{n-1}

@@ -25,6 +25,20 @@ void EliminationFactors::store(const std::vector<double>& factors, int begin, in
 
 void EliminationFactors::compute(const std::vector<double>& shift, double first, double inner,
                                  double last, int rows) {
+    std::vector<EliminationRow> all(rows, {1.0, inner, 1.0});
+    all.front().diagonal = first;
+    all.back().diagonal = last;
+    compute(shift, all, inner);
+}
+
+void EliminationFactors::compute(const std::vector<double>& shift,
+                                 const std::vector<EliminationRow>& rows) {
+    compute(shift, rows, 2.0);
+}
+
+/// `inner`: d of the rows in which factors settle.
+void EliminationFactors::compute(const std::vector<double>& shift,
+                                 const std::vector<EliminationRow>& rows, double inner) {
     modes_ = static_cast<int>(shift.size());
     rows_.clear();
     stored_.clear();
@@ -37,16 +51,20 @@ void EliminationFactors::compute(const std::vector<double>& shift, double first,
     }
     const int stiffest =
         static_cast<int>(std::max_element(shift.begin(), shift.end()) - shift.begin());
+    const int last = static_cast<int>(rows.size()) - 1;
     std::vector<double> factors(shift.size());
     int begin = stiffest, end = stiffest;  // modes that have settled, and remain so
-    for (int j = 0; j < rows; ++j) {
-        const double diagonal = j == 0 ? first : j == rows - 1 ? last : inner;
-        const bool within = j > 0 && j < rows - 1;
-        // e_j = 1/(d_j - e_{j-1})
+    for (int j = 0; j <= last; ++j) {
+        const auto& [size, diagonal, above] = rows[j];
+        const double below = j > 0 ? rows[j - 1].above : 0.0;
+        const bool settles =
+            j > 0 && j < last && size == 1.0 && diagonal == inner && below == 1.0 && above == 1.0;
+        if (!settles) begin = end = stiffest;
+        // e_j = 1/(g_j s + d_j - a_{j-1}^2 e_{j-1})
         for (int k = 0; k < modes_; ++k)
-            if (!within || k < begin || k >= end)
-                factors[k] = 1.0 / (shift[k] + diagonal - (j > 0 ? factors[k] : 0.0));
-        if (!within) {
+            if (k < begin || k >= end)
+                factors[k] = 1.0 / (size * shift[k] + diagonal - below * below * factors[k]);
+        if (!settles) {
             store(factors, modes_, modes_);
             continue;
         }

@@ -23,9 +23,32 @@ double phase(const AxisOperator& axis, int k) {
     return pi * (k + shift) / (2.0 * axis.cells);
 }
 
+/// (1/d_{j-1} + 1/d_j)/h_j; a dirichlet end is at half a cell from the centre.
+double stretched_diagonal(const AxisOperator& axis, int j) {
+    const double h = axis.size(j);
+    const auto at_end = [&](End end) { return end == End::dirichlet ? 2.0 / h : 0.0; };
+    const double below = j > 0 ? 1.0 / axis.distance(j - 1) : at_end(axis.lower);
+    const double above = j + 1 < axis.cells ? 1.0 / axis.distance(j) : at_end(axis.upper);
+    return (below + above) / h;
+}
+
+void check_sizes(const AxisOperator& axis) {
+    if (!axis.stretched()) return;
+    if (static_cast<int>(axis.sizes.size()) != axis.cells)
+        throw std::invalid_argument(std::to_string(axis.sizes.size()) +
+                                    " cell sizes for an axis of " + std::to_string(axis.cells) +
+                                    " cells");
+    for (const double size : axis.sizes)
+        if (!(size > 0.0) || !std::isfinite(size))
+            throw std::invalid_argument("a cell of length " + std::to_string(size) +
+                                        "; it must be positive and finite");
+    if (axis.periodic()) throw std::invalid_argument("a stretched axis cannot be periodic");
+}
+
 }  // namespace
 
 double AxisOperator::diagonal(int j) const {
+    if (stretched()) return stretched_diagonal(*this, j);
     double share = 2.0;
     if (j == 0) share += end_share(lower);
     if (j == cells - 1) share += end_share(upper);
@@ -46,6 +69,7 @@ void check(const AxisOperator& axis) {
                                     "; it must be positive and finite");
     if ((axis.lower == End::periodic) != (axis.upper == End::periodic))
         throw std::invalid_argument("one end of an axis is periodic and the other is not");
+    check_sizes(axis);
 }
 
 }  // namespace turbidite

@@ -2,6 +2,7 @@
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace turbidite {
@@ -10,6 +11,8 @@ namespace {
 const PlaneOperator& checked(const PlaneOperator& plane) {
     check(plane.x);
     check(plane.y);
+    if (plane.x.stretched())
+        throw std::invalid_argument("cells along x have different sizes; only rows may differ");
     return plane;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Solves (alpha - beta laplacian) x = f on a uniform grid of nx x ny cells directly: f is
-// transformed along x, each mode is solved along y, and the result is transformed back. The work is
-// two transforms of nx values and one elimination per row (the nx values of one y), whatever alpha
-// and beta are.
+// Solves (alpha - beta laplacian) x = f on a grid of nx x ny cells directly, uniform along x,
+// with rows of any heights: f is transformed along x, each mode is solved along y, and the result
+// is transformed back. The work is two transforms of nx values and one elimination per row (the nx
+// values of one y), whatever alpha and beta are.
 //
 // The Laplacian is that of separable_operator.hpp along both axes, per unit volume. If no end is
-// dirichlet and alpha = 0, x is determined up to a constant: the mean of f is subtracted, and x has
-// zero mean. Valid C++17.
+// dirichlet and alpha = 0, x is determined up to a constant: the mean of f over the volume is
+// subtracted, and x has zero mean. Valid C++17.
 #pragma once
 
 #include <cstddef>

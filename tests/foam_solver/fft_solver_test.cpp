@@ -162,6 +162,27 @@ TEST_F(FftSolver, CoefficientsThatDifferByTheMeshsDigitsAreCorrected) {
     EXPECT_LT(largest_difference(direct.T, diffused(box, sides, pcg).T), agreement);
 }
 
+/// Rows of different heights: blocks with finer and with coarser rows.
+TEST_P(FftSolver, EqualsPcgOnRowsOfDifferentHeights) {
+    if (GetParam().cyclic_y) return;
+    FoamBox box = box_with(GetParam());
+    box.y = {0.0, 0.25, 0.75, 0.9};
+    for (const char* ddt : {"Euler", "steadyState"}) {
+        if (!GetParam().steady && std::string(ddt) == "steadyState") continue;
+        box.ddt = ddt;
+        const std::vector<double> reference = diffused(box, GetParam().sides, pcg).T;
+        const Outcome direct = diffused(box, GetParam().sides, fft);
+        EXPECT_EQ(iterations(direct.log, "T")[0], 1);
+        EXPECT_LT(worst_residual(direct.log, "T"), 1e-9);
+        EXPECT_LT(largest_difference(direct.T, reference), agreement);
+        for (const std::array<int, 2>& ranks : {std::array<int, 2>{1, 2}, {2, 1}}) {
+            write_decomposition(scratch, ranks);
+            const Outcome several = diffused(box, GetParam().sides, fft, 2);
+            EXPECT_LT(largest_difference(several.T, reference), agreement);
+        }
+    }
+}
+
 TEST_F(FftSolver, TheSmallestBoxIsSolved) {
     FoamBox box;
     box.cells = {1, 1};
@@ -197,6 +218,20 @@ TEST_F(Refusal, AGradedMeshIsNamedWithItsFirstCoefficient) {
     for (const char* part : {"solver FFT", "of T", "coefficients along", "not all equal", "cell ",
                              "column ", "preconditioner FFT", "GAMG"})
         EXPECT_SAYS(text, part);
+}
+
+TEST_F(Refusal, RowsOfDifferentHeightsBetweenCyclicSidesAreRefused) {
+    FoamBox box;
+    box.y = {0.0, 0.25, 0.75, 0.9};
+    box.patches[2] = box.patches[3] = "cyclic";
+    EXPECT_SAYS(said(box, sides, fft), "are not all equal");
+}
+
+TEST_F(Refusal, AMeshGradedBothWaysIsRefused) {
+    FoamBox box;
+    box.x = {0.0, 0.4, 0.8, 1.5};
+    box.y = {0.0, 0.25, 0.75, 0.9};
+    EXPECT_SAYS(said(box, sides, fft), "do not fit rows of cells");
 }
 
 TEST_F(Refusal, ASideOfTwoConditionsIsNamedWithItsCell) {

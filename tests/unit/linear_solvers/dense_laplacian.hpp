@@ -30,18 +30,19 @@ inline AxisOperator axis_of(int cells, double spacing, const Ends& ends) {
 
 inline Eigen::MatrixXd dense_axis(const AxisOperator& axis) {
     const int n = axis.cells;
-    const double h = axis.spacing;
+    const auto h = [&](int j) { return axis.sizes.empty() ? axis.spacing : axis.sizes[j]; };
     Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
     const auto face_between = [&](int a, int b) {
+        const double apart = (h(a) + h(b)) / 2.0;
         for (const auto& [row, other] : {std::array{a, b}, std::array{b, a}}) {
-            L(row, row) += 1.0 / h / h;  // difference / h, per length h of the cell
-            L(row, other) -= 1.0 / h / h;
+            L(row, row) += 1.0 / apart / h(row);  // difference / distance, per length of the cell
+            L(row, other) -= 1.0 / apart / h(row);
         }
     };
     for (int j = 0; j + 1 < n; ++j) face_between(j, j + 1);
     if (axis.lower == End::periodic) face_between(n - 1, 0);
-    if (axis.lower == End::dirichlet) L(0, 0) += 1.0 / (h / 2.0) / h;
-    if (axis.upper == End::dirichlet) L(n - 1, n - 1) += 1.0 / (h / 2.0) / h;
+    if (axis.lower == End::dirichlet) L(0, 0) += 1.0 / (h(0) / 2.0) / h(0);
+    if (axis.upper == End::dirichlet) L(n - 1, n - 1) += 1.0 / (h(n - 1) / 2.0) / h(n - 1);
     return L;
 }
 
