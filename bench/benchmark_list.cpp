@@ -4,6 +4,7 @@
 #include "bench/contact_figures.hpp"
 #include "bench/figure.hpp"
 #include "bench/fluid_figures.hpp"
+#include "bench/splitting_figures.hpp"
 
 namespace turbidite::bench {
 
@@ -24,9 +25,19 @@ std::string Reach::text() const {
     return fmt::format("{} {:g}", kind == Kind::at_least ? ">=" : "<=", bound);
 }
 
+namespace {
+
+std::vector<Figure> joined(std::vector<Figure> all, const std::vector<Figure>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+}  // namespace
+
 const std::vector<Benchmark>& benchmark_list() {
     static const std::vector<Benchmark> list = {
-        {"fluid", "one core, two ranks and the memory of the fluid step", fluid_figures()},
+        {"fluid", "one core, two ranks and the memory of the fluid step; splittings",
+         joined(fluid_figures(), splitting_figures())},
         {"contact",
          "contact-iterations per second, growth with size, comparison with other solvers",
          contact_figures()},

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "bench/run_history.hpp"
 #include "bench/site.hpp"
 #include "coupler/protocol/failure.hpp"
 
@@ -30,24 +30,8 @@ constexpr double first_speed = 7.0;  // contact.md_speed [u_c]
 
 constexpr const char* coarse_substeps = "contact.md_substeps=16";
 
-/// Columns of a run's history.csv; empty cells become NaN.
-std::map<std::string, std::vector<double>> history(const std::filesystem::path& run) {
-    std::ifstream file(run / "history.csv");
-    std::string line, cell;
-    std::getline(file, line);
-    std::vector<std::string> names;
-    for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
-    std::map<std::string, std::vector<double>> columns;
-    while (std::getline(file, line)) {
-        std::istringstream row(line + ",");
-        for (std::size_t i = 0; i < names.size() && std::getline(row, cell, ','); ++i)
-            columns[names[i]].push_back(cell.empty() ? NAN : std::stod(cell));
-    }
-    return columns;
-}
-
 /// wall_grains is the mean per window since the previous row.
-double seconds_of_grains(const std::map<std::string, std::vector<double>>& columns) {
+double seconds_of_grains(const RunHistory& columns) {
     const auto& steps = columns.at("step");
     const auto& seconds = columns.at("wall_grains");
     double sum = 0.0;
@@ -67,19 +51,11 @@ double percentile_95(std::vector<double> values) {
 /// The natural map is known for windows with output; the interval selects them.
 Sample column(Site& site, const std::string& adapter, const std::string& interval,
               const std::vector<std::string>& springs = {}) {
-    const std::filesystem::path run = site.folder() / adapter;
-    std::vector<std::string> line{site.programs().folder / "turbidite",
-                                  "run",
-                                  site.programs().source / "configs/avalanche-dry.yaml",
-                                  "--force",
-                                  "--out",
-                                  run.string()};
     std::vector<std::string> sets{"grains.adapter=" + adapter, "output.interval=" + interval};
     if (site.quick()) sets.insert(sets.end(), {"grains.region=[5,8]", "time.end=0.2"});
     sets.insert(sets.end(), springs.begin(), springs.end());
-    for (const std::string& set : sets) line.insert(line.end(), {"--set", set});
-    site.run(line, adapter + ".log");
-    const auto columns = history(run);
+    const std::filesystem::path run = play_case(site, "avalanche-dry.yaml", adapter, sets);
+    const RunHistory columns = read_history(run);
     const auto record = nlohmann::json::parse(std::ifstream(run / "run.json"));
     Sample sample;
     sample.wall = seconds_of_grains(columns);
