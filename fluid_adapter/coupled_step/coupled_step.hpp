@@ -60,6 +60,7 @@ class CoupledStep {
     BoxStep::Force viscous_force() const;
 
  private:
+    double slip_reduction() const;
     void correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
 
     BoxStep& step_;

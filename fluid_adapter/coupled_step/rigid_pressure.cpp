@@ -64,7 +64,7 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
     precondition();
     rigid_.resize(box.size());
     box.gradient(dt_, preconditioned_.data(), rigid_.x.data(), rigid_.y.data());
-    grains.make_rigid(rigid_, limit.slip_reduction());
+    grains.make_rigid(rigid_, limit.slip_reduction);
     if (first) {
         std::swap(direction_, preconditioned_);
         std::swap(rigid_direction_, rigid_);

@@ -55,7 +55,7 @@ void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& r
                                       const IterationLimit& limit) {
     rigid_residual_.x = residual_.x;
     rigid_residual_.y = residual_.y;
-    grains.make_rigid(rigid_residual_, limit.slip_reduction());
+    grains.make_rigid(rigid_residual_, limit.slip_reduction);
     if (first) {
         std::swap(rigid_direction_, rigid_residual_);
         direction_ = nullptr;

@@ -24,10 +24,7 @@ struct IterationResult {
 struct IterationLimit {
     int most = 1;
     double tolerance = 0.0;
-
-    /// Of the slip of one direction; what is left is part of the flow's. Conjugate directions need
-    /// W to be symmetric: with 1e-2 they stagnate at nu dt/h2 = 3.
-    double slip_reduction() const { return most > 1 ? 1e-3 : 1e-2; }
+    double slip_reduction = 1e-3;  ///< of one direction; what is left is part of the flow's
 };
 
 class RigidViscosity {
