@@ -52,6 +52,8 @@ nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
         table["final_divergence"] = fluid.final_divergence;
         table["courant"] = fluid.courant;
         table["unconverged_multiplier_windows"] = fluid.unconverged_windows;
+        table["remaining_divergence"] = fluid.remaining_divergence;
+        table["unconverged_splitting_windows"] = fluid.unconverged_splitting_windows;
     }
     if (maxima.joint) {
         table["joint_rounds"] = maxima.joint->rounds;

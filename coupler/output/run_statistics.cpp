@@ -64,7 +64,7 @@ void RunStatistics::take_in(const FluidReport& report) {
     if (!report.splitting) return;
     fluid.remaining_divergence =
         std::max(fluid.remaining_divergence, report.splitting->divergence / rate);
-    fluid.unsplit_windows += report.splitting->converged ? 0 : 1;
+    fluid.unconverged_splitting_windows += report.splitting->converged ? 0 : 1;
 }
 
 void RunStatistics::take_in(const JointReport& report) {

@@ -50,8 +50,8 @@ struct FluidMaxima {
     double balance = 0.0;                  ///< FluidReport::momentum_defect
     double slip = 0.0;                     ///< rms over the points at the end of a solve [u_c]
     std::int64_t unconverged_windows = 0;  ///< stopped at fluid.multiplier_iterations
-    double remaining_divergence = 0.0;     ///< rms at the end of a window, with rigid grains [u_c/D]
-    std::int64_t unsplit_windows = 0;      ///< stopped at fluid.splitting_iterations
+    double remaining_divergence = 0.0;  ///< rms after the last correction with rigid grains [u_c/D]
+    std::int64_t unconverged_splitting_windows = 0;  ///< stopped at fluid.splitting_iterations
 };
 
 /// Over the windows of a run whose scheme solves contacts in rounds.

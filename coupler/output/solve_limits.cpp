@@ -33,10 +33,11 @@ std::string multiplier_sentence(const RunStatistics& s, const SolveLimits& limit
 std::string splitting_sentence(const RunStatistics& s, const SolveLimits& limits) {
     return fmt::format(
         "in {} of {} windows pressure or viscosity with rigid grains used up its {} iterations "
-        "(fluid.splitting_iterations); rms divergence up to {:.1e} u_c/D, {:g} required. Allow "
+        "(fluid.splitting_iterations) or broke down; rms divergence up to {:.1e} u_c/D, {:g} "
+        "required. Allow "
         "more iterations, a larger fluid.splitting_tolerance, or open pores with a smaller "
         "fluid.hydrodynamic_radius.",
-        s.maxima.fluid->unsplit_windows, s.windows_done, limits.splitting.iterations,
+        s.maxima.fluid->unconverged_splitting_windows, s.windows_done, limits.splitting.iterations,
         s.maxima.fluid->remaining_divergence, limits.splitting.tolerance);
 }
 
@@ -68,7 +69,7 @@ std::vector<std::string> unconverged_sentences(const RunStatistics& statistics,
     if (maxima.unconverged_windows > 0) sentences.push_back(contact_sentence(statistics, limits));
     if (maxima.fluid && maxima.fluid->unconverged_windows > 0)
         sentences.push_back(multiplier_sentence(statistics, limits));
-    if (maxima.fluid && maxima.fluid->unsplit_windows > 0)
+    if (maxima.fluid && maxima.fluid->unconverged_splitting_windows > 0)
         sentences.push_back(splitting_sentence(statistics, limits));
     if (maxima.joint && maxima.joint->unconverged_windows > 0)
         sentences.push_back(joint_sentence(statistics, limits));

@@ -159,14 +159,14 @@ struct Motion {
     std::optional<std::vector<ContactRecord>> contacts = {};
 };
 
-/// What is left at the end of a window by a splitting that corrects pressure and viscosity together
-/// with rigid grains; of all its solves.
+/// Corrections of pressure and viscosity with rigid grains, of a whole window, and what the last
+/// one left: with explicit-multiplier before the contacts of the window.
 struct SplittingReport {
     std::int64_t pressure_iterations = 0;
     std::int64_t viscous_iterations = 0;
-    double divergence = 0.0;        ///< rms of div u at the end of the window [1/s]
+    double divergence = 0.0;        ///< rms of div u after the last of them [1/s]
     double viscous_residual = 0.0;  ///< of the viscous impulses, over their norm
-    bool converged = true;          ///< all solves; true where none iterates to a tolerance
+    bool converged = true;          ///< all that iterate to a tolerance, and none broke down
 };
 
 /// Report of the fluid side.

@@ -93,9 +93,7 @@ class BoxStep {
     double cell_area() const { return hx_ * hy_; }         ///< [m2]
 
     /// Differences on the same rows.
-    BoxOperators operators() {
-        return {fluid_.velocity, fluid_.pressure, *rows_, side_velocity_};
-    }
+    BoxOperators operators() { return {fluid_.velocity, fluid_.pressure, *rows_, side_velocity_}; }
 
     /// The solver of p: values of -div/dt become p over rho_f.
     SeparableSolve& pressure_solve() { return pressure_; }

@@ -36,25 +36,29 @@ CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& giv
     CoupledLimits limits = given;
     limits.viscosity.slip_reduction = limits.pressure.slip_reduction = slip_reduction();
     CoupledReport report;
-    report.viscosity = viscosity_.correct(box_, grains, limits.viscosity);
-    correct_pressure(grains, limits, report);
+    for (bool again = true; again;) {
+        IterationLimit viscous = limits.viscosity, pressure = limits.pressure;
+        viscous.most -= report.viscosity.iterations;
+        pressure.most -= report.pressure.iterations;
+        const IterationResult f = viscosity_.correct(box_, grains, viscous);
+        const IterationResult p = pressure_.correct(box_, grains, pressure);
+        report.add(f, p);
+        if (limits.iterated) report.slip = grains.settle();
+        // Each disturbs the others: solved is what needs no iteration any more.
+        again = limits.iterated && f.iterations + p.iterations > 0;
+    }
     return report;
 }
 
-/// Each direction leaves some slip. Once that is removed the divergence is looked at again.
-void CoupledStep::correct_pressure(RigidGrains& grains, const CoupledLimits& limits,
-                                   CoupledReport& report) {
-    report.pressure = pressure_.correct(box_, grains, limits.pressure);
-    IterationLimit left = limits.pressure;
-    for (bool again = limits.iterated; again;) {
-        report.slip = grains.settle();
-        left.most = limits.pressure.most - report.pressure.iterations;
-        const IterationResult more = pressure_.correct(box_, grains, left);
-        report.pressure.iterations += more.iterations;
-        report.pressure.residual = more.residual;
-        report.pressure.converged = more.converged;
-        again = more.iterations > 0;
-    }
+void CoupledReport::add(const IterationResult& viscosity_again,
+                        const IterationResult& pressure_again) {
+    const auto append = [](IterationResult& total, IterationResult latest) {
+        latest.iterations += total.iterations;
+        latest.broke_down = latest.broke_down || total.broke_down;
+        total = latest;
+    };
+    append(viscosity, viscosity_again);
+    append(pressure, pressure_again);
 }
 
 RowsOfTwo CoupledStep::unconstrained() {

@@ -5,7 +5,7 @@
 // (rigid_grains.hpp), u^n rigid and nearly solenoidal, P^n the grains' momenta with their weight
 // and the contact impulses of the last window:
 //
-//     begin      f = dt nu L u^n                      viscous impulse of the last velocity
+//     begin      f = dt nu L u^n                      viscous impulse, u^n with the body force
 //     (transport of u^n with a solenoidal flux)
 //     predict    s = transported u^n + f - dt G p^n
 //     (u, U) = W(s, P^n)
@@ -22,13 +22,16 @@ namespace turbidite {
 
 struct CoupledLimits {
     bool iterated = false;     ///< to the tolerances; otherwise one correction of each
-    IterationLimit viscosity;  ///< tolerance: |dt nu L u - f| over |dt nu L u|
+    IterationLimit viscosity;  ///< tolerance: as in rigid_viscosity.hpp
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
 };
 
 struct CoupledReport {
     IterationResult viscosity, pressure;  ///< pressure.residual: rms of div [1/s]
     MultiplierResult slip;                ///< if iterated
+
+    /// Adds a correction of which this is the latest.
+    void add(const IterationResult& viscosity_again, const IterationResult& pressure_again);
 };
 
 class CoupledStep {
@@ -55,13 +58,12 @@ class CoupledStep {
     /// Ends the window: p and e become the step's.
     void end() { pressure_.end(box_); }
 
-    /// Momentum over rho_f that viscosity brought in over this rank's sides, per time and unit
-    /// length [m3/s2].
+    /// Momentum over rho_f of the viscous impulses in this rank's cells, per time and unit length
+    /// [m3/s2]: that of the sides, to the tolerance of viscosity.
     BoxStep::Force viscous_force() const;
 
  private:
     double slip_reduction() const;
-    void correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
 
     BoxStep& step_;
     BoxOperators box_;

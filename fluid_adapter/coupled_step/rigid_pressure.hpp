@@ -19,7 +19,7 @@ class RigidPressure {
  public:
     explicit RigidPressure(BoxStep& step) : step_(step) {}
 
-    /// Begins a window of length dt [s]: p is the step's, k the part of e that remains.
+    /// Begins a window of length dt [s]: p is the step's.
     void begin(BoxOperators& box, double dt);
 
     /// x, y += f - dt G p, f the viscous impulse.
@@ -30,7 +30,7 @@ class RigidPressure {
     /// Takes the grains' places; k is the part of the excess that remains of the last window's.
     void place_grains(BoxOperators& box, const CollocationPoints& points, double k);
 
-    /// Corrects the window's velocity and p until |r| < tolerance |r of p = 0 without grains|.
+    /// Corrects the window's velocity and p until the rms of r is below the tolerance [1/s].
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// Ends the window: p and the excess become the step's.

@@ -22,7 +22,8 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
     while (result.residual > limit.tolerance && result.iterations < limit.most) {
         choose_direction(grains, result.iterations == 0, rz, limit);
         const ImageProducts image = apply(box, grains, limit.most > 1);
-        if (!(image.direction > 0.0)) break;
+        result.broke_down = !(image.direction > 0.0);
+        if (result.broke_down) break;
         if (result.iterations == 0) rz = image.step;
         const double alpha = rz / image.direction;
         move(grains, alpha, limit.most > 1);

@@ -17,14 +17,15 @@ namespace turbidite {
 
 struct IterationResult {
     int iterations = 0;
-    double residual = 0.0;
+    double residual = 0.0;  ///< in the unit of the tolerance
     bool converged = true;
+    bool broke_down = false;  ///< a direction had no positive curvature; nothing came of it
 };
 
 struct IterationLimit {
     int most = 1;
     double tolerance = 0.0;
-    double slip_reduction = 1e-3;  ///< of one direction; what is left is part of the flow's
+    double slip_reduction = 1e-3;  ///< of one direction; what is left adds to the flow's own slip
 };
 
 class RigidViscosity {
@@ -32,7 +33,8 @@ class RigidViscosity {
     /// Begins a window: `per_laplacian` is nu dt [m2], f = dt nu L u of this velocity.
     void begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity);
 
-    /// Corrects the window's velocity and f until |r| < tolerance |f|.
+    /// Corrects the window's velocity and f until |r| < tolerance max(|f|, |r|), the maximum at the
+    /// beginning.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// f over the rank's cells [m/s].

@@ -32,9 +32,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     void put_pressure() override;
     void forget_rates() override { second_order_.forget(); }
     double largest_courant() const override;
-    std::int64_t kind() const override {
-        return in_second_order_ ? 4 : coupled_ ? 6 : 2;
-    }
+    std::int64_t kind() const override { return in_second_order_ ? 4 : coupled_ ? 6 : 2; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
 

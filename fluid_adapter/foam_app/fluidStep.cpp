@@ -10,6 +10,7 @@
 #include "fluid_adapter/foam_app/boxFluidStep.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/operatorStep.hpp"
+#include "fluid_adapter/multiplier/splitting.hpp"
 
 namespace turbidite {
 namespace {
@@ -55,13 +56,9 @@ bool in_second_order(const Settings& settings) {
     return settings.text("fluid.time_scheme") == "second-order";
 }
 
-bool carries_multipliers(const Settings& settings) {
-    return settings.text("fluid.splitting") != "marchuk-yanenko";
-}
-
 /// For what only the rows of a box can do.
 void demand_marchuk_yanenko(const Settings& settings, const std::string& why) {
-    if (carries_multipliers(settings))
+    if (corrects_with_rigid_grains(settings))
         throw Failure(ExitCode::bad_input, "fluid.splitting = " + settings.text("fluid.splitting") +
                                                " does not fit this fluid case: " + why +
                                                "; use marchuk-yanenko");
@@ -102,9 +99,12 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
     std::optional<TransportMethod> method = transport_on_rows(fields);
     if (method) method->second_order = in_second_order(settings);
-    if (method) method->coupled = carries_multipliers(settings);
+    if (method) method->coupled = corrects_with_rigid_grains(settings);
     if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U)) {
-        demand_marchuk_yanenko(settings, "transport or a linear solver is not of those on rows");
+        demand_marchuk_yanenko(
+            settings,
+            "fluid.transport_scheme must be Gauss limitedLinearV, linear, LUST or linearUpwind "
+            "with linear gradients, and fluid.pressure_solver and fluid.viscous_solver FFT");
         return operator_step(settings, fields, box);
     }
     try {

@@ -71,10 +71,10 @@ class FluidStep {
 
     // Between the step's own values and those of the fields:
 
-    virtual void put_velocity() {}   ///< into U
+    virtual void put_velocity() {}                        ///< into U
     virtual void put_unconstrained() { put_velocity(); }  ///< before the grains, in their window
-    virtual void take_velocity() {}  ///< from U, which was changed
-    virtual void put_pressure() {}   ///< into p
+    virtual void take_velocity() {}                       ///< from U, which was changed
+    virtual void put_pressure() {}                        ///< into p
 
     /// The values that U holds on sides of the box were changed, before `project`.
     virtual void sides_changed() {}

@@ -3,19 +3,16 @@
 
 #include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
+#include "fluid_adapter/multiplier/splitting.hpp"
 
 namespace turbidite {
 namespace {
-
-bool iterates(const Settings& settings) {
-    return settings.text("fluid.splitting") == "implicit-multiplier";
-}
 
 /// explicit-multiplier corrects once.
 CoupledLimits coupled_limits(const Settings& settings) {
     const RunValues run = run_values(settings);
     CoupledLimits limits;
-    if (!iterates(settings)) return limits;
+    if (splitting_of(settings) != Splitting::implicit_multiplier) return limits;
     const auto most = static_cast<int>(settings.integer("fluid.splitting_iterations"));
     limits.iterated = true;
     limits.viscosity = {most, settings.real("fluid.splitting_tolerance")};
@@ -171,6 +168,8 @@ void FluidWindow::note(const CoupledReport& result) {
     splitting.viscous_iterations += result.viscosity.iterations;
     splitting.divergence = result.pressure.residual;
     splitting.viscous_residual = result.viscosity.residual;
+    splitting.converged =
+        splitting.converged && !result.pressure.broke_down && !result.viscosity.broke_down;
     if (!coupled_limits_.iterated) return;
     splitting.converged =
         splitting.converged && result.pressure.converged && result.viscosity.converged;

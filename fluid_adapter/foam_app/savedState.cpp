@@ -71,8 +71,8 @@ void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& ste
         throw Failure(
             ExitCode::bad_input,
             "the saved fluid state was written with another fluid.pressure_solver, "
-            "fluid.viscous_solver, fluid.transport_scheme or fluid.time_scheme; continue with the "
-            "same ones");
+            "fluid.viscous_solver, fluid.transport_scheme, fluid.time_scheme or fluid.splitting; "
+            "continue with the same ones");
     const std::size_t expected = sizeof header + bytes_of(U) + bytes_of(p) + bytes_of(memory);
     if (state.size() != expected)
         throw Failure(ExitCode::bad_input, "the saved fluid state has " +

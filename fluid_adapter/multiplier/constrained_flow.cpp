@@ -64,8 +64,8 @@ void ConstrainedFlow::import_velocity() {
 void ConstrainedFlow::move_grains() {
     motions_.resize(system_->grains());
     for (std::size_t g = 0; g < motions_.size(); ++g)
-        motions_[g] = prescribed_[g] + system_->inverse_inertia()[g] *
-                                           (momentum_[g] + multipliers_.on_grains[g]);
+        motions_[g] = prescribed_[g] +
+                      system_->inverse_inertia()[g] * (momentum_[g] + multipliers_.on_grains[g]);
 }
 
 void ConstrainedFlow::push(const std::vector<Planar>& impulses) {

@@ -23,8 +23,8 @@ CellSums sum_cells(const CollocationPoints& points, int g) {
     CellSums sums = CellSums::Zero();
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
         const InteriorCell& at = points.interior[i];
-        sums += at.volume * CellSums(1.0, at.arm_x, at.arm_y,
-                                     at.arm_x * at.arm_x + at.arm_y * at.arm_y);
+        sums += at.volume *
+                CellSums(1.0, at.arm_x, at.arm_y, at.arm_x * at.arm_x + at.arm_y * at.arm_y);
     }
     return sums;
 }

@@ -25,9 +25,9 @@ struct ImmersedGrain {
     double effective_mass = 0.0;                                ///< cM [kg/m]
     double effective_inertia = 0.0;                             ///< cI about z [kg m]
     Planar contact_motion = Planar::Zero();                     ///< U^{n+4/5}, omega^{n+4/5}
-    bool prescribed = false;                     ///< keeps contact_motion, whatever acts on it
-    Planar announced_impulse = Planar::Zero();                  ///< J_h and its moment
-    Planar given_impulse = Planar::Zero();  ///< (M - m_f) g dt + J^n, unless U^{n+4/5} has them
+    bool prescribed = false;                    ///< keeps contact_motion, whatever acts on it
+    Planar announced_impulse = Planar::Zero();  ///< J_h and its moment
+    Planar given_impulse = Planar::Zero();      ///< (M - m_f) g dt + J^n, unless U^{n+4/5} has them
 
     /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h. J_h is
     /// already contained in U^{n+4/5} and is subtracted, since the multipliers include it. Finite

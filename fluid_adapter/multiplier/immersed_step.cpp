@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fluid_adapter/multiplier/splitting.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -60,7 +62,7 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
       run_(run_values(settings)),
       bodies_(run_, shapes),
       settings_(multiplier_settings(settings, run_)),
-      carries_contacts_(settings.text("fluid.splitting") != "marchuk-yanenko"),
+      carries_contacts_(corrects_with_rigid_grains(settings)),
       placement_(point_rules(settings)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
@@ -99,8 +101,7 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, double step)
         Planar& given = grains_[g].given_impulse;
         given.y() = -bodies_(states[g]).submerged_mass * run_.gravity * step;
         if (!carries_contacts_) continue;
-        contact_impulses_[g] =
-            planar(states[g].contact_impulse, states[g].contact_angular_impulse);
+        contact_impulses_[g] = planar(states[g].contact_impulse, states[g].contact_angular_impulse);
         given += contact_impulses_[g];
     }
 }

@@ -29,8 +29,8 @@ class ImmersedStep {
     ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes);
 
     /// Takes the grains that touch this rank and places their points; first call of a window. The
-    /// grains are free, and fall for `step` [s]; with a splitting that carries multipliers they
-    /// also have the contact impulses of the last window, until `push` corrects them.
+    /// grains are free, and fall for `step` [s]; with a splitting that corrects with rigid grains
+    /// they also have the contact impulses of the last window, until `push` corrects them.
     void take_free(const std::vector<GrainState>& grains, double step);
 
     /// The same for grains whose velocities already contain their contact impulses.
@@ -65,7 +65,8 @@ class ImmersedStep {
 
     SaddleOperator& system() { return system_; }
     ConstrainedFlow& flow() { return flow_; }
-    MultiplierSettings continued() const;  ///< to the slip that the window's first solve had to reach
+    MultiplierSettings continued()
+        const;  ///< to the slip that the window's first solve had to reach
 
  private:
     ImmersedGrain immersed(const GrainState& state) const;
@@ -78,7 +79,7 @@ class ImmersedStep {
     RunValues run_;
     ImmersedBodies bodies_;
     MultiplierSettings settings_;
-    bool carries_contacts_;  // from window to window
+    bool carries_contacts_;   // from window to window
     double slip_goal_ = 0.0;  // rms slip to reach, set by the window's first solve [m/s]
 
     std::vector<ImmersedGrain> grains_;

@@ -36,7 +36,8 @@ void PointCoupling::find_shared(const FluidField& field, const CollocationPoints
     const bool border = field.has_halo();
     for (int slot = 0; slot < points.slots(); ++slot) {
         const StencilCell& at = points.stencilled[slot];
-        if (user_[slot] == several || (border && field.shares(at.cell))) shared_[slot] = number(field, at);
+        if (user_[slot] == several || (border && field.shares(at.cell)))
+            shared_[slot] = number(field, at);
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Uzawa's method as preconditioned conjugate gradients on the multipliers (Wachs 2011, appendix,
-// with its two signs corrected): solves S L = s of saddle_operator.hpp, whose residual s - S L is the
-// slip left at the boundary points.
+// with its two signs corrected): solves S L = s of saddle_operator.hpp, whose residual s - S L is
+// the slip left at the boundary points.
 //
 // Every window starts from L = 0. The points move over the grid, so the multipliers of the last
 // window belong to other positions; reusing them would save about one of three iterations and would

@@ -138,7 +138,8 @@ def solvers(run):
                     f'{maxima["courant"]:.2g}.')
     for name, column in (('contact sweeps', 'contact_iterations'),
                          ('multiplier iterations', 'multiplier_iterations'),
-                         ('joint rounds', 'joint_rounds')):
+                         ('joint rounds', 'joint_rounds'),
+                         ('pressure iterations with rigid grains', 'pressure_iterations')):
         _, count = run.column(column)
         if len(count):
             text.append(f'{name.capitalize()}: {count.mean():.3g} on average, {count.max():.0f} at most '
@@ -146,6 +147,8 @@ def solvers(run):
     for name, what in (
             ('unconverged_windows', 'the contact solver missed its tolerance'),
             ('unconverged_multiplier_windows', 'the multiplier problem stopped at its iteration limit'),
+            ('unconverged_splitting_windows',
+             'pressure or viscosity with rigid grains missed fluid.splitting_tolerance'),
             ('unconverged_joint_windows', 'contacts and fluid did not agree to coupling.tolerance')):
         if name in maxima:
             text.append(f'Windows in which {what}: {maxima[name]}.')

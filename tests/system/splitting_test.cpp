@@ -73,13 +73,27 @@ TEST_F(Splitting, AnOpenColumnDoesNotDependOnTheStep) {
 }
 
 TEST_F(Splitting, TwoRanksGiveTheHistoryOfOne) {
+    for (const char* splitting : {"explicit-multiplier", "implicit-multiplier"}) {
+        const std::string with = std::string("fluid.splitting=") + splitting +
+                                 " --set fluid.hydrodynamic_radius=0.85 --set "
+                                 "fluid.multiplier_tolerance=1e-8 --set "
+                                 "fluid.splitting_tolerance=1e-6 --set fluid.ranks=";
+        const Columns one = play(with + "1"), two = play(with + "2");
+        EXPECT_GT(speed(one), 1e-3) << splitting;
+        for (const char* name : {"mean_velocity_x", "mean_velocity_y", "mean_position_y"})
+            for (std::size_t row = 1; row < one.at(name).size(); ++row)
+                EXPECT_NEAR(one.at(name)[row], two.at(name)[row], 1e-4 * speed(one))
+                    << splitting << " " << name;
+    }
+}
+
+/// The grains in YADE hand over the contact impulses that the next window begins with.
+TEST_F(Splitting, GrainsInYadeMoveTheSame) {
     const std::string with =
-        "fluid.splitting=implicit-multiplier --set fluid.hydrodynamic_radius=0.85 --set "
-        "fluid.multiplier_tolerance=1e-8 --set fluid.splitting_tolerance=1e-6 --set "
-        "fluid.ranks=";
-    const double one = speed_in_contact(play(with + "1")), two = speed_in_contact(play(with + "2"));
-    EXPECT_GT(one, 1e-3);
-    EXPECT_NEAR(one, two, 1e-4 * one);
+        "fluid.splitting=explicit-multiplier --set fluid.hydrodynamic_radius=0.85 --set "
+        "grains.adapter=";
+    const double alone = speed_in_contact(play(with + "standalone-nscd"));
+    EXPECT_NEAR(speed_in_contact(play(with + "yade-nscd")), alone, 1e-6 * alone);
 }
 
 TEST_F(Splitting, IsRefusedWithWhatItCannotWorkWith) {
@@ -88,6 +102,7 @@ TEST_F(Splitting, IsRefusedWithWhatItCannotWorkWith) {
          std::vector<std::pair<std::string, std::string>>{{"coupling.scheme", "split"},
                                                           {"fluid.pressure_solver", "GAMG"},
                                                           {"fluid.viscous_solver", "PCG"},
+                                                          {"fluid.decomposition", "columns"},
                                                           {"fluid.time_scheme", "second-order"}}) {
         const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
                                     " check case.yaml --set fluid.splitting=explicit-multiplier "
@@ -96,6 +111,11 @@ TEST_F(Splitting, IsRefusedWithWhatItCannotWorkWith) {
         EXPECT_EQ(answer.code, 2) << key;
         EXPECT_SAYS(answer.err + answer.out, "This splitting needs " + key);
     }
+    const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
+                                " check case.yaml --set fluid.splitting=explicit-multiplier --set "
+                                "'fluid.transport_scheme=Gauss upwind'");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err + answer.out, "fluid.transport_scheme = Gauss upwind");
 }
 
 }  // namespace

@@ -151,12 +151,15 @@ struct Needed {
     const char* why;
 };
 constexpr Needed needed_with_rigid_grains[] = {
-    {"coupling.scheme", "joint", "they carry contact impulses from window to window"},
-    {"fluid.pressure_solver", "FFT", "its exact solve is their preconditioner"},
-    {"fluid.viscous_solver", "FFT", "they work on the rows of a uniform box"},
-    {"fluid.decomposition", "rows", "they work on complete rows of cells"},
+    {"coupling.scheme", "joint", "it carries contact impulses from window to window"},
+    {"fluid.pressure_solver", "FFT", "that solve is its preconditioner"},
+    {"fluid.viscous_solver", "FFT", "it works on the rows of a uniform box"},
+    {"fluid.decomposition", "rows", "it works on complete rows of cells"},
     {"fluid.time_scheme", "first-order", "viscosity is implicit over the whole window"},
 };
+
+constexpr const char* schemes_on_rows[] = {"Gauss limitedLinearV ", "Gauss linear", "Gauss LUST ",
+                                           "Gauss linearUpwind "};
 
 Ruling splitting_has_what_it_needs(const Settings& s) {
     if (!s.flag("fluid.enabled") || is(s, "fluid.splitting", "marchuk-yanenko"))
@@ -164,10 +167,18 @@ Ruling splitting_has_what_it_needs(const Settings& s) {
     for (const Needed& needed : needed_with_rigid_grains)
         if (!is(s, needed.key, needed.value))
             return Objection{
-                fmt::format("This splitting needs {} = {}, since {}; it is {}.", needed.key,
-                            needed.value, needed.why, s.text(needed.key)),
+                fmt::format("This splitting needs {} = {}: {}; it is {}.", needed.key, needed.value,
+                            needed.why, s.text(needed.key)),
                 fmt::format("Set {}: {}, or use marchuk-yanenko.", needed.key, needed.value)};
-    return std::nullopt;
+    const std::string& scheme = s.text("fluid.transport_scheme");
+    if (std::any_of(std::begin(schemes_on_rows), std::end(schemes_on_rows),
+                    [&](const char* name) { return scheme.rfind(name, 0) == 0; }))
+        return std::nullopt;
+    return Objection{
+        fmt::format("This splitting works on rows of a box, which know Gauss limitedLinearV, "
+                    "linear, LUST and linearUpwind; fluid.transport_scheme = {}.",
+                    scheme),
+        "Use Gauss limitedLinearV 1, or marchuk-yanenko."};
 }
 
 std::string unless(bool used, const Settings& s, const char* reason) {
@@ -384,7 +395,7 @@ KeyGroup fluid_keys() {
               mesh_fits_in_memory},
              {"fluid.splitting",
               {"fluid.enabled", "coupling.scheme", "fluid.pressure_solver", "fluid.viscous_solver",
-               "fluid.decomposition", "fluid.time_scheme"},
+               "fluid.decomposition", "fluid.time_scheme", "fluid.transport_scheme"},
               splitting_has_what_it_needs},
              {"fluid.reynolds", {"scales.kind"}, reynolds_follows}},
         .notes = notes};
