@@ -105,7 +105,7 @@ MovedWall moved_wall(const std::string& text, const std::string& key) {
         if (kind == entry.kind && in.eof()) return {wall, entry.make(numbers)};
     throw std::invalid_argument(
         key + ": \"" + text +
-        "\" is not a wall motion: allowed are constant, harmonic and table with their numbers");
+        "\" is not a motion: allowed are constant, harmonic and table with their numbers");
 }
 
 }  // namespace

@@ -8,12 +8,14 @@
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
 //     run.grain_weight                                        m g of a disc of diameter D in air,
 //                                                             unit of forces in contact laws
+//     run.acceleration_x  run.acceleration_y                  fluid.acceleration
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.size_x    run.size_y  run.size_z                    domain [m]
 //     run.scheme                              order of a window: coupling.scheme, or dry
 //     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
 //     run.wall_motions  run.inflow_motions  prescribed_motion.hpp
+//     run.probes                            output.probes: x y x y ... [m]; missing without any
 //     run.materials                         names of materials 1, 2, ..., separated by spaces;
 //                                           coefficients are contact.materials.NAME.*
 //

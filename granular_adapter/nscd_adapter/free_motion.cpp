@@ -42,7 +42,8 @@ bool motion_is_prescribed(const FreeResponse& response) {
 void demand_agreement(const nscd::Bodies& bodies, std::size_t i, bool held,
                       const std::string& when) {
     const bool fixed = bodies.fixed[i] != 0;
-    if (held == fixed && !bodies.rotation_blocked[i]) return;
+    if (held && fixed) return;
+    if (!held && !fixed && !bodies.rotation_blocked[i]) return;
     const char* fault = fixed  ? " is fixed by its host "
                         : held ? " is released by its host "
                                : " is kept from rotating by its host ";

@@ -8,6 +8,7 @@ import math
 import os
 import tempfile
 
+import domain_sides
 import users_script
 from yade import *
 from yade import utils
@@ -36,7 +37,7 @@ class Scene:
         self.frequency = float(settings['run.md_frequency'])
         self.damping = float(settings['run.md_damping'])
         self.friction_angle = math.atan(float(settings['contact.friction']))
-        self._create_walls(settings)
+        self.walls = domain_sides.create_walls(settings, self._material(0.0))
         self.largest = max((grain['radius'] for grain in grains), default=0.0)
         self.body_of = {grain['id']: self._create_disc(grain) for grain in grains}
         O.dt = float(settings['run.step']) / int(settings['run.md_substeps'])
@@ -64,14 +65,6 @@ class Scene:
         state.vel = grain['velocity']
         state.angVel = grain['angular_velocity']
         return O.bodies.append(body)
-
-    def _create_walls(self, settings):
-        sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
-                 'bottom': (1, 0.0, 1), 'top': (1, float(settings['run.size_y']), -1)}
-        for number, (side, (axis, position, sense)) in enumerate(sides.items()):
-            if settings['domain.' + side] == 'wall':
-                self.walls[O.bodies.append(
-                    utils.wall(position, axis, sense=sense, material=self._material(0.0)))] = number
 
     def _engines(self, gravity):
         return [

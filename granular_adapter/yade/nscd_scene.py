@@ -6,6 +6,7 @@ computed by the contact engine, which a PyRunner calls once per window.
 """
 import math
 
+import domain_sides
 import turbidite_contact
 import users_script
 from yade import *
@@ -60,7 +61,7 @@ class Scene:
         """Adds the walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
         self.case = settings
         self._create_materials(settings, grains[0]['density'] if grains else 1.0)
-        self._create_walls(settings)
+        self.sides = list(domain_sides.create_walls(settings, 'grains'))
         states, turns = [], []
         for grain in grains:
             body = self._create_polygon(grain) if grain['vertices'] else self._create_disc(grain)
@@ -94,14 +95,8 @@ class Scene:
         body.state.pos = grain['position']
         return body
 
-    def _create_walls(self, settings):
-        sides = {'left': (0, 0.0, 1), 'right': (0, float(settings['run.size_x']), -1),
-                 'bottom': (1, 0.0, 1), 'top': (1, float(settings['run.size_y']), -1)}
-        self.sides = [O.bodies.append(utils.wall(position, axis, sense=sense, material='grains'))
-                      for side, (axis, position, sense) in sides.items() if settings['domain.' + side] == 'wall']
-
     def side_states(self):
-        """States of the sides that are walls, in the order left, right, bottom, top."""
+        """States of the solid sides, in the order left, right, bottom, top."""
         return [O.bodies[i].state for i in self.sides]
 
     def create_plates(self, half_lengths):

@@ -5,6 +5,8 @@
 #include <boost/python.hpp>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "granular_adapter/yade/engine_memory.hpp"
@@ -46,6 +48,15 @@ python::list plate_list(const std::vector<nscd::Wall>& walls) {
     return list;
 }
 
+void demand_all_sides(std::size_t created, const std::vector<nscd::Wall>& walls) {
+    const auto plates = std::count_if(walls.begin(), walls.end(), is_plate);
+    const std::size_t sides = walls.size() - static_cast<std::size_t>(plates);
+    if (created != sides)
+        throw std::logic_error("YADE's scene has " + std::to_string(created) +
+                               " walls at sides of the domain, the contact engine " +
+                               std::to_string(sides));
+}
+
 /// Motion of a plate whose reference position is along x.
 BodyMotion plate_motion(const nscd::Wall& wall) {
     const double half_angle = 0.5 * std::atan2(-wall.normal[0], wall.normal[1]);
@@ -76,6 +87,7 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
         scene_.attr("create")(settings_dict(settings), grain_list(bodies, shapes));
     exchange_ = BodyExchange(made[0], turns_of(made[1]), bodies.size());
     sides_ = BodyStates(scene_.attr("side_states")());
+    demand_all_sides(sides_.size(), engine_.engine().walls());
     plates_ = BodyStates(scene_.attr("create_plates")(plate_list(engine_.engine().walls())));
     write_bodies();
     scene_.attr("complete")();

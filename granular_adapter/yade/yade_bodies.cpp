@@ -73,18 +73,18 @@ BodyStates::BodyStates(const python::object& list) {
 }
 
 BodyMotion BodyStates::read(std::size_t i) const {
-    return places_.empty() ? read_attributes(states_.at(i)) : read_places(places_[i]);
+    return places_.empty() ? read_attributes(states_.at(i)) : read_places(places_.at(i));
 }
 
 void BodyStates::write(std::size_t i, const BodyMotion& motion) const {
     if (places_.empty())
         write_attributes(states_.at(i), motion);
     else
-        write_places(places_[i], motion);
+        write_places(places_.at(i), motion);
 }
 
 BodyInertia BodyStates::inertia(std::size_t i) const {
-    return places_.empty() ? inertia_attributes(states_.at(i)) : inertia_places(places_[i]);
+    return places_.empty() ? inertia_attributes(states_.at(i)) : inertia_places(places_.at(i));
 }
 
 void BodyStates::keep(const std::vector<std::uint8_t>& mask) {

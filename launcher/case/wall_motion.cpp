@@ -251,18 +251,19 @@ Exchanged exchanged(const std::vector<MovedWall>& inflows, const std::vector<dou
     return sum;
 }
 
-/// The first time at which more fluid has entered a box without a free side than has left it, of
-/// many until the end [t_c].
-std::optional<double> overfull(const Settings& s) {
+/// The end of the first window by which not as much fluid has entered a box without a free side as
+/// has left it [t_c]. Of a longer run than a million windows the first million are tested.
+std::optional<double> first_imbalance(const Settings& s) {
     Settings in_diameters;
     Scales unit;
     unit.diameter = unit.velocity = unit.time = 1.0;
     in_diameters.set("run.inflow_motions", side_motions(s, unit, true));
     const auto inflows = moved_walls(in_diameters, "run.inflow_motions");
     const auto size = real_list("domain.size", s.text("domain.size"));
-    constexpr int samples = 1000;
-    for (int n = 1; n <= samples; ++n) {
-        const double time = s.real("time.end") * n / samples;
+    const double step = s.real("time.step");
+    const long long windows = std::min(std::llround(s.real("time.end") / step), 1'000'000LL);
+    for (long long n = 1; n <= windows; ++n) {
+        const double time = step * static_cast<double>(n);
         const Exchanged volume = exchanged(inflows, size, time);
         if (std::abs(volume.net) > 1e-9 * volume.either_way) return time;
     }
@@ -273,9 +274,9 @@ std::optional<double> overfull(const Settings& s) {
 void check_balance(const Settings& s, CaseEntries& entries) {
     const auto first = std::find_if(std::begin(sides), std::end(sides),
                                     [&](const char* side) { return is_inflow(s, side); });
-    const bool known = s.has("domain.size") && s.has("time.end");
+    const bool known = s.has("domain.size") && s.has("time.step") && s.has("time.end");
     if (first == std::end(sides) || has_free_side(s) || !known) return;
-    if (const auto time = overfull(s))
+    if (const auto time = first_imbalance(s))
         object(
             std::string("domain.") + *first,
             {fmt::format("The box has no free side, and by {:.3g} t_c not as much fluid has left "

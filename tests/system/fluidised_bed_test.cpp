@@ -11,15 +11,17 @@ namespace {
 class FluidisedBed : public ShellTest {
  protected:
     /// Plays the small bed with this velocity of the liquid [u_c].
-    Columns play(const std::string& velocity) {
-        const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
-                                    " run " TURBIDITE_SOURCE_DIR
-                                    "/configs/fluidised-bed.yaml --force --out run"
-                                    " --set grains.adapter=standalone-nscd"
-                                    " --set domain.size=[8,16]"
-                                    " --set grains.region=[8,5] --set time.end=12"
-                                    " --set domain.motions.stream.velocity=[0," +
-                                    velocity + "]");
+    Columns play(const std::string& velocity, const std::string& adapter = "standalone-nscd",
+                 const std::string& end = "12") {
+        const Answer answer =
+            shell(std::string(TURBIDITE_PROGRAM) +
+                  " run " TURBIDITE_SOURCE_DIR
+                  "/configs/fluidised-bed.yaml --force --out run"
+                  " --set grains.adapter=" +
+                  adapter +
+                  " --set domain.size=[8,16]"
+                  " --set grains.region=[8,5] --set time.end=" +
+                  end + " --set domain.motions.stream.velocity=[0," + velocity + "]");
         EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
         const nlohmann::json maxima = record().at("maxima");
         EXPECT_LT(maxima.at("penetration").get<double>(), 1e-4);  // D
@@ -44,6 +46,15 @@ TEST_F(FluidisedBed, IsLiftedByAFastStreamAndStandsInASlowOne) {
     // The liquid leaves through the top: the same flux through every height.
     EXPECT_NEAR(fast.at("flow_y").back(), 0.15, 0.01);
     EXPECT_NEAR(slow.at("flow_y").back(), 0.02, 0.002);
+}
+
+// The plate is a wall in YADE's scene as well: the bed stands on it, as without YADE.
+TEST_F(FluidisedBed, StandsOnThePlateInYade) {
+    const Columns yade = play("0.02", "yade-nscd", "2"),
+                  alone = play("0.02", "standalone-nscd", "2");
+    EXPECT_GT(yade.at("coordination").back(), 0.5);
+    for (const char* column : {"mean_position_y", "mean_speed", "coordination", "flow_y"})
+        EXPECT_NEAR(yade.at(column).back(), alone.at(column).back(), 1e-9) << column;
 }
 
 }  // namespace

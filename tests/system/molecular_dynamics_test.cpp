@@ -96,6 +96,18 @@ TEST_F(MolecularDynamics, ASettlingDiscMovesAsUnderContactDynamics) {
 
 // Three discs above each other at rest: they compress their springs and stay, and their forces
 // balance in every window with output, in which YADE's forces are summed body by body.
+// An inflow is a wall for the grains.
+TEST_F(MolecularDynamics, ADiscComesToRestOnAnInflow) {
+    wet("[4, 4]", "1,2,0.6\n", "3");
+    const Columns run = play("inflow",
+                             " --set domain.bottom=inflow --set domain.bottom_motion=stream"
+                             " --set domain.top=free --set domain.motions.stream.kind=constant"
+                             " --set domain.motions.stream.velocity=[0,0.001]");
+    EXPECT_NEAR(run.at("mean_position_y").back(), 0.5, 0.01);
+    EXPECT_LT(run.at("mean_speed").back(), 0.01);
+    EXPECT_GT(run.at("contacts").back(), 0.0);
+}
+
 TEST_F(MolecularDynamics, ABedAtRestIsQuietAndBalanced) {
     wet("[4, 5]", "1,2,0.5\n2,2,1.5\n3,2,2.5\n", "1");
     const Columns md = play("md", "");

@@ -210,6 +210,22 @@ TEST_F(SidesOfTheFluid, WhatEntersMustLeave) {
     EXPECT_SAYS(refusal("", through), "domain.bottom = inflow");
 }
 
+// Every thousandth of the run is a whole number of periods.
+TEST_F(SidesOfTheFluid, WhatEntersMustLeaveInEveryWindow) {
+    const std::vector<std::string> closed{"domain.bottom=inflow", "domain.bottom_motion=rise",
+                                          "domain.motions.rise.period=0.05", "time.end=50"};
+    EXPECT_SAYS(refusal("", closed), "by 0.01 t_c not as much fluid has left");
+    // Two motions that agree at the end of every fifth window only.
+    std::vector<std::string> through = closed;
+    through.insert(
+        through.end(),
+        {"domain.top=inflow", "domain.top_motion=late", "domain.motions.late.kind=harmonic",
+         "domain.motions.late.amplitude=[0,1]", "domain.motions.late.period=0.025"});
+    EXPECT_SAYS(refusal("", through), "by 0.01 t_c not as much fluid has left");
+    through.back() = "domain.motions.late.period=0.05";
+    EXPECT_NO_THROW(load("", through));
+}
+
 TEST_F(SidesOfTheFluid, AProfileWithoutAnInflowIsNoted) {
     const auto notes = load("", {"domain.left_profile=parabolic"}).notes;
     ASSERT_FALSE(notes.empty());

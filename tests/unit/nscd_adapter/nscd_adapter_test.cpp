@@ -456,6 +456,19 @@ TEST(NscdAdapter, JointRefusesGrainsThatAreFixedOnOneSideOnly) {
     EXPECT_TRUE(contains(error(false, held), "grain 11 is released by its host in window 3"));
 }
 
+TEST(NscdAdapter, JointAcceptsAFixedGrainThatItsHostAlsoKeepsFromRotating) {
+    NscdAdapter adapter;
+    GrainState fixed = grain_at(11, 3, 10);
+    fixed.prescribed = true;
+    adapter.initialise(box_settings(), discs, {fixed});
+    adapter.bodies().rotation_blocked[0] = 1;
+    FreeResponse held;
+    held.id = 11;
+    const Motion motion = adapter.advance(window(0), {held});
+    EXPECT_EQ(motion.grains[0].velocity, fixed.velocity);
+    EXPECT_EQ(motion.grains[0].position, fixed.position);
+}
+
 TEST(NscdAdapter, JointRefusesAnImpossibleInertia) {
     NscdAdapter adapter;
     adapter.initialise(box_settings(), discs, {grain_at(11, 3, 10)});
