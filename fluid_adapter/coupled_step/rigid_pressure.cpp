@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace turbidite {
+
 void RigidPressure::begin(BoxOperators& box, double dt) {
     dt_ = dt;
     p_.assign(step_.pressure(), step_.pressure() + box.size());

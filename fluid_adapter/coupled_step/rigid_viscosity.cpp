@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace turbidite {
+
 void RigidViscosity::begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity) {
     per_laplacian_ = per_laplacian;
     impulse_.resize(box.size());

@@ -68,12 +68,14 @@ SOLVERS = [
          [Curve('contact_residual', 'contact (scaled natural map)'),
           Curve('multiplier_residual', r'multipliers (rms slip $/\,u_c$)'),
           Curve('divergence', r'divergence after step 1 ($\times D/u_c$)'),
+          Curve('remaining_divergence', r'rms divergence with rigid grains ($\times D/u_c$)'),
           Curve('joint_mismatch', 'joint: grains against fluid')], logarithmic=True),
     Plot('Momentum checks', 'relative defect',
          [Curve('grain_balance', r'grains: $M\,dU/dt = (M-m_f)g + F_c + F_h$'),
           Curve('fluid_balance', 'fluid: multipliers and boundaries')], logarithmic=True),
     Plot('Contact solver', 'sweeps', [Curve('contact_iterations', '')]),
     Plot('Multiplier solver', 'iterations', [Curve('multiplier_iterations', 'multipliers'),
+                                             Curve('pressure_iterations', 'pressure with rigid grains'),
                                              Curve('joint_rounds', 'joint rounds')]),
 ]
 
