@@ -2,7 +2,6 @@
 #include "fluid_adapter/coupled_step/rigid_pressure.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace turbidite {
 
@@ -19,27 +18,12 @@ void RigidPressure::place_grains(BoxOperators& box, const CollocationPoints& poi
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
                                        const IterationLimit& limit) {
-    double square = find_residual(box, grains);
-    const double cells = grains.all_cells();
-    IterationResult result;
-    result.residual = std::sqrt(square / cells);
-    double rz = 0.0;  // of the last direction
-    while (result.residual > limit.tolerance && result.iterations < limit.most) {
-        choose_direction(box, grains, result.iterations == 0, rz, limit);
-        const ImageProducts image = apply(box, grains, limit.most > 1);
-        result.broke_down = !(image.direction > 0.0);
-        if (result.broke_down) break;
-        if (result.iterations == 0) rz = image.step;
-        const double alpha = rz / image.direction;
-        move(grains, alpha, limit.most > 1);
-        // |r - alpha A d|^2
-        square =
-            std::max(0.0, square - 2.0 * alpha * image.residual + alpha * alpha * image.itself);
-        ++result.iterations;
-        result.residual = std::sqrt(square / cells);
-    }
-    result.converged = result.residual <= limit.tolerance;
-    return result;
+    const double square = find_residual(box, grains);
+    return iterate(
+        limit, square, grains.all_cells(),
+        [&](bool first, double& rz) { choose_direction(box, grains, first, rz, limit); },
+        [&] { return apply(box, grains, limit.most > 1); },
+        [&](double alpha) { move(grains, alpha, limit.most > 1); });
 }
 
 /// r = -(D u + div e); returns |r|^2.

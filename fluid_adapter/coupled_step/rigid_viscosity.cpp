@@ -2,7 +2,6 @@
 #include "fluid_adapter/coupled_step/rigid_viscosity.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace turbidite {
 
@@ -15,27 +14,13 @@ void RigidViscosity::begin(BoxOperators& box, double per_laplacian, const CellVe
 
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
                                         const IterationLimit& limit) {
-    double square = find_residual(box, grains);
+    const double square = find_residual(box, grains);
     if (square == 0.0) return {};
-    IterationResult result;
-    result.residual = std::sqrt(square / scale_);
-    double rz = 0.0;  // of the last direction
-    while (result.residual > limit.tolerance && result.iterations < limit.most) {
-        choose_direction(grains, result.iterations == 0, rz, limit);
-        const ImageProducts image = apply(box, grains, limit.most > 1);
-        result.broke_down = !(image.direction > 0.0);
-        if (result.broke_down) break;
-        if (result.iterations == 0) rz = image.step;
-        const double alpha = rz / image.direction;
-        move(grains, alpha, limit.most > 1);
-        // |r - alpha A d|^2
-        square =
-            std::max(0.0, square - 2.0 * alpha * image.residual + alpha * alpha * image.itself);
-        ++result.iterations;
-        result.residual = std::sqrt(square / scale_);
-    }
-    result.converged = result.residual <= limit.tolerance;
-    return result;
+    return iterate(
+        limit, square, scale_,
+        [&](bool first, double& rz) { choose_direction(grains, first, rz, limit); },
+        [&] { return apply(box, grains, limit.most > 1); },
+        [&](double alpha) { move(grains, alpha, limit.most > 1); });
 }
 
 /// r = dt nu L u - f; returns |r|^2.

@@ -10,23 +10,10 @@
 // eigenvalues from 1 to 1 + 8 nu dt/h2. Valid C++17.
 #pragma once
 
-#include "fluid_adapter/box_step/box_operators.hpp"
+#include "fluid_adapter/coupled_step/conjugate_directions.hpp"
 #include "fluid_adapter/coupled_step/rigid_grains.hpp"
 
 namespace turbidite {
-
-struct IterationResult {
-    int iterations = 0;
-    double residual = 0.0;  ///< in the unit of the tolerance
-    bool converged = true;
-    bool broke_down = false;  ///< a direction had no positive curvature; nothing came of it
-};
-
-struct IterationLimit {
-    int most = 1;
-    double tolerance = 0.0;
-    double slip_reduction = 1e-3;  ///< of one direction; what is left adds to the flow's own slip
-};
 
 class RigidViscosity {
  public:

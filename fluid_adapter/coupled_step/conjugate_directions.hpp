@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The loop of the method of conjugate gradients, for a problem that keeps its own vectors. Valid
+// C++17.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_adapter/box_step/box_operators.hpp"
+
+namespace turbidite {
+
+struct IterationResult {
+    int iterations = 0;
+    double residual = 0.0;  ///< in the unit of the tolerance
+    bool converged = true;
+    bool broke_down = false;  ///< a direction had no positive curvature; nothing came of it
+};
+
+struct IterationLimit {
+    int most = 1;
+    double tolerance = 0.0;
+    double slip_reduction = 1e-3;  ///< of one direction; what is left adds to the flow's own slip
+};
+
+/// Iterates until |r| <= tolerance sqrt(scale), from |r|^2 = `square`. `choose(first, rz)` finds
+/// the next direction from z and the r.z of the last one, and replaces that unless it is the first;
+/// `apply()` returns the products of its image; `move(alpha)` goes along it.
+template <class Choose, class Apply, class Move>
+IterationResult iterate(const IterationLimit& limit, double square, double scale, Choose choose,
+                        Apply apply, Move move) {
+    IterationResult result;
+    result.residual = std::sqrt(square / scale);
+    double rz = 0.0;  // of the last direction
+    while (result.residual > limit.tolerance && result.iterations < limit.most) {
+        choose(result.iterations == 0, rz);
+        const ImageProducts image = apply();
+        result.broke_down = !(image.direction > 0.0);
+        if (result.broke_down) break;
+        if (result.iterations == 0) rz = image.step;
+        const double alpha = rz / image.direction;
+        move(alpha);
+        // |r - alpha A d|^2
+        square =
+            std::max(0.0, square - 2.0 * alpha * image.residual + alpha * alpha * image.itself);
+        ++result.iterations;
+        result.residual = std::sqrt(square / scale);
+    }
+    result.converged = result.residual <= limit.tolerance;
+    return result;
+}
+
+}  // namespace turbidite
