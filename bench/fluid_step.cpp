@@ -168,6 +168,7 @@ class Profile {
         seconds_["3 viscosity"].push_back(t.viscosity);
         seconds_["5 points"].push_back(t.points);
         seconds_["5 multipliers"].push_back(t.multipliers);
+        seconds_["5 correction"].push_back(t.correction);
     }
     std::map<std::string, double> medians() const {
         std::map<std::string, double> result;

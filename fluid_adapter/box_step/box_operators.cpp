@@ -31,7 +31,9 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
       w_(even(pressure), rows),
       ends_(pressure, rows) {
     along_.resize(nx_ + RowReader::padding);
-    for (Row* row : {&below_, &here_, &above_, &image_}) row->resize(nx_);
+    face_along_.resize(nx_ + 1);
+    for (Row* row : {&below_, &here_, &above_, &image_, &face_below_, &face_above_})
+        row->resize(nx_);
 }
 
 void BoxOperators::laplacian(double share, int axis, const double* u, double* f) {
@@ -45,44 +47,57 @@ void BoxOperators::laplacian(double share, int axis, const double* u, double* f)
     }
 }
 
-void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, double* x, double* y) {
+void BoxOperators::add_impulses(double sign, double step, const double* p, const RowsOfTwo& f,
+                                double* x, double* y) {
     p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
         const double* below = p_.row(j - 1);
         const double* here = p_.row(j);
         const double* above = p_.row(j + 1);
-        add_row(nx_, 1.0, f.x.data() + at(j), x + at(j));
-        add_row(nx_, 1.0, f.y.data() + at(j), y + at(j));
-        correct(nx_, 0.5 * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
-        correct(nx_, 0.5 * step / hy_, below, above, y + at(j), y + at(j));
+        add_row(nx_, sign, f.x.data() + at(j), x + at(j));
+        add_row(nx_, sign, f.y.data() + at(j), y + at(j));
+        correct(nx_, 0.5 * sign * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
+        correct(nx_, 0.5 * sign * step / hy_, below, above, y + at(j), y + at(j));
     }
 }
 
 void BoxOperators::gradient(double step, const double* p, double* x, double* y) {
-    std::fill(image_.begin(), image_.end(), 0.0);
     p_.begin(p);
+    gradient_rows(step, x, y);
+}
+
+void BoxOperators::direction(double step, const double* z, double beta, double* d, double* x,
+                             double* y) {
+    p_.begin(d, [this, z, beta, d](int j) { next_direction(nx_, z + at(j), beta, d + at(j)); });
+    gradient_rows(step, x, y);
+}
+
+/// x, y = -step G of what p_ reads.
+void BoxOperators::gradient_rows(double step, double* x, double* y) {
     for (int j = 0; j < ny_; ++j) {
         const double* below = p_.row(j - 1);
         const double* here = p_.row(j);
         const double* above = p_.row(j + 1);
-        correct(nx_, 0.5 * step / hx_, here - 1, here + 1, image_.data(), x + at(j));
-        correct(nx_, 0.5 * step / hy_, below, above, image_.data(), y + at(j));
+        difference_row(nx_, -0.5 * step / hx_, here - 1, here + 1, x + at(j));
+        difference_row(nx_, -0.5 * step / hy_, below, above, y + at(j));
     }
 }
 
-std::array<double, 2> BoxOperators::viscous_residual(double share, int axis, const double* u,
-                                                     const double* f, double* r) {
+ViscousSums BoxOperators::viscous_residual(double share, int axis, const double* u, const double* f,
+                                           double* r, double* again) {
     RowReader& rows = velocity_[axis];
     rows.begin(u);
-    std::array<double, 2> sums{};
+    ViscousSums sums;
     for (int j = 0; j < ny_; ++j) {
         const double* below = rows.row(j - 1);
         const double* here = rows.row(j);
         laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
                       r + at(j));
         add_row(nx_, -1.0, f + at(j), r + at(j));
-        sums[0] += dot_row(nx_, r + at(j), r + at(j));
-        sums[1] += dot_row(nx_, f + at(j), f + at(j));
+        std::copy_n(r + at(j), nx_, again + at(j));
+        sums.square += dot_row(nx_, r + at(j), r + at(j));
+        sums.impulse += dot_row(nx_, f + at(j), f + at(j));
+        sums.sum += sum_row(nx_, r + at(j));
     }
     return sums;
 }
@@ -115,22 +130,54 @@ void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v
                    v.row(j + 1), out);
 }
 
-double BoxOperators::flux_residual(double step, const double* w, const double* p, const double* x,
-                                   const double* y, const ExcessFlux& excess, double* r) {
-    velocity_[0].begin(x);
-    velocity_[1].begin(y);
-    begin_smoothing(w, p);
+double BoxOperators::flux_residual(double step, const double* p, double* x, double* y,
+                                   const ExcessFlux& excess, const PendingChange& change,
+                                   double* r) {
+    begin_velocity(x, y, change);
+    begin_smoothing(excess.w, p);
+    kept_across(0, excess, face_below_.data());
     double sum = 0.0;
     for (int j = 0; j < ny_; ++j) {
         double* out = r + at(j);
         divergence_of(j, -1.0, velocity_[0], velocity_[1], out);
-        const double* left = excess.x + along(j);
-        add_divergence_row(nx_, -1.0 / hx_, left, left + 1, -1.0 / hy_, excess.y + at(j),
-                           excess.y + at(j + 1), out);
+        kept_along(j, excess, face_along_.data());
+        kept_across(j + 1, excess, face_above_.data());
+        add_divergence_row(nx_, -1.0 / hx_, face_along_.data(), face_along_.data() + 1, -1.0 / hy_,
+                           face_below_.data(), face_above_.data(), out);
+        face_below_.swap(face_above_);
         add_smoothing(j, -step, out);
         sum += dot_row(nx_, out, out);
     }
     return sum;
+}
+
+void BoxOperators::begin_velocity(double* x, double* y, const PendingChange& change) {
+    if (change.share == 0.0) {
+        velocity_[0].begin(x);
+        velocity_[1].begin(y);
+        return;
+    }
+    const auto made = [&](double* u, const double* by) {
+        return [this, u, by, share = change.share](int j) {
+            add_row(nx_, share, by + at(j), u + at(j));
+        };
+    };
+    velocity_[0].begin(x, made(x, change.x));
+    velocity_[1].begin(y, made(y, change.y));
+}
+
+/// What remains of e on the x faces of row j, whose w has been read.
+void BoxOperators::kept_along(int j, const ExcessFlux& excess, double* face) {
+    const double* w = w_.row(j);
+    kept_row(nx_ + 1, excess.k, w - 1, w, excess.x + along(j), face);
+    if (!periodic_) face[0] = face[nx_] = 0.0;
+}
+
+/// What remains of e on the faces below row j.
+void BoxOperators::kept_across(int j, const ExcessFlux& excess, double* face) {
+    const bool side = (j == 0 && !rows_.open_below()) || (j == ny_ && !rows_.open_above());
+    const double* below = w_.row(j - 1);
+    kept_row(nx_, side ? 0.0 : excess.k, below, w_.row(j), excess.y + at(j), face);
 }
 
 ImageProducts BoxOperators::flux_image(double step, const double* w, const double* d,
@@ -185,33 +232,19 @@ void BoxOperators::add_smoothing(int j, double share, double* out) {
     here_.swap(above_);
 }
 
-void BoxOperators::keep_excess(double k, const double* w, const ExcessFlux& excess) {
-    w_.begin(w);
-    for (int j = 0; j <= ny_; ++j) {
-        const double* below = w_.row(j - 1);
-        const double* here = w_.row(j);
-        const bool side = (j == 0 && !rows_.open_below()) || (j == ny_ && !rows_.open_above());
-        double* across = excess.y + at(j);
-        for (int i = 0; i < nx_; ++i) across[i] *= side ? 0.0 : k * std::max(below[i], here[i]);
-        if (j == ny_) break;
-        double* left = excess.x + along(j);
-        for (int i = 0; i <= nx_; ++i) left[i] *= k * std::max(here[i - 1], here[i]);
-        if (!periodic_) left[0] = left[nx_] = 0.0;
-    }
-}
-
-void BoxOperators::add_to_excess(double step, const double* w, const double* p,
-                                 const ExcessFlux& excess) {
-    begin_smoothing(w, p);
+void BoxOperators::update_excess(double step, const double* p, const ExcessFlux& excess) {
+    begin_smoothing(excess.w, p);
     const double x = 0.25 * step / hx_, y = 0.25 * step / hy_;
     const double* q = along_.data() + RowReader::beyond;
     for (int j = 0; j <= ny_; ++j) {
         double* across = excess.y + at(j);
+        kept_across(j, excess, across);
         correct(nx_, -y, below_.data(), here_.data(), across, across);
         if (j == ny_) break;
         second_difference_along(j);
         second_difference_across(j + 1, above_);
         double* left = excess.x + along(j);
+        kept_along(j, excess, left);
         correct(nx_ + 1, -x, q - 1, q, left, left);
         below_.swap(here_);
         here_.swap(above_);

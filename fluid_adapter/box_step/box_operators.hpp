@@ -47,9 +47,25 @@ struct ImageProducts {
 };
 static_assert(sizeof(ImageProducts) == ImageProducts::count * sizeof(double));
 
-/// Both components of the excess flux, laid out as BoxStep::excess.
+/// Of a residual of viscosity, one component.
+struct ViscousSums {
+    double square = 0.0;   ///< r.r
+    double impulse = 0.0;  ///< f.f
+    double sum = 0.0;      ///< of r
+};
+
+/// Both components of the excess flux of the last window, laid out as BoxStep::excess, of which the
+/// part k remains on faces with a cell of w = 1, and nothing on others and on the sides of the box.
 struct ExcessFlux {
     double *x, *y;
+    double k = 1.0;
+    const double* w;  ///< over the rank's cells
+};
+
+/// A change of velocity that is still to be made: u += share (x, y).
+struct PendingChange {
+    double share = 0.0;
+    const double *x = nullptr, *y = nullptr;
 };
 
 class BoxOperators {
@@ -66,42 +82,47 @@ class BoxOperators {
     /// f = share L u, of the component of a velocity along `axis`
     void laplacian(double share, int axis, const double* u, double* f);
 
-    /// x, y += f - step G p, one component of f each
-    void predict(double step, const double* p, const RowsOfTwo& f, double* x, double* y);
+    /// x, y += sign (f - step G p), one component of f each
+    void add_impulses(double sign, double step, const double* p, const RowsOfTwo& f, double* x,
+                      double* y);
 
     /// x, y = -step G p
     void gradient(double step, const double* p, double* x, double* y);
 
-    /// r = share L u - f, of the component of a velocity; returns r.r and f.f
-    std::array<double, 2> viscous_residual(double share, int axis, const double* u, const double* f,
-                                           double* r);
+    /// d = z + beta d, x, y = -step G d
+    void direction(double step, const double* z, double beta, double* d, double* x, double* y);
+
+    /// r = share L u - f, of the component of a velocity. `again`: a second copy of r.
+    ViscousSums viscous_residual(double share, int axis, const double* u, const double* f,
+                                 double* r, double* again);
 
     /// A d = d - share L v, of one component of v = W d, a change; its products with v, r, itself,
     /// and that of r with v. `image`: where it is kept, unless null.
     ImageProducts viscous_image(double share, int axis, const double* d, const double* v,
                                 const double* r, double* image);
 
-    /// r = -(D u + div e + step Q p) of a velocity; returns r.r
-    double flux_residual(double step, const double* w, const double* p, const double* x,
-                         const double* y, const ExcessFlux& excess, double* r);
+    /// r = -(D u + div e + step Q p) of a velocity, which is changed first; returns r.r
+    double flux_residual(double step, const double* p, double* x, double* y,
+                         const ExcessFlux& excess, const PendingChange& change, double* r);
 
     /// A d = D (x, y) + step Q d of a change of velocity; its products with d, r, itself, and that
     /// of r with d. `image`: where it is kept, unless null.
     ImageProducts flux_image(double step, const double* w, const double* d, const double* x,
                              const double* y, const double* r, double* image);
 
-    /// e = k e, on faces with a cell of w = 1; 0 on others and on the sides of the box
-    void keep_excess(double k, const double* w, const ExcessFlux& excess);
-
-    /// e += step (q_{+1} - q)/(4h)
-    void add_to_excess(double step, const double* w, const double* p, const ExcessFlux& excess);
+    /// e = what remains of it + step (q_{+1} - q)/(4h)
+    void update_excess(double step, const double* p, const ExcessFlux& excess);
 
  private:
     using Row = std::vector<double>;
 
     std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
     std::size_t along(int j) const { return static_cast<std::size_t>(j) * (nx_ + 1); }
+    void gradient_rows(double step, double* x, double* y);
     void divergence_of(int j, double share, RowReader& u, RowReader& v, double* out);
+    void begin_velocity(double* x, double* y, const PendingChange& change);
+    void kept_along(int j, const ExcessFlux& excess, double* face);
+    void kept_across(int j, const ExcessFlux& excess, double* face);
     void begin_smoothing(const double* w, const double* p);
     void second_difference_along(int j);
     void second_difference_across(int j, Row& q);
@@ -115,6 +136,7 @@ class BoxOperators {
     RowReader p_, w_;
     RowReader ends_;  // extends rows of q
     Row along_, below_, here_, above_, image_;
+    Row face_along_, face_below_, face_above_;
 };
 
 }  // namespace turbidite

@@ -169,12 +169,18 @@ void BoxStep::correct_held_row(int j, double dt) {
     correct(nx_ + 1, dt / hx_, here - 1, here, held_x(j), held_x(j));
 }
 
-void BoxStep::transport(double dt) {
+void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
     u_.begin(velocity(0));
     v_.begin(velocity(1));
+    if (impulses) {
+        impulses->f.resize(static_cast<std::size_t>(nx_) * ny_);
+        impulses->sum_f = {};
+        p_.begin(pressure());
+    }
     for (int j = -1; j < ny_; ++j) {
         carry_above(j);
         if (j >= 0) transport_row(j, dt);
+        if (j >= 0 && impulses) add_impulses(j, *impulses);
         carried_below_.swap(carried_above_);
     }
 }
@@ -241,6 +247,24 @@ void BoxStep::transport_row(int j, double dt) {
         advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / hy_,
                     carried_below_[axis].data(), carried_above_[axis].data(), row_of(axis, j));
     }
+}
+
+/// Of row j, after its transport; u_ and v_ still read u1.
+void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
+    const double share = fluid_.viscosity * impulses.dt, dt = impulses.dt;
+    for (int axis = 0; axis < 2; ++axis) {
+        RowReader& u = axis == 0 ? u_ : v_;
+        double* f = impulses.f[axis].data() + static_cast<std::size_t>(j) * nx_;
+        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), u.row(j - 1), u.row(j),
+                      u.row(j + 1), f);
+        impulses.sum_f[axis] += sum_row(nx_, f);
+        add_row(nx_, 1.0, f, row_of(axis, j));
+    }
+    const double* below = p_.row(j - 1);
+    const double* here = p_.row(j);
+    const double* above = p_.row(j + 1);
+    correct(nx_, 0.5 * dt / hx_, here - 1, here + 1, row_of(0, j), row_of(0, j));
+    correct(nx_, 0.5 * dt / hy_, below, above, row_of(1, j), row_of(1, j));
 }
 
 void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {

@@ -41,6 +41,14 @@ struct FluxReport {
     double courant = 0.0;     ///< largest Courant number, as OpenFOAM defines it
 };
 
+/// Impulses of viscosity and pressure, per mass, that a window begins with: f = dt nu L u and
+/// -dt G p, with the p kept.
+struct ImpulsesOfWindow {
+    double dt = 0.0;                ///< [s]
+    RowsOfTwo f;                    ///< [m/s]
+    std::array<double, 2> sum_f{};  ///< over this rank's cells
+};
+
 class BoxStep {
  public:
     /// On this rank's rows of the box.
@@ -61,7 +69,12 @@ class BoxStep {
     SideValues& side_velocity(int axis) { return side_velocity_[axis]; }
 
     /// p over rho_f [m2/s2], up to a constant where no side fixes it; valid after `project`.
-    double* pressure() { return pressure_.values(); }
+    double* pressure() {
+        return own_pressure_.empty() ? pressure_.values() : own_pressure_.data();
+    }
+
+    /// p gets an array of its own, zero at first, which no solve overwrites.
+    void keep_pressure() { own_pressure_.assign(static_cast<std::size_t>(nx_) * ny_, 0.0); }
 
     /// e on the faces normal to an axis [m/s]. Axis x: rows of x.cells + 1 values; axis y: rows of
     /// x.cells values, one row more than this rank has rows of cells. On the sides of the box,
@@ -71,15 +84,16 @@ class BoxStep {
     /// Step 1 over dt [s]: u becomes u1, and p, e and phi1 are set.
     FluxReport project(double dt);
 
-    /// Step 2 over dt [s]: u1 becomes u2, explicitly, with the flux phi1.
-    void transport(double dt);
+    /// Step 2 over dt [s]: u1 becomes u2, explicitly, with the flux phi1. With `impulses` these are
+    /// added, those of viscosity from u1.
+    void transport(double dt, ImpulsesOfWindow* impulses = nullptr);
 
     /// For transport in several sub-steps: keeps phi1 for all of them while u changes.
     void hold_flux();
     void release_flux() { held_ = false; }
 
     /// Holds, instead of phi1, the solenoidal flux nearest to S.u + e for transport over dt [s]; u
-    /// and e stay as they are, p is overwritten.
+    /// and e stay as they are.
     FluxReport hold_solenoidal_flux(double dt);
 
     bool holds_flux() const { return held_; }
@@ -88,6 +102,9 @@ class BoxStep {
     double kept_excess(double dt) const {
         return 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / cell_area());
     }
+
+    int columns() const { return nx_; }
+    std::size_t cells() const { return static_cast<std::size_t>(nx_) * ny_; }  ///< of this rank
 
     double viscosity() const { return fluid_.viscosity; }  ///< nu [m2/s]
     double cell_area() const { return hx_ * hy_; }         ///< [m2]
@@ -127,6 +144,7 @@ class BoxStep {
     void correct_held_row(int j, double dt);
     void carry_above(int j);
     void transport_row(int j, double dt);
+    void add_impulses(int j, ImpulsesOfWindow& impulses);
     void carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
                std::array<Row, 2>& carried) const;
     void flux_along(int j, const double* u, double kept, double* flux);
@@ -148,6 +166,7 @@ class BoxStep {
     double hx_, hy_;
     SeparableSolve pressure_;
     std::array<SeparableSolve, 2> viscous_;
+    std::vector<double> own_pressure_;  // if kept
     double factorised_for_ = 0.0;
     double kept_ = 0.0;  // k of step 1 in this window
     std::array<std::vector<double>, 2> excess_;

@@ -2,6 +2,7 @@
 #include "fluid_adapter/box_step/row_reader.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace turbidite {
 
@@ -18,7 +19,15 @@ RowReader::RowReader(const PlaneOperator& plane, BoxRows& rows, const SideValues
       slots_(static_cast<std::size_t>(kept) * (plane.x.cells + padding)) {}
 
 void RowReader::begin(const double* values) {
+    begin(values, nullptr);
+}
+
+/// Rows at the edges are changed at once: their images and the other ranks need them.
+void RowReader::begin(const double* values, Change change) {
+    for (int j = 0; change && j < rows_.count(); ++j)
+        if (at_edge(j)) change(j);
     values_ = values;
+    change_ = std::move(change);
     loaded_ = -beyond - 1;
     look_outside(values);
 }
@@ -56,6 +65,7 @@ double RowReader::on_side(int side, int j) const {
 
 void RowReader::load(int j) {
     const int nx = plane_.x.cells, ny = rows_.count();
+    if (change_ && !at_edge(j)) change_(j);
     const double* from = j < 0 ? outside_.data() + static_cast<std::size_t>(beyond + j) * nx
                          : j >= ny
                              ? outside_.data() + static_cast<std::size_t>(beyond + j - ny) * nx

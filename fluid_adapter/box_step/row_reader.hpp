@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "fluid_adapter/box_step/box_rows.hpp"
@@ -28,6 +29,12 @@ class RowReader {
     /// by every rank.
     void begin(const double* values);
 
+    /// The same for a field that is to be changed first: `change(j)` changes row j of `values` in
+    /// place, once, before it is read. A pass that changes a field and one that reads it become one
+    /// if the rows are read to the end.
+    using Change = std::function<void(int)>;
+    void begin(const double* values, Change change);
+
     /// Row j, -beyond <= j < rows + beyond: values [-beyond, x.cells + beyond). Rows must be
     /// requested in ascending order; the last `kept` rows remain valid.
     const double* row(int j);
@@ -40,6 +47,7 @@ class RowReader {
     static constexpr int padding = 2 * beyond;
 
  private:
+    bool at_edge(int j) const { return j < beyond || j >= rows_.count() - beyond; }
     void load(int j);
     void look_outside(const double* values);
     void mirror(int from, int to, int side);
@@ -49,6 +57,7 @@ class RowReader {
     BoxRows& rows_;
     const SideValues* sides_;
     const double* values_ = nullptr;
+    Change change_;                        // of rows that are not at the edges; may be empty
     int loaded_ = 0;                       // index of the last row read
     std::vector<double> edges_, outside_;  // as in box_rows.hpp
     std::vector<double> slots_;

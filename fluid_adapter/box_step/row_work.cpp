@@ -99,8 +99,44 @@ void add_differences(int count, double x, const double* __restrict left,
 }
 
 TURBIDITE_ROW_WORK
+void difference_row(int count, double share, const double* __restrict low,
+                    const double* __restrict high, double* __restrict out) {
+    for (int i = 0; i < count; ++i) out[i] = share * (high[i] - low[i]);
+}
+
+TURBIDITE_ROW_WORK
+void next_direction(int count, const double* __restrict z, double beta, double* __restrict d) {
+    if (beta == 0.0)
+        for (int i = 0; i < count; ++i) d[i] = z[i];
+    else
+        for (int i = 0; i < count; ++i) d[i] = z[i] + beta * d[i];
+}
+
+TURBIDITE_ROW_WORK
+void kept_row(int count, double k, const double* __restrict w_low, const double* __restrict w_high,
+              const double* e, double* out) {
+    for (int i = 0; i < count; ++i) {
+        const double w = w_low[i] > w_high[i] ? w_low[i] : w_high[i];
+        out[i] = k * w * e[i];
+    }
+}
+
+TURBIDITE_ROW_WORK
 void add_row(int count, double share, const double* __restrict change, double* __restrict u) {
     for (int i = 0; i < count; ++i) u[i] += share * change[i];
+}
+
+TURBIDITE_ROW_WORK
+double sum_row(int count, const double* __restrict a) {
+    constexpr int lanes = 8;
+    double sums[lanes] = {};
+    int i = 0;
+    for (; i + lanes <= count; i += lanes)
+        for (int k = 0; k < lanes; ++k) sums[k] += a[i + k];
+    for (; i < count; ++i) sums[0] += a[i];
+    double sum = 0.0;
+    for (const double part : sums) sum += part;
+    return sum;
 }
 
 TURBIDITE_ROW_WORK

@@ -65,10 +65,23 @@ void add_differences(int count, double x, const double* left, const double* here
                      const double* right, double y, const double* below, const double* here_y,
                      const double* above, double* out);
 
+/// out[i] = share (high[i] - low[i])
+void difference_row(int count, double share, const double* low, const double* high, double* out);
+
+/// d[i] = z[i] + beta d[i]; d is not read if beta = 0
+void next_direction(int count, const double* z, double beta, double* d);
+
+/// out[i] = k max(w_low[i], w_high[i]) e[i]; out may be e
+void kept_row(int count, double k, const double* w_low, const double* w_high, const double* e,
+              double* out);
+
 /// u[i] += share change[i]
 void add_row(int count, double share, const double* change, double* u);
 
-/// sum of a[i] b[i], in an order that does not depend on the processor
+/// sum of a[i], in an order that does not depend on the processor
+double sum_row(int count, const double* a);
+
+/// sum of a[i] b[i], in the same order
 double dot_row(int count, const double* a, const double* b);
 
 /// u[i] = old_share v[i] + new_share u[i]

@@ -2,27 +2,25 @@
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
 
 #include <cmath>
-#include <numeric>
 
 namespace turbidite {
 
-void CoupledStep::begin(double dt) {
-    dt_ = dt;
-    pressure_.begin(box_, dt);
-    viscosity_.begin(box_, step_.viscosity() * dt, {step_.velocity(0), step_.velocity(1)});
+/// s without the impulses that it has.
+void CoupledStep::keep_transported() {
+    if (!keep_) return;
+    const double *x = step_.velocity(0), *y = step_.velocity(1);
+    transported_.x.assign(x, x + box_.size());
+    transported_.y.assign(y, y + box_.size());
+    add_impulses(-1.0, transported_);
 }
 
-void CoupledStep::predict() {
-    double *x = step_.velocity(0), *y = step_.velocity(1);
-    if (keep_) {
-        transported_.x.assign(x, x + box_.size());
-        transported_.y.assign(y, y + box_.size());
-    }
-    pressure_.predict(box_, viscosity_.impulse(), x, y);
+/// u += sign (f - dt G p)
+void CoupledStep::add_impulses(double sign, RowsOfTwo& u) {
+    box_.add_impulses(sign, dt_, step_.pressure(), viscosity_.impulse(), u.x.data(), u.y.data());
 }
 
 void CoupledStep::place_grains(const CollocationPoints& points) {
-    pressure_.place_grains(box_, points, step_.kept_excess(dt_));
+    pressure_.begin(points, dt_, step_.kept_excess(dt_));
 }
 
 /// Conjugate directions need W to be symmetric, which it is as far as the slip is reduced: 1e-2 is
@@ -63,15 +61,14 @@ void CoupledReport::add(const IterationResult& viscosity_again,
 
 RowsOfTwo CoupledStep::unconstrained() {
     RowsOfTwo s = transported_;
-    pressure_.predict(box_, viscosity_.impulse(), s.x.data(), s.y.data());
+    add_impulses(1.0, s);
     return s;
 }
 
 BoxStep::Force CoupledStep::viscous_force() const {
-    const RowsOfTwo& f = viscosity_.impulse();
+    const std::array<double, 2> sum = viscosity_.sum();
     const double per_time = step_.cell_area() / dt_;
-    return {per_time * std::accumulate(f.x.begin(), f.x.end(), 0.0),
-            per_time * std::accumulate(f.y.begin(), f.y.end(), 0.0)};
+    return {per_time * sum[0], per_time * sum[1]};
 }
 
 }  // namespace turbidite

@@ -5,9 +5,10 @@
 // (rigid_grains.hpp), u^n rigid and nearly solenoidal, P^n the grains' momenta with their weight
 // and the contact impulses of the last window:
 //
-//     begin      f = dt nu L u^n                      viscous impulse, u^n with the body force
-//     (transport of u^n with a solenoidal flux)
-//     predict    s = transported u^n + f - dt G p^n
+//     begin
+//     (transport of u^n with a solenoidal flux gives
+//                s = transported u^n + f - dt G p^n,   f = dt nu L u^n, u^n with the body force)
+//     place_grains
 //     (u, U) = W(s, P^n)
 //     correct    f: u = W(s), f = dt nu L u           rigid_viscosity.hpp
 //                p: D u + div e = 0                   rigid_pressure.hpp
@@ -38,11 +39,11 @@ class CoupledStep {
  public:
     explicit CoupledStep(BoxStep& step) : step_(step), box_(step.operators()), pressure_(step) {}
 
-    /// Before transport over dt [s].
-    void begin(double dt);
+    /// Before transport over dt [s], which is to add what it returns.
+    ImpulsesOfWindow& begin(double dt) { return viscosity_.begin(dt_ = dt, step_.viscosity()); }
 
-    /// After transport.
-    void predict();
+    /// After transport: keeps it, if asked to.
+    void keep_transported();
 
     /// Keeps s of the next window.
     void keep_unconstrained(bool keep) { keep_ = keep; }
@@ -55,7 +56,7 @@ class CoupledStep {
     /// s of the window with its last f and p, if kept [m/s].
     RowsOfTwo unconstrained();
 
-    /// Ends the window: p and e become the step's.
+    /// Ends the window: e becomes that of p.
     void end() { pressure_.end(box_); }
 
     /// Momentum over rho_f of the viscous impulses in this rank's cells, per time and unit length
@@ -64,6 +65,7 @@ class CoupledStep {
 
  private:
     double slip_reduction() const;
+    void add_impulses(double sign, RowsOfTwo& u);
 
     BoxStep& step_;
     BoxOperators box_;

@@ -2,6 +2,7 @@
 #include "fluid_adapter/coupled_step/rigid_grains.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace turbidite {
 
@@ -26,6 +27,7 @@ void RigidGrains::make_rigid(RigidChange& change, double reduction) {
 }
 
 MultiplierResult RigidGrains::settle() {
+    velocity();
     const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
     note(result);
     flow_.impose();
@@ -47,11 +49,27 @@ void RigidGrains::combine(RigidChange& change, double keep, const RigidChange& o
 }
 
 void RigidGrains::add(const RigidChange& change, double share) {
-    for (std::size_t c = 0; c < cells_; ++c) {
-        velocity_.x[c] += share * change.x[c];
-        velocity_.y[c] += share * change.y[c];
-    }
+    add_later(change, share);
+    velocity();
+}
+
+void RigidGrains::add_later(const RigidChange& change, double share) {
+    velocity();
+    pending_ = {share, change.x.data(), change.y.data()};
     flow_.add(change.grains, share);
+}
+
+PendingChange RigidGrains::take_pending() {
+    return std::exchange(pending_, {});
+}
+
+CellVelocity RigidGrains::velocity() {
+    const PendingChange change = take_pending();
+    for (std::size_t c = 0; change.share != 0.0 && c < cells_; ++c) {
+        velocity_.x[c] += change.share * change.x[c];
+        velocity_.y[c] += change.share * change.y[c];
+    }
+    return velocity_;
 }
 
 double RigidGrains::dot(const double* a, const double* b) const {

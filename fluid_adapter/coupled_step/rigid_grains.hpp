@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "fluid_adapter/box_step/box_operators.hpp"
 #include "fluid_adapter/multiplier/uzawa_cg.hpp"
 
 namespace turbidite {
@@ -18,6 +19,7 @@ struct RigidChange {
     ConstrainedFlow grains;
 
     void resize(std::size_t cells) { x.resize(cells), y.resize(cells); }
+    std::vector<double>& operator[](int axis) { return axis == 0 ? x : y; }
     const std::vector<double>& operator[](int axis) const { return axis == 0 ? x : y; }
     CellVelocity velocity() { return {x.data(), y.data()}; }
 };
@@ -31,6 +33,13 @@ class RigidGrains {
 
     /// change <- W change. The slip is reduced by the factor `reduction`.
     void make_rigid(RigidChange& change, double reduction);
+
+    /// The same with the change of the fluid's velocity left pending, to be made by whoever reads
+    /// the velocity next; `change` must stay as it is until then.
+    void add_later(const RigidChange& change, double share);
+
+    /// The change that is pending, for a caller that makes it.
+    PendingChange take_pending();
 
     /// change <- keep change + other.
     void combine(RigidChange& change, double keep, const RigidChange& other) const;
@@ -49,7 +58,8 @@ class RigidGrains {
     }
 
     double all_cells() const { return all_cells_; }  ///< on all ranks
-    CellVelocity velocity() const { return velocity_; }
+    /// Of the window, with what is pending made unless it was taken.
+    CellVelocity velocity();
 
     /// Iterations of all solves so far, and whether all of them converged.
     std::int64_t iterations() const { return iterations_; }
@@ -61,6 +71,7 @@ class RigidGrains {
     SaddleOperator& system_;
     ConstrainedFlow& flow_;
     CellVelocity velocity_;
+    PendingChange pending_;
     MultiplierSettings settings_;
     MultiplierWorkspace work_;
     std::size_t cells_;

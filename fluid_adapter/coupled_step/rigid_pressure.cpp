@@ -3,17 +3,17 @@
 
 #include <algorithm>
 
+#include "fluid_adapter/box_step/row_work.hpp"
+
 namespace turbidite {
 
-void RigidPressure::begin(BoxOperators& box, double dt) {
+void RigidPressure::begin(const CollocationPoints& points, double dt, double k) {
     dt_ = dt;
-    p_.assign(step_.pressure(), step_.pressure() + box.size());
-}
-
-void RigidPressure::place_grains(BoxOperators& box, const CollocationPoints& points, double k) {
-    outside_.assign(box.size(), 1.0);
+    kept_ = k;
+    residual_.resize(step_.cells());
+    rigid_.resize(step_.cells());
+    outside_.assign(step_.cells(), 1.0);
     for (const InteriorCell& inside : points.interior) outside_[inside.cell] = 0.0;
-    box.keep_excess(k, outside_.data(), excess());
 }
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
@@ -27,63 +27,63 @@ IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
 }
 
 /// r = -(D u + div e); returns |r|^2.
-double RigidPressure::find_residual(BoxOperators& box, const RigidGrains& grains) {
-    residual_.resize(box.size());
+double RigidPressure::find_residual(BoxOperators& box, RigidGrains& grains) {
+    const PendingChange change = grains.take_pending();  // made as the velocity is read
     const CellVelocity u = grains.velocity();
-    double square =
-        box.flux_residual(dt_, outside_.data(), p_.data(), u.x, u.y, excess(), residual_.data());
+    double square = box.flux_residual(dt_, step_.pressure(), u.x, u.y, excess(), change,
+                                      residual_.data());
     grains.sum_over_ranks(&square, 1);
     return square;
 }
 
-/// z = -(1/dt) laplacian^-1 r
-void RigidPressure::precondition() {
-    double* values = step_.pressure_solve().values();
-    for (std::size_t c = 0; c < residual_.size(); ++c) values[c] = residual_[c] / dt_;
-    step_.pressure_solve().solve();
-    preconditioned_.assign(values, values + residual_.size());
+/// z = -(1/dt) laplacian^-1 r, left in the solver; returns r.z.
+double RigidPressure::precondition(const RigidGrains& grains) {
+    double* z = step_.pressure_solve().values();
+    const auto nx = static_cast<std::size_t>(step_.columns());
+    double product = 0.0;
+    step_.pressure_solve().solve(
+        [&](int j) {
+            for (std::size_t c = j * nx; c < (j + 1) * nx; ++c) z[c] = residual_[c] / dt_;
+        },
+        [&](int j) { product += dot_row(nx, residual_.data() + j * nx, z + j * nx); });
+    grains.sum_over_ranks(&product, 1);
+    return product;
 }
 
-/// d = z + beta d, with W(-dt G d).
+/// d = z + beta d, and W(-dt G d).
 void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
                                      const IterationLimit& limit) {
-    precondition();
-    rigid_.resize(box.size());
-    box.gradient(dt_, preconditioned_.data(), rigid_.x.data(), rigid_.y.data());
-    grains.make_rigid(rigid_, limit.slip_reduction);
-    if (first) {
-        std::swap(direction_, preconditioned_);
-        std::swap(rigid_direction_, rigid_);
-        return;
-    }
     const double last = rz;
-    rz = grains.dot(residual_.data(), preconditioned_.data());
-    const double beta = rz / last;
-    for (std::size_t c = 0; c < direction_.size(); ++c)
-        direction_[c] = beta * direction_[c] + preconditioned_[c];
-    grains.combine(rigid_direction_, beta, rigid_);
+    rz = precondition(grains);
+    const double* z = step_.pressure_solve().values();
+    if (limit.most > 1) {
+        later_.resize(residual_.size());
+        box.direction(dt_, z, first ? 0.0 : rz / last, later_.data(), rigid_.x.data(),
+                      rigid_.y.data());
+        direction_ = later_.data();
+    } else {
+        box.gradient(dt_, z, rigid_.x.data(), rigid_.y.data());
+        direction_ = z;
+    }
+    grains.make_rigid(rigid_, limit.slip_reduction);
 }
 
 /// A d, kept if there may be another iteration.
 ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
-    if (keep) image_.resize(box.size());
+    if (keep) image_.resize(residual_.size());
     ImageProducts products =
-        box.flux_image(dt_, outside_.data(), direction_.data(), rigid_direction_.x.data(),
-                       rigid_direction_.y.data(), residual_.data(), keep ? image_.data() : nullptr);
+        box.flux_image(dt_, outside_.data(), direction_, rigid_.x.data(), rigid_.y.data(),
+                       residual_.data(), keep ? image_.data() : nullptr);
     grains.sum_over_ranks(products.data(), ImageProducts::count);
     return products;
 }
 
 /// p += alpha d, u += alpha W(-dt G d), r -= alpha A d.
 void RigidPressure::move(RigidGrains& grains, double alpha, bool again) {
-    for (std::size_t c = 0; c < p_.size(); ++c) p_[c] += alpha * direction_[c];
-    grains.add(rigid_direction_, alpha);
+    double* p = step_.pressure();
+    for (std::size_t c = 0; c < residual_.size(); ++c) p[c] += alpha * direction_[c];
+    grains.add(rigid_, alpha);
     for (std::size_t c = 0; again && c < residual_.size(); ++c) residual_[c] -= alpha * image_[c];
-}
-
-void RigidPressure::end(BoxOperators& box) {
-    box.add_to_excess(dt_, outside_.data(), p_.data(), excess());
-    std::copy(p_.begin(), p_.end(), step_.pressure());
 }
 
 }  // namespace turbidite

@@ -7,7 +7,7 @@
 //
 // by conjugate gradients on p from an earlier one: residual r = -(D u + div e), preconditioned by
 // the fluid's own pressure solve -(1/dt) laplacian^-1, which is exact without grains. The operator
-// -dt (D W G + smoothing) is symmetric and not negative. Valid C++17.
+// -dt (D W G + smoothing) is symmetric and not negative. p and e are the step's. Valid C++17.
 #pragma once
 
 #include "fluid_adapter/box_step/box_step.hpp"
@@ -17,38 +17,35 @@ namespace turbidite {
 
 class RigidPressure {
  public:
-    explicit RigidPressure(BoxStep& step) : step_(step) {}
+    /// From now on the step keeps its pressure.
+    explicit RigidPressure(BoxStep& step) : step_(step) { step.keep_pressure(); }
 
-    /// Begins a window of length dt [s]: p is the step's.
-    void begin(BoxOperators& box, double dt);
-
-    /// x, y += f - dt G p, f the viscous impulse.
-    void predict(BoxOperators& box, const RowsOfTwo& f, double* x, double* y) const {
-        box.predict(dt_, p_.data(), f, x, y);
-    }
-
-    /// Takes the grains' places; k is the part of the excess that remains of the last window's.
-    void place_grains(BoxOperators& box, const CollocationPoints& points, double k);
+    /// Takes the grains' places in a window of length dt [s]; k is the part of the excess that
+    /// remains of the last window's.
+    void begin(const CollocationPoints& points, double dt, double k);
 
     /// Corrects the window's velocity and p until the rms of r is below the tolerance [1/s].
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
-    /// Ends the window: p and the excess become the step's.
-    void end(BoxOperators& box);
+    /// Ends the window: the excess becomes that of p.
+    void end(BoxOperators& box) { box.update_excess(dt_, step_.pressure(), excess()); }
 
  private:
-    double find_residual(BoxOperators& box, const RigidGrains& grains);
-    void precondition();
+    double find_residual(BoxOperators& box, RigidGrains& grains);
+    double precondition(const RigidGrains& grains);
     void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
                           const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
     void move(RigidGrains& grains, double alpha, bool again);
-    ExcessFlux excess() { return {step_.excess(0).data(), step_.excess(1).data()}; }
+    ExcessFlux excess() {
+        return {step_.excess(0).data(), step_.excess(1).data(), kept_, outside_.data()};
+    }
 
     BoxStep& step_;
-    double dt_ = 0.0;
-    std::vector<double> p_, outside_, residual_, direction_, image_, preconditioned_;
-    RigidChange rigid_, rigid_direction_;  // W(-dt G z), W(-dt G d)
+    double dt_ = 0.0, kept_ = 1.0;
+    std::vector<double> outside_, residual_, later_, image_;
+    const double* direction_ = nullptr;  // z itself if there is but one iteration, or later_
+    RigidChange rigid_;                  // W(-dt G d)
 };
 
 }  // namespace turbidite

@@ -2,14 +2,23 @@
 #include "fluid_adapter/coupled_step/rigid_viscosity.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace turbidite {
 
-void RigidViscosity::begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity) {
-    per_laplacian_ = per_laplacian;
-    impulse_.resize(box.size());
-    box.laplacian(per_laplacian_, 0, velocity.x, impulse_.x.data());
-    box.laplacian(per_laplacian_, 1, velocity.y, impulse_.y.data());
+ImpulsesOfWindow& RigidViscosity::begin(double dt, double nu) {
+    per_laplacian_ = nu * dt;
+    pending_ = 0.0;
+    window_.dt = dt;
+    return window_;
+}
+
+const RowsOfTwo& RigidViscosity::impulse() {
+    const double share = std::exchange(pending_, 0.0);
+    for (int axis = 0; share != 0.0 && axis < 2; ++axis)
+        for (std::size_t c = 0; c < residual_[axis].size(); ++c)
+            window_.f[axis][c] += share * residual_[axis][c];
+    return window_.f;
 }
 
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
@@ -24,14 +33,20 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
 }
 
 /// r = dt nu L u - f; returns |r|^2.
-double RigidViscosity::find_residual(BoxOperators& box, const RigidGrains& grains) {
+double RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
     residual_.resize(box.size());
+    rigid_residual_.resize(box.size());
     const CellVelocity u = grains.velocity();
-    const auto [rx, fx] =
-        box.viscous_residual(per_laplacian_, 0, u.x, impulse_.x.data(), residual_.x.data());
-    const auto [ry, fy] =
-        box.viscous_residual(per_laplacian_, 1, u.y, impulse_.y.data(), residual_.y.data());
-    double sums[] = {rx + ry, fx + fy};
+    const RowsOfTwo& f = impulse();
+    double sums[] = {0.0, 0.0};
+    for (int axis = 0; axis < 2; ++axis) {
+        const ViscousSums one =
+            box.viscous_residual(per_laplacian_, axis, axis == 0 ? u.x : u.y, f[axis].data(),
+                                 residual_[axis].data(), rigid_residual_[axis].data());
+        sums[0] += one.square;
+        sums[1] += one.impulse;
+        sum_residual_[axis] = one.sum;
+    }
     grains.sum_over_ranks(sums, 2);
     scale_ = std::max(sums[0], sums[1]);
     return sums[0];
@@ -40,8 +55,10 @@ double RigidViscosity::find_residual(BoxOperators& box, const RigidGrains& grain
 /// z = W r, and d = r + beta d with W d.
 void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& rz,
                                       const IterationLimit& limit) {
-    rigid_residual_.x = residual_.x;
-    rigid_residual_.y = residual_.y;
+    if (!first) {
+        rigid_residual_.x = residual_.x;
+        rigid_residual_.y = residual_.y;
+    }
     grains.make_rigid(rigid_residual_, limit.slip_reduction);
     if (first) {
         std::swap(rigid_direction_, rigid_residual_);
@@ -77,13 +94,23 @@ ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains
     return sum;
 }
 
+/// The same for an only iteration, where d = r and later iterations need neither.
+void RigidViscosity::move_only(RigidGrains& grains, double alpha) {
+    pending_ = alpha;
+    for (int axis = 0; axis < 2; ++axis) window_.sum_f[axis] += alpha * sum_residual_[axis];
+    grains.add_later(rigid_direction_, alpha);
+}
+
 /// f += alpha d, u += alpha W d, r -= alpha A d.
 void RigidViscosity::move(RigidGrains& grains, double alpha, bool again) {
+    if (!again) return move_only(grains, alpha);
     const RowsOfTwo& d = direction_ ? *direction_ : residual_;
     for (int axis = 0; axis < 2; ++axis)
-        for (std::size_t c = 0; c < d[axis].size(); ++c) impulse_[axis][c] += alpha * d[axis][c];
+        for (std::size_t c = 0; c < d[axis].size(); ++c) {
+            window_.f[axis][c] += alpha * d[axis][c];
+            window_.sum_f[axis] += alpha * d[axis][c];
+        }
     grains.add(rigid_direction_, alpha);
-    if (!again) return;
     if (!direction_) later_ = residual_;  // the first direction
     for (int axis = 0; axis < 2; ++axis)
         for (std::size_t c = 0; c < image_[axis].size(); ++c)

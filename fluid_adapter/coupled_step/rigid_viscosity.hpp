@@ -10,6 +10,7 @@
 // eigenvalues from 1 to 1 + 8 nu dt/h2. Valid C++17.
 #pragma once
 
+#include "fluid_adapter/box_step/box_step.hpp"
 #include "fluid_adapter/coupled_step/conjugate_directions.hpp"
 #include "fluid_adapter/coupled_step/rigid_grains.hpp"
 
@@ -17,25 +18,33 @@ namespace turbidite {
 
 class RigidViscosity {
  public:
-    /// Begins a window: `per_laplacian` is nu dt [m2], f = dt nu L u of this velocity.
-    void begin(BoxOperators& box, double per_laplacian, const CellVelocity& velocity);
+    /// Begins a window of length dt [s] in a fluid of viscosity nu [m2/s]. Its f is to be set by
+    /// the caller: that of the velocity it begins with.
+    ImpulsesOfWindow& begin(double dt, double nu);
 
     /// Corrects the window's velocity and f until |r| < tolerance max(|f|, |r|), the maximum at the
-    /// beginning.
+    /// beginning. The last change of the velocity may be left pending.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// f over the rank's cells [m/s].
-    const RowsOfTwo& impulse() const { return impulse_; }
+    const RowsOfTwo& impulse();
+
+    /// Its sum.
+    std::array<double, 2> sum() const { return window_.sum_f; }
 
  private:
-    double find_residual(BoxOperators& box, const RigidGrains& grains);
+    double find_residual(BoxOperators& box, RigidGrains& grains);
     void choose_direction(RigidGrains& grains, bool first, double& rz, const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
     void move(RigidGrains& grains, double alpha, bool again);
+    void move_only(RigidGrains& grains, double alpha);
 
-    double per_laplacian_ = 0.0;
-    double scale_ = 0.0;  // |f|^2, or |r|^2 if that is larger
-    RowsOfTwo impulse_, residual_, image_;
+    double per_laplacian_ = 0.0;  // nu dt [m2]
+    double scale_ = 0.0;          // |f|^2, or |r|^2 if that is larger
+    ImpulsesOfWindow window_;
+    double pending_ = 0.0;  // f lacks this share of r
+    RowsOfTwo residual_, image_;
+    std::array<double, 2> sum_residual_{};  // over the rank's cells, before the first iteration
     RowsOfTwo later_;                       // d of all iterations but the first, where it is r
     const RowsOfTwo* direction_ = nullptr;  // null: r
     RigidChange rigid_residual_, rigid_direction_;

@@ -113,7 +113,6 @@ BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
 Projection BoxFluidStep::project() {
     if (!rows_.in_cell_order()) load();
     const double dt = fields_.time.deltaTValue();
-    if (coupled_) coupled_->begin(dt);
     const FluxReport report = coupled_ ? step_.hold_solenoidal_flux(dt) : step_.project(dt);
     double largest[] = {report.divergence, report.courant};
     fields_.ranks.max(largest, 2);
@@ -134,8 +133,10 @@ std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
         for (BoundaryForce& force : forces) force = on_all_ranks(force);
     } else {
         if (parts > 1 && !step_.holds_flux()) step_.hold_flux();
+        ImpulsesOfWindow* impulses = coupled_ ? &coupled_->begin(dt) : nullptr;
         for (int part = 0; part < parts; ++part)
-            forces.push_back(on_all_ranks(convect(dt / parts)));
+            forces.push_back(
+                on_all_ranks(convect(dt / parts, part == parts - 1 ? impulses : nullptr)));
     }
     step_.release_flux();
     return forces;
@@ -143,7 +144,7 @@ std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
 
 BoundaryForce BoxFluidStep::diffuse() {
     if (coupled_) {
-        coupled_->predict();
+        coupled_->keep_transported();
         return {};
     }
     const double dt = fields_.time.deltaTValue();
@@ -164,9 +165,9 @@ std::vector<VelocityValues> BoxFluidStep::velocity_values() {
     return {{step_.velocity(0), size}, {step_.velocity(1), size}};
 }
 
-SideForce BoxFluidStep::convect(double dt) {
+SideForce BoxFluidStep::convect(double dt, ImpulsesOfWindow* impulses) {
     const SideForce force = step_.convective_force();
-    step_.transport(dt);
+    step_.transport(dt, impulses);
     return force;
 }
 

@@ -46,7 +46,8 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
 
     std::vector<VelocityValues> velocity_values() override;
     void velocity_changed() override {}
-    SideForce convect(double dt) override;
+    SideForce convect(double dt) override { return convect(dt, nullptr); }
+    SideForce convect(double dt, ImpulsesOfWindow* impulses);
     SideForce diffuse_implicitly(double dt) override;
 
     FluidFields& fields_;

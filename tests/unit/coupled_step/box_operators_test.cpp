@@ -47,18 +47,16 @@ TEST_P(Operators, AreSymmetricWithCellsInsideGrains) {
 
 /// What is added to the excess for p changes the residual by what the residual already knew.
 TEST_P(Operators, TheExcessIsTheFluxOfTheResidual) {
-    std::vector<double> p(size()), w(size()), before(size()), after(size());
+    std::vector<double> p(size()), w(size()), before(size());
     fill_randomly(p, 1), fill_randomly(w, 3);
     for (double& value : w) value = value > 0.0 ? 1.0 : 0.0;
-    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data()};
+    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data(), 0.5, w.data()};
     fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
-    box.keep_excess(0.5, w.data(), excess);
     double *x = step.velocity(0), *y = step.velocity(1);
     std::fill_n(x, size(), 0.0), std::fill_n(y, size(), 0.0);
-    box.flux_residual(time_step, w.data(), p.data(), x, y, excess, before.data());
-    box.add_to_excess(time_step, w.data(), p.data(), excess);
-    const std::vector<double> none(size(), 0.0);
-    box.flux_residual(time_step, w.data(), none.data(), x, y, excess, after.data());
+    box.flux_residual(time_step, p.data(), x, y, excess, {}, before.data());
+    box.update_excess(time_step, p.data(), excess);
+    const std::vector<double> after = flux_defect(step);
     EXPECT_GT(product(before, before), 1.0);
     for (std::size_t c = 0; c < size(); ++c) ASSERT_NEAR(after[c], before[c], 1e-10);
 }
@@ -67,11 +65,77 @@ TEST_P(Operators, NoExcessBetweenCellsInsideGrains) {
     std::vector<double> w(size(), 0.0), p(size());
     fill_randomly(p, 4);
     fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
-    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data()};
-    box.keep_excess(0.5, w.data(), excess);
-    box.add_to_excess(time_step, w.data(), p.data(), excess);
+    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data(), 0.5, w.data()};
+    box.update_excess(time_step, p.data(), excess);
     for (int axis = 0; axis < 2; ++axis)
         for (const double e : step.excess(axis)) ASSERT_EQ(e, 0.0);
+}
+
+/// What is done while a velocity is read equals what is done before it is read.
+TEST_P(Operators, APendingChangeIsMadeOnce) {
+    std::vector<double> w(size(), 1.0), p(size()), together(size()), apart(size());
+    RowsOfTwo change, u;
+    change.resize(size()), u.resize(size());
+    for (int axis = 0; axis < 2; ++axis) {
+        fill_randomly(change[axis], 10 + axis), fill_randomly(u[axis], 20 + axis);
+        std::copy(u[axis].begin(), u[axis].end(), step.velocity(axis));
+        for (std::size_t c = 0; c < size(); ++c) u[axis][c] += 0.7 * change[axis][c];
+    }
+    fill_randomly(p, 4);
+    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data(), 1.0, w.data()};
+    box.flux_residual(time_step, p.data(), step.velocity(0), step.velocity(1), excess,
+                      {0.7, change.x.data(), change.y.data()}, together.data());
+    box.flux_residual(time_step, p.data(), u.x.data(), u.y.data(), excess, {}, apart.data());
+    EXPECT_EQ(together, apart);
+    for (int axis = 0; axis < 2; ++axis)
+        for (std::size_t c = 0; c < size(); ++c)
+            ASSERT_EQ(step.velocity(axis)[c], u[axis][c]);
+}
+
+TEST_P(Operators, ADirectionIsTheGradientOfItsSum) {
+    std::vector<double> z(size()), d(size()), x(size()), y(size()), again_x(size()), again_y(size());
+    fill_randomly(z, 1), fill_randomly(d, 2);
+    std::vector<double> sum = d;
+    for (std::size_t c = 0; c < size(); ++c) sum[c] = z[c] + 0.3 * d[c];
+    box.direction(time_step, z.data(), 0.3, d.data(), x.data(), y.data());
+    EXPECT_EQ(d, sum);
+    box.gradient(time_step, sum.data(), again_x.data(), again_y.data());
+    EXPECT_EQ(x, again_x);
+    EXPECT_EQ(y, again_y);
+    EXPECT_GT(product(x, x) + product(y, y), 0.01);
+}
+
+/// Transport that adds the impulses of the window equals transport followed by them.
+TEST_P(Operators, TransportAddsTheImpulsesOfItsVelocity) {
+    BoxStep other{box_fluid(GetParam(), 0.01)};
+    for (BoxStep* each : {&step, &other}) {
+        each->keep_pressure();
+        std::vector<double> p(size());
+        fill_randomly(p, 4);
+        std::copy(p.begin(), p.end(), each->pressure());
+        for (int axis = 0; axis < 2; ++axis) {
+            std::vector<double> u(size());
+            fill_randomly(u, 5 + axis);
+            std::copy(u.begin(), u.end(), each->velocity(axis));
+        }
+    }
+    RowsOfTwo f;
+    f.resize(size());
+    for (int axis = 0; axis < 2; ++axis)
+        box.laplacian(0.01 * time_step, axis, step.velocity(axis), f[axis].data());
+    ImpulsesOfWindow impulses;
+    impulses.dt = time_step;
+    step.transport(time_step, &impulses);
+    other.transport(time_step);
+    other.operators().add_impulses(1.0, time_step, other.pressure(), f, other.velocity(0),
+                                   other.velocity(1));
+    for (int axis = 0; axis < 2; ++axis) {
+        EXPECT_EQ(impulses.f[axis], f[axis]);
+        EXPECT_NEAR(impulses.sum_f[axis], std::accumulate(f[axis].begin(), f[axis].end(), 0.0),
+                    1e-12);
+        for (std::size_t c = 0; c < size(); ++c)
+            ASSERT_NEAR(step.velocity(axis)[c], other.velocity(axis)[c], 1e-14);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, Operators, testing::Values(Side::wall, Side::open, Side::cyclic),
