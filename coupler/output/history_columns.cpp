@@ -163,7 +163,11 @@ const std::vector<Column> columns = {
              c, [&](const auto& s) { return s.divergence * c.run.diameter / c.run.velocity; });
      }},
     {"viscous_residual",
-     [](Cell c) { return splitting(c, [](const auto& s) { return s.viscous_residual; }); }},
+     [](Cell c) {
+         return splitting(c, [&](const auto& s) {
+             return s.viscous_residual * c.run.diameter / (c.run.velocity * c.run.velocity);
+         });
+     }},
 };
 
 template <class Part>

@@ -35,10 +35,12 @@ std::string fluid_text(const FluidReport& report, const RunValues& run) {
                     report.multiplier_residual / run.velocity,
                     report.multipliers_converged ? "" : not_converged, report.courant);
     if (const auto& splitting = report.splitting)
-        text += fmt::format("  pressure {} its, div {:.0e} u_c/D, viscosity {} its, {:.0e}{}",
+        text += fmt::format("  pressure {} its, div {:.0e} u_c/D, viscosity {} its, {:.0e} u_c2/D{}",
                             splitting->pressure_iterations,
                             splitting->divergence * run.diameter / run.velocity,
-                            splitting->viscous_iterations, splitting->viscous_residual,
+                            splitting->viscous_iterations,
+                            splitting->viscous_residual * run.diameter /
+                                (run.velocity * run.velocity),
                             splitting->converged ? "" : not_converged);
     if (report.final_divergence > 0.0)  // computed in windows with output
         text += fmt::format("  divergence after step 5 {:.0e} u_c/D",

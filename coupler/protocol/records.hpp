@@ -165,7 +165,7 @@ struct SplittingReport {
     std::int64_t pressure_iterations = 0;
     std::int64_t viscous_iterations = 0;
     double divergence = 0.0;        ///< rms of div u after the last of them [1/s]
-    double viscous_residual = 0.0;  ///< of the viscous impulses, over their norm
+    double viscous_residual = 0.0;  ///< rms of the viscous acceleration that is missing [m/s2]
     bool converged = true;          ///< all that iterate to a tolerance, and none broke down
 };
 

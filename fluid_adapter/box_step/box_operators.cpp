@@ -96,7 +96,6 @@ ViscousSums BoxOperators::viscous_residual(double share, int axis, const double*
         add_row(nx_, -1.0, f + at(j), r + at(j));
         std::copy_n(r + at(j), nx_, again + at(j));
         sums.square += dot_row(nx_, r + at(j), r + at(j));
-        sums.impulse += dot_row(nx_, f + at(j), f + at(j));
         sums.sum += sum_row(nx_, r + at(j));
     }
     return sums;

@@ -49,9 +49,8 @@ static_assert(sizeof(ImageProducts) == ImageProducts::count * sizeof(double));
 
 /// Of a residual of viscosity, one component.
 struct ViscousSums {
-    double square = 0.0;   ///< r.r
-    double impulse = 0.0;  ///< f.f
-    double sum = 0.0;      ///< of r
+    double square = 0.0;  ///< r.r
+    double sum = 0.0;     ///< of r
 };
 
 /// Both components of the excess flux of the last window, laid out as BoxStep::excess, of which the

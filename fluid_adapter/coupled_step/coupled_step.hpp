@@ -23,12 +23,12 @@ namespace turbidite {
 
 struct CoupledLimits {
     bool iterated = false;     ///< to the tolerances; otherwise one correction of each
-    IterationLimit viscosity;  ///< tolerance: as in rigid_viscosity.hpp
+    IterationLimit viscosity;  ///< tolerance: rms of the missing viscous acceleration [m/s2]
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
 };
 
 struct CoupledReport {
-    IterationResult viscosity, pressure;  ///< pressure.residual: rms of div [1/s]
+    IterationResult viscosity, pressure;  ///< residuals as in CoupledLimits
     MultiplierResult slip;                ///< if iterated
 
     /// Adds a correction of which this is the latest.

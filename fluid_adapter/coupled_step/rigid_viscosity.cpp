@@ -26,7 +26,7 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
     const double square = find_residual(box, grains);
     if (square == 0.0) return {};
     return iterate(
-        limit, square, scale_,
+        limit, square, window_.dt * window_.dt * grains.all_cells(),
         [&](bool first, double& rz) { choose_direction(grains, first, rz, limit); },
         [&] { return apply(box, grains, limit.most > 1); },
         [&](double alpha) { move(grains, alpha, limit.most > 1); });
@@ -38,18 +38,16 @@ double RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
     rigid_residual_.resize(box.size());
     const CellVelocity u = grains.velocity();
     const RowsOfTwo& f = impulse();
-    double sums[] = {0.0, 0.0};
+    double square = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
         const ViscousSums one =
             box.viscous_residual(per_laplacian_, axis, axis == 0 ? u.x : u.y, f[axis].data(),
                                  residual_[axis].data(), rigid_residual_[axis].data());
-        sums[0] += one.square;
-        sums[1] += one.impulse;
+        square += one.square;
         sum_residual_[axis] = one.sum;
     }
-    grains.sum_over_ranks(sums, 2);
-    scale_ = std::max(sums[0], sums[1]);
-    return sums[0];
+    grains.sum_over_ranks(&square, 1);
+    return square;
 }
 
 /// z = W r, and d = r + beta d with W d.

@@ -22,8 +22,8 @@ class RigidViscosity {
     /// the caller: that of the velocity it begins with.
     ImpulsesOfWindow& begin(double dt, double nu);
 
-    /// Corrects the window's velocity and f until |r| < tolerance max(|f|, |r|), the maximum at the
-    /// beginning. The last change of the velocity may be left pending.
+    /// Corrects the window's velocity and f until the rms of r/dt is below the tolerance [m/s2].
+    /// The last change of the velocity may be left pending.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// f over the rank's cells [m/s].
@@ -40,7 +40,6 @@ class RigidViscosity {
     void move_only(RigidGrains& grains, double alpha);
 
     double per_laplacian_ = 0.0;  // nu dt [m2]
-    double scale_ = 0.0;          // |f|^2, or |r|^2 if that is larger
     ImpulsesOfWindow window_;
     double pending_ = 0.0;  // f lacks this share of r
     RowsOfTwo residual_, image_;

@@ -15,9 +15,9 @@ CoupledLimits coupled_limits(const Settings& settings) {
     if (splitting_of(settings) != Splitting::implicit_multiplier) return limits;
     const auto most = static_cast<int>(settings.integer("fluid.splitting_iterations"));
     limits.iterated = true;
-    limits.viscosity = {most, settings.real("fluid.splitting_tolerance")};
-    limits.pressure = {most,
-                       settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter};
+    const double rate = settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter;
+    limits.viscosity = {most, rate * run.velocity};
+    limits.pressure = {most, rate};
     return limits;
 }
 

@@ -275,8 +275,8 @@ KeyGroup fluid_keys() {
                  .unit = "u_c/D",
                  .fallback = "0.001",
                  .range = open_unit_interval,
-                 .help = "rms divergence, and relative residual of viscosity, that a window may "
-                         "end with",
+                 .help = "rms divergence that a window may end with, and, in u_c2/D, rms viscous "
+                         "acceleration that may be missing",
                  .idle = without_iterated_splitting},
                 {.name = "fluid.splitting_iterations",
                  .type = KeyType::integer,

@@ -110,7 +110,7 @@ TEST_P(Correction, ViscosityIsImplicit) {
         RigidViscosity implicit;
         implicit.begin(time_step, viscosity).f.resize(tank.size());  // none yet
         RigidGrains grains = tank.rigid();
-        const IterationLimit limit{400, 1e-5};
+        const IterationLimit limit{400, 1e-4 * viscosity};  // of accelerations of some 500 nu
         EXPECT_GE(implicit.correct(tank.box, grains, limit).iterations, 2);
         for (int round = 0; round < 6; ++round) {
             EXPECT_TRUE(grains.settle().converged);
