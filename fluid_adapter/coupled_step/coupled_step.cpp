@@ -4,6 +4,16 @@
 #include <cmath>
 
 namespace turbidite {
+namespace {
+
+/// Adds a correction of which this is the latest.
+void add(IterationResult& total, IterationResult latest) {
+    latest.iterations += total.iterations;
+    latest.broke_down = latest.broke_down || total.broke_down;
+    total = latest;
+}
+
+}  // namespace
 
 /// s without the impulses that it has.
 void CoupledStep::keep_transported() {
@@ -34,29 +44,32 @@ CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& giv
     CoupledLimits limits = given;
     limits.viscosity.slip_reduction = limits.pressure.slip_reduction = slip_reduction();
     CoupledReport report;
-    for (bool again = true; again;) {
-        IterationLimit viscous = limits.viscosity, pressure = limits.pressure;
-        viscous.most -= report.viscosity.iterations;
-        pressure.most -= report.pressure.iterations;
-        const IterationResult f = viscosity_.correct(box_, grains, viscous);
-        const IterationResult p = pressure_.correct(box_, grains, pressure);
-        report.add(f, p);
-        if (limits.iterated) report.slip = grains.settle();
-        // Each disturbs the others: solved is what needs no iteration any more.
-        again = limits.iterated && f.iterations + p.iterations > 0;
-    }
+    // Each disturbs the other: solved is what needs no iteration any more.
+    while (correct_viscosity(grains, limits, report) && correct_pressure(grains, limits, report))
+        if (!limits.iterated) break;
     return report;
 }
 
-void CoupledReport::add(const IterationResult& viscosity_again,
-                        const IterationResult& pressure_again) {
-    const auto append = [](IterationResult& total, IterationResult latest) {
-        latest.iterations += total.iterations;
-        latest.broke_down = latest.broke_down || total.broke_down;
-        total = latest;
-    };
-    append(viscosity, viscosity_again);
-    append(pressure, pressure_again);
+/// False if nothing has changed since the pressure was corrected.
+bool CoupledStep::correct_viscosity(RigidGrains& grains, const CoupledLimits& limits,
+                                    CoupledReport& report) {
+    IterationLimit limit = limits.viscosity;
+    limit.most -= report.viscosity.iterations;
+    const IterationResult result = viscosity_.correct(box_, grains, limit);
+    const bool first = report.corrections++ == 0;
+    add(report.viscosity, result);
+    return first || result.iterations > 0;
+}
+
+/// False if nothing has changed since viscosity was corrected.
+bool CoupledStep::correct_pressure(RigidGrains& grains, const CoupledLimits& limits,
+                                   CoupledReport& report) {
+    IterationLimit limit = limits.pressure;
+    limit.most -= report.pressure.iterations;
+    const IterationResult result = pressure_.correct(box_, grains, limit);
+    add(report.pressure, result);
+    if (limits.iterated) report.slip = grains.settle();
+    return result.iterations > 0;
 }
 
 RowsOfTwo CoupledStep::unconstrained() {

@@ -30,9 +30,7 @@ struct CoupledLimits {
 struct CoupledReport {
     IterationResult viscosity, pressure;  ///< residuals as in CoupledLimits
     MultiplierResult slip;                ///< if iterated
-
-    /// Adds a correction of which this is the latest.
-    void add(const IterationResult& viscosity_again, const IterationResult& pressure_again);
+    int corrections = 0;                  ///< of viscosity
 };
 
 class CoupledStep {
@@ -64,6 +62,9 @@ class CoupledStep {
     BoxStep::Force viscous_force() const;
 
  private:
+    bool correct_viscosity(RigidGrains& grains, const CoupledLimits& limits,
+                           CoupledReport& report);
+    bool correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
     double slip_reduction() const;
     void add_impulses(double sign, RowsOfTwo& u);
 

@@ -21,6 +21,12 @@ CoupledLimits coupled_limits(const Settings& settings) {
     return limits;
 }
 
+/// Contacts are about to change what is found: a few iterations of pressure are saved.
+CoupledLimits before_contacts(CoupledLimits limits) {
+    limits.pressure.tolerance *= 3.0;
+    return limits;
+}
+
 }  // namespace
 
 FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
@@ -56,7 +62,7 @@ void FluidWindow::correct(const std::vector<GrainState>& grains) {
         return answer("step 5 (multipliers)", [&] { multipliers_.take_constrained(grains); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
                 [&] { note(multipliers_.push(grains)); });
-    if (coupled_limits_.iterated) correct_fluid();
+    if (coupled_limits_.iterated) correct_fluid(coupled_limits_);
 }
 
 std::vector<FreeResponse> FluidWindow::responses() {
@@ -142,19 +148,19 @@ void FluidWindow::answer(const char* name, Take take) {
         note(multipliers_.solve());
     });
     if (CoupledStep* coupled = step_->coupled()) coupled->place_grains(multipliers_.points());
-    correct_fluid();
+    correct_fluid(before_contacts(coupled_limits_));
     grains_taken_ = true;
 }
 
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.
-void FluidWindow::correct_fluid() {
+void FluidWindow::correct_fluid(const CoupledLimits& limits) {
     CoupledStep* coupled = step_->coupled();
     if (!coupled) return;
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         multipliers_.impose();
         RigidGrains grains(multipliers_.system(), multipliers_.flow(),
                            {step_->velocity(0), step_->velocity(1)}, multipliers_.continued());
-        note(coupled->correct(grains, coupled_limits_));
+        note(coupled->correct(grains, limits));
         report_.multiplier_iterations += grains.iterations();
         report_.multipliers_converged = report_.multipliers_converged && grains.converged();
     });

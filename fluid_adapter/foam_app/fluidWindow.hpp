@@ -77,7 +77,7 @@ class FluidWindow {
     void answer(const char* name, Take take);
     void note(const MultiplierResult& result);
     void note(const CoupledReport& result);
-    void correct_fluid();
+    void correct_fluid(const CoupledLimits& limits);
     void close_ledger();
     void write_fields();
 
