@@ -2,6 +2,7 @@
 """Captions of the figures of a report, with numbers. Missing numbers are left out."""
 import findings
 import peaks
+import relaxation
 
 
 def sequence(run, pictures):
@@ -38,6 +39,7 @@ def collapse(run):
     highest = peaks.peak(run)
     if highest:
         text.append(f'Largest |<u>|: {highest.value:.4g} u_c at t = {highest.time:.4g} t_c.')
+    text += [part for part in [relaxation.caption(run)] if part]
     _, front = run.column('front_x')
     if len(front):
         text.append(f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.')

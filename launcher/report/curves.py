@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
+import relaxation
+
 # Residuals of single contacts are round-off; drawn at their value they would compress all other curves.
 LOG_FLOOR = 1e-16
 TIME_LABEL = r'$t\,/\,t_c$'
@@ -23,6 +25,7 @@ class Plot:
     curves: list = field(default_factory=list)
     logarithmic: bool = False
     divide_by_height: bool = False  # lengths in D over the height of the domain
+    relaxation: bool = False        # with the fit of relaxation.py
 
 
 # Fig. 3 of Topin et al. 2011.
@@ -33,12 +36,12 @@ SETTLING = [
          divide_by_height=True),
 ]
 
-# Fig. 8 of Topin et al. 2011, for grains without a fluid.
+# Fig. 8 of Topin et al. 2011.
 COLLAPSE = [
     Plot('(a) Mean velocity', r'$\langle u \rangle\,/\,u_c$',
          [Curve('mean_velocity_norm', r'norm $|\langle u \rangle|$'),
           Curve('mean_velocity_x', r'$\langle u_x \rangle$'),
-          Curve('mean_velocity_y', r'$\langle u_y \rangle$')]),
+          Curve('mean_velocity_y', r'$\langle u_y \rangle$')], relaxation=True),
     Plot('(b) Extent', r'length $/\,D$',
          [Curve('front_x', r'front, $\max(x+R)$'), Curve('mean_position_x', r'$\langle x \rangle$'),
           Curve('mean_position_y', r'$\langle y \rangle$')]),
@@ -112,7 +115,9 @@ def draw(plot, run, axes):
         logarithmic(axes)
     if height:
         axes.set_ylim(0.0, 1.0)
-    if len(curves) > 1:
+    if plot.relaxation:
+        relaxation.draw(run, axes)
+    if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(fontsize=8)
 
 

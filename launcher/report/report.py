@@ -86,7 +86,7 @@ def add_curves(page, run):
         page.heading('Curves')
         return page.paragraph('There is no history, so there are no curves.', 'remark')
     motion = ('settling', curves.SETTLING, captions.settling)
-    if not run.is_wet():
+    if not run.is_wet() or run.is_avalanche():
         motion = ('collapse', curves.COLLAPSE, captions.collapse)
     for heading, name, plots, caption in (
             ('Mean motion', *motion),

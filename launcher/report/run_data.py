@@ -33,6 +33,10 @@ class RunData:
     def is_wet(self):
         return self.case.get('fluid.enabled') != 'false'
 
+    def is_avalanche(self):
+        """Velocities are in sqrt(g D), and a column collapses."""
+        return self.case.get('scales.kind') == 'avalanche'
+
     def column(self, name):
         """The rows of the history that contain a quantity: times [t_c] and values."""
         if self.history is None or name not in self.history:

@@ -23,6 +23,7 @@ import compare_page
 import curves
 import findings
 import peaks
+import relaxation
 import run_data
 import seeds
 from page import Page, write_whole
@@ -73,6 +74,7 @@ def maximum(column, in_record):
 MEASURED = [
     Measured('peak_velocity', 'Peak of the mean velocity', r'$|\langle u \rangle|\,/\,u_c$', peak_part('value')),
     Measured('peak_time', 'Time of the peak', curves.TIME_LABEL, peak_part('time')),
+    Measured('relaxation_time', 'Relaxation time of an avalanche', curves.TIME_LABEL, relaxation.relaxation_time),
     Measured('rest_time', 'At rest from', curves.TIME_LABEL, findings.rest_time),
     Measured('end_front', 'Front at the end', r'$\max(x+R)\,/\,D$', end_of('front_x')),
     Measured('end_height', 'Mean height at the end', r'$\langle y \rangle\,/\,D$', end_of('mean_position_y')),
@@ -87,7 +89,7 @@ MEASURED = [
     Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', maximum('', 'unconverged_windows')),
     Measured('wall_seconds', 'Wall time', 's', lambda run: compare.wall_seconds(run)[0]),
 ]
-DRAWN = ('peak_velocity', 'peak_time', 'rest_time', 'end_front', 'end_height', 'wall_seconds')
+DRAWN = ('peak_velocity', 'peak_time', 'relaxation_time', 'rest_time', 'end_front', 'end_height', 'wall_seconds')
 
 
 def load(folder):
@@ -167,8 +169,8 @@ def add_table(page, members, keys, values):
 
 
 def plain_unit(measured):
-    return {'peak_velocity': 'u_c', 'peak_time': 't_c', 'rest_time': 't_c', 'end_front': 'D', 'end_height': 'D',
-            'end_velocity': 'u_c', 'overlap': 'D', 'wall_seconds': 's'}.get(measured.name, measured.unit)
+    return {'peak_velocity': 'u_c', 'peak_time': 't_c', 'relaxation_time': 't_c', 'rest_time': 't_c',
+            'end_front': 'D', 'end_height': 'D', 'end_velocity': 'u_c', 'overlap': 'D', 'wall_seconds': 's'}.get(measured.name, measured.unit)
 
 
 def spread(values):

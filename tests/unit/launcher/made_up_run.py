@@ -23,7 +23,7 @@ fluid:
 time:
   step: 0.1  # t_c
 scales:
-  kind: avalanche
+  kind: sedimentation
 """
 
 VTP = """<?xml version="1.0"?>

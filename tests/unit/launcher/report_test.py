@@ -15,6 +15,7 @@ import fluid_fields
 import grain_drawing
 import grain_files
 import pictures
+import relaxation
 import report
 import run_data
 import surface
@@ -210,6 +211,32 @@ class Report(RunFolderTest):
         self.assertEqual(findings.rest_time(run), 4)
         self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.5\n')
         self.assertIsNone(findings.rest_time(run_data.load_run(self.folder)))
+
+    def test_the_relaxation_time_is_where_the_acceleration_meets_the_axis(self):
+        # Creeps at 0.02, from t = 4 on rises by 0.1 per t_c, from t = 7 on by less.
+        times = [0.25 * n for n in range(41)]
+        velocity = [0.02 + 0.1 * (min(t, 7) - 4 if t > 4 else 0) + 0.01 * max(0, t - 7) for t in times]
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        self.write('history.csv', 'step,time,mean_velocity_norm\n'
+                   + ''.join(f'{n},{t},{u}\n' for n, (t, u) in enumerate(zip(times, velocity))))
+        found = relaxation.relaxation(run_data.load_run(self.folder))
+        self.assertAlmostEqual(found.time, 3.8, places=6)
+        self.assertAlmostEqual(found.slope, 0.1, places=6)
+        self.assertAlmostEqual(found.spread, 0.0, places=6)
+        self.assertIn('Relaxation time 3.80 t_c', self.make())
+        self.assertIn('collapse.png', self.pictures())
+
+    def test_there_is_no_relaxation_time_without_a_slide(self):
+        self.write_all()
+        creep = 'step,time,mean_velocity_norm\n' + ''.join(f'{n},{n},{0.009 * n}\n' for n in range(11))
+        self.write('history.csv', creep)
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        self.assertIsNone(relaxation.relaxation(run_data.load_run(self.folder)))
+        self.write('history.csv', creep.replace('0.09', '0.9'))
+        self.assertIsNotNone(relaxation.relaxation(run_data.load_run(self.folder)))
+        self.write('case.yaml', CASE)
+        self.assertIsNone(relaxation.relaxation(run_data.load_run(self.folder)))
 
     def test_pictures_end_when_the_grains_rest(self):
         times = [0, 2, 4, 6, 8, 10, 12]

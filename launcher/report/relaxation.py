@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The relaxation time of an avalanche: how long a dense packing waits before it slides.
+
+Topin et al. 2011, section 4.2: the straight line that fits the acceleration phase of the mean velocity meets the time
+axis at t_relax. The acceleration phase is where |<u>| rises most steeply over one t_c.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+import peaks
+
+FIT = 1.0                     # t_c, length of the fitted phase, or two rows of the history if these are longer
+OTHER_FITS = (0.5, 1.5, 2.0)  # t_c, to see how much it depends on that
+LEAST_PEAK = 0.1              # u_c: below, nothing has slid
+
+
+@dataclass
+class Relaxation:
+    """u = slope (t - time) from `begin` to `end`; times in t_c, velocities in u_c."""
+
+    time: float    # t_relax
+    lowest: float  # of all lengths of the fit
+    highest: float
+    slope: float
+    begin: float
+    end: float
+
+    @property
+    def spread(self):
+        return self.highest - self.lowest
+
+
+def relaxation(run):
+    """None unless the scales are an avalanche's and it has slid."""
+    if not run.is_avalanche():
+        return None
+    time, velocity = run.column(peaks.COLUMN)
+    if len(velocity) == 0 or velocity.max() < LEAST_PEAK:
+        return None
+    highest = int(velocity.argmax())
+    rising = time[:highest + 1], velocity[:highest + 1]
+    first = max(FIT, 2.0 * float(time[1] - time[0]))
+    fits = [steepest(*rising, length) for length in (first, *OTHER_FITS)]
+    if fits[0] is None:
+        return None
+    times = [fit.time for fit in fits if fit is not None]
+    fits[0].lowest, fits[0].highest = min(times), max(times)
+    return fits[0]
+
+
+def steepest(time, velocity, length):
+    """The steepest least-squares line over this length; None if the rows are too few."""
+    best = None
+    for first in range(len(time)):
+        part = slice(first, int(np.searchsorted(time, time[first] + length * (1.0 + 1e-9), side='right')))
+        if time[part][-1] < time[first] + length * (1.0 - 1e-9) or len(time[part]) < 3:
+            continue
+        slope, level = np.polyfit(time[part], velocity[part], 1)
+        if slope > 0.0 and (best is None or slope > best.slope):
+            crossing = float(-level / slope)
+            best = Relaxation(crossing, crossing, crossing, float(slope), float(time[first]), float(time[part][-1]))
+    return best
+
+
+def relaxation_time(run):
+    """t_relax [t_c], or None."""
+    found = relaxation(run)
+    return found.time if found else None
+
+
+def draw(run, axes):
+    """The line of the fit, from the time axis to the peak, over a plot of the mean velocity."""
+    found = relaxation(run)
+    if found is None:
+        return
+    top = float(run.column(peaks.COLUMN)[1].max())
+    axes.plot([found.time, found.time + top / found.slope], [0.0, top], color='black', linewidth=0.8, linestyle='--',
+              label=rf'fit, $t_\mathrm{{relax}} = {found.time:.2f}\,t_c$')
+
+
+def caption(run):
+    found = relaxation(run)
+    if found is None:
+        return ''
+    return (f'Relaxation time {found.time:.2f} t_c: where the steepest straight fit (t = {found.begin:.2f} to '
+            f'{found.end:.2f} t_c) meets the time axis; {found.lowest:.2f} to {found.highest:.2f} t_c with fits over '
+            f'{min(OTHER_FITS):g} to {max(OTHER_FITS):g} t_c.')
