@@ -69,9 +69,7 @@ class BoxStep {
     SideValues& side_velocity(int axis) { return side_velocity_[axis]; }
 
     /// p over rho_f [m2/s2], up to a constant where no side fixes it; valid after `project`.
-    double* pressure() {
-        return own_pressure_.empty() ? pressure_.values() : own_pressure_.data();
-    }
+    double* pressure() { return own_pressure_.empty() ? pressure_.values() : own_pressure_.data(); }
 
     /// p gets an array of its own, zero at first, which no solve overwrites.
     void keep_pressure() { own_pressure_.assign(static_cast<std::size_t>(nx_) * ny_, 0.0); }

@@ -21,10 +21,12 @@ struct IterationResult {
 struct IterationLimit {
     int most = 1;
     double tolerance = 0.0;
+    double reduction = 0.0;        ///< also enough: this part of the first residual
     double slip_reduction = 1e-3;  ///< of one direction; what is left adds to the flow's own slip
 };
 
-/// Iterates until |r| <= tolerance sqrt(scale), from |r|^2 = `square`. `choose(first, rz)` finds
+/// Iterates until |r| <= tolerance sqrt(scale) or less than the reduction asks for, from |r|^2 =
+/// `square`. `choose(first, rz)` finds
 /// the next direction from z and the r.z of the last one, and replaces that unless it is the first;
 /// `apply()` returns the products of its image; `move(alpha)` goes along it.
 template <class Choose, class Apply, class Move>
@@ -32,8 +34,9 @@ IterationResult iterate(const IterationLimit& limit, double square, double scale
                         Apply apply, Move move) {
     IterationResult result;
     result.residual = std::sqrt(square / scale);
+    const double enough = std::max(limit.tolerance, limit.reduction * result.residual);
     double rz = 0.0;  // of the last direction
-    while (result.residual > limit.tolerance && result.iterations < limit.most) {
+    while (result.residual > enough && result.iterations < limit.most) {
         choose(result.iterations == 0, rz);
         const ImageProducts image = apply();
         result.broke_down = !(image.direction > 0.0);
@@ -47,7 +50,7 @@ IterationResult iterate(const IterationLimit& limit, double square, double scale
         ++result.iterations;
         result.residual = std::sqrt(square / scale);
     }
-    result.converged = result.residual <= limit.tolerance;
+    result.converged = result.residual <= enough;
     return result;
 }
 

@@ -22,7 +22,9 @@
 namespace turbidite {
 
 struct CoupledLimits {
-    bool iterated = false;     ///< to the tolerances; otherwise one correction of each
+    /// To the tolerances. Otherwise one iteration of pressure, and viscosity to a tenth of what was
+    /// missing.
+    bool iterated = false;
     IterationLimit viscosity;  ///< tolerance: rms of the missing viscous acceleration [m/s2]
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
 };
@@ -62,10 +64,10 @@ class CoupledStep {
     BoxStep::Force viscous_force() const;
 
  private:
-    bool correct_viscosity(RigidGrains& grains, const CoupledLimits& limits,
-                           CoupledReport& report);
+    bool correct_viscosity(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
     bool correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
     double slip_reduction() const;
+    IterationLimit one_viscous_correction() const;
     void add_impulses(double sign, RowsOfTwo& u);
 
     BoxStep& step_;

@@ -30,8 +30,8 @@ IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
 double RigidPressure::find_residual(BoxOperators& box, RigidGrains& grains) {
     const PendingChange change = grains.take_pending();  // made as the velocity is read
     const CellVelocity u = grains.velocity();
-    double square = box.flux_residual(dt_, step_.pressure(), u.x, u.y, excess(), change,
-                                      residual_.data());
+    double square =
+        box.flux_residual(dt_, step_.pressure(), u.x, u.y, excess(), change, residual_.data());
     grains.sum_over_ranks(&square, 1);
     return square;
 }

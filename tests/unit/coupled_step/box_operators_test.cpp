@@ -88,12 +88,12 @@ TEST_P(Operators, APendingChangeIsMadeOnce) {
     box.flux_residual(time_step, p.data(), u.x.data(), u.y.data(), excess, {}, apart.data());
     EXPECT_EQ(together, apart);
     for (int axis = 0; axis < 2; ++axis)
-        for (std::size_t c = 0; c < size(); ++c)
-            ASSERT_EQ(step.velocity(axis)[c], u[axis][c]);
+        for (std::size_t c = 0; c < size(); ++c) ASSERT_EQ(step.velocity(axis)[c], u[axis][c]);
 }
 
 TEST_P(Operators, ADirectionIsTheGradientOfItsSum) {
-    std::vector<double> z(size()), d(size()), x(size()), y(size()), again_x(size()), again_y(size());
+    std::vector<double> z(size()), d(size()), x(size()), y(size()), again_x(size()),
+        again_y(size());
     fill_randomly(z, 1), fill_randomly(d, 2);
     std::vector<double> sum = d;
     for (std::size_t c = 0; c < size(); ++c) sum[c] = z[c] + 0.3 * d[c];
