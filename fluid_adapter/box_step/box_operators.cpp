@@ -2,6 +2,7 @@
 #include "fluid_adapter/box_step/box_operators.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "fluid_adapter/box_step/row_work.hpp"
 
@@ -22,7 +23,8 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
     : nx_(pressure.x.cells),
       ny_(rows.count()),
       hx_(pressure.x.spacing),
-      hy_(pressure.y.spacing),
+      height_(pressure.y.spacing),
+      heights_(pressure.y, rows),
       periodic_(pressure.x.periodic()),
       rows_(rows),
       velocity_{RowReader(velocity, rows, &sides[0]), RowReader(velocity, rows, &sides[1])},
@@ -34,15 +36,31 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
     for (Row* row : {&below_, &here_, &above_, &image_}) row->resize(nx_);
 }
 
+double BoxOperators::sum_of_cells(const std::vector<double>& values) const {
+    if (!heights_.stretched()) return std::accumulate(values.begin(), values.end(), 0.0);
+    double sum = 0.0;
+    for (int j = 0; j < ny_; ++j)
+        sum += heights_.relative(j) *
+               std::accumulate(values.begin() + at(j), values.begin() + at(j + 1), 0.0);
+    return sum;
+}
+
 void BoxOperators::laplacian(double share, int axis, const double* u, double* f) {
     RowReader& rows = velocity_[axis];
     rows.begin(u);
-    for (int j = 0; j < ny_; ++j) {
-        const double* below = rows.row(j - 1);
-        const double* here = rows.row(j);
-        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      f + at(j));
-    }
+    for (int j = 0; j < ny_; ++j) laplacian_of(j, share, rows, f + at(j));
+}
+
+/// out = share L u of row j.
+void BoxOperators::laplacian_of(int j, double share, RowReader& u, double* out) {
+    const double* below = u.row(j - 1);
+    const double* here = u.row(j);
+    const double* above = u.row(j + 1);
+    const double x = share / (hx_ * hx_), h = heights_.size(j);
+    if (!heights_.stretched())
+        return laplacian_row(nx_, x, share / (h * h), below, here, above, out);
+    stretched_laplacian_row(nx_, x, share / (h * heights_.distance(j)),
+                            share / (h * heights_.distance(j + 1)), below, here, above, out);
 }
 
 void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, double* x, double* y) {
@@ -54,7 +72,7 @@ void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, dou
         add_row(nx_, 1.0, f.x.data() + at(j), x + at(j));
         add_row(nx_, 1.0, f.y.data() + at(j), y + at(j));
         correct(nx_, 0.5 * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
-        correct(nx_, 0.5 * step / hy_, below, above, y + at(j), y + at(j));
+        correct(nx_, 0.5 * step / heights_.size(j), below, above, y + at(j), y + at(j));
     }
 }
 
@@ -66,7 +84,7 @@ void BoxOperators::gradient(double step, const double* p, double* x, double* y) 
         const double* here = p_.row(j);
         const double* above = p_.row(j + 1);
         correct(nx_, 0.5 * step / hx_, here - 1, here + 1, image_.data(), x + at(j));
-        correct(nx_, 0.5 * step / hy_, below, above, image_.data(), y + at(j));
+        correct(nx_, 0.5 * step / heights_.size(j), below, above, image_.data(), y + at(j));
     }
 }
 
@@ -76,13 +94,10 @@ std::array<double, 2> BoxOperators::viscous_residual(double share, int axis, con
     rows.begin(u);
     std::array<double, 2> sums{};
     for (int j = 0; j < ny_; ++j) {
-        const double* below = rows.row(j - 1);
-        const double* here = rows.row(j);
-        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      r + at(j));
+        laplacian_of(j, share, rows, r + at(j));
         add_row(nx_, -1.0, f + at(j), r + at(j));
-        sums[0] += dot_row(nx_, r + at(j), r + at(j));
-        sums[1] += dot_row(nx_, f + at(j), f + at(j));
+        sums[0] += heights_.relative(j) * dot_row(nx_, r + at(j), r + at(j));
+        sums[1] += heights_.relative(j) * dot_row(nx_, f + at(j), f + at(j));
     }
     return sums;
 }
@@ -94,15 +109,14 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
     ImageProducts products;
     for (int j = 0; j < ny_; ++j) {
         double* out = image ? image + at(j) : image_.data();
-        const double* below = rows.row(j - 1);
-        const double* here = rows.row(j);
-        laplacian_row(nx_, -share / (hx_ * hx_), -share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      out);
+        laplacian_of(j, -share, rows, out);
         add_row(nx_, 1.0, d + at(j), out);
-        products.direction += dot_row(nx_, out, here);
-        products.residual += dot_row(nx_, out, r + at(j));
-        products.itself += dot_row(nx_, out, out);
-        products.step += dot_row(nx_, r + at(j), here);
+        const double* here = rows.row(j);
+        const double volume = heights_.relative(j);
+        products.direction += volume * dot_row(nx_, out, here);
+        products.residual += volume * dot_row(nx_, out, r + at(j));
+        products.itself += volume * dot_row(nx_, out, out);
+        products.step += volume * dot_row(nx_, r + at(j), here);
     }
     return products;
 }
@@ -111,8 +125,8 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
 void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v, double* out) {
     const double* here = u.row(j);
     const double* below = v.row(j - 1);
-    divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / hy_, below,
-                   v.row(j + 1), out);
+    divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / heights_.size(j),
+                   below, v.row(j + 1), out);
 }
 
 double BoxOperators::flux_residual(double step, const double* w, const double* p, const double* x,
@@ -125,10 +139,10 @@ double BoxOperators::flux_residual(double step, const double* w, const double* p
         double* out = r + at(j);
         divergence_of(j, -1.0, velocity_[0], velocity_[1], out);
         const double* left = excess.x + along(j);
-        add_divergence_row(nx_, -1.0 / hx_, left, left + 1, -1.0 / hy_, excess.y + at(j),
-                           excess.y + at(j + 1), out);
+        add_divergence_row(nx_, -1.0 / hx_, left, left + 1, -1.0 / heights_.size(j),
+                           excess.y + at(j), excess.y + at(j + 1), out);
         add_smoothing(j, -step, out);
-        sum += dot_row(nx_, out, out);
+        sum += heights_.relative(j) * dot_row(nx_, out, out);
     }
     return sum;
 }
@@ -144,10 +158,11 @@ ImageProducts BoxOperators::flux_image(double step, const double* w, const doubl
         double* out = image ? image + at(j) : image_.data();
         divergence_of(j, 1.0, change_[0], change_[1], out);
         add_smoothing(j, step, out);
-        products.direction += dot_row(nx_, out, d + at(j));
-        products.residual += dot_row(nx_, out, r + at(j));
-        products.itself += dot_row(nx_, out, out);
-        products.step += dot_row(nx_, r + at(j), d + at(j));
+        const double volume = heights_.relative(j);
+        products.direction += volume * dot_row(nx_, out, d + at(j));
+        products.residual += volume * dot_row(nx_, out, r + at(j));
+        products.itself += volume * dot_row(nx_, out, out);
+        products.step += volume * dot_row(nx_, r + at(j), d + at(j));
     }
     return products;
 }
@@ -167,22 +182,35 @@ void BoxOperators::second_difference_along(int j) {
     ends_.extend(inside, j);
 }
 
-/// q = w d2 p along y of row j.
+/// q = w d2 p h/h_j along y of row j.
 void BoxOperators::second_difference_across(int j, Row& q) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
     weighted_difference(nx_, w_.row(j), below, here, p_.row(j + 1), q.data());
+    if (heights_.stretched()) scale_row(nx_, 1.0 / heights_.relative(j), q.data());
 }
 
 /// out += share Q p of row j; rows in ascending order.
 void BoxOperators::add_smoothing(int j, double share, double* out) {
-    const double x = 0.25 * share / (hx_ * hx_), y = 0.25 * share / (hy_ * hy_);
+    const double x = 0.25 * share / (hx_ * hx_);
+    const double y = 0.25 * share / (heights_.size(j) * height_);
     const double* q = along_.data() + RowReader::beyond;
     second_difference_along(j);
     second_difference_across(j + 1, above_);
     add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(), out);
+    if (heights_.stretched()) {
+        const double per_height = share / heights_.size(j);
+        add_compact_excess(j, -per_height, out);
+        add_compact_excess(j + 1, per_height, out);
+    }
     below_.swap(here_);
     here_.swap(above_);
+}
+
+/// out += share (1/d' - 1/d) (p_j - p_{j-1}), on the faces below row j.
+void BoxOperators::add_compact_excess(int j, double share, double* out) {
+    add_weighted_slope(nx_, share * heights_.compact_excess(j), w_.row(j - 1), w_.row(j),
+                       p_.row(j - 1), p_.row(j), out);
 }
 
 void BoxOperators::keep_excess(double k, const double* w, const ExcessFlux& excess) {
@@ -203,11 +231,12 @@ void BoxOperators::keep_excess(double k, const double* w, const ExcessFlux& exce
 void BoxOperators::add_to_excess(double step, const double* w, const double* p,
                                  const ExcessFlux& excess) {
     begin_smoothing(w, p);
-    const double x = 0.25 * step / hx_, y = 0.25 * step / hy_;
+    const double x = 0.25 * step / hx_, y = 0.25 * step / height_;
     const double* q = along_.data() + RowReader::beyond;
     for (int j = 0; j <= ny_; ++j) {
         double* across = excess.y + at(j);
         correct(nx_, -y, below_.data(), here_.data(), across, across);
+        if (heights_.stretched()) add_compact_excess(j, step, across);
         if (j == ny_) break;
         second_difference_along(j);
         second_difference_across(j + 1, above_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Differences on the rows of a uniform box, for what is solved with rigid grains in the fluid. With
+// Differences on the rows of a box, for what is solved with rigid grains in the fluid. With
 // u, p at cell centres and G, D the central differences, and with d2 the second difference along
 // one axis (h the spacing, sides as in row_reader.hpp):
 //
@@ -15,6 +15,10 @@
 // minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
 // between two such cells carry S.u and no more, and Q stays symmetric.
 //
+// Where rows have heights h_j of their own (row_heights.hpp), q = w d2 p h/h_j and Q p = d2 q/(4 h
+// h_j) along y; with d' for d in the interpolated gradient, e and Q have a term for 1/d' - 1/d as
+// well. All products are weighted by volumes, in which G and D, Q and L keep their symmetry.
+//
 // Each function reads and writes its arrays once, a row at a time; sums that the caller needs are
 // taken while a row is in cache, and are those of this rank. Valid C++17.
 #pragma once
@@ -22,6 +26,7 @@
 #include <array>
 #include <vector>
 
+#include "fluid_adapter/box_step/row_heights.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
 
 namespace turbidite {
@@ -59,6 +64,9 @@ class BoxOperators {
                  const std::array<SideValues, 2>& sides);
 
     std::size_t size() const { return static_cast<std::size_t>(nx_) * ny_; }
+
+    /// Sum over the rank's cells, weighted by volumes over those of cells that are not stretched.
+    double sum_of_cells(const std::vector<double>& values) const;
 
     // By every rank; arrays of this rank's rows. A velocity has the values that sides prescribe, a
     // change of a velocity is zero there.
@@ -101,14 +109,17 @@ class BoxOperators {
 
     std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
     std::size_t along(int j) const { return static_cast<std::size_t>(j) * (nx_ + 1); }
+    void laplacian_of(int j, double share, RowReader& u, double* out);
     void divergence_of(int j, double share, RowReader& u, RowReader& v, double* out);
     void begin_smoothing(const double* w, const double* p);
     void second_difference_along(int j);
     void second_difference_across(int j, Row& q);
     void add_smoothing(int j, double share, double* out);
+    void add_compact_excess(int j, double share, double* out);
 
     int nx_, ny_;
-    double hx_, hy_;
+    double hx_, height_;  // of the cells that are not stretched
+    RowHeights heights_;
     bool periodic_;
     BoxRows& rows_;
     std::array<RowReader, 2> velocity_, change_;

@@ -28,7 +28,7 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
       nx_(fluid.pressure.x.cells),
       ny_(rows_->count()),
       hx_(fluid.pressure.x.spacing),
-      hy_(fluid.pressure.y.spacing),
+      heights_(fluid.pressure.y, *rows_),
       pressure_(fluid.pressure, rows_->pencils()),
       viscous_{SeparableSolve(fluid.velocity, rows_->pencils()),
                SeparableSolve(fluid.velocity, rows_->pencils())},
@@ -96,8 +96,8 @@ void BoxStep::right_hand_side(int j, double dt) {
     flux_along(j, u_.row(j), kept_, flux_x_.data());
     mean_flux(nx_, v_.row(j), v_.row(j + 1), kept_on_row(j + 1), excess_y(j + 1),
               flux_above_.data());
-    divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1, -1.0 / (hy_ * dt),
-                   flux_below_.data(), flux_above_.data(),
+    divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1,
+                   -1.0 / (heights_.size(j) * dt), flux_below_.data(), flux_above_.data(),
                    pressure_.values() + static_cast<std::size_t>(j) * nx_);
     flux_below_.swap(flux_above_);
 }
@@ -110,16 +110,16 @@ void BoxStep::correct_row(int j, double dt) {
     const double* above = p_.row(j + 1);
     const double* v = v_.row(j);
     // v1 = v - dt dp/dy
-    correct(nx_, 0.5 * dt / hy_, below, above, v, corrected_here_.data());
+    correct(nx_, 0.5 * dt / heights_.size(j), below, above, v, corrected_here_.data());
     if (j >= 0) {
         const double* v_below = v_.row(j - 1);
         // phi1 = S.v + k e - dt dp/dy,   e = phi1 - S.v1
-        projected_flux(nx_, v_below, v, kept_on_row(j), excess_y(j), dt / hy_, below, here,
-                       flux_above_.data());
+        projected_flux(nx_, v_below, v, kept_on_row(j), excess_y(j), dt / heights_.distance(j),
+                       below, here, flux_above_.data());
         excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
                   excess_y(j));
     }
-    if (j >= 1) check_row(flux_x_.data(), flux_below_.data(), flux_above_.data());
+    if (j >= 1) check_row(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data());
     if (j >= 0 && j < ny_) correct_across(j, dt, here);
     flux_below_.swap(flux_above_);
     corrected_below_.swap(corrected_here_);
@@ -139,11 +139,12 @@ void BoxStep::correct_across(int j, double dt, const double* p) {
     std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
 }
 
-/// Divergence and Courant number of a row, from its x fluxes and the fluxes below and above.
-void BoxStep::check_row(const double* along, const double* below, const double* above) {
-    divergence_row(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy_, below, above, divergence_.data());
+/// Divergence and Courant number of row j, from its x fluxes and the fluxes below and above.
+void BoxStep::check_row(int j, const double* along, const double* below, const double* above) {
+    const double hy = heights_.size(j);
+    divergence_row(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy, below, above, divergence_.data());
     keep_largest(nx_, divergence_.data(), largest_divergence_.data());
-    keep_largest_outflow(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy_, below, above,
+    keep_largest_outflow(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy, below, above,
                          largest_outflow_.data());
 }
 
@@ -161,9 +162,9 @@ FluxReport BoxStep::hold_solenoidal_flux(double dt) {
 void BoxStep::correct_held_row(int j, double dt) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
-    projected_flux(nx_, v_.row(j - 1), v_.row(j), kept_on_row(j), excess_y(j), dt / hy_, below,
-                   here, held_y(j));
-    if (j >= 1) check_row(held_x(j - 1), held_y(j - 1), held_y(j));
+    projected_flux(nx_, v_.row(j - 1), v_.row(j), kept_on_row(j), excess_y(j),
+                   dt / heights_.distance(j), below, here, held_y(j));
+    if (j >= 1) check_row(j - 1, held_x(j - 1), held_y(j - 1), held_y(j));
     if (j == ny_) return;
     flux_along(j, u_.row(j), kept_, held_x(j));
     correct(nx_ + 1, dt / hx_, here - 1, here, held_x(j), held_x(j));
@@ -212,13 +213,27 @@ void BoxStep::carry(int count, const double* flux, const AcrossFaces& u, const A
                         carried[1].data());
 }
 
+/// The same between rows of different heights.
+void BoxStep::carry_between_rows(const FaceBetweenRows& face, const double* flux,
+                                 const AcrossFaces& u, const AcrossFaces& v,
+                                 std::array<Row, 2>& carried) const {
+    if (fluid_.central)
+        blended_flux(nx_, *fluid_.central, face, flux, u, v, carried[0].data(), carried[1].data());
+    else
+        convective_flux(nx_, 2.0 / fluid_.limiter, face, flux, u, v, carried[0].data(),
+                        carried[1].data());
+}
+
 /// Momentum carried through the faces above row j.
 void BoxStep::carry_above(int j) {
     const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
     const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
     const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
     if (!held_) mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
-    carry(nx_, flux, u, v, carried_above_);
+    if (heights_.equal_around(j + 1))
+        carry(nx_, flux, u, v, carried_above_);
+    else
+        carry_between_rows(heights_.face(j + 1), flux, u, v, carried_above_);
     const bool side = (j == -1 && !rows_->open_below()) || (j == ny_ - 1 && !rows_->open_above());
     for (int i = 0; side && i < nx_; ++i) {  // the boundary value
         carried_above_[0][i] = 0.5 * flux[i] * (u.low[i] + u.high[i]);
@@ -238,7 +253,7 @@ void BoxStep::transport_row(int j, double dt) {
         }
     for (int axis = 0; axis < 2; ++axis) {
         const double* across = carried_x_[axis].data();
-        advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / hy_,
+        advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / heights_.size(j),
                     carried_below_[axis].data(), carried_above_[axis].data(), row_of(axis, j));
     }
 }
@@ -256,15 +271,18 @@ void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
 /// solve itself takes the image beyond the side to be -u.
 void BoxStep::add_side_velocity(double dt) {
     const double across_x = 2.0 * fluid_.viscosity * dt / (hx_ * hx_);
-    const double across_y = 2.0 * fluid_.viscosity * dt / (hy_ * hy_);
+    const auto across_y = [&](int j) {
+        return 2.0 * fluid_.viscosity * dt / (heights_.size(j) * heights_.size(j));
+    };
+    const double at_bottom = across_y(0), at_top = across_y(ny_ - 1);
     for (int axis = 0; axis < 2; ++axis) {
         for (int j = 0; j < ny_; ++j) {
             row_of(axis, j)[0] += across_x * at_side(axis, 0, j);
             row_of(axis, j)[nx_ - 1] += across_x * at_side(axis, 1, j);
         }
         for (int i = 0; i < nx_; ++i) {
-            if (!rows_->open_below()) row_of(axis, 0)[i] += across_y * at_side(axis, 2, i);
-            if (!rows_->open_above()) row_of(axis, ny_ - 1)[i] += across_y * at_side(axis, 3, i);
+            if (!rows_->open_below()) row_of(axis, 0)[i] += at_bottom * at_side(axis, 2, i);
+            if (!rows_->open_above()) row_of(axis, ny_ - 1)[i] += at_top * at_side(axis, 3, i);
         }
     }
 }
@@ -282,8 +300,8 @@ BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
     const std::size_t nx = nx_, ny = ny_;
     if (!fluid_.velocity.x.periodic())
         for (std::size_t j = 0; j < ny; ++j) {
-            add(0, j, j * nx, j * (nx + 1), hy_);
-            add(1, j, j * nx + nx - 1, j * (nx + 1) + nx, hy_);
+            add(0, j, j * nx, j * (nx + 1), heights_.size(j));
+            add(1, j, j * nx + nx - 1, j * (nx + 1) + nx, heights_.size(j));
         }
     for (std::size_t i = 0; i < nx && !rows_->open_below(); ++i) add(2, i, i, i, hx_);
     for (std::size_t i = 0; i < nx && !rows_->open_above(); ++i)
@@ -327,9 +345,12 @@ BoxStep::Force BoxStep::convective_force() {
 }
 
 BoxStep::Force BoxStep::viscous_force() {
+    const auto across = [&](int side) {  // h
+        return side < 2 ? hx_ : heights_.size(side == 2 ? 0 : ny_ - 1);
+    };
     return over_sides([&](int side, int at, std::size_t cell, std::size_t) {
         const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
-        const double per_length = fluid_.viscosity / (side < 2 ? hx_ : hy_);
+        const double per_length = fluid_.viscosity / across(side);
         const auto rate = [&](int axis) {  // nu (u_{-1} - u_0)/h
             return per_length * (difference * velocity(axis)[cell] + 2.0 * at_side(axis, side, at));
         };

@@ -82,6 +82,30 @@ void laplacian_row(int count, double x, double y, const double* __restrict below
 }
 
 TURBIDITE_ROW_WORK
+void stretched_laplacian_row(int count, double x, double y_below, double y_above,
+                             const double* __restrict below, const double* __restrict u,
+                             const double* __restrict above, double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] = x * (u[i - 1] - 2.0 * u[i] + u[i + 1]) +
+                 (y_below * (below[i] - u[i]) + y_above * (above[i] - u[i]));
+}
+
+TURBIDITE_ROW_WORK
+void add_weighted_slope(int count, double share, const double* __restrict w_low,
+                        const double* __restrict w_high, const double* __restrict low,
+                        const double* __restrict high, double* __restrict out) {
+    for (int i = 0; i < count; ++i) {
+        const double w = w_low[i] < w_high[i] ? w_high[i] : w_low[i];
+        out[i] += share * w * (high[i] - low[i]);
+    }
+}
+
+TURBIDITE_ROW_WORK
+void scale_row(int count, double share, double* __restrict u) {
+    for (int i = 0; i < count; ++i) u[i] *= share;
+}
+
+TURBIDITE_ROW_WORK
 void weighted_difference(int count, const double* __restrict w, const double* __restrict low,
                          const double* __restrict here, const double* __restrict high,
                          double* __restrict out) {

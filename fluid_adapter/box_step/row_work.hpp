@@ -56,6 +56,18 @@ void keep_largest_outflow(int count, double x, const double* left, const double*
 void laplacian_row(int count, double x, double y, const double* below, const double* u,
                    const double* above, double* out);
 
+/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + y_below (below[i] - u[i]) + y_above (above[i] - u[i])
+void stretched_laplacian_row(int count, double x, double y_below, double y_above,
+                             const double* below, const double* u, const double* above,
+                             double* out);
+
+/// out[i] += share max(w_low[i], w_high[i]) (high[i] - low[i])
+void add_weighted_slope(int count, double share, const double* w_low, const double* w_high,
+                        const double* low, const double* high, double* out);
+
+/// u[i] *= share
+void scale_row(int count, double share, double* u);
+
 /// out[i] = w[i] (low[i] - 2 here[i] + high[i])
 void weighted_difference(int count, const double* w, const double* low, const double* here,
                          const double* high, double* out);

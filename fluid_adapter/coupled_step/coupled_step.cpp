@@ -2,7 +2,6 @@
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
 
 #include <cmath>
-#include <numeric>
 
 namespace turbidite {
 
@@ -70,8 +69,7 @@ RowsOfTwo CoupledStep::unconstrained() {
 BoxStep::Force CoupledStep::viscous_force() const {
     const RowsOfTwo& f = viscosity_.impulse();
     const double per_time = step_.cell_area() / dt_;
-    return {per_time * std::accumulate(f.x.begin(), f.x.end(), 0.0),
-            per_time * std::accumulate(f.y.begin(), f.y.end(), 0.0)};
+    return {per_time * box_.sum_of_cells(f.x), per_time * box_.sum_of_cells(f.y)};
 }
 
 }  // namespace turbidite

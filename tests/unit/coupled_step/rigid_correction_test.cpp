@@ -10,7 +10,7 @@ namespace {
 
 constexpr IterationLimit to_the_end{400, 1e-7};
 
-class Correction : public testing::TestWithParam<Side> {
+class Correction : public testing::TestWithParam<TankSides> {
  protected:
     /// Largest slip at the points of the grains.
     static double slip(Tank& tank) {
@@ -64,7 +64,7 @@ TEST_P(Correction, PressureEndsSolenoidalAndRigid) {
         const double square = tank.box.flux_residual(
             time_step, w.data(), none.data(), tank.step.velocity(0), tank.step.velocity(1),
             {tank.step.excess(0).data(), tank.step.excess(1).data()}, r.data());
-        EXPECT_LT(std::sqrt(square / static_cast<double>(tank.size())), 2e-7);
+        EXPECT_LT(std::sqrt(square / grains.all_cells()), 2e-7);
 
         // The sides take -dt p; what else the fluid lost is what the grains gained.
         const BoxStep::Force sides = tank.step.pressure_force();
@@ -169,12 +169,8 @@ TEST_P(Correction, OneIterationAlreadyTakesMostOfTheDivergence) {
     EXPECT_LT(second, 0.5 * first);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, Correction, testing::Values(Side::wall, Side::open, Side::cyclic),
-                         [](const auto& info) {
-                             return info.param == Side::wall   ? "wall"
-                                    : info.param == Side::open ? "open"
-                                                               : "cyclic";
-                         });
+INSTANTIATE_TEST_SUITE_P(Sides, Correction, testing::ValuesIn(all_tanks),
+                         [](const auto& info) { return name_of(info.param); });
 
 }  // namespace
 }  // namespace turbidite
