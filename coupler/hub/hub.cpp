@@ -62,10 +62,11 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
                     : std::vector<ParticipantLink*>{&grains_}),
       watch_(links_, settings_.stall_soft, settings_.stall_hard,
              [this](const std::string& text) { progress_.say(text); }),
+      roster_(case_.population),
       kick_rule_(settings_.run, case_.shapes),
       order_(scheme),
       scheme_(scheme.make(case_.settings)),
-      ledger_(settings_, case_.population.size()),
+      ledger_(settings_, [this](const std::string& text) { progress_.say(text); }),
       output_(files_.history, files_.series, settings_.run, case_.shapes) {}
 
 Hub::~Hub() = default;
@@ -75,8 +76,8 @@ void Hub::play(const Window& window) {
     WindowResult result = scheme_->play(window, output_.state(), cast());
     if (fluid_)
         result.grain_balance =
-            kick_rule_.defect(result.kicks.kicks, output_.state(), result.motion, window.step);
-    ledger_.check(result);
+            kick_rule_.balance(result.kicks.kicks, output_.state(), result.motion, window.step);
+    ledger_.check(window, result);
     output_.record(window, std::move(result), watch_.take_waited());
     if (window.write_output) output_.write();
 }
@@ -107,7 +108,7 @@ Window Hub::window(std::int64_t index, bool last) const {
 }
 
 Cast Hub::cast() {
-    return {grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, kick_rule_};
+    return {grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, roster_, kick_rule_};
 }
 
 RunStatus Hub::run() {
@@ -154,17 +155,18 @@ void Hub::end_and_record() {
 
 void Hub::start() {
     shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
+    ledger_.name_programs(grains_.program(), fluid_ ? fluid_->program() : "");
     tell_participants();
     std::vector<Box> boxes;
     if (fluid_) {
         watch_.wait_for(*fluid_, Kind::domain);
         boxes = fluid_->take<Box>(Kind::domain);
+        const Arrival arrival(*fluid_, Kind::domain, -1);
+        for (int rank = 0; rank < fluid_->ranks(); ++rank) arrival.check(rank, boxes[rank]);
     }
     plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
     Cast everybody = cast();
-    Motion state = receive_grains(Kind::state, -1, everybody);
-    ledger_.check_start(state);
-    output_.begin(std::move(state));
+    output_.begin(receive_grains(Kind::state, -1, everybody));
     watch_.take_waited();
 }
 

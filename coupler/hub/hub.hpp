@@ -65,6 +65,7 @@ class Hub {
     std::vector<ParticipantLink*> links_;
     Watch watch_;
     std::optional<ExchangePlan> plan_;
+    GrainRoster roster_;
     KickRule kick_rule_;
     SchemeEntry order_;
     std::unique_ptr<Scheme> scheme_;

@@ -3,6 +3,14 @@
 
 namespace turbidite {
 
+namespace {
+
+BalanceLimits balance_limits(const Settings& settings, const std::string& key) {
+    return {settings.real(key + "_soft"), settings.real(key + "_hard")};
+}
+
+}  // namespace
+
 HubSettings hub_settings(const Settings& settings) {
     HubSettings result;
     result.run = run_values(settings);
@@ -10,6 +18,8 @@ HubSettings hub_settings(const Settings& settings) {
     result.stall_soft = settings.real("limits.stall_soft");
     result.stall_hard = settings.real("limits.stall_hard");
     result.penetration = settings.real("limits.penetration");
+    result.grain_balance = balance_limits(settings, "limits.grain_balance");
+    result.fluid_balance = balance_limits(settings, "limits.fluid_balance");
     if (result.run.wet)
         result.cell = result.run.diameter / settings.real("fluid.cells_per_diameter");
     result.grains_adapter = settings.text("grains.adapter");

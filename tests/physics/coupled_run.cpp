@@ -68,6 +68,10 @@ void set_contact_values(Settings& settings) {
     settings.set("run.slip_tolerance", settings.real("fluid.multiplier_tolerance"));
     settings.set("coupling.positions", std::string("corrected"));
     settings.set("limits.penetration", 0.2);
+    settings.set("limits.grain_balance_soft", 1e-8);
+    settings.set("limits.grain_balance_hard", 1e-4);
+    settings.set("limits.fluid_balance_soft", 1e-6);
+    settings.set("limits.fluid_balance_hard", 1e-2);
 }
 
 }  // namespace

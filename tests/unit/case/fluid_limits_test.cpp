@@ -29,6 +29,14 @@ TEST_F(FluidLimits, LightGrainsInAFluidNeedJoint) {
                 "grains.density_ratio = 0");
 }
 
+TEST_F(FluidLimits, ABalanceWarnsBeforeItEndsTheRun) {
+    const std::string text = refusal("", {"limits.grain_balance_hard=1e-9"});
+    EXPECT_SAYS(text, "limits.grain_balance_hard = 1e-09");
+    EXPECT_SAYS(text, "at least limits.grain_balance_soft = 1e-08");
+    EXPECT_SAYS(refusal("", {"limits.fluid_balance_soft=0.5"}), "limits.fluid_balance_hard");
+    EXPECT_EQ(refusal("", {"limits.fluid_balance_hard=1", "limits.fluid_balance_soft=1"}), "");
+}
+
 TEST_F(FluidLimits, ExtraFieldsAndProbesAreNamedAndPlaced) {
     EXPECT_SAYS(refusal("", {"output.fields=vorticity curl"}), "There is no field curl");
     EXPECT_SAYS(refusal("", {"output.probes=[1, 2, 3]"}), "two for each point");
