@@ -23,7 +23,6 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
     : nx_(pressure.x.cells),
       ny_(rows.count()),
       hx_(pressure.x.spacing),
-      height_(pressure.y.spacing),
       heights_(pressure.y, rows),
       periodic_(pressure.x.periodic()),
       rows_(rows),
@@ -57,34 +56,41 @@ void BoxOperators::laplacian_of(int j, double share, RowReader& u, double* out) 
     const double* here = u.row(j);
     const double* above = u.row(j + 1);
     const double x = share / (hx_ * hx_), h = heights_.size(j);
-    if (!heights_.stretched())
+    if (heights_.equal_to_both(j))
         return laplacian_row(nx_, x, share / (h * h), below, here, above, out);
-    stretched_laplacian_row(nx_, x, share / (h * heights_.distance(j)),
-                            share / (h * heights_.distance(j + 1)), below, here, above, out);
+    const RowShares y{share / (h * heights_.distance(j)), share / (h * heights_.distance(j + 1))};
+    laplacian_row(nx_, x, y, below, here, above, out);
 }
 
 void BoxOperators::predict(double step, const double* p, const RowsOfTwo& f, double* x, double* y) {
     p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
-        const double* below = p_.row(j - 1);
         const double* here = p_.row(j);
-        const double* above = p_.row(j + 1);
         add_row(nx_, 1.0, f.x.data() + at(j), x + at(j));
         add_row(nx_, 1.0, f.y.data() + at(j), y + at(j));
         correct(nx_, 0.5 * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
-        correct(nx_, 0.5 * step / heights_.size(j), below, above, y + at(j), y + at(j));
+        correct_across(j, step, y + at(j), y + at(j));
     }
+}
+
+/// out = in - step G p along y, of row j; the row must have been read.
+void BoxOperators::correct_across(int j, double step, const double* in, double* out) {
+    const double* below = p_.row(j - 1);
+    const double* here = p_.row(j);
+    const double* above = p_.row(j + 1);
+    if (heights_.equal_to_both(j))
+        return correct(nx_, 0.5 * step / heights_.size(j), below, above, in, out);
+    const RowShares y{0.5 * step / heights_.distance(j), 0.5 * step / heights_.distance(j + 1)};
+    correct(nx_, y, below, here, above, in, out);
 }
 
 void BoxOperators::gradient(double step, const double* p, double* x, double* y) {
     std::fill(image_.begin(), image_.end(), 0.0);
     p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
-        const double* below = p_.row(j - 1);
         const double* here = p_.row(j);
-        const double* above = p_.row(j + 1);
         correct(nx_, 0.5 * step / hx_, here - 1, here + 1, image_.data(), x + at(j));
-        correct(nx_, 0.5 * step / heights_.size(j), below, above, image_.data(), y + at(j));
+        correct_across(j, step, image_.data(), y + at(j));
     }
 }
 
@@ -125,8 +131,16 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
 void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v, double* out) {
     const double* here = u.row(j);
     const double* below = v.row(j - 1);
-    divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / heights_.size(j),
-                   below, v.row(j + 1), out);
+    const double* across = v.row(j);
+    const double* above = v.row(j + 1);
+    const double x = 0.5 * share / hx_, y = 0.5 * share / heights_.size(j);
+    if (heights_.equal_to_both(j))
+        return divergence_row(nx_, x, here - 1, here + 1, y, below, above, out);
+    // (S.v_{+1/2} - S.v_{-1/2})/h_j,  S.v = (h_{-1} v_{-1} + h v)/(2d)
+    const double per_low = y / heights_.distance(j), per_high = y / heights_.distance(j + 1);
+    divergence_row(nx_, x, here - 1, here + 1, 0.0, below, above, out);
+    add_rows(nx_, {-per_low * heights_.size(j - 1), per_high * heights_.size(j + 1)},
+             (per_high - per_low) * heights_.size(j), below, across, above, out);
 }
 
 double BoxOperators::flux_residual(double step, const double* w, const double* p, const double* x,
@@ -182,35 +196,34 @@ void BoxOperators::second_difference_along(int j) {
     ends_.extend(inside, j);
 }
 
-/// q = w d2 p h/h_j along y of row j.
+/// q along y of row j.
 void BoxOperators::second_difference_across(int j, Row& q) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
-    weighted_difference(nx_, w_.row(j), below, here, p_.row(j + 1), q.data());
-    if (heights_.stretched()) scale_row(nx_, 1.0 / heights_.relative(j), q.data());
+    const double* above = p_.row(j + 1);
+    if (heights_.equal_to_both(j))
+        return weighted_difference(nx_, w_.row(j), below, here, above, q.data());
+    const double h = heights_.size(j);
+    weighted_difference(nx_, {h / heights_.distance(j), h / heights_.distance(j + 1)}, w_.row(j),
+                        below, here, above, q.data());
 }
 
 /// out += share Q p of row j; rows in ascending order.
 void BoxOperators::add_smoothing(int j, double share, double* out) {
-    const double x = 0.25 * share / (hx_ * hx_);
-    const double y = 0.25 * share / (heights_.size(j) * height_);
+    const double x = 0.25 * share / (hx_ * hx_), h = heights_.size(j);
+    const bool equal = heights_.equal_to_both(j);
+    const double y = equal ? 0.25 * share / (h * h) : 0.0;
     const double* q = along_.data() + RowReader::beyond;
     second_difference_along(j);
     second_difference_across(j + 1, above_);
     add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(), out);
-    if (heights_.stretched()) {
-        const double per_height = share / heights_.size(j);
-        add_compact_excess(j, -per_height, out);
-        add_compact_excess(j + 1, per_height, out);
+    if (!equal) {
+        const double low = 0.25 * share / (h * heights_.distance(j));
+        const double high = 0.25 * share / (h * heights_.distance(j + 1));
+        add_rows(nx_, {low, high}, -low - high, below_.data(), here_.data(), above_.data(), out);
     }
     below_.swap(here_);
     here_.swap(above_);
-}
-
-/// out += share (1/d' - 1/d) (p_j - p_{j-1}), on the faces below row j.
-void BoxOperators::add_compact_excess(int j, double share, double* out) {
-    add_weighted_slope(nx_, share * heights_.compact_excess(j), w_.row(j - 1), w_.row(j),
-                       p_.row(j - 1), p_.row(j), out);
 }
 
 void BoxOperators::keep_excess(double k, const double* w, const ExcessFlux& excess) {
@@ -231,12 +244,12 @@ void BoxOperators::keep_excess(double k, const double* w, const ExcessFlux& exce
 void BoxOperators::add_to_excess(double step, const double* w, const double* p,
                                  const ExcessFlux& excess) {
     begin_smoothing(w, p);
-    const double x = 0.25 * step / hx_, y = 0.25 * step / height_;
+    const double x = 0.25 * step / hx_;
     const double* q = along_.data() + RowReader::beyond;
     for (int j = 0; j <= ny_; ++j) {
         double* across = excess.y + at(j);
+        const double y = 0.25 * step / heights_.distance(j);
         correct(nx_, -y, below_.data(), here_.data(), across, across);
-        if (heights_.stretched()) add_compact_excess(j, step, across);
         if (j == ny_) break;
         second_difference_along(j);
         second_difference_across(j + 1, above_);

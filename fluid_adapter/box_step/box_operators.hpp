@@ -15,9 +15,9 @@
 // minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
 // between two such cells carry S.u and no more, and Q stays symmetric.
 //
-// Where rows have heights h_j of their own (row_heights.hpp), q = w d2 p h/h_j and Q p = d2 q/(4 h
-// h_j) along y; with d' for d in the interpolated gradient, e and Q have a term for 1/d' - 1/d as
-// well. All products are weighted by volumes, in which G and D, Q and L keep their symmetry.
+// Where rows have heights h_j of their own, along y with D of S.v and G of row_heights.hpp and s
+// the slope of p between two rows: q = w h (s_{+1} - s), e = dt (q_{+1} - q)/(4d), and Q p is the
+// divergence of e. All products are weighted by volumes: in them G and D, Q and L are symmetric.
 //
 // Each function reads and writes its arrays once, a row at a time; sums that the caller needs are
 // taken while a row is in cache, and are those of this rank. Valid C++17.
@@ -115,10 +115,10 @@ class BoxOperators {
     void second_difference_along(int j);
     void second_difference_across(int j, Row& q);
     void add_smoothing(int j, double share, double* out);
-    void add_compact_excess(int j, double share, double* out);
+    void correct_across(int j, double step, const double* in, double* out);
 
     int nx_, ny_;
-    double hx_, height_;  // of the cells that are not stretched
+    double hx_;
     RowHeights heights_;
     bool periodic_;
     BoxRows& rows_;

@@ -67,6 +67,35 @@ void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
     flux[nx_] = 0.5 * (u[nx_ - 1] + u[nx_]);
 }
 
+/// Of S between two rows of different heights: volumes over their sum.
+RowShares BoxStep::shares_at(int j) const {
+    const double both = heights_.size(j - 1) + heights_.size(j);
+    return {heights_.size(j - 1) / both, heights_.size(j) / both};
+}
+
+/// S.v + k e on the faces below row j.
+void BoxStep::flux_across(int j, double kept, double* flux) {
+    const double* low = v_.row(j - 1);
+    const double* high = v_.row(j);
+    if (heights_.equal_beside(j))
+        mean_flux(nx_, low, high, kept, excess_y(j), flux);
+    else
+        mean_flux(nx_, shares_at(j), low, high, kept, excess_y(j), flux);
+}
+
+/// S.v + k e - dt dp/dy on the faces below row j.
+void BoxStep::projected_across(int j, double dt, double* flux) {
+    const double* low = v_.row(j - 1);
+    const double* high = v_.row(j);
+    const double* p_low = p_.row(j - 1);
+    const double* p_high = p_.row(j);
+    const double step = dt / heights_.distance(j), kept = kept_on_row(j);
+    if (heights_.equal_beside(j))
+        projected_flux(nx_, low, high, kept, excess_y(j), step, p_low, p_high, flux);
+    else
+        projected_flux(nx_, shares_at(j), low, high, kept, excess_y(j), step, p_low, p_high, flux);
+}
+
 FluxReport BoxStep::project(double dt) {
     kept_ = kept_excess(dt);
     begin_projection(dt);
@@ -78,7 +107,7 @@ FluxReport BoxStep::project(double dt) {
 void BoxStep::begin_projection(double dt) {
     u_.begin(velocity(0));
     v_.begin(velocity(1));
-    mean_flux(nx_, v_.row(-1), v_.row(0), kept_on_row(0), excess_y(0), flux_below_.data());
+    flux_across(0, kept_on_row(0), flux_below_.data());
     pressure_.solve([&](int j) { right_hand_side(j, dt); }, [](int) {});
     u_.begin(velocity(0));
     v_.begin(velocity(1));
@@ -94,8 +123,7 @@ FluxReport BoxStep::checked(double dt) const {
 /// -div(S.u + k e)/dt of row j, written into the right-hand side of the pressure solve.
 void BoxStep::right_hand_side(int j, double dt) {
     flux_along(j, u_.row(j), kept_, flux_x_.data());
-    mean_flux(nx_, v_.row(j), v_.row(j + 1), kept_on_row(j + 1), excess_y(j + 1),
-              flux_above_.data());
+    flux_across(j + 1, kept_on_row(j + 1), flux_above_.data());
     divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1,
                    -1.0 / (heights_.size(j) * dt), flux_below_.data(), flux_above_.data(),
                    pressure_.values() + static_cast<std::size_t>(j) * nx_);
@@ -110,14 +138,20 @@ void BoxStep::correct_row(int j, double dt) {
     const double* above = p_.row(j + 1);
     const double* v = v_.row(j);
     // v1 = v - dt dp/dy
-    correct(nx_, 0.5 * dt / heights_.size(j), below, above, v, corrected_here_.data());
+    if (heights_.equal_to_both(j))
+        correct(nx_, 0.5 * dt / heights_.size(j), below, above, v, corrected_here_.data());
+    else
+        correct(nx_, {0.5 * dt / heights_.distance(j), 0.5 * dt / heights_.distance(j + 1)}, below,
+                here, above, v, corrected_here_.data());
     if (j >= 0) {
-        const double* v_below = v_.row(j - 1);
         // phi1 = S.v + k e - dt dp/dy,   e = phi1 - S.v1
-        projected_flux(nx_, v_below, v, kept_on_row(j), excess_y(j), dt / heights_.distance(j),
-                       below, here, flux_above_.data());
-        excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
-                  excess_y(j));
+        projected_across(j, dt, flux_above_.data());
+        if (heights_.equal_beside(j))
+            excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
+                      excess_y(j));
+        else
+            excess_of(nx_, shares_at(j), flux_above_.data(), corrected_below_.data(),
+                      corrected_here_.data(), excess_y(j));
     }
     if (j >= 1) check_row(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data());
     if (j >= 0 && j < ny_) correct_across(j, dt, here);
@@ -160,14 +194,12 @@ FluxReport BoxStep::hold_solenoidal_flux(double dt) {
 /// S.u + e - dt S.grad p on the faces below row j and on its x faces; row j - 1 then has all its
 /// fluxes and is checked.
 void BoxStep::correct_held_row(int j, double dt) {
-    const double* below = p_.row(j - 1);
-    const double* here = p_.row(j);
-    projected_flux(nx_, v_.row(j - 1), v_.row(j), kept_on_row(j), excess_y(j),
-                   dt / heights_.distance(j), below, here, held_y(j));
+    projected_across(j, dt, held_y(j));
     if (j >= 1) check_row(j - 1, held_x(j - 1), held_y(j - 1), held_y(j));
     if (j == ny_) return;
     flux_along(j, u_.row(j), kept_, held_x(j));
-    correct(nx_ + 1, dt / hx_, here - 1, here, held_x(j), held_x(j));
+    const double* p = p_.row(j);
+    correct(nx_ + 1, dt / hx_, p - 1, p, held_x(j), held_x(j));
 }
 
 void BoxStep::transport(double dt) {
@@ -188,7 +220,7 @@ void BoxStep::hold_flux() {
         const double* u = u_.row(j);
         // phi1 = S.u1 + e
         if (j < ny_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), held_x(j));
-        mean_flux(nx_, v_.row(j - 1), v_.row(j), 1.0, excess_y(j), held_y(j));
+        flux_across(j, 1.0, held_y(j));
     }
     held_ = true;
 }
@@ -229,7 +261,7 @@ void BoxStep::carry_above(int j) {
     const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
     const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
     const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
-    if (!held_) mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
+    if (!held_) flux_across(j + 1, 1.0, flux_above_.data());
     if (heights_.equal_around(j + 1))
         carry(nx_, flux, u, v, carried_above_);
     else

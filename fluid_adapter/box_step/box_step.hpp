@@ -24,6 +24,7 @@
 #include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/box_step/row_heights.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
+#include "fluid_adapter/box_step/row_work.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {
@@ -137,6 +138,9 @@ class BoxStep {
     void carry_between_rows(const FaceBetweenRows& face, const double* flux, const AcrossFaces& u,
                             const AcrossFaces& v, std::array<Row, 2>& carried) const;
     void flux_along(int j, const double* u, double kept, double* flux);
+    void flux_across(int j, double kept, double* flux);
+    void projected_across(int j, double dt, double* flux);
+    RowShares shares_at(int j) const;
     double kept_on_row(int j) const;
     void add_side_velocity(double dt);
     double at_side(int axis, int side, int at) const { return side_velocity_[axis][side][at]; }

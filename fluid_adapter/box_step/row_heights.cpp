@@ -29,8 +29,4 @@ FaceBetweenRows RowHeights::face(int j) const {
     return {d / distance(j - 1), d / distance(j + 1), 0.5 * size(j - 1) / d, 0.5 * size(j) / d};
 }
 
-double RowHeights::compact_excess(int j) const {
-    return 0.5 * (1.0 / size(j - 1) + 1.0 / size(j)) - 1.0 / distance(j);
-}
-
 }  // namespace turbidite

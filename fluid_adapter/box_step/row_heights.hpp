@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Heights of the rows of cells that a rank works on, and of two rows beyond either end: those of
-// the rows there, or mirror images beyond a side. Rows may differ (a stretched axis); what is
-// interpolated to the face between two rows for pressure and continuity is their mean,
+// Heights h_j of the rows of cells that a rank works on, and of two rows beyond either end: those
+// of the rows there, or mirror images beyond a side. With d the distance of two centres,
+// interpolation to the face between two rows and the gradient of p along y are
 //
-//     S.u = (u_{-1} + u)/2,    (G p)_j = (p_{j+1} - p_{j-1})/(2 h_j)
+//     S.u = (h_{-1} u_{-1} + h u)/(h_{-1} + h)
+//     (G p)_j = ((p_j - p_{j-1})/d + (p_{j+1} - p_j)/d_{+1})/2
 //
-// (OpenFOAM's `midPoint`), on rows of any heights. So G is minus the transpose of the divergence of
-// S.u in the product weighted by volumes, as on equal rows; with the weights of distances it is
-// not. The error is of second order where heights change smoothly: for a linear p it is
-// (r - 1)^2/(4r) of the gradient, r the ratio of neighbouring heights. Valid C++17.
+// G is OpenFOAM's `Gauss linear`, exact for a linear p: what hydrostatic pressure balances stays at
+// rest. S weighs by volumes (`reverseLinear`) so that G is minus the transpose of the divergence of
+// S.u in the product weighted by volumes, which conjugate gradients with rigid grains need; it is
+// exact for a uniform u. On equal rows both are the central ones. Valid C++17.
 #pragma once
 
 #include <vector>
@@ -39,16 +40,14 @@ class RowHeights {
     /// h_j over that of the rows that are not stretched: the volume of a cell over theirs.
     double relative(int j) const { return size(j) / size_; }
 
-    /// Whether the face below row j is as between equal rows, for stencils of two rows on each
-    /// side.
-    bool equal_around(int j) const;
+    // Of the face below row j:
 
-    /// Of the face below row j.
+    bool equal_beside(int j) const { return size(j - 1) == size(j); }
+    bool equal_around(int j) const;  ///< for stencils of two rows on each side
     FaceBetweenRows face(int j) const;
 
-    /// 1/d' - 1/d of the face below row j [1/m]: d' is the distance in the gradient that is
-    /// interpolated to the face, 1/d' = (1/h_{j-1} + 1/h_j)/2. Zero between equal rows.
-    double compact_excess(int j) const;
+    /// Whether row j is as high as the rows below and above it.
+    bool equal_to_both(int j) const { return equal_beside(j) && equal_beside(j + 1); }
 
  private:
     double size_;

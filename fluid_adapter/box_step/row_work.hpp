@@ -56,18 +56,6 @@ void keep_largest_outflow(int count, double x, const double* left, const double*
 void laplacian_row(int count, double x, double y, const double* below, const double* u,
                    const double* above, double* out);
 
-/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + y_below (below[i] - u[i]) + y_above (above[i] - u[i])
-void stretched_laplacian_row(int count, double x, double y_below, double y_above,
-                             const double* below, const double* u, const double* above,
-                             double* out);
-
-/// out[i] += share max(w_low[i], w_high[i]) (high[i] - low[i])
-void add_weighted_slope(int count, double share, const double* w_low, const double* w_high,
-                        const double* low, const double* high, double* out);
-
-/// u[i] *= share
-void scale_row(int count, double share, double* u);
-
 /// out[i] = w[i] (low[i] - 2 here[i] + high[i])
 void weighted_difference(int count, const double* w, const double* low, const double* here,
                          const double* high, double* out);
@@ -90,5 +78,41 @@ void combine_stage(std::size_t count, double old_share, const double* v, double 
 /// u[i] = old_share v[i] + new_share u[i] + rate_share (now[i] - before[i]); v may be now
 void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
                    double rate_share, const double* now, const double* before, double* u);
+
+// The same between rows of different heights (row_heights.hpp), with a factor for each row.
+
+/// What a row below and a row above a face count for.
+struct RowShares {
+    double low, high;
+};
+
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i]
+void mean_flux(int count, RowShares s, const double* low, const double* high, double kept,
+               const double* extra, double* face);
+
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i] - step (p_high[i] - p_low[i])
+void projected_flux(int count, RowShares s, const double* low, const double* high, double kept,
+                    const double* extra, double step, const double* p_low, const double* p_high,
+                    double* face);
+
+/// extra[i] = face[i] - (s.low low[i] + s.high high[i])
+void excess_of(int count, RowShares s, const double* face, const double* low, const double* high,
+               double* extra);
+
+/// out[i] = in[i] - s.low (here[i] - below[i]) - s.high (above[i] - here[i]); out may alias in
+void correct(int count, RowShares s, const double* below, const double* here, const double* above,
+             const double* in, double* out);
+
+/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + s.low (below[i] - u[i]) + s.high (above[i] - u[i])
+void laplacian_row(int count, double x, RowShares s, const double* below, const double* u,
+                   const double* above, double* out);
+
+/// out[i] += s.low below[i] + share here[i] + s.high above[i]
+void add_rows(int count, RowShares s, double share, const double* below, const double* here,
+              const double* above, double* out);
+
+/// out[i] = w[i] (s.high (high[i] - here[i]) - s.low (here[i] - low[i]))
+void weighted_difference(int count, RowShares s, const double* w, const double* low,
+                         const double* here, const double* high, double* out);
 
 }  // namespace turbidite

@@ -6,10 +6,22 @@
 #include <numbers>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/mesh_memory.hpp"
 
 namespace turbidite {
 namespace {
+
+/// Rows of different heights; empty if all are equal.
+std::string rows_text(const Settings& settings, double top) {
+    if (!rows_are_stretched(settings)) return "";
+    const MeshRows rows = *mesh_rows(settings, top);
+    return fmt::format(
+        "  rows: {} equal ones up to {:.4g} D, {} that grow by {:.4f} to {:.3g} "
+        "cells\n",
+        rows.equal, rows.equal_height(), rows.stretched.size(), rows.ratio,
+        rows.largest() / rows.height);
+}
 
 std::string fluid_line(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
@@ -17,8 +29,9 @@ std::string fluid_line(const ResolvedCase& resolved) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double cells = settings.real("fluid.cells_per_diameter");
     return fmt::format("  fluid: {:.0f} x {:.0f} cells (about {:.1g} GB), Re = {:.4g}\n",
-                       size[0] * cells, size[1] * cells, fluid_memory(settings),
-                       resolved.scales.reynolds);
+                       size[0] * cells, fluid_rows(settings), fluid_memory(settings),
+                       resolved.scales.reynolds) +
+           rows_text(settings, size[1]);
 }
 
 std::string md_line(const Settings& settings) {

@@ -37,7 +37,8 @@ TEST(RowHeights, AreMirroredBeyondSides) {
     EXPECT_EQ(heights.size(5), 1.5);
     EXPECT_EQ(heights.size(6), 1.0);
     EXPECT_EQ(heights.relative(4), 1.5);
-    EXPECT_EQ(heights.compact_excess(5), 0.0);
+    EXPECT_TRUE(heights.equal_beside(5));
+    EXPECT_FALSE(heights.equal_to_both(4));
 }
 
 TEST(RowHeights, BetweenTwoRowsGiveDistancesAndShares) {
@@ -51,7 +52,6 @@ TEST(RowHeights, BetweenTwoRowsGiveDistancesAndShares) {
     EXPECT_DOUBLE_EQ(face.high, 0.75 / 1.25);
     EXPECT_DOUBLE_EQ(face.behind, 1.25);
     EXPECT_DOUBLE_EQ(face.ahead, 1.25 / 1.5);
-    EXPECT_DOUBLE_EQ(heights.compact_excess(4), 0.5 * (1.0 + 1.0 / 1.5) - 1.0 / 1.25);
 }
 
 }  // namespace
