@@ -26,13 +26,19 @@ constexpr double farewell_limit_after_stall = 2.0;
 // point spacing of it, at most 4 cells (rules 2 and 3): 5.5 cells, plus a safety margin.
 constexpr double stencil_cells = 7.0;
 
+// Followed by the wait-for table; the launcher looks for it (launcher/job/job_outcome.cpp).
+const std::string end_from_outside = "ended from outside; until then";
+
 double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+bool started_by_launcher() {
+    return std::getenv("TURBIDITE_PROGRESS") != nullptr;
+}
+
 bool on_terminal() {
-    const char* wish = std::getenv("TURBIDITE_PROGRESS");
-    return wish != nullptr && std::string(wish) == "terminal";
+    return started_by_launcher() && std::getenv("TURBIDITE_PROGRESS") == std::string("terminal");
 }
 
 /// What every rank reported about itself; a rank that reported nothing is still identified.
@@ -116,6 +122,9 @@ RunStatus Hub::run() {
     try {
         start();
         play_windows();
+    } catch (const EndedFromOutside&) {
+        progress_.log(end_from_outside + ("\n" + wait_for_table()));
+        throw;
     } catch (const Failure& failure) {
         status_.code = failure.code();
         status_.reason = failure.what();
@@ -199,13 +208,21 @@ std::optional<ExitCode> Hub::requested_stop() const {
 }
 
 void Hub::end(const Verdict& verdict) {
-    if (!verdict.reason.empty()) progress_.say("turbidite: " + verdict.reason);
+    if (!verdict.reason.empty()) report_end("turbidite: " + verdict.reason);
     for (ParticipantLink* link : links_) link->dismiss(verdict);
     const double limit =
         status_.code == ExitCode::stalled ? farewell_limit_after_stall : farewell_limit;
     await_all(&ParticipantLink::gone, limit);
     for (ParticipantLink* link : links_) link->release();
     await_all(&ParticipantLink::flushed, limit);
+}
+
+// `turbidite run` prints the reason itself, below everything else.
+void Hub::report_end(const std::string& text) {
+    if (started_by_launcher())
+        progress_.log(text);
+    else
+        progress_.say(text);
 }
 
 void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {

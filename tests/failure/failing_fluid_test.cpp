@@ -2,31 +2,10 @@
 //
 // A fluid that sends invalid answers, throws or exits: runs of an installation whose
 // turbidite-fluid is faulty_fluid.
-#include "tests/failure/failing_run.hpp"
+#include "tests/failure/failing_fluid.hpp"
 
 namespace turbidite {
 namespace {
-
-namespace fs = std::filesystem;
-
-class FailingFluid : public FailingRun {
- protected:
-    // `turbidite` looks for its programs in its own folder, after following links.
-    void SetUp() override {
-        FailingRun::SetUp();
-        const fs::path program = TURBIDITE_PROGRAM;
-        const fs::path bin = scratch.path() / "bin";
-        fs::create_directory(bin);
-        fs::copy_file(program, bin / "turbidite");
-        for (const char* name : {"turbidite-coupler", "turbidite-grains"})
-            fs::create_symlink(program.parent_path() / name, bin / name);
-        fs::create_symlink(FAULTY_FLUID, bin / "turbidite-fluid");
-    }
-
-    Answer run_with(const std::string& fault) const {
-        return shell("TURBIDITE_FAULT=" + fault + " " + run_line("", "bin/turbidite"));
-    }
-};
 
 TEST_F(FailingFluid, MultipliersThatStopAtTheirLimitInThreeConsecutiveWindows) {
     const Answer answer = run_with("unsolved");
@@ -65,13 +44,6 @@ TEST_F(FailingFluid, ErrorReachesTheUserWithRoleAndLog) {
     EXPECT_EQ(answer.code, 4);
     EXPECT_SAYS(answer.err, "The run failed: fluid rank 0 (scripted-fluid, host ");
     EXPECT_SAYS(answer.err, "logs/fluid.log): scripted trouble");
-    expect_good_output_is_kept(ExitCode::participant_failed);
-    expect_nothing_left();
-}
-
-TEST_F(FailingFluid, ExitWithoutAMessageIsAFailure) {
-    const Answer answer = run_with("exit");
-    EXPECT_EQ(answer.code, 4) << answer.err;
     expect_good_output_is_kept(ExitCode::participant_failed);
     expect_nothing_left();
 }

@@ -57,6 +57,14 @@ KeyGroup limit_keys() {
                  .fallback = "600",
                  .range = positive,
                  .help = "waiting time after which the run ends with code 5"},
+                {.name = "limits.start",
+                 .type = KeyType::real,
+                 .unit = "s",
+                 .fallback = "120",
+                 .range = positive,
+                 .help =
+                     "time until all programs of the job must have joined; then the run ends with "
+                     "code 5"},
                 {.name = "limits.penetration",
                  .type = KeyType::real,
                  .unit = "D",

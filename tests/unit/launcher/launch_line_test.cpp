@@ -33,9 +33,12 @@ const std::string exported =
 
 TEST(LaunchLine, WetWithYade) {
     EXPECT_EQ(shell_line(launch_arguments(settings("yade-nscd", true), {"/r"}, site(true))),
-              front + exported + "-n 1 /b/bin/turbidite-coupler /r : " + exported +
-                  "-n 1 /b/bin/turbidite-fluid -case /r/fluid : " + exported +
-                  "-n 1 /usr/bin/yade -n -x /b/lib/yade/turbidite_yade_nscd.py /r");
+              front + exported + "-n 1 /b/bin/turbidite-member /r coupler 0 1 " +
+                  "/b/bin/turbidite-coupler /r : " + exported +
+                  "-n 1 /b/bin/turbidite-member /r fluid 1 1 " +
+                  "/b/bin/turbidite-fluid -case /r/fluid : " + exported +
+                  "-n 1 /b/bin/turbidite-member /r grains 2 1 " +
+                  "/usr/bin/yade -n -x /b/lib/yade/turbidite_yade_nscd.py /r");
 }
 
 TEST(LaunchLine, TheUsersPythonPathIsKept) {
@@ -48,8 +51,9 @@ TEST(LaunchLine, TheUsersPythonPathIsKept) {
 
 TEST(LaunchLine, DryWithoutYade) {
     EXPECT_EQ(shell_line(launch_arguments(settings("standalone-nscd", false), {"/r"}, site(true))),
-              front + exported + "-n 1 /b/bin/turbidite-coupler /r : " + exported +
-                  "-n 1 /b/bin/turbidite-grains /r");
+              front + exported + "-n 1 /b/bin/turbidite-member /r coupler 0 1 " +
+                  "/b/bin/turbidite-coupler /r : " + exported +
+                  "-n 1 /b/bin/turbidite-member /r grains 1 1 /b/bin/turbidite-grains /r");
 }
 
 TEST(LaunchLine, RootIsMentionedOnlyForRoot) {
@@ -61,7 +65,9 @@ TEST(LaunchLine, SeveralFluidRanksAreParallel) {
     Settings several = settings("standalone-nscd", true);
     several.set("fluid.ranks", std::int64_t{3});
     const std::string line = shell_line(launch_arguments(several, {"/r"}, site(true)));
-    EXPECT_NE(line.find("-n 3 /b/bin/turbidite-fluid -case /r/fluid -parallel :"),
+    EXPECT_NE(line.find("/b/bin/turbidite-member /r grains 4 1 "), std::string::npos) << line;
+    EXPECT_NE(line.find("-n 3 /b/bin/turbidite-member /r fluid 1 3 /b/bin/turbidite-fluid -case "
+                        "/r/fluid -parallel :"),
               std::string::npos)
         << line;
 }
