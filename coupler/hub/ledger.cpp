@@ -21,6 +21,8 @@ constexpr int windows_until_refused = 3;
 std::string against_overlap(const std::string& adapter) {
     if (adapter == "yade-md")
         return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
+    if (adapter == "external")
+        return "Use a smaller time.step, or stiffer or better converged contacts in your program.";
     return "Use a smaller time.step, or more contact.iterations.";
 }
 

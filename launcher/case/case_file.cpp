@@ -18,6 +18,7 @@
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/case_entries.hpp"
 #include "launcher/case/case_rules.hpp"
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/earlier_run.hpp"
 #include "launcher/case/grain_forms.hpp"
 #include "launcher/case/grains_adapters.hpp"
@@ -356,6 +357,13 @@ std::string users_script(Settings& settings, const std::filesystem::path& folder
     return file_text(file);
 }
 
+/// Files in grains.command get absolute paths, with which any program may start it.
+void place_command(Settings& settings, const std::filesystem::path& folder) {
+    if (!settings.has("grains.command")) return;
+    if (const auto words = command_words(settings.text("grains.command")))
+        settings.set("grains.command", command_text(with_absolute_files(*words, folder)));
+}
+
 Quaternion turned(double angle) {
     if (angle == 0.0) return {1.0, 0.0, 0.0, 0.0};
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
@@ -397,7 +405,7 @@ void set_scheme(Settings& settings) {
 
 /// The contact parameters and sub-steps of molecular dynamics.
 void set_soft_contact(Settings& settings, const Packing& grains) {
-    if (grains_adapter(settings).family != "md") return;
+    if (grains_adapter(settings).family == "nscd") return;
     const SoftContact contact = soft_contact(settings, height_of(grains));
     settings.set("run.md_frequency", contact.frequency);
     settings.set("run.md_damping", contact.damping);
@@ -446,6 +454,7 @@ ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
     Population population = make_population(settings, *forms, entries, folder, given_grains);
     std::vector<InnerWall> walls = make_walls(settings, population.grains, *forms, folder, entries);
     std::string script = users_script(settings, folder, entries);
+    place_command(settings, folder);
     if (settings.has("grains.adapter")) check_motions(settings, walls, entries);
     if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
     return finish(std::move(settings), std::move(population), std::move(walls), std::move(script),

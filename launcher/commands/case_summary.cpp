@@ -7,6 +7,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/mesh_memory.hpp"
 
 namespace turbidite {
@@ -35,7 +36,8 @@ std::string fluid_line(const ResolvedCase& resolved) {
 }
 
 std::string md_line(const Settings& settings) {
-    if (!settings.has("run.md_substeps")) return "";
+    const bool external = settings.text("grains.adapter") == "external";
+    if (!settings.has("run.md_substeps") || external) return "";
     const double frequency = settings.real("run.md_frequency");
     const double fall = settings.real("run.gravity") / settings.real("run.diameter");
     return fmt::format(
@@ -46,6 +48,13 @@ std::string md_line(const Settings& settings) {
         settings.integer("run.md_substeps"));
 }
 
+std::string command_line(const Settings& settings) {
+    if (settings.text("grains.adapter") != "external") return "";
+    const auto program = find_program_file(command_words(settings.text("grains.command"))->front());
+    return fmt::format("  grains program: {} ({})\n", settings.text("grains.command"),
+                       program.empty() ? "not found" : program.string());
+}
+
 }  // namespace
 
 std::string case_summary(const ResolvedCase& resolved) {
@@ -53,6 +62,7 @@ std::string case_summary(const ResolvedCase& resolved) {
     std::string text =
         fmt::format("{}: {} grains ({}) in {} D\n", resolved.name, resolved.population.size(),
                     settings.text("grains.adapter"), settings.text("domain.size"));
+    text += command_line(settings);
     text += fluid_line(resolved);
     text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
                         settings.integer("run.windows"), settings.text("time.step"),

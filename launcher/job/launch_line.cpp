@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/grains_adapters.hpp"
 
 namespace turbidite {
@@ -21,8 +22,14 @@ std::filesystem::path grains_file(const GrainsAdapter& adapter, const Programs& 
 }
 
 // -x: a Python error ends the program instead of opening a prompt, where the job would hang.
-Arguments grains_command(const GrainsAdapter& adapter, const Programs& programs,
+Arguments grains_command(const Settings& settings, const Programs& programs,
                          const std::string& run) {
+    const GrainsAdapter& adapter = grains_adapter(settings);
+    if (adapter.host == GrainsHost::command) {
+        Arguments words = *command_words(settings.text("grains.command"));
+        words.push_back(run);
+        return words;
+    }
     const std::string file = grains_file(adapter, programs);
     if (adapter.host == GrainsHost::none) return {file, run};
     return {programs.yade(), "-n", "-x", file, run};
@@ -111,7 +118,7 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
         parts.add("fluid", ranks, fluid_command(ranks, folder, programs));
     }
     parts.add("grains", settings.integer("grains.ranks"),
-              grains_command(grains_adapter(settings), programs, folder.root));
+              grains_command(settings, programs, folder.root));
     append(line, parts.line());
     return line;
 }
@@ -141,6 +148,7 @@ std::vector<std::filesystem::path> needed_programs(const Settings& settings,
     std::vector<std::filesystem::path> needed{programs.coupler(), programs.member()};
     if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid());
     const GrainsAdapter& adapter = grains_adapter(settings);
+    if (adapter.host == GrainsHost::command) return needed;  // require_command
     if (adapter.host == GrainsHost::yade) {
         needed.push_back(programs.yade());
         needed.push_back(programs.yade_extension());

@@ -17,6 +17,7 @@ LaunchSite site(bool as_root) {
 
 Settings settings(const std::string& adapter, bool wet) {
     Settings result;
+    result.set("grains.command", std::string("my-code --fast 'a b'"));
     result.set("grains.adapter", adapter);
     result.set("grains.ranks", std::int64_t{1});
     result.set("fluid.enabled", wet);
@@ -39,6 +40,14 @@ TEST(LaunchLine, WetWithYade) {
                   "/b/bin/turbidite-fluid -case /r/fluid : " + exported +
                   "-n 1 /b/bin/turbidite-member /r grains 2 1 " +
                   "/usr/bin/yade -n -x /b/lib/yade/turbidite_yade_nscd.py /r");
+}
+
+TEST(LaunchLine, AnExternalProgramGetsItsArgumentsAndTheRunFolder) {
+    const std::string line =
+        shell_line(launch_arguments(settings("external", true), {"/r"}, site(true)));
+    EXPECT_NE(line.find("/b/bin/turbidite-member /r grains 2 1 my-code --fast 'a b' /r"),
+              std::string::npos)
+        << line;
 }
 
 TEST(LaunchLine, TheUsersPythonPathIsKept) {
