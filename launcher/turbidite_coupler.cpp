@@ -4,8 +4,10 @@
 // run`.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupler/hub/hub.hpp"
@@ -18,18 +20,16 @@ namespace {
 
 using namespace turbidite;
 
-// Starting a host code takes seconds; after two minutes of silence it is assumed to have failed
-// [s].
-constexpr double start_limit = 120.0;
+volatile std::sig_atomic_t ended_from_outside = 0;
 
 struct Meeting {
     std::unique_ptr<IntercommChannel> grains, fluid;
 };
 
-Meeting meet_participants(MPI_Comm local, bool with_fluid) {
+Meeting meet_participants(MPI_Comm local, bool with_fluid, double limit) {
     Meeting meeting;
     for (int missing = with_fluid ? 2 : 1; missing > 0; --missing) {
-        const JoinedParticipant joined = accept_participant(local, start_limit);
+        const JoinedParticipant joined = accept_participant(local, limit);
         auto& place = joined.role == Role::fluid ? meeting.fluid : meeting.grains;
         if (place || (joined.role == Role::fluid && !with_fluid))
             throw Failure(
@@ -43,18 +43,6 @@ Meeting meet_participants(MPI_Comm local, bool with_fluid) {
 HubFiles hub_files(const RunFolder& folder) {
     return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(),
             folder.stop()};
-}
-
-RunStatus couple(const std::string& directory) {
-    ResolvedCase resolved = load_run_folder(directory);
-    StartWatch watch(start_limit, "not all programs of the job started; see the logs");
-    const MPI_Comm local = split_world(Role::coupler);
-    watch.disarm();
-    Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"));
-    Hub hub({resolved.settings, resolved.shapes, resolved.population},
-            hub_files(RunFolder{directory}), *meeting.grains, meeting.fluid.get(),
-            find_scheme(resolved.settings.text("run.scheme")));
-    return hub.run();
 }
 
 // If the hub has run, it has written its own, more complete record.
@@ -71,6 +59,53 @@ void record_failure(const std::string& directory, ExitCode code, const std::stri
     }
 }
 
+// MPI is initialised under the watch: a program that hangs before its own MPI_Init keeps this one
+// in MPI_Init for ever.
+MPI_Comm join_world(const std::string& directory, double limit,
+                    std::optional<MpiEnvironment>& mpi) {
+    StartWatch watch(limit, [directory, limit] {
+        const std::string text = fmt::format(
+            "not all programs of the job have joined within limits.start = {} s", limit);
+        std::fprintf(stderr, "turbidite: %s\n", text.c_str());
+        record_failure(directory, ExitCode::stalled, text);
+    });
+    mpi.emplace(nullptr, nullptr);
+    const MPI_Comm local = split_world(Role::coupler);
+    watch.disarm();
+    return local;
+}
+
+RunStatus couple(const std::string& directory, std::optional<MpiEnvironment>& mpi) {
+    ResolvedCase resolved = load_run_folder(directory);
+    const double limit = resolved.settings.real("limits.start");
+    const MPI_Comm local = join_world(directory, limit, mpi);
+    Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"), limit);
+    Hub hub({resolved.settings, resolved.shapes, resolved.population},
+            hub_files(RunFolder{directory}), *meeting.grains, meeting.fluid.get(),
+            find_scheme(resolved.settings.text("run.scheme")));
+    std::signal(SIGTERM, [](int) { ended_from_outside = 1; });
+    hub.heed(ended_from_outside);
+    return hub.run();
+}
+
+// `mpi` belongs to the caller: after a failure the job is aborted, and finalising MPI while the
+// exception is on its way would wait for the others.
+int main_program(const std::string& directory, std::optional<MpiEnvironment>& mpi) try {
+    return static_cast<int>(couple(directory, mpi).code);
+} catch (const EndedFromOutside&) {
+    std::signal(SIGTERM, SIG_DFL);
+    std::raise(SIGTERM);
+    return static_cast<int>(ExitCode::terminated);
+} catch (const std::exception& error) {
+    const auto* failure = dynamic_cast<const Failure*>(&error);
+    const ExitCode code = failure ? failure->code() : ExitCode::participant_failed;
+    std::fprintf(stderr, "turbidite-coupler: %s\n", error.what());
+    std::fflush(nullptr);
+    record_failure(directory, code, error.what());
+    if (mpi) PMPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+    return static_cast<int>(code);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -78,17 +113,6 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: turbidite-coupler RUN   (started by `turbidite run`)\n");
         return static_cast<int>(ExitCode::bad_input);
     }
-    MpiEnvironment mpi(&argc, &argv);
-    ExitCode code = ExitCode::participant_failed;
-    try {
-        code = couple(argv[1]).code;
-    } catch (const std::exception& error) {
-        const auto* failure = dynamic_cast<const Failure*>(&error);
-        if (failure) code = failure->code();
-        std::fprintf(stderr, "turbidite-coupler: %s\n", error.what());
-        std::fflush(nullptr);
-        record_failure(argv[1], code, error.what());
-        PMPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
-    }
-    return static_cast<int>(code);
+    std::optional<MpiEnvironment> mpi;
+    return main_program(argv[1], mpi);
 }

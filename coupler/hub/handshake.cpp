@@ -21,7 +21,8 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
     const bool grains = role == Role::grains;
     Expectation expected;
     expected.role = role;
-    expected.adapter = grains ? settings.text("grains.adapter") : "";
+    const bool any = !grains || settings.text("grains.adapter") == "external";
+    expected.adapter = any ? "" : settings.text("grains.adapter");
     expected.dimension = static_cast<std::int32_t>(settings.integer("dimension"));
     expected.ranks =
         static_cast<std::int32_t>(settings.integer(grains ? "grains.ranks" : "fluid.ranks"));

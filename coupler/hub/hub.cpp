@@ -26,13 +26,19 @@ constexpr double farewell_limit_after_stall = 2.0;
 // point spacing of it, at most 4 cells (rules 2 and 3): 5.5 cells, plus a safety margin.
 constexpr double stencil_cells = 7.0;
 
+// Followed by the wait-for table; the launcher looks for it (launcher/job/job_outcome.cpp).
+const std::string end_from_outside = "ended from outside; until then";
+
 double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+bool started_by_launcher() {
+    return std::getenv("TURBIDITE_PROGRESS") != nullptr;
+}
+
 bool on_terminal() {
-    const char* wish = std::getenv("TURBIDITE_PROGRESS");
-    return wish != nullptr && std::string(wish) == "terminal";
+    return started_by_launcher() && std::getenv("TURBIDITE_PROGRESS") == std::string("terminal");
 }
 
 /// What every rank reported about itself; a rank that reported nothing is still identified.
@@ -62,10 +68,11 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
                     : std::vector<ParticipantLink*>{&grains_}),
       watch_(links_, settings_.stall_soft, settings_.stall_hard,
              [this](const std::string& text) { progress_.say(text); }),
+      roster_(case_.population),
       kick_rule_(settings_.run, case_.shapes),
       order_(scheme),
       scheme_(scheme.make(case_.settings)),
-      ledger_(settings_, case_.population.size()),
+      ledger_(settings_, [this](const std::string& text) { progress_.say(text); }),
       output_(files_.history, files_.series, settings_.run, case_.shapes) {}
 
 Hub::~Hub() = default;
@@ -75,8 +82,8 @@ void Hub::play(const Window& window) {
     WindowResult result = scheme_->play(window, output_.state(), cast());
     if (fluid_)
         result.grain_balance =
-            kick_rule_.defect(result.kicks.kicks, output_.state(), result.motion, window.step);
-    ledger_.check(result);
+            kick_rule_.balance(result.kicks.kicks, output_.state(), result.motion, window.step);
+    ledger_.check(window, result);
     output_.record(window, std::move(result), watch_.take_waited());
     if (window.write_output) output_.write();
 }
@@ -107,7 +114,7 @@ Window Hub::window(std::int64_t index, bool last) const {
 }
 
 Cast Hub::cast() {
-    return {grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, kick_rule_};
+    return {grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, roster_, kick_rule_};
 }
 
 RunStatus Hub::run() {
@@ -115,6 +122,9 @@ RunStatus Hub::run() {
     try {
         start();
         play_windows();
+    } catch (const EndedFromOutside&) {
+        progress_.log(end_from_outside + ("\n" + wait_for_table()));
+        throw;
     } catch (const Failure& failure) {
         status_.code = failure.code();
         status_.reason = failure.what();
@@ -154,17 +164,18 @@ void Hub::end_and_record() {
 
 void Hub::start() {
     shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
+    ledger_.name_programs(grains_.program(), fluid_ ? fluid_->program() : "");
     tell_participants();
     std::vector<Box> boxes;
     if (fluid_) {
         watch_.wait_for(*fluid_, Kind::domain);
         boxes = fluid_->take<Box>(Kind::domain);
+        const Arrival arrival(*fluid_, Kind::domain, -1);
+        for (int rank = 0; rank < fluid_->ranks(); ++rank) arrival.check(rank, boxes[rank]);
     }
     plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
     Cast everybody = cast();
-    Motion state = receive_grains(Kind::state, -1, everybody);
-    ledger_.check_start(state);
-    output_.begin(std::move(state));
+    output_.begin(receive_grains(Kind::state, -1, everybody));
     watch_.take_waited();
 }
 
@@ -197,13 +208,21 @@ std::optional<ExitCode> Hub::requested_stop() const {
 }
 
 void Hub::end(const Verdict& verdict) {
-    if (!verdict.reason.empty()) progress_.say("turbidite: " + verdict.reason);
+    if (!verdict.reason.empty()) report_end("turbidite: " + verdict.reason);
     for (ParticipantLink* link : links_) link->dismiss(verdict);
     const double limit =
         status_.code == ExitCode::stalled ? farewell_limit_after_stall : farewell_limit;
     await_all(&ParticipantLink::gone, limit);
     for (ParticipantLink* link : links_) link->release();
     await_all(&ParticipantLink::flushed, limit);
+}
+
+// `turbidite run` prints the reason itself, below everything else.
+void Hub::report_end(const std::string& text) {
+    if (started_by_launcher())
+        progress_.log(text);
+    else
+        progress_.say(text);
 }
 
 void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {

@@ -36,8 +36,13 @@ class Hub {
         const SchemeEntry& scheme);
     ~Hub();
 
-    /// Executes the whole run. Returns what it also wrote into the run record.
+    /// Executes the whole run. Returns what it also wrote into the run record. Throws
+    /// EndedFromOutside, see heed.
     RunStatus run();
+
+    /// When `signal` is not 0, `run` writes the wait-for table to its log, and throws: mpirun ends
+    /// the job since another program has died, and the table says in which window and phase.
+    void heed(const volatile std::sig_atomic_t& signal) { watch_.heed(signal); }
 
     /// Who works and who waits, one line per rank.
     std::string wait_for_table() const { return watch_.wait_for_table(); }
@@ -52,6 +57,7 @@ class Hub {
     void tell_participants();
     void end_and_record();
     void end(const Verdict& verdict);
+    void report_end(const std::string& text);
     void await_all(bool (ParticipantLink::*condition)(), double limit);
     /// The exit code to end with if files_.stop exists, which is then removed.
     std::optional<ExitCode> requested_stop() const;
@@ -65,6 +71,7 @@ class Hub {
     std::vector<ParticipantLink*> links_;
     Watch watch_;
     std::optional<ExchangePlan> plan_;
+    GrainRoster roster_;
     KickRule kick_rule_;
     SchemeEntry order_;
     std::unique_ptr<Scheme> scheme_;

@@ -1,7 +1,26 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/hub_settings.hpp"
 
+#include <cmath>
+
+#include "coupler/protocol/mesh_rows.hpp"
+
 namespace turbidite {
+namespace {
+
+/// Edge of the largest cells within reach of a grain [m].
+double largest_cell(const Settings& settings, const RunValues& run) {
+    const double cell = run.diameter / settings.real("fluid.cells_per_diameter");
+    if (!rows_are_stretched(settings)) return cell;
+    if (settings.flag("fluid.allow_coarse")) return settings.real("fluid.stretch_largest") * cell;
+    return std::pow(settings.real("fluid.stretch_ratio"), 3) * cell;  // the first stretched rows
+}
+
+BalanceLimits balance_limits(const Settings& settings, const std::string& key) {
+    return {settings.real(key + "_soft"), settings.real(key + "_hard")};
+}
+
+}  // namespace
 
 HubSettings hub_settings(const Settings& settings) {
     HubSettings result;
@@ -10,8 +29,9 @@ HubSettings hub_settings(const Settings& settings) {
     result.stall_soft = settings.real("limits.stall_soft");
     result.stall_hard = settings.real("limits.stall_hard");
     result.penetration = settings.real("limits.penetration");
-    if (result.run.wet)
-        result.cell = result.run.diameter / settings.real("fluid.cells_per_diameter");
+    result.grain_balance = balance_limits(settings, "limits.grain_balance");
+    result.fluid_balance = balance_limits(settings, "limits.fluid_balance");
+    if (result.run.wet) result.cell = largest_cell(settings, result.run);
     result.grains_adapter = settings.text("grains.adapter");
     return result;
 }

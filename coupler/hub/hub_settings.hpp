@@ -8,13 +8,20 @@
 
 namespace turbidite {
 
+/// Relative defects of the momentum of grains and fluid (columns of the history).
+struct BalanceLimits {
+    double soft = 0.0;  ///< above it a warning
+    double hard = 0.0;  ///< above it the run ends
+};
+
 struct HubSettings {
     RunValues run;
     SolveLimits solves;
     double stall_soft = 0.0;   ///< limits.stall_soft: a silent participant is named [s]
     double stall_hard = 0.0;   ///< limits.stall_hard: it ends the run [s]
     double penetration = 0.0;  ///< limits.penetration [D]
-    double cell = 0.0;         ///< edge of a fluid cell; 0 when dry [m]
+    BalanceLimits grain_balance, fluid_balance;
+    double cell = 0.0;  ///< edge of a fluid cell; 0 when dry [m]
     std::string grains_adapter;
 };
 

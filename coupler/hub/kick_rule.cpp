@@ -31,14 +31,17 @@ Eigen::Matrix3d in_space(const Eigen::Matrix3d& inertia, const Quaternion& q) {
 struct Balance {
     double largest = 0.0;
     double rest = 0.0;
+    GrainId worst = 0;
 
-    void add(std::initializer_list<Eigen::Vector3d> terms) {
+    void add(GrainId grain, std::initializer_list<Eigen::Vector3d> terms) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (const auto& term : terms) {
             sum += term;
             largest = std::max(largest, term.norm());
         }
-        rest = std::max(rest, sum.norm());
+        if (sum.norm() <= rest) return;
+        rest = sum.norm();
+        worst = grain;
     }
 };
 
@@ -69,8 +72,8 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
     }
 }
 
-double KickRule::defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
-                        double step) {
+GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& before,
+                               const Motion& contact, double step) {
     before_.follow(before.grains);
     contact_.follow(contact.grains);
     Balance linear, angular;
@@ -83,15 +86,17 @@ double KickRule::defect(const std::vector<Kick>& kicks, const Motion& before, co
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);
         // M dU - (M - m_f) g dt - J_c - F_h dt; the same for the spin, divided by R
-        linear.add({immersed.mass * velocity_change,
-                    Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
-                    -vector(with_contact.contact_impulse), -step * vector(kick.force)});
-        angular.add({in_space(immersed.inertia, grain.orientation) * spin_change / grain.radius,
+        linear.add(kick.id, {immersed.mass * velocity_change,
+                             Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
+                             -vector(with_contact.contact_impulse), -step * vector(kick.force)});
+        angular.add(kick.id,
+                    {in_space(immersed.inertia, grain.orientation) * spin_change / grain.radius,
                      -vector(with_contact.contact_angular_impulse) / grain.radius,
                      -step * vector(kick.torque) / grain.radius});
     }
     const double largest = std::max(linear.largest, angular.largest);
-    return largest > 0.0 ? std::max(linear.rest, angular.rest) / largest : 0.0;
+    const Balance& worse = linear.rest >= angular.rest ? linear : angular;
+    return {largest > 0.0 ? worse.rest / largest : 0.0, worse.worst};
 }
 
 }  // namespace turbidite

@@ -8,9 +8,10 @@
 //
 //     M dU/dt = (M - m_f) g + F_c + F_h
 //
-// to round-off, where F_c = J_c/Δt; `defect` measures it.
+// to round-off, where F_c = J_c/Δt; `balance` measures it.
 #pragma once
 
+#include "coupler/output/window_result.hpp"
 #include "coupler/protocol/grain_index.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
 
@@ -26,8 +27,8 @@ class KickRule {
 
     /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and its angular counterpart divided by R) over
     /// all grains, relative to the largest term. Zero without grains.
-    double defect(const std::vector<Kick>& kicks, const Motion& before, const Motion& contact,
-                  double step);
+    GrainBalance balance(const std::vector<Kick>& kicks, const Motion& before,
+                         const Motion& contact, double step);
 
  private:
     ImmersedBodies bodies_;

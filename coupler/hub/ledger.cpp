@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
@@ -19,6 +21,8 @@ constexpr int windows_until_refused = 3;
 std::string against_overlap(const std::string& adapter) {
     if (adapter == "yade-md")
         return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
+    if (adapter == "external")
+        return "Use a smaller time.step, or stiffer or better converged contacts in your program.";
     return "Use a smaller time.step, or more contact.iterations.";
 }
 
@@ -29,27 +33,49 @@ std::string text(const SolveLimit& limit) {
 
 }  // namespace
 
-Ledger::Ledger(const HubSettings& settings, std::size_t population)
-    : population_(population), settings_(settings) {}
+Ledger::Ledger(const HubSettings& settings, Print warn)
+    : settings_(settings),
+      warn_(std::move(warn)),
+      grain_balance_{"grain_balance", settings.grain_balance},
+      fluid_balance_{"fluid_balance", settings.fluid_balance} {}
 
-void Ledger::check_start(const Motion& state) const {
-    check_count(state);
+void Ledger::name_programs(std::string grains, std::string fluid) {
+    grains_ = std::move(grains);
+    fluid_ = std::move(fluid);
 }
 
-void Ledger::check(const WindowResult& result) {
-    removed_ += static_cast<std::size_t>(result.state.report.removed);
-    check_count(result.state);
+void Ledger::check(const Window& window, const WindowResult& result) {
     check_overlap(result.state);
     check_divergence(result.kicks.report);
     check_multipliers(result.kicks.report);
+    if (settings_.run.wet) check_balances(window, result);
 }
 
-void Ledger::check_count(const Motion& state) const {
-    if (state.grains.size() + removed_ == population_) return;
-    throw PhysicsRefused(
-        fmt::format("{} grains present and {} removed through free sides do not add up to {}: the "
-                    "grains participant lost or added grains",
-                    state.grains.size(), removed_, population_));
+void Ledger::check_balances(const Window& window, const WindowResult& result) {
+    if (result.grain_balance)
+        judge(grain_balance_, result.grain_balance->defect, window,
+              fmt::format(
+                  "M dU = (M - m_f) g dt + J_c + F_h dt fails most for grain {}. Contact impulses, "
+                  "velocities and masses of {} must belong together, and so must the multiplier "
+                  "impulses and velocities of {}",
+                  result.grain_balance->worst, grains_, fluid_));
+    judge(fluid_balance_, result.kicks.report.momentum_defect, window,
+          fmt::format("the momentum of the fluid does not change by the impulses of multipliers "
+                      "and boundaries, as reported by {}",
+                      fluid_));
+}
+
+void Ledger::judge(Balance& balance, double defect, const Window& window,
+                   const std::string& meaning) {
+    const auto text = [&](const char* kind, double limit) {
+        return fmt::format("{} = {:.2g} in window {}, limits.{}_{} = {:g}: {}.", balance.column,
+                           defect, window.index, balance.column, kind, limit, meaning);
+    };
+    if (!(defect <= balance.limits.hard))  // true for NaN
+        throw PhysicsRefused(text("hard", balance.limits.hard));
+    if (defect <= balance.limits.soft || balance.warned) return;
+    balance.warned = true;
+    warn_("turbidite: warning: " + text("soft", balance.limits.soft));
 }
 
 void Ledger::check_overlap(const Motion& state) const {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The conditions on every window: no grain lost, no overlap beyond the limit, a divergence-free
-// fluid, converged multiplier problems. A violation ends the run with exit code 6. Numbers are
-// checked to be finite where they arrive (schemes/exchanges.hpp).
+// The conditions on every window: no overlap beyond the limit, a divergence-free fluid, converged
+// multiplier problems, the momentum of grains and fluid balanced. A violation ends the run with
+// exit code 6. Single messages are checked where they arrive (schemes/exchanges.hpp).
 #pragma once
+
+#include <functional>
+#include <string>
 
 #include "coupler/hub/hub_settings.hpp"
 #include "coupler/output/window_result.hpp"
@@ -12,21 +15,36 @@ namespace turbidite {
 
 class Ledger {
  public:
-    Ledger(const HubSettings& settings, std::size_t population);
+    using Print = std::function<void(const std::string&)>;
+
+    /// `warn` gets the text of a warning, at most one per balance and run.
+    Ledger(const HubSettings& settings, Print warn);
+
+    /// "grains (my-code)", for error messages.
+    void name_programs(std::string grains, std::string fluid);
 
     /// Throws PhysicsRefused.
-    void check_start(const Motion& state) const;
-    void check(const WindowResult& result);
+    void check(const Window& window, const WindowResult& result);
 
  private:
-    void check_count(const Motion& state) const;
     void check_overlap(const Motion& state) const;
     void check_divergence(const FluidReport& report);
     void check_multipliers(const FluidReport& report);
 
-    std::size_t population_;
-    std::size_t removed_ = 0;
+    void check_balances(const Window& window, const WindowResult& result);
+
+    /// One of the balances and whether it was warned of.
+    struct Balance {
+        const char* column;
+        BalanceLimits limits;
+        bool warned = false;
+    };
+    void judge(Balance& balance, double defect, const Window& window, const std::string& meaning);
+
     HubSettings settings_;
+    Print warn_;
+    std::string grains_ = "grains", fluid_ = "fluid";
+    Balance grain_balance_, fluid_balance_;
     int divergent_windows_ = 0;  ///< in succession
     int stopped_windows_ = 0;    ///< in succession, whose multiplier problem stopped at its limit
 };

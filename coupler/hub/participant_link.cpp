@@ -19,6 +19,22 @@ std::string ParticipantLink::rank_name(int rank) const {
     return fmt::format("{} rank {}", role_name(role_), rank);
 }
 
+std::string ParticipantLink::who(int rank) const {
+    const Hello& hello = ranks_[rank].hello;
+    if (hello.host.empty()) return rank_name(rank);
+    return fmt::format("{} ({}, host {}, log {})", rank_name(rank), hello.adapter, hello.host,
+                       hello.log_file);
+}
+
+std::string ParticipantLink::program() const {
+    return fmt::format("{} ({})", role_name(role_), ranks_.front().hello.adapter);
+}
+
+void ParticipantLink::set_hello(int rank, Hello hello) {
+    ranks_[rank].hello = std::move(hello);
+    ranks_[rank].order.set_peer_name(who(rank));
+}
+
 void ParticipantLink::set_window_order(const Order& order) {
     for (Rank& rank : ranks_) rank.order.set_window_order(order);
 }
@@ -29,10 +45,20 @@ void ParticipantLink::send(int rank, Kind kind, Bytes payload) {
     ranks_[rank].since = Clock::now();
 }
 
+Message ParticipantLink::unpack(const Channel::Frame& frame) const {
+    try {
+        return unframe(frame.bytes);
+    } catch (const MalformedPayload& fault) {
+        throw Failure(ExitCode::participant_failed,
+                      fmt::format("{} sent what is no frame of the protocol: {}", who(frame.peer),
+                                  fault.what()));
+    }
+}
+
 bool ParticipantLink::pump() {
     bool any = false;
     while (auto frame = channel_.try_receive()) {
-        take_in(frame->peer, unframe(frame->bytes));
+        take_in(frame->peer, unpack(*frame));
         any = true;
     }
     return any;
@@ -47,11 +73,18 @@ void ParticipantLink::take_in(int rank, Message message) {
 }
 
 void ParticipantLink::raise(int rank, const Verdict& verdict) const {
-    const Hello& who = ranks_[rank].hello;
-    const std::string place =
-        who.host.empty() ? "" : fmt::format(" (host {}, log {})", who.host, who.log_file);
     throw Failure(static_cast<ExitCode>(verdict.exit_code),
-                  fmt::format("{}{}: {}", rank_name(rank), place, verdict.reason));
+                  fmt::format("{}: {}", who(rank), verdict.reason));
+}
+
+void ParticipantLink::refuse_payload(int rank, Kind kind, const std::string& fault) const {
+    const std::int64_t window = ranks_[rank].order.window();
+    const std::string when = window < 0 ? "at the start" : fmt::format("of window {}", window);
+    throw Failure(
+        ExitCode::participant_failed,
+        fmt::format("{}: the payload of \"{}\" {} is malformed: {}. Does the program "
+                    "speak protocol {}.{}?",
+                    who(rank), kind_name(kind), when, fault, protocol_major, protocol_minor));
 }
 
 bool ParticipantLink::ready(Kind kind) const {
@@ -90,9 +123,12 @@ void ParticipantLink::dismiss(const Verdict& verdict) {
 
 bool ParticipantLink::gone() {
     while (auto frame = channel_.try_receive()) {
-        const Envelope envelope = unframe(frame->bytes).envelope;
-        if (envelope.kind == Kind::farewell)
-            ranks_.at(frame->peer).order.received(envelope, to_coupler);
+        try {
+            const Envelope envelope = unframe(frame->bytes).envelope;
+            if (envelope.kind == Kind::farewell)
+                ranks_.at(frame->peer).order.received(envelope, to_coupler);
+        } catch (const MalformedPayload&) {  // discarded like all that is not a farewell
+        }
     }
     return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) {
         return rank.order.due().front().kind == Kind::release;

@@ -22,10 +22,14 @@ class ParticipantLink {
     Role role() const { return role_; }
     int ranks() const { return static_cast<int>(ranks_.size()); }
     std::string rank_name(int rank) const;
+    /// For error messages: "grains rank 0 (my-code, host h, log l)", as far as it is known.
+    std::string who(int rank) const;
+    /// "grains (my-code)".
+    std::string program() const;
 
     /// What the rank reported about itself; empty before its hello.
     const Hello& hello(int rank) const { return ranks_[rank].hello; }
-    void set_hello(int rank, Hello hello) { ranks_[rank].hello = std::move(hello); }
+    void set_hello(int rank, Hello hello);
     /// Sets the messages of a window; to be called before the start is over.
     void set_window_order(const Order& order);
 
@@ -49,11 +53,17 @@ class ParticipantLink {
     /// True when every rank has delivered a message of this kind.
     bool ready(Kind kind) const;
 
-    /// The payloads that `ready` announced, one per rank.
+    /// The payloads that `ready` announced, one per rank. Throws Failure naming the rank whose
+    /// payload does not have the form of this kind.
     template <class Record>
     std::vector<Record> take(Kind kind) {
         std::vector<Record> records;
-        for (Bytes& payload : take_payloads(kind)) records.push_back(decode<Record>(payload));
+        const std::vector<Bytes> payloads = take_payloads(kind);
+        for (int rank = 0; rank < ranks(); ++rank) try {
+                records.push_back(decode<Record>(payloads[rank]));
+            } catch (const MalformedPayload& fault) {
+                refuse_payload(rank, kind, fault.what());
+            }
         return records;
     }
 
@@ -76,9 +86,11 @@ class ParticipantLink {
         Clock::time_point since = Clock::now();
     };
 
+    Message unpack(const Channel::Frame& frame) const;
     void take_in(int rank, Message message);
     std::vector<Bytes> take_payloads(Kind kind);
     [[noreturn]] void raise(int rank, const Verdict& verdict) const;
+    [[noreturn]] void refuse_payload(int rank, Kind kind, const std::string& fault) const;
 
     Role role_;
     Channel& channel_;

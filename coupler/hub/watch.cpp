@@ -17,6 +17,7 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     double& usual = usual_wait_[{kind, link.iteration()}];
     Patience patience(usual);
     for (;; patience.wait()) {
+        if (signal_ && *signal_) throw EndedFromOutside{};
         for (ParticipantLink* other : links_) other->pump();
         if (link.ready(kind)) break;
         if (patience.seconds() > hard_)

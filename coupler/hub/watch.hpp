@@ -4,6 +4,7 @@
 // waits for whom, a hard limit ends the run.
 #pragma once
 
+#include <csignal>
 #include <functional>
 #include <map>
 #include <string>
@@ -13,6 +14,10 @@
 #include "coupler/hub/participant_link.hpp"
 
 namespace turbidite {
+
+/// The program has been asked by a signal to end. Not an error of the run: the job is being ended
+/// by mpirun, with a cause of its own.
+struct EndedFromOutside {};
 
 class Watch {
  public:
@@ -25,6 +30,9 @@ class Watch {
     /// participant, or `stalled`, which names the silent ranks.
     void wait_for(ParticipantLink& link, Kind kind);
 
+    /// From now on `wait_for` throws EndedFromOutside when `signal` is not 0.
+    void heed(const volatile std::sig_atomic_t& signal) { signal_ = &signal; }
+
     /// One line per rank: who works, who waits, since when.
     std::string wait_for_table() const;
 
@@ -35,6 +43,7 @@ class Watch {
     std::vector<ParticipantLink*> links_;
     double soft_, hard_;
     Print print_;
+    const volatile std::sig_atomic_t* signal_ = nullptr;
     double waited_ = 0.0;
     /// Duration of the last wait [s], by kind and round.
     std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;

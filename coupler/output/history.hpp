@@ -25,7 +25,7 @@ struct Row {
     Vec3 fluid_force{};                      ///< sum of F_h over the grains [N]
     const JointReport* joint = nullptr;      ///< null under other schemes
     std::optional<SinceRow> since;           ///< empty before the first window
-    std::optional<double> grain_balance;     ///< KickRule::defect
+    std::optional<double> grain_balance;     ///< GrainBalance::defect
 };
 
 /// Means over the grains, in run units.

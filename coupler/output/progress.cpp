@@ -115,6 +115,10 @@ void Progress::say(const std::string& text) {
     clear_line();
     std::fputs((text + "\n").c_str(), stdout);
     std::fflush(stdout);
+    log(text);
+}
+
+void Progress::log(const std::string& text) {
     log_ << text << std::endl;
 }
 

@@ -22,6 +22,9 @@ class Progress {
     /// A line of its own, on screen and in the log.
     void say(const std::string& text);
 
+    /// The same in the log only.
+    void log(const std::string& text);
+
     /// Shows the state of the run after a window. `due`: an output interval ended here.
     void show(const Row& row, bool due);
 

@@ -51,7 +51,7 @@ Row RunOutput::row() const {
     for (const Kick& kick : last_.kicks.kicks)
         for (std::size_t i = 0; i < 3; ++i) row.fluid_force[i] += kick.force[i];
     row.joint = last_.joint ? &*last_.joint : nullptr;
-    row.grain_balance = last_.grain_balance;
+    if (last_.grain_balance) row.grain_balance = last_.grain_balance->defect;
     row.since = since_row_;
     return row;
 }

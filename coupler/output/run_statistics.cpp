@@ -45,7 +45,8 @@ void RunStatistics::take_in(const WindowResult& result) {
     ++windows_done;
     maxima.penetration =
         std::max(maxima.penetration, result.state.report.max_penetration / diameter_);
-    maxima.grain_balance = std::max(maxima.grain_balance, result.grain_balance.value_or(0.0));
+    if (result.grain_balance)
+        maxima.grain_balance = std::max(maxima.grain_balance, result.grain_balance->defect);
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
     contact_residuals.take_in(result.motion.report);
     if (maxima.fluid) take_in(result.kicks.report);

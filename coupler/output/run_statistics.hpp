@@ -63,7 +63,7 @@ struct JointMaxima {
 
 struct RunMaxima {
     double penetration = 0.0;              ///< [D]
-    double grain_balance = 0.0;            ///< KickRule::defect
+    double grain_balance = 0.0;            ///< GrainBalance::defect
     std::int64_t unconverged_windows = 0;  ///< contact solves that did not reach their tolerance
     std::optional<FluidMaxima> fluid;      ///< empty in dry runs
     std::optional<JointMaxima> joint;      ///< empty under other schemes

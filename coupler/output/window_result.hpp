@@ -16,12 +16,18 @@ struct JointReport {
     bool converged = true;    ///< mismatch within coupling.tolerance
 };
 
+/// Largest residual of the grains' equations of motion over the largest of their terms.
+struct GrainBalance {
+    double defect = 0.0;
+    GrainId worst = 0;  ///< the grain with the largest residual
+};
+
 struct WindowResult {
     Motion motion;  ///< after step 4
     Kicks kicks;    ///< after step 5; empty in dry runs
     Motion state;   ///< at t^{n+1}
     std::optional<JointReport> joint = {};
-    std::optional<double> grain_balance = {};  ///< KickRule::defect; empty in dry runs
+    std::optional<GrainBalance> grain_balance = {};  ///< KickRule::balance; empty in dry runs
 };
 
 }  // namespace turbidite

@@ -5,26 +5,23 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "coupler/protocol/case_hash.hpp"
+#include "coupler/protocol/run_files.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
 #include "coupler/transport/world.hpp"
 
 namespace turbidite {
 namespace {
 
-std::string log_path(Role role, const std::string& run_folder, int rank, int ranks) {
-    const std::string name = role_name(role);
-    return run_folder + "/logs/" + name + (ranks > 1 ? ".rank" + std::to_string(rank) : "") +
-           ".log";
-}
-
 // Redirects both streams into one file, at the level of file descriptors, so that output of the
-// host code and of Python is included.
+// host code and of Python is included. turbidite-member has done so already.
 void redirect_output(const std::string& file) {
+    if (std::getenv(member_variable) != nullptr) return;
     std::filesystem::create_directories(std::filesystem::path(file).parent_path());
     const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (log < 0) throw Failure(ExitCode::participant_failed, "cannot write the log " + file);
@@ -54,7 +51,8 @@ struct Membership::State {
           local(own_communicator(role_, launch.communicator)) {
         PMPI_Comm_rank(local, &rank);
         PMPI_Comm_size(local, &ranks);
-        log = log_path(role, launch.run_folder, rank, ranks);
+        run_folder = launch.run_folder;
+        log = log_file(run_folder, role, rank, ranks);
         redirect_output(log);
         hash = hash_of_run(launch.run_folder);
         if (launch.joined) launch.joined(MPI_Comm_c2f(local));
@@ -66,6 +64,7 @@ struct Membership::State {
     MPI_Comm local;
     int rank = 0;
     int ranks = 1;
+    std::string run_folder;
     std::string log;
     std::string hash;
     std::unique_ptr<IntercommChannel> channel;
@@ -99,6 +98,8 @@ void Membership::abort(const std::exception& error) {
     const auto code = static_cast<int>(failure ? failure->code() : ExitCode::participant_failed);
     std::fprintf(stderr, "turbidite: %s: %s\n", role_name(state_->role), error.what());
     std::fflush(nullptr);
+    write_first_end(state_->run_folder, {static_cast<ExitCode>(code),
+                                         rank_name(state_->role, state_->rank), error.what()});
     PMPI_Abort(MPI_COMM_WORLD, code);
     _exit(code);
 }

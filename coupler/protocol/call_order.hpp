@@ -10,6 +10,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/protocol/message.hpp"
@@ -61,6 +62,9 @@ class CallOrder {
 
     /// To be called before the start is over. Throws like check_window_order.
     void set_window_order(Order order);
+
+    /// The name of the other end in error messages, once more is known of it.
+    void set_peer_name(std::string name) { peer_ = std::move(name); }
 
     /// The envelope for the next message of this kind; throws OrderViolation when it is not due.
     Envelope next_sent(Kind kind, bool by_coupler);

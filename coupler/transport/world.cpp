@@ -6,9 +6,9 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/transport/channel.hpp"
@@ -82,13 +82,14 @@ struct StartWatch::State {
     std::atomic<bool> armed{true};
 };
 
-StartWatch::StartWatch(double limit, const char* text) : state_(std::make_shared<State>()) {
-    std::thread([state = state_, limit, text = std::string(text)] {
+StartWatch::StartWatch(double limit, std::function<void()> expired)
+    : state_(std::make_shared<State>()) {
+    std::thread([state = state_, limit, expired = std::move(expired)] {
         const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
         while (state->armed && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         if (!state->armed) return;
-        std::fprintf(stderr, "turbidite: %s\n", text.c_str());
+        expired();
         _exit(static_cast<int>(ExitCode::stalled));
     }).detach();
 }

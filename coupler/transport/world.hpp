@@ -10,6 +10,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <memory>
 
 #include "coupler/protocol/hello.hpp"
@@ -46,11 +47,11 @@ struct JoinedParticipant {
 JoinedParticipant accept_participant(MPI_Comm local, double limit);
 
 /// Ends a job that hangs during its start: unless `disarm`ed within `limit` seconds the process
-/// prints `text` and exits with code `stalled`, which makes mpirun end the job. Used for the only
-/// wait that cannot be polled, the split of the world.
+/// calls `expired` and exits with code `stalled`, which makes mpirun end the job. Used for the
+/// waits that cannot be polled: MPI_Init and the split of the world.
 class StartWatch {
  public:
-    StartWatch(double limit, const char* text);
+    StartWatch(double limit, std::function<void()> expired);
     ~StartWatch();
     void disarm();
 

@@ -2,6 +2,7 @@
 #include "fluid_adapter/box_step/box_operators.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "fluid_adapter/box_step/row_work.hpp"
 
@@ -22,7 +23,7 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
     : nx_(pressure.x.cells),
       ny_(rows.count()),
       hx_(pressure.x.spacing),
-      hy_(pressure.y.spacing),
+      heights_(pressure.y, rows),
       periodic_(pressure.x.periodic()),
       rows_(rows),
       velocity_{RowReader(velocity, rows, &sides[0]), RowReader(velocity, rows, &sides[1])},
@@ -36,28 +37,30 @@ BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& p
         row->resize(nx_);
 }
 
+double BoxOperators::sum_of_cells(const std::vector<double>& values) const {
+    if (!heights_.stretched()) return std::accumulate(values.begin(), values.end(), 0.0);
+    double sum = 0.0;
+    for (int j = 0; j < ny_; ++j)
+        sum += heights_.relative(j) *
+               std::accumulate(values.begin() + at(j), values.begin() + at(j + 1), 0.0);
+    return sum;
+}
+
 void BoxOperators::laplacian(double share, int axis, const double* u, double* f) {
     RowReader& rows = velocity_[axis];
     rows.begin(u);
-    for (int j = 0; j < ny_; ++j) {
-        const double* below = rows.row(j - 1);
-        const double* here = rows.row(j);
-        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      f + at(j));
-    }
+    for (int j = 0; j < ny_; ++j) differences().laplacian(j, share, rows, f + at(j));
 }
 
 void BoxOperators::add_impulses(double sign, double step, const double* p, const RowsOfTwo& f,
                                 double* x, double* y) {
     p_.begin(p);
     for (int j = 0; j < ny_; ++j) {
-        const double* below = p_.row(j - 1);
         const double* here = p_.row(j);
-        const double* above = p_.row(j + 1);
         add_row(nx_, sign, f.x.data() + at(j), x + at(j));
         add_row(nx_, sign, f.y.data() + at(j), y + at(j));
         correct(nx_, 0.5 * sign * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
-        correct(nx_, 0.5 * sign * step / hy_, below, above, y + at(j), y + at(j));
+        differences().correct_across(j, sign * step, p_, y + at(j), y + at(j));
     }
 }
 
@@ -75,12 +78,18 @@ void BoxOperators::direction(double step, const double* z, double beta, double* 
 /// x, y = -step G of what p_ reads.
 void BoxOperators::gradient_rows(double step, double* x, double* y) {
     for (int j = 0; j < ny_; ++j) {
-        const double* below = p_.row(j - 1);
         const double* here = p_.row(j);
-        const double* above = p_.row(j + 1);
         difference_row(nx_, -0.5 * step / hx_, here - 1, here + 1, x + at(j));
-        difference_row(nx_, -0.5 * step / hy_, below, above, y + at(j));
+        gradient_across(j, step, y + at(j));
     }
+}
+
+/// y = -step G along y of row j of what p_ reads.
+void BoxOperators::gradient_across(int j, double step, double* y) {
+    if (heights_.equal_to_both(j))
+        return difference_row(nx_, -0.5 * step / heights_.size(j), p_.row(j - 1), p_.row(j + 1), y);
+    std::fill_n(y, nx_, 0.0);
+    differences().correct_across(j, step, p_, y, y);
 }
 
 ViscousSums BoxOperators::viscous_residual(double share, int axis, const double* u, const double* f,
@@ -89,14 +98,11 @@ ViscousSums BoxOperators::viscous_residual(double share, int axis, const double*
     rows.begin(u);
     ViscousSums sums;
     for (int j = 0; j < ny_; ++j) {
-        const double* below = rows.row(j - 1);
-        const double* here = rows.row(j);
-        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      r + at(j));
+        differences().laplacian(j, share, rows, r + at(j));
         add_row(nx_, -1.0, f + at(j), r + at(j));
         std::copy_n(r + at(j), nx_, again + at(j));
-        sums.square += dot_row(nx_, r + at(j), r + at(j));
-        sums.sum += sum_row(nx_, r + at(j));
+        sums.square += heights_.relative(j) * dot_row(nx_, r + at(j), r + at(j));
+        sums.sum += heights_.relative(j) * sum_row(nx_, r + at(j));
     }
     return sums;
 }
@@ -108,15 +114,14 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
     ImageProducts products;
     for (int j = 0; j < ny_; ++j) {
         double* out = image ? image + at(j) : image_.data();
-        const double* below = rows.row(j - 1);
-        const double* here = rows.row(j);
-        laplacian_row(nx_, -share / (hx_ * hx_), -share / (hy_ * hy_), below, here, rows.row(j + 1),
-                      out);
+        differences().laplacian(j, -share, rows, out);
         add_row(nx_, 1.0, d + at(j), out);
-        products.direction += dot_row(nx_, out, here);
-        products.residual += dot_row(nx_, out, r + at(j));
-        products.itself += dot_row(nx_, out, out);
-        products.step += dot_row(nx_, r + at(j), here);
+        const double* here = rows.row(j);
+        const double volume = heights_.relative(j);
+        products.direction += volume * dot_row(nx_, out, here);
+        products.residual += volume * dot_row(nx_, out, r + at(j));
+        products.itself += volume * dot_row(nx_, out, out);
+        products.step += volume * dot_row(nx_, r + at(j), here);
     }
     return products;
 }
@@ -125,8 +130,16 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
 void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v, double* out) {
     const double* here = u.row(j);
     const double* below = v.row(j - 1);
-    divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1, 0.5 * share / hy_, below,
-                   v.row(j + 1), out);
+    const double* across = v.row(j);
+    const double* above = v.row(j + 1);
+    const double x = 0.5 * share / hx_, y = 0.5 * share / heights_.size(j);
+    if (heights_.equal_to_both(j))
+        return divergence_row(nx_, x, here - 1, here + 1, y, below, above, out);
+    // (S.v_{+1/2} - S.v_{-1/2})/h_j,  S.v = (h_{-1} v_{-1} + h v)/(2d)
+    const double per_low = y / heights_.distance(j), per_high = y / heights_.distance(j + 1);
+    divergence_row(nx_, x, here - 1, here + 1, 0.0, below, above, out);
+    add_rows(nx_, {-per_low * heights_.size(j - 1), per_high * heights_.size(j + 1)},
+             (per_high - per_low) * heights_.size(j), below, across, above, out);
 }
 
 double BoxOperators::flux_residual(double step, const double* p, double* x, double* y,
@@ -141,11 +154,11 @@ double BoxOperators::flux_residual(double step, const double* p, double* x, doub
         divergence_of(j, -1.0, velocity_[0], velocity_[1], out);
         kept_along(j, excess, face_along_.data());
         kept_across(j + 1, excess, face_above_.data());
-        add_divergence_row(nx_, -1.0 / hx_, face_along_.data(), face_along_.data() + 1, -1.0 / hy_,
-                           face_below_.data(), face_above_.data(), out);
+        add_divergence_row(nx_, -1.0 / hx_, face_along_.data(), face_along_.data() + 1,
+                           -1.0 / heights_.size(j), face_below_.data(), face_above_.data(), out);
         face_below_.swap(face_above_);
         add_smoothing(j, -step, out);
-        sum += dot_row(nx_, out, out);
+        sum += heights_.relative(j) * dot_row(nx_, out, out);
     }
     return sum;
 }
@@ -190,10 +203,11 @@ ImageProducts BoxOperators::flux_image(double step, const double* w, const doubl
         double* out = image ? image + at(j) : image_.data();
         divergence_of(j, 1.0, change_[0], change_[1], out);
         add_smoothing(j, step, out);
-        products.direction += dot_row(nx_, out, d + at(j));
-        products.residual += dot_row(nx_, out, r + at(j));
-        products.itself += dot_row(nx_, out, out);
-        products.step += dot_row(nx_, r + at(j), d + at(j));
+        const double volume = heights_.relative(j);
+        products.direction += volume * dot_row(nx_, out, d + at(j));
+        products.residual += volume * dot_row(nx_, out, r + at(j));
+        products.itself += volume * dot_row(nx_, out, out);
+        products.step += volume * dot_row(nx_, r + at(j), d + at(j));
     }
     return products;
 }
@@ -213,30 +227,43 @@ void BoxOperators::second_difference_along(int j) {
     ends_.extend(inside, j);
 }
 
-/// q = w d2 p along y of row j.
+/// q along y of row j.
 void BoxOperators::second_difference_across(int j, Row& q) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
-    weighted_difference(nx_, w_.row(j), below, here, p_.row(j + 1), q.data());
+    const double* above = p_.row(j + 1);
+    if (heights_.equal_to_both(j))
+        return weighted_difference(nx_, w_.row(j), below, here, above, q.data());
+    const double h = heights_.size(j);
+    weighted_difference(nx_, {h / heights_.distance(j), h / heights_.distance(j + 1)}, w_.row(j),
+                        below, here, above, q.data());
 }
 
 /// out += share Q p of row j; rows in ascending order.
 void BoxOperators::add_smoothing(int j, double share, double* out) {
-    const double x = 0.25 * share / (hx_ * hx_), y = 0.25 * share / (hy_ * hy_);
+    const double x = 0.25 * share / (hx_ * hx_), h = heights_.size(j);
+    const bool equal = heights_.equal_to_both(j);
+    const double y = equal ? 0.25 * share / (h * h) : 0.0;
     const double* q = along_.data() + RowReader::beyond;
     second_difference_along(j);
     second_difference_across(j + 1, above_);
     add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(), out);
+    if (!equal) {
+        const double low = 0.25 * share / (h * heights_.distance(j));
+        const double high = 0.25 * share / (h * heights_.distance(j + 1));
+        add_rows(nx_, {low, high}, -low - high, below_.data(), here_.data(), above_.data(), out);
+    }
     below_.swap(here_);
     here_.swap(above_);
 }
 
 void BoxOperators::update_excess(double step, const double* p, const ExcessFlux& excess) {
     begin_smoothing(excess.w, p);
-    const double x = 0.25 * step / hx_, y = 0.25 * step / hy_;
+    const double x = 0.25 * step / hx_;
     const double* q = along_.data() + RowReader::beyond;
     for (int j = 0; j <= ny_; ++j) {
         double* across = excess.y + at(j);
+        const double y = 0.25 * step / heights_.distance(j);
         kept_across(j, excess, across);
         correct(nx_, -y, below_.data(), here_.data(), across, across);
         if (j == ny_) break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Differences on the rows of a uniform box, for what is solved with rigid grains in the fluid. With
+// Differences on the rows of a box, for what is solved with rigid grains in the fluid. With
 // u, p at cell centres and G, D the central differences, and with d2 the second difference along
 // one axis (h the spacing, sides as in row_reader.hpp):
 //
@@ -15,6 +15,10 @@
 // minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
 // between two such cells carry S.u and no more, and Q stays symmetric.
 //
+// Where rows have heights h_j of their own, along y with D of S.v and G of row_heights.hpp and s
+// the slope of p between two rows: q = w h (s_{+1} - s), e = dt (q_{+1} - q)/(4d), and Q p is the
+// divergence of e. All products are weighted by volumes: in them G and D, Q and L are symmetric.
+//
 // Each function reads and writes its arrays once, a row at a time; sums that the caller needs are
 // taken while a row is in cache, and are those of this rank. Valid C++17.
 #pragma once
@@ -22,7 +26,7 @@
 #include <array>
 #include <vector>
 
-#include "fluid_adapter/box_step/row_reader.hpp"
+#include "fluid_adapter/box_step/row_differences.hpp"
 
 namespace turbidite {
 
@@ -75,6 +79,9 @@ class BoxOperators {
 
     std::size_t size() const { return static_cast<std::size_t>(nx_) * ny_; }
 
+    /// Sum over the rank's cells, weighted by volumes over those of cells that are not stretched.
+    double sum_of_cells(const std::vector<double>& values) const;
+
     // By every rank; arrays of this rank's rows. A velocity has the values that sides prescribe, a
     // change of a velocity is zero there.
 
@@ -115,9 +122,11 @@ class BoxOperators {
  private:
     using Row = std::vector<double>;
 
+    RowDifferences differences() const { return {nx_, hx_, heights_}; }
     std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
     std::size_t along(int j) const { return static_cast<std::size_t>(j) * (nx_ + 1); }
     void gradient_rows(double step, double* x, double* y);
+    void gradient_across(int j, double step, double* y);
     void divergence_of(int j, double share, RowReader& u, RowReader& v, double* out);
     void begin_velocity(double* x, double* y, const PendingChange& change);
     void kept_along(int j, const ExcessFlux& excess, double* face);
@@ -128,7 +137,8 @@ class BoxOperators {
     void add_smoothing(int j, double share, double* out);
 
     int nx_, ny_;
-    double hx_, hy_;
+    double hx_;
+    RowHeights heights_;
     bool periodic_;
     BoxRows& rows_;
     std::array<RowReader, 2> velocity_, change_;

@@ -28,7 +28,7 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
       nx_(fluid.pressure.x.cells),
       ny_(rows_->count()),
       hx_(fluid.pressure.x.spacing),
-      hy_(fluid.pressure.y.spacing),
+      heights_(fluid.pressure.y, *rows_),
       pressure_(fluid.pressure, rows_->pencils()),
       viscous_{SeparableSolve(fluid.velocity, rows_->pencils()),
                SeparableSolve(fluid.velocity, rows_->pencils())},
@@ -67,6 +67,35 @@ void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
     flux[nx_] = 0.5 * (u[nx_ - 1] + u[nx_]);
 }
 
+/// Of S between two rows of different heights: volumes over their sum.
+RowShares BoxStep::shares_at(int j) const {
+    const double both = heights_.size(j - 1) + heights_.size(j);
+    return {heights_.size(j - 1) / both, heights_.size(j) / both};
+}
+
+/// S.v + k e on the faces below row j.
+void BoxStep::flux_across(int j, double kept, double* flux) {
+    const double* low = v_.row(j - 1);
+    const double* high = v_.row(j);
+    if (heights_.equal_beside(j))
+        mean_flux(nx_, low, high, kept, excess_y(j), flux);
+    else
+        mean_flux(nx_, shares_at(j), low, high, kept, excess_y(j), flux);
+}
+
+/// S.v + k e - dt dp/dy on the faces below row j.
+void BoxStep::projected_across(int j, double dt, double* flux) {
+    const double* low = v_.row(j - 1);
+    const double* high = v_.row(j);
+    const double* p_low = p_.row(j - 1);
+    const double* p_high = p_.row(j);
+    const double step = dt / heights_.distance(j), kept = kept_on_row(j);
+    if (heights_.equal_beside(j))
+        projected_flux(nx_, low, high, kept, excess_y(j), step, p_low, p_high, flux);
+    else
+        projected_flux(nx_, shares_at(j), low, high, kept, excess_y(j), step, p_low, p_high, flux);
+}
+
 FluxReport BoxStep::project(double dt) {
     kept_ = kept_excess(dt);
     begin_projection(dt);
@@ -78,7 +107,7 @@ FluxReport BoxStep::project(double dt) {
 void BoxStep::begin_projection(double dt) {
     u_.begin(velocity(0));
     v_.begin(velocity(1));
-    mean_flux(nx_, v_.row(-1), v_.row(0), kept_on_row(0), excess_y(0), flux_below_.data());
+    flux_across(0, kept_on_row(0), flux_below_.data());
     pressure_.solve([&](int j) { right_hand_side(j, dt); }, [](int) {});
     u_.begin(velocity(0));
     v_.begin(velocity(1));
@@ -94,10 +123,9 @@ FluxReport BoxStep::checked(double dt) const {
 /// -div(S.u + k e)/dt of row j, written into the right-hand side of the pressure solve.
 void BoxStep::right_hand_side(int j, double dt) {
     flux_along(j, u_.row(j), kept_, flux_x_.data());
-    mean_flux(nx_, v_.row(j), v_.row(j + 1), kept_on_row(j + 1), excess_y(j + 1),
-              flux_above_.data());
-    divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1, -1.0 / (hy_ * dt),
-                   flux_below_.data(), flux_above_.data(),
+    flux_across(j + 1, kept_on_row(j + 1), flux_above_.data());
+    divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1,
+                   -1.0 / (heights_.size(j) * dt), flux_below_.data(), flux_above_.data(),
                    pressure_.values() + static_cast<std::size_t>(j) * nx_);
     flux_below_.swap(flux_above_);
 }
@@ -105,22 +133,20 @@ void BoxStep::right_hand_side(int j, double dt) {
 /// u1 of row j, and phi1 and e on the faces below it and on its x faces; row j - 1 then has all its
 /// fluxes and is checked.
 void BoxStep::correct_row(int j, double dt) {
-    const double* below = p_.row(j - 1);
-    const double* here = p_.row(j);
-    const double* above = p_.row(j + 1);
-    const double* v = v_.row(j);
     // v1 = v - dt dp/dy
-    correct(nx_, 0.5 * dt / hy_, below, above, v, corrected_here_.data());
+    RowDifferences{nx_, hx_, heights_}.correct_across(j, dt, p_, v_.row(j), corrected_here_.data());
     if (j >= 0) {
-        const double* v_below = v_.row(j - 1);
         // phi1 = S.v + k e - dt dp/dy,   e = phi1 - S.v1
-        projected_flux(nx_, v_below, v, kept_on_row(j), excess_y(j), dt / hy_, below, here,
-                       flux_above_.data());
-        excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
-                  excess_y(j));
+        projected_across(j, dt, flux_above_.data());
+        if (heights_.equal_beside(j))
+            excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
+                      excess_y(j));
+        else
+            excess_of(nx_, shares_at(j), flux_above_.data(), corrected_below_.data(),
+                      corrected_here_.data(), excess_y(j));
     }
-    if (j >= 1) check_row(flux_x_.data(), flux_below_.data(), flux_above_.data());
-    if (j >= 0 && j < ny_) correct_across(j, dt, here);
+    if (j >= 1) check_row(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data());
+    if (j >= 0 && j < ny_) correct_across(j, dt, p_.row(j));
     flux_below_.swap(flux_above_);
     corrected_below_.swap(corrected_here_);
 }
@@ -139,11 +165,12 @@ void BoxStep::correct_across(int j, double dt, const double* p) {
     std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
 }
 
-/// Divergence and Courant number of a row, from its x fluxes and the fluxes below and above.
-void BoxStep::check_row(const double* along, const double* below, const double* above) {
-    divergence_row(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy_, below, above, divergence_.data());
+/// Divergence and Courant number of row j, from its x fluxes and the fluxes below and above.
+void BoxStep::check_row(int j, const double* along, const double* below, const double* above) {
+    const double hy = heights_.size(j);
+    divergence_row(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy, below, above, divergence_.data());
     keep_largest(nx_, divergence_.data(), largest_divergence_.data());
-    keep_largest_outflow(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy_, below, above,
+    keep_largest_outflow(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy, below, above,
                          largest_outflow_.data());
 }
 
@@ -159,14 +186,12 @@ FluxReport BoxStep::hold_solenoidal_flux(double dt) {
 /// S.u + e - dt S.grad p on the faces below row j and on its x faces; row j - 1 then has all its
 /// fluxes and is checked.
 void BoxStep::correct_held_row(int j, double dt) {
-    const double* below = p_.row(j - 1);
-    const double* here = p_.row(j);
-    projected_flux(nx_, v_.row(j - 1), v_.row(j), kept_on_row(j), excess_y(j), dt / hy_, below,
-                   here, held_y(j));
-    if (j >= 1) check_row(held_x(j - 1), held_y(j - 1), held_y(j));
+    projected_across(j, dt, held_y(j));
+    if (j >= 1) check_row(j - 1, held_x(j - 1), held_y(j - 1), held_y(j));
     if (j == ny_) return;
     flux_along(j, u_.row(j), kept_, held_x(j));
-    correct(nx_ + 1, dt / hx_, here - 1, here, held_x(j), held_x(j));
+    const double* p = p_.row(j);
+    correct(nx_ + 1, dt / hx_, p - 1, p, held_x(j), held_x(j));
 }
 
 void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
@@ -193,7 +218,7 @@ void BoxStep::hold_flux() {
         const double* u = u_.row(j);
         // phi1 = S.u1 + e
         if (j < ny_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), held_x(j));
-        mean_flux(nx_, v_.row(j - 1), v_.row(j), 1.0, excess_y(j), held_y(j));
+        flux_across(j, 1.0, held_y(j));
     }
     held_ = true;
 }
@@ -218,13 +243,27 @@ void BoxStep::carry(int count, const double* flux, const AcrossFaces& u, const A
                         carried[1].data());
 }
 
+/// The same between rows of different heights.
+void BoxStep::carry_between_rows(const FaceBetweenRows& face, const double* flux,
+                                 const AcrossFaces& u, const AcrossFaces& v,
+                                 std::array<Row, 2>& carried) const {
+    if (fluid_.central)
+        blended_flux(nx_, *fluid_.central, face, flux, u, v, carried[0].data(), carried[1].data());
+    else
+        convective_flux(nx_, 2.0 / fluid_.limiter, face, flux, u, v, carried[0].data(),
+                        carried[1].data());
+}
+
 /// Momentum carried through the faces above row j.
 void BoxStep::carry_above(int j) {
     const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
     const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
     const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
-    if (!held_) mean_flux(nx_, v.low, v.high, 1.0, excess_y(j + 1), flux_above_.data());
-    carry(nx_, flux, u, v, carried_above_);
+    if (!held_) flux_across(j + 1, 1.0, flux_above_.data());
+    if (heights_.equal_around(j + 1))
+        carry(nx_, flux, u, v, carried_above_);
+    else
+        carry_between_rows(heights_.face(j + 1), flux, u, v, carried_above_);
     const bool side = (j == -1 && !rows_->open_below()) || (j == ny_ - 1 && !rows_->open_above());
     for (int i = 0; side && i < nx_; ++i) {  // the boundary value
         carried_above_[0][i] = 0.5 * flux[i] * (u.low[i] + u.high[i]);
@@ -244,27 +283,24 @@ void BoxStep::transport_row(int j, double dt) {
         }
     for (int axis = 0; axis < 2; ++axis) {
         const double* across = carried_x_[axis].data();
-        advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / hy_,
+        advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / heights_.size(j),
                     carried_below_[axis].data(), carried_above_[axis].data(), row_of(axis, j));
     }
 }
 
 /// Of row j, after its transport; u_ and v_ still read u1.
 void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
-    const double share = fluid_.viscosity * impulses.dt, dt = impulses.dt;
+    const double dt = impulses.dt;
+    const RowDifferences differences{nx_, hx_, heights_};
     for (int axis = 0; axis < 2; ++axis) {
-        RowReader& u = axis == 0 ? u_ : v_;
         double* f = impulses.f[axis].data() + static_cast<std::size_t>(j) * nx_;
-        laplacian_row(nx_, share / (hx_ * hx_), share / (hy_ * hy_), u.row(j - 1), u.row(j),
-                      u.row(j + 1), f);
-        impulses.sum_f[axis] += sum_row(nx_, f);
+        differences.laplacian(j, fluid_.viscosity * dt, axis == 0 ? u_ : v_, f);
+        impulses.sum_f[axis] += heights_.relative(j) * sum_row(nx_, f);
         add_row(nx_, 1.0, f, row_of(axis, j));
     }
-    const double* below = p_.row(j - 1);
-    const double* here = p_.row(j);
-    const double* above = p_.row(j + 1);
-    correct(nx_, 0.5 * dt / hx_, here - 1, here + 1, row_of(0, j), row_of(0, j));
-    correct(nx_, 0.5 * dt / hy_, below, above, row_of(1, j), row_of(1, j));
+    const double* p = p_.row(j);
+    correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, row_of(0, j), row_of(0, j));
+    differences.correct_across(j, dt, p_, row_of(1, j), row_of(1, j));
 }
 
 void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
@@ -280,15 +316,18 @@ void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
 /// solve itself takes the image beyond the side to be -u.
 void BoxStep::add_side_velocity(double dt) {
     const double across_x = 2.0 * fluid_.viscosity * dt / (hx_ * hx_);
-    const double across_y = 2.0 * fluid_.viscosity * dt / (hy_ * hy_);
+    const auto across_y = [&](int j) {
+        return 2.0 * fluid_.viscosity * dt / (heights_.size(j) * heights_.size(j));
+    };
+    const double at_bottom = across_y(0), at_top = across_y(ny_ - 1);
     for (int axis = 0; axis < 2; ++axis) {
         for (int j = 0; j < ny_; ++j) {
             row_of(axis, j)[0] += across_x * at_side(axis, 0, j);
             row_of(axis, j)[nx_ - 1] += across_x * at_side(axis, 1, j);
         }
         for (int i = 0; i < nx_; ++i) {
-            if (!rows_->open_below()) row_of(axis, 0)[i] += across_y * at_side(axis, 2, i);
-            if (!rows_->open_above()) row_of(axis, ny_ - 1)[i] += across_y * at_side(axis, 3, i);
+            if (!rows_->open_below()) row_of(axis, 0)[i] += at_bottom * at_side(axis, 2, i);
+            if (!rows_->open_above()) row_of(axis, ny_ - 1)[i] += at_top * at_side(axis, 3, i);
         }
     }
 }
@@ -306,8 +345,8 @@ BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
     const std::size_t nx = nx_, ny = ny_;
     if (!fluid_.velocity.x.periodic())
         for (std::size_t j = 0; j < ny; ++j) {
-            add(0, j, j * nx, j * (nx + 1), hy_);
-            add(1, j, j * nx + nx - 1, j * (nx + 1) + nx, hy_);
+            add(0, j, j * nx, j * (nx + 1), heights_.size(j));
+            add(1, j, j * nx + nx - 1, j * (nx + 1) + nx, heights_.size(j));
         }
     for (std::size_t i = 0; i < nx && !rows_->open_below(); ++i) add(2, i, i, i, hx_);
     for (std::size_t i = 0; i < nx && !rows_->open_above(); ++i)
@@ -351,9 +390,12 @@ BoxStep::Force BoxStep::convective_force() {
 }
 
 BoxStep::Force BoxStep::viscous_force() {
+    const auto across = [&](int side) {  // h
+        return side < 2 ? hx_ : heights_.size(side == 2 ? 0 : ny_ - 1);
+    };
     return over_sides([&](int side, int at, std::size_t cell, std::size_t) {
         const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
-        const double per_length = fluid_.viscosity / (side < 2 ? hx_ : hy_);
+        const double per_length = fluid_.viscosity / across(side);
         const auto rate = [&](int axis) {  // nu (u_{-1} - u_0)/h
             return per_length * (difference * velocity(axis)[cell] + 2.0 * at_side(axis, side, at));
         };

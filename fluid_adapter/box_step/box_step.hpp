@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Steps 1 to 3 of a window on a uniform box (Topin 2011, section 2.2), on contiguous arrays of the
+// Steps 1 to 3 of a window on rows of a box, uniform or with rows of different heights
+// (row_heights.hpp; Topin 2011, section 2.2), on contiguous arrays of the
 // components of u, row by row (a row is all cells with the same y). The results equal those of
 // OpenFOAM's operators (foam_app/operatorStep.hpp) to rounding:
 //
@@ -21,7 +22,9 @@
 
 #include "fluid_adapter/box_step/box_operators.hpp"
 #include "fluid_adapter/box_step/convective_flux.hpp"
+#include "fluid_adapter/box_step/row_heights.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
+#include "fluid_adapter/box_step/row_work.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {
@@ -46,7 +49,7 @@ struct FluxReport {
 struct ImpulsesOfWindow {
     double dt = 0.0;                ///< [s]
     RowsOfTwo f;                    ///< [m/s]
-    std::array<double, 2> sum_f{};  ///< over this rank's cells
+    std::array<double, 2> sum_f{};  ///< over this rank's cells, weighted by volumes
 };
 
 class BoxStep {
@@ -96,7 +99,8 @@ class BoxStep {
 
     bool holds_flux() const { return held_; }
 
-    /// k of step 1 for a window of length dt [s]: 1/(1 + 4 nu dt/h2).
+    /// k of step 1 for a window of length dt [s]: 1/(1 + 4 nu dt/h2), of the cells that are not
+    /// stretched.
     double kept_excess(double dt) const {
         return 1.0 / (1.0 + 4.0 * fluid_.viscosity * dt / cell_area());
     }
@@ -105,7 +109,9 @@ class BoxStep {
     std::size_t cells() const { return static_cast<std::size_t>(nx_) * ny_; }  ///< of this rank
 
     double viscosity() const { return fluid_.viscosity; }  ///< nu [m2/s]
-    double cell_area() const { return hx_ * hy_; }         ///< [m2]
+    /// Of the cells that are not stretched [m2].
+    double cell_area() const { return hx_ * fluid_.pressure.y.spacing; }
+    const RowHeights& heights() const { return heights_; }
 
     /// Differences on the same rows.
     BoxOperators operators() { return {fluid_.velocity, fluid_.pressure, *rows_, side_velocity_}; }
@@ -138,14 +144,19 @@ class BoxStep {
     void right_hand_side(int j, double dt);
     void correct_row(int j, double dt);
     void correct_across(int j, double dt, const double* p);
-    void check_row(const double* along, const double* below, const double* above);
+    void check_row(int j, const double* along, const double* below, const double* above);
     void correct_held_row(int j, double dt);
     void carry_above(int j);
     void transport_row(int j, double dt);
     void add_impulses(int j, ImpulsesOfWindow& impulses);
     void carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
                std::array<Row, 2>& carried) const;
+    void carry_between_rows(const FaceBetweenRows& face, const double* flux, const AcrossFaces& u,
+                            const AcrossFaces& v, std::array<Row, 2>& carried) const;
     void flux_along(int j, const double* u, double kept, double* flux);
+    void flux_across(int j, double kept, double* flux);
+    void projected_across(int j, double dt, double* flux);
+    RowShares shares_at(int j) const;
     double kept_on_row(int j) const;
     void add_side_velocity(double dt);
     double at_side(int axis, int side, int at) const { return side_velocity_[axis][side][at]; }
@@ -161,7 +172,8 @@ class BoxStep {
     BoxFluid fluid_;
     std::unique_ptr<BoxRows> rows_;
     int nx_, ny_;  // cells of this rank
-    double hx_, hy_;
+    double hx_;
+    RowHeights heights_;
     SeparableSolve pressure_;
     std::array<SeparableSolve, 2> viscous_;
     std::vector<double> own_pressure_;  // if kept

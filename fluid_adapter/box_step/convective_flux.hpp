@@ -17,8 +17,19 @@
 //
 //     u_f = a (u_C + u_D)/2 + (1 - a) (u_C + (u_D - u_U)/4)
 //
-// Linear in u and second order everywhere. Valid C++17.
+// Linear in u and second order everywhere.
+//
+// Between rows of different heights (row_heights.hpp) OpenFOAM's weights are those of distances,
+// and its gradient at a cell is the mean of the differences over distances on either side of it:
+//
+//     l = clamp((2/k) r, 0, 1),    r = (d . d'/d . d) (distance across the face)/(that of d')
+//     u_f = u_upwind +- l s d,     s: distance from the upwind centre to the face, over that of d
+//     u_f = a (u_C + s (u_D - u_C)) + (1 - a) (u_C + s (d + d' ratio)/2)
+//
+// Valid C++17.
 #pragma once
+
+#include "fluid_adapter/box_step/row_heights.hpp"
 
 namespace turbidite {
 
@@ -31,8 +42,17 @@ struct AcrossFaces {
 void convective_flux(int count, double two_by_k, const double* flux, const AcrossFaces& u,
                      const AcrossFaces& v, double* carried_u, double* carried_v);
 
-/// The same with the share `central` of linear interpolation.
+/// The same through a row of faces between rows of different heights.
+void convective_flux(int count, double two_by_k, const FaceBetweenRows& face, const double* flux,
+                     const AcrossFaces& u, const AcrossFaces& v, double* carried_u,
+                     double* carried_v);
+
+/// With the share `central` of linear interpolation.
 void blended_flux(int count, double central, const double* flux, const AcrossFaces& u,
                   const AcrossFaces& v, double* carried_u, double* carried_v);
+
+/// The same through a row of faces between rows of different heights.
+void blended_flux(int count, double central, const FaceBetweenRows& face, const double* flux,
+                  const AcrossFaces& u, const AcrossFaces& v, double* carried_u, double* carried_v);
 
 }  // namespace turbidite

@@ -180,4 +180,58 @@ void combine_stage(std::size_t count, double old_share, const double* v, double 
     combine_rate(count, old_share, v, new_share, rate_share, now, before, u);
 }
 
+TURBIDITE_ROW_WORK
+void mean_flux(int count, RowShares s, const double* __restrict low, const double* __restrict high,
+               double kept, const double* __restrict extra, double* __restrict face) {
+    for (int i = 0; i < count; ++i) face[i] = s.low * low[i] + s.high * high[i] + kept * extra[i];
+}
+
+TURBIDITE_ROW_WORK
+void projected_flux(int count, RowShares s, const double* __restrict low,
+                    const double* __restrict high, double kept, const double* __restrict extra,
+                    double step, const double* __restrict p_low, const double* __restrict p_high,
+                    double* __restrict face) {
+    for (int i = 0; i < count; ++i)
+        face[i] =
+            s.low * low[i] + s.high * high[i] + kept * extra[i] - step * (p_high[i] - p_low[i]);
+}
+
+TURBIDITE_ROW_WORK
+void excess_of(int count, RowShares s, const double* __restrict face, const double* __restrict low,
+               const double* __restrict high, double* __restrict extra) {
+    for (int i = 0; i < count; ++i) extra[i] = face[i] - (s.low * low[i] + s.high * high[i]);
+}
+
+TURBIDITE_ROW_WORK
+void correct(int count, RowShares s, const double* __restrict below, const double* __restrict here,
+             const double* __restrict above, const double* in, double* out) {
+    for (int i = 0; i < count; ++i)
+        out[i] = in[i] - s.low * (here[i] - below[i]) - s.high * (above[i] - here[i]);
+}
+
+TURBIDITE_ROW_WORK
+void laplacian_row(int count, double x, RowShares s, const double* __restrict below,
+                   const double* __restrict u, const double* __restrict above,
+                   double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] = x * (u[i - 1] - 2.0 * u[i] + u[i + 1]) +
+                 (s.low * (below[i] - u[i]) + s.high * (above[i] - u[i]));
+}
+
+TURBIDITE_ROW_WORK
+void add_rows(int count, RowShares s, double share, const double* __restrict below,
+              const double* __restrict here, const double* __restrict above,
+              double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] += s.low * below[i] + share * here[i] + s.high * above[i];
+}
+
+TURBIDITE_ROW_WORK
+void weighted_difference(int count, RowShares s, const double* __restrict w,
+                         const double* __restrict low, const double* __restrict here,
+                         const double* __restrict high, double* __restrict out) {
+    for (int i = 0; i < count; ++i)
+        out[i] = w[i] * (s.high * (high[i] - here[i]) - s.low * (here[i] - low[i]));
+}
+
 }  // namespace turbidite

@@ -92,4 +92,40 @@ void combine_stage(std::size_t count, double old_share, const double* v, double 
 void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
                    double rate_share, const double* now, const double* before, double* u);
 
+// The same between rows of different heights (row_heights.hpp), with a factor for each row.
+
+/// What a row below and a row above a face count for.
+struct RowShares {
+    double low, high;
+};
+
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i]
+void mean_flux(int count, RowShares s, const double* low, const double* high, double kept,
+               const double* extra, double* face);
+
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i] - step (p_high[i] - p_low[i])
+void projected_flux(int count, RowShares s, const double* low, const double* high, double kept,
+                    const double* extra, double step, const double* p_low, const double* p_high,
+                    double* face);
+
+/// extra[i] = face[i] - (s.low low[i] + s.high high[i])
+void excess_of(int count, RowShares s, const double* face, const double* low, const double* high,
+               double* extra);
+
+/// out[i] = in[i] - s.low (here[i] - below[i]) - s.high (above[i] - here[i]); out may alias in
+void correct(int count, RowShares s, const double* below, const double* here, const double* above,
+             const double* in, double* out);
+
+/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + s.low (below[i] - u[i]) + s.high (above[i] - u[i])
+void laplacian_row(int count, double x, RowShares s, const double* below, const double* u,
+                   const double* above, double* out);
+
+/// out[i] += s.low below[i] + share here[i] + s.high above[i]
+void add_rows(int count, RowShares s, double share, const double* below, const double* here,
+              const double* above, double* out);
+
+/// out[i] = w[i] (s.high (high[i] - here[i]) - s.low (here[i] - low[i]))
+void weighted_difference(int count, RowShares s, const double* w, const double* low,
+                         const double* here, const double* high, double* out);
+
 }  // namespace turbidite

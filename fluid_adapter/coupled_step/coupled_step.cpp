@@ -88,8 +88,8 @@ RowsOfTwo CoupledStep::unconstrained() {
     return s;
 }
 
-BoxStep::Force CoupledStep::viscous_force() const {
-    const std::array<double, 2> sum = viscosity_.sum();
+BoxStep::Force CoupledStep::viscous_force() {
+    const std::array<double, 2> sum = viscosity_.sum(box_);
     const double per_time = step_.cell_area() / dt_;
     return {per_time * sum[0], per_time * sum[1]};
 }

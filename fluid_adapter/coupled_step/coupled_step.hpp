@@ -61,7 +61,7 @@ class CoupledStep {
 
     /// Momentum over rho_f of the viscous impulses in this rank's cells, per time and unit length
     /// [m3/s2]: that of the sides, to the tolerance of viscosity.
-    BoxStep::Force viscous_force() const;
+    BoxStep::Force viscous_force();
 
  private:
     bool correct_viscosity(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);

@@ -2,7 +2,10 @@
 #include "fluid_adapter/coupled_step/rigid_grains.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
+
+#include "fluid_adapter/box_step/row_work.hpp"
 
 namespace turbidite {
 
@@ -14,7 +17,21 @@ RigidGrains::RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelo
       settings_(settings),
       cells_(system.field().owned_cells()),
       all_cells_(static_cast<double>(cells_)) {
+    weigh_rows();
     system.field().sum_over_ranks(&all_cells_, 1);
+}
+
+/// The rank's cells are complete rows, in the order of the rows.
+void RigidGrains::weigh_rows() {
+    const CellGrid& grid = system_.field().grid();
+    if (!grid.stretched(1)) return;
+    int row = 0;
+    while (system_.field().cell(0, row, 0) != 0) ++row;
+    const std::size_t columns = grid.counts[0];
+    for (std::size_t done = 0; done < cells_; done += columns)
+        row_weights_.push_back(grid.size(1, row++) / grid.size(1, 0));
+    all_cells_ = static_cast<double>(columns) *
+                 std::accumulate(row_weights_.begin(), row_weights_.end(), 0.0);
 }
 
 void RigidGrains::make_rigid(RigidChange& change, double reduction) {
@@ -75,7 +92,11 @@ CellVelocity RigidGrains::velocity() {
 double RigidGrains::dot(const double* a, const double* b) const {
     using Vector = Eigen::Map<const Eigen::VectorXd>;
     const auto size = static_cast<Eigen::Index>(cells_);
-    double sum = Vector(a, size).dot(Vector(b, size));
+    double sum = row_weights_.empty() ? Vector(a, size).dot(Vector(b, size)) : 0.0;
+    const std::size_t columns = row_weights_.empty() ? 0 : cells_ / row_weights_.size();
+    for (std::size_t j = 0; j < row_weights_.size(); ++j)
+        sum +=
+            row_weights_[j] * dot_row(static_cast<int>(columns), a + j * columns, b + j * columns);
     system_.field().sum_over_ranks(&sum, 1);
     return sum;
 }

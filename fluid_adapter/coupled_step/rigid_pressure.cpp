@@ -45,7 +45,10 @@ double RigidPressure::precondition(const RigidGrains& grains) {
         [&](int j) {
             for (std::size_t c = j * nx; c < (j + 1) * nx; ++c) z[c] = residual_[c] / dt_;
         },
-        [&](int j) { product += dot_row(nx, residual_.data() + j * nx, z + j * nx); });
+        [&](int j) {
+            product += step_.heights().relative(j) *
+                       dot_row(step_.columns(), residual_.data() + j * nx, z + j * nx);
+        });
     grains.sum_over_ranks(&product, 1);
     return product;
 }

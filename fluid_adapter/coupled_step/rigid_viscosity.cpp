@@ -9,6 +9,7 @@ namespace turbidite {
 ImpulsesOfWindow& RigidViscosity::begin(double dt, double nu) {
     per_laplacian_ = nu * dt;
     pending_ = 0.0;
+    summed_ = true;
     window_.dt = dt;
     return window_;
 }
@@ -19,6 +20,13 @@ const RowsOfTwo& RigidViscosity::impulse() {
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)
             window_.f[axis][c] += share * residual_[axis][c];
     return window_.f;
+}
+
+std::array<double, 2> RigidViscosity::sum(const BoxOperators& box) {
+    if (!std::exchange(summed_, true))
+        for (int axis = 0; axis < 2; ++axis)
+            window_.sum_f[axis] = box.sum_of_cells(impulse()[axis]);
+    return window_.sum_f;
 }
 
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
@@ -104,10 +112,8 @@ void RigidViscosity::move(RigidGrains& grains, double alpha, bool again) {
     if (!again) return move_only(grains, alpha);
     const RowsOfTwo& d = direction_ ? *direction_ : residual_;
     for (int axis = 0; axis < 2; ++axis)
-        for (std::size_t c = 0; c < d[axis].size(); ++c) {
-            window_.f[axis][c] += alpha * d[axis][c];
-            window_.sum_f[axis] += alpha * d[axis][c];
-        }
+        for (std::size_t c = 0; c < d[axis].size(); ++c) window_.f[axis][c] += alpha * d[axis][c];
+    summed_ = false;
     grains.add(rigid_direction_, alpha);
     if (!direction_) later_ = residual_;  // the first direction
     for (int axis = 0; axis < 2; ++axis)

@@ -29,8 +29,8 @@ class RigidViscosity {
     /// f over the rank's cells [m/s].
     const RowsOfTwo& impulse();
 
-    /// Its sum.
-    std::array<double, 2> sum() const { return window_.sum_f; }
+    /// Its sum over the rank's cells, weighted by volumes as in box_operators.hpp.
+    std::array<double, 2> sum(const BoxOperators& box);
 
  private:
     double find_residual(BoxOperators& box, RigidGrains& grains);
@@ -41,6 +41,7 @@ class RigidViscosity {
 
     double per_laplacian_ = 0.0;  // nu dt [m2]
     ImpulsesOfWindow window_;
+    bool summed_ = true;    // the sum of f is known
     double pending_ = 0.0;  // f lacks this share of r
     RowsOfTwo residual_, image_;
     std::array<double, 2> sum_residual_{};  // over the rank's cells, before the first iteration

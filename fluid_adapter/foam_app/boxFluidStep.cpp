@@ -11,18 +11,29 @@
 namespace turbidite {
 namespace {
 
-/// The operator with the spacing of the mesh in metres.
-PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size) {
-    if (plane.y.stretched()) throw DoesNotFit("rows of cells have different heights");
+/// The operator with the spacing of the mesh in metres; of a stretched grid, that of its first row.
+PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size, const CellGrid& grid) {
     plane.x.spacing = box_size.x() / plane.x.cells;
     plane.y.spacing = box_size.y() / plane.y.cells;
+    plane.y.sizes.clear();
+    for (int j = 0; grid.stretched(1) && j < plane.y.cells; ++j)
+        plane.y.sizes.push_back(grid.size(1, j));
+    if (plane.y.stretched()) plane.y.spacing = grid.size(1, 0);
     return plane;
 }
 
-BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const BoxCells& box) {
+/// OpenFOAM's operators do as the case says; rows of different heights know one interpolation.
+void demand_volume_weights(const Foam::fvMesh& mesh, const CellGrid& grid) {
+    if (grid.stretched(1) && Foam::word(mesh.interpolationScheme("flux(U)")) != "reverseLinear")
+        throw DoesNotFit("with rows of different heights interpolation must be reverseLinear");
+}
+
+BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const BoxCells& box,
+                   const CellGrid& grid) {
+    demand_volume_weights(fields.mesh, grid);
     const Foam::vector size = fields.mesh.bounds().span();
-    return {in_metres(laplacian_with_values(fields.U, box).plane, size),
-            in_metres(homogeneous_laplacian(fields.p, box).plane, size),
+    return {in_metres(laplacian_with_values(fields.U, box).plane, size, grid),
+            in_metres(homogeneous_laplacian(fields.p, box).plane, size, grid),
             fields.nu,
             method.limiter,
             method.central,
@@ -41,8 +52,9 @@ std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& p
 
 }  // namespace
 
-BoxFluidStep::BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box)
-    : BoxFluidStep(fields, box_fluid(fields, method, box), box, method.coupled) {}
+BoxFluidStep::BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box,
+                           const CellGrid& grid)
+    : BoxFluidStep(fields, box_fluid(fields, method, box, grid), box, method.coupled) {}
 
 BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box,
                            bool coupled)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Steps 1 to 3 on a uniform box (box_step/box_step.hpp) for OpenFOAM's fields. A rank works on
+// Steps 1 to 3 on rows of a box (box_step/box_step.hpp) for OpenFOAM's fields. A rank works on
 // complete rows. Where OpenFOAM's decomposition gave it such (ranks/cell_rows.hpp), the velocity
 // stays in them, and U and p are copied when somebody asks; otherwise U is copied to rows before
 // the steps and back after them.
@@ -9,6 +9,7 @@
 #include "fluid_adapter/box_step/second_order.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/foam_solver/boxCells.hpp"
+#include "fluid_adapter/multiplier/cell_grid.hpp"
 #include "fluid_adapter/ranks/cell_rows.hpp"
 
 namespace turbidite {
@@ -16,7 +17,8 @@ namespace turbidite {
 class BoxFluidStep final : public FluidStep, private SecondOrderHost {
  public:
     /// Throws DoesNotFit.
-    BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box);
+    BoxFluidStep(FluidFields& fields, const TransportMethod& method, const BoxCells& box,
+                 const CellGrid& grid);
 
     Projection project() override;
     std::vector<BoundaryForce> transport(int parts) override;

@@ -108,7 +108,7 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
         return operator_step(settings, fields, box);
     }
     try {
-        return std::make_unique<BoxFluidStep>(fields, *method, box);
+        return std::make_unique<BoxFluidStep>(fields, *method, box, grid);
     } catch (const DoesNotFit& why) {
         demand_marchuk_yanenko(settings, why.what());
         // Accepts more general cases, or reports what does not fit.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/fluidWindow.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 #include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/multiplier/splitting.hpp"
@@ -32,8 +35,10 @@ CoupledLimits before_contacts(CoupledLimits limits) {
 FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
                          const Settings& settings, const ShapeTable& shapes)
     : run_(run_values(settings)),
+      domain_(fluid_domain(settings)),
+      allow_coarse_(!stretched(domain_) || settings.flag("fluid.allow_coarse")),
       fields_(directory, ranks),
-      field_(fields_, fluid_domain(settings)),
+      field_(fields_, domain_),
       sides_(side_motions(settings), fields_),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       ledger_(fields_, field_),
@@ -54,10 +59,12 @@ void FluidWindow::advance(const Window& window) {
 }
 
 void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
+    check_rows(grains);
     answer("step 5 (free grains)", [&] { multipliers_.take_free(grains, window_.step); });
 }
 
 void FluidWindow::correct(const std::vector<GrainState>& grains) {
+    if (!grains_taken_) check_rows(grains);
     if (!grains_taken_)
         return answer("step 5 (multipliers)", [&] { multipliers_.take_constrained(grains); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
@@ -204,6 +211,26 @@ void FluidWindow::close_ledger() {
 
 void FluidWindow::check_finite(bool finite, const char* steps) const {
     if (!finite) watch_.refuse(steps, "the fluid velocity is not finite; use a smaller time.step");
+}
+
+/// Only where rows of cells are equal is a grain resolved as the case asks.
+void FluidWindow::check_rows(const std::vector<GrainState>& grains) const {
+    if (allow_coarse_) return;
+    const auto top = [](const GrainState& grain) { return grain.position[1] + grain.radius; };
+    const auto highest =
+        std::max_element(grains.begin(), grains.end(),
+                         [&](const GrainState& a, const GrainState& b) { return top(a) < top(b); });
+    double height = highest == grains.end() ? 0.0 : top(*highest);
+    const double own = height;
+    fields_.ranks.max(&height, 1);
+    if (height <= domain_.equal_height * (1.0 + 1e-9)) return;
+    double id = height == own && highest != grains.end() ? static_cast<double>(highest->id) : -1.0;
+    fields_.ranks.max(&id, 1);
+    std::ostringstream why;
+    why << "grain " << static_cast<long long>(id) << " reaches y = " << height / run_.diameter
+        << " D, and rows of cells are stretched above " << domain_.equal_height / run_.diameter
+        << " D; use a larger fluid.stretch_from, or fluid.allow_coarse = true";
+    watch_.refuse("step 5 (rows of cells)", why.str());
 }
 
 void FluidWindow::write_fields() {

@@ -73,6 +73,7 @@ class FluidWindow {
     int transport_parts() const;
     void diffuse();
     void check_finite(bool finite, const char* steps) const;
+    void check_rows(const std::vector<GrainState>& grains) const;
     template <class Take>
     void answer(const char* name, Take take);
     void note(const MultiplierResult& result);
@@ -82,6 +83,8 @@ class FluidWindow {
     void write_fields();
 
     const RunValues run_;
+    const FluidDomain domain_;
+    bool allow_coarse_;  // grains may reach stretched rows
     FluidFields fields_;
     FoamFluidField field_;
     SideVelocity sides_;

@@ -27,6 +27,7 @@ CellGrid grid_of(const FluidDomain& domain, double thickness) {
         grid.spacing[axis] = domain.size[axis] / domain.cells[axis];
         grid.sides[axis] = {side_of(domain.sides[2 * axis]), side_of(domain.sides[2 * axis + 1])};
     }
+    if (stretched(domain)) grid.stretch(1, domain.row_edges);
     grid.spacing[2] = thickness;
     return grid;
 }
@@ -55,22 +56,24 @@ FoamFluidField::FoamFluidField(FluidFields& fields, const FluidDomain& domain)
 
 std::vector<int> FoamFluidField::cell_numbers() const {
     std::vector<int> numbers;
-    bool uniform = true;
+    bool as_asked = true;
     for (const Foam::point& centre : fields_.mesh.cellCentres()) {
         int index[2];
         for (int axis = 0; axis < 2; ++axis) {
             index[axis] = std::max(grid_.wrapped(axis, grid_.layer(axis, centre[axis])), 0);
             const double off = centre[axis] - grid_.centre(axis, index[axis]);
-            uniform = uniform && std::abs(off) < placement_tolerance * grid_.spacing[axis];
+            as_asked =
+                as_asked && std::abs(off) < placement_tolerance * grid_.size(axis, index[axis]);
         }
         numbers.push_back(index[0] + grid_.counts[0] * index[1]);
     }
     double cells = static_cast<double>(numbers.size());
     fields_.ranks.sum(&cells, 1);
-    uniform = uniform && cells == static_cast<double>(grid_.counts[0]) * grid_.counts[1];
-    if (!fields_.ranks.all(uniform))
+    as_asked = as_asked && cells == static_cast<double>(grid_.counts[0]) * grid_.counts[1];
+    if (!fields_.ranks.all(as_asked))
         throw Failure(ExitCode::bad_input,
-                      "the fluid mesh is not the uniform grid of " +
+                      std::string("the fluid mesh is not the ") +
+                          (grid_.stretched(1) ? "stretched" : "uniform") + " grid of " +
                           std::to_string(grid_.counts[0]) + " x " +
                           std::to_string(grid_.counts[1]) +
                           " cells that the case asks for: run blockMesh (and decomposePar, on "

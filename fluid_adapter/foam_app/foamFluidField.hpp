@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An fvMesh as the multiplier method wants it: a uniform grid with cells found by number, on
+// An fvMesh as the multiplier method wants it: a rectilinear grid with cells found by number, on
 // several ranks with a halo around this rank's cells. Velocities are those of a step that keeps
 // them as contiguous components; of other steps they are copied from U before step 5 and back after
 // it.
@@ -20,7 +20,7 @@ namespace turbidite {
 
 class FoamFluidField final : public FluidField {
  public:
-    /// Throws Failure, on every rank, if the mesh is not the uniform grid of the case.
+    /// Throws Failure, on every rank, if the mesh is not the grid of the case.
     FoamFluidField(FluidFields& fields, const FluidDomain& domain);
 
     const CellGrid& grid() const override { return grid_; }

@@ -77,8 +77,9 @@ Foam::scalar StokesProjection::project() {
     return divergence;
 }
 
+/// With h of the smallest cells, which are those of a mesh that is not stretched.
 Foam::scalar StokesProjection::kept_share() const {
-    const Foam::scalar area = fields_.mesh.V()[0] / fields_.thickness;
+    const Foam::scalar area = Foam::gMin(fields_.mesh.V().field()) / fields_.thickness;
     return 1.0 / (1.0 + 4.0 * fields_.nu * fields_.time.deltaTValue() / area);
 }
 

@@ -55,15 +55,17 @@ std::string control_dict(const RunValues& run) {
         end, run.step);
 }
 
-std::string schemes(const Settings& settings) {
+/// The flux between rows of different heights weighs velocities by volumes (reverseLinear): then
+/// the gradient of p is minus the transpose of the divergence (box_step/row_heights.hpp).
+std::string schemes(const Settings& settings, const FluidDomain& domain) {
     return fmt::format(
         "ddtSchemes           {{ default Euler; }}\n"
         "gradSchemes          {{ default Gauss linear; }}\n"
         "divSchemes           {{ default none; div(phi,U) {}; }}\n"
         "laplacianSchemes     {{ default Gauss linear orthogonal; }}\n"
-        "interpolationSchemes {{ default linear; }}\n"
+        "interpolationSchemes {{ default {}; }}\n"
         "snGradSchemes        {{ default orthogonal; }}\n",
-        settings.text("fluid.transport_scheme"));
+        settings.text("fluid.transport_scheme"), stretched(domain) ? "reverseLinear" : "linear");
 }
 
 /// One value of fluid.pressure_solver or fluid.viscous_solver, and its dictionary entry without
@@ -119,6 +121,15 @@ std::string patch(const FluidDomain& domain, int side) {
     return fmt::format("    {} {{ type {}; faces ({}); }}\n", side_names[side], type, faces[side]);
 }
 
+/// blockMesh's expansion ratios along y: one section per row of a stretched mesh.
+std::string grading_of_rows(const FluidDomain& domain) {
+    if (!stretched(domain)) return "1";
+    std::string sections = "(";
+    for (std::size_t j = 0; j + 1 < domain.row_edges.size(); ++j)
+        sections += fmt::format("({:.17g} 1 1)", domain.row_edges[j + 1] - domain.row_edges[j]);
+    return sections + ")";
+}
+
 std::string block_mesh(const FluidDomain& domain) {
     std::string vertices;
     for (double z : {0.0, domain.thickness})
@@ -131,21 +142,43 @@ std::string block_mesh(const FluidDomain& domain) {
     for (int side = 0; side < 4; ++side) patches += patch(domain, side);
     return fmt::format(
         "scale 1;\nvertices\n(\n{});\n"
-        "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} 1) simpleGrading (1 1 1) );\n"
+        "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} 1) simpleGrading (1 {} 1) );\n"
         "edges ();\nboundary\n(\n{}"
         "    frontAndBack {{ type empty; faces ((0 3 2 1) (4 5 6 7)); }}\n);\n",
-        vertices, domain.cells[0], domain.cells[1], patches);
+        vertices, domain.cells[0], domain.cells[1], grading_of_rows(domain), patches);
+}
+
+/// The rank of every cell, in blockMesh's order: complete rows, nearly as many for each rank.
+std::string rank_of_cells(const FluidDomain& domain, std::int64_t ranks) {
+    std::string text = fmt::format("{}\n(\n", domain.cells[0] * domain.cells[1]);
+    for (std::int64_t j = 0; j < domain.cells[1]; ++j) {
+        const std::string rank = fmt::format("{} ", j * ranks / domain.cells[1]);
+        for (int i = 0; i < domain.cells[0]; ++i) text += rank;
+        text += '\n';
+    }
+    return text + ")\n";
+}
+
+/// Whether `simple`, which gives all ranks as many cells, would split rows between two ranks.
+bool splits_rows(const Settings& settings, const FluidDomain& domain) {
+    return settings.text("fluid.decomposition") == "rows" &&
+           domain.cells[1] % settings.integer("fluid.ranks") != 0;
 }
 
 /// `simple` sorts the cells by coordinates rotated by `delta`. The default is so large that rows of
 /// more than a thousand cells would be split; it must only be non-zero.
-std::string decomposition(const Settings& settings) {
+std::string decomposition(const Settings& settings, const FluidDomain& domain) {
     const std::int64_t ranks = settings.integer("fluid.ranks");
     const std::string& kind = settings.text("fluid.decomposition");
     if (kind != "rows" && kind != "columns")
         throw Failure(ExitCode::bad_input,
                       "fluid.decomposition = \"" + kind + "\"; allowed are rows, columns");
     const bool rows = kind == "rows";
+    if (splits_rows(settings, domain))
+        return fmt::format(
+            "numberOfSubdomains {};\nmethod manual;\ncoeffs {{ dataFile \"cellDecomposition\"; "
+            "}}\n",
+            ranks);
     return fmt::format(
         "numberOfSubdomains {};\nmethod simple;\ncoeffs {{ n ({} {} 1); delta 1e-06; }}\n", ranks,
         rows ? 1 : ranks, rows ? ranks : 1);
@@ -201,11 +234,14 @@ void write_fluid_case(const Settings& settings, const std::filesystem::path& dir
     const FluidDomain domain = fluid_domain(settings);
     const RunValues run = run_values(settings);
     write(directory, "system", "controlDict", "dictionary", control_dict(run));
-    write(directory, "system", "fvSchemes", "dictionary", schemes(settings));
+    write(directory, "system", "fvSchemes", "dictionary", schemes(settings, domain));
     write(directory, "system", "fvSolution", "dictionary", solution(settings));
     write(directory, "system", "blockMeshDict", "dictionary", block_mesh(domain));
-    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings));
+    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings, domain));
     write(directory, "constant", "transportProperties", "dictionary", transport_properties(run));
+    if (splits_rows(settings, domain))
+        write(directory, "constant", "cellDecomposition", "labelList",
+              rank_of_cells(domain, settings.integer("fluid.ranks")));
     write(directory, "0", "U", "volVectorField", initial_velocity(domain, settings));
     write(directory, "0", "p", "volScalarField", initial_pressure(domain));
     // ParaView's reader opens a case by an empty file of this name.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
 #include "coupler/protocol/run_values.hpp"
 
 namespace turbidite {
@@ -22,6 +23,24 @@ int cell_count(const char* key, double size, double per_length) {
                                   "domain.size or fluid.cells_per_diameter",
                                   key, size, cells, least_cells));
     return static_cast<int>(cells);
+}
+
+/// Rows above fluid.stretch_from.
+void stretch_rows(const Settings& settings, const RunValues& run, FluidDomain& domain) {
+    const std::optional<MeshRows> rows = mesh_rows(settings, run.size[1] / run.diameter);
+    if (!rows || domain.sides[2] == "cyclic")
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("fluid.stretch_from = {}: rows cannot be stretched between there "
+                                  "and the top at {} D{}; lower it, or set fluid.stretch_ratio = 1",
+                                  settings.real("fluid.stretch_from"), run.size[1] / run.diameter,
+                                  rows ? ", which is cyclic" : ""));
+    domain.cells[1] = rows->count();
+    domain.equal_height = rows->equal_height() * run.diameter;
+    for (int j = 0; j <= rows->equal; ++j)
+        domain.row_edges.push_back(j * rows->height * run.diameter);
+    for (const double height : rows->stretched)
+        domain.row_edges.push_back(domain.row_edges.back() + height * run.diameter);
+    domain.row_edges.back() = run.size[1];
 }
 
 std::string side(const Settings& settings, const std::string& name) {
@@ -50,10 +69,12 @@ FluidDomain fluid_domain(const Settings& settings) {
     domain.size = run.size;
     domain.cells = {cell_count("run.size_x", run.size[0], per_length),
                     cell_count("run.size_y", run.size[1], per_length)};
+    domain.equal_height = run.size[1];
     domain.thickness = domain.size[0] / domain.cells[0];
     for (int i = 0; i < 4; ++i) domain.sides[i] = side(settings, side_names[i]);
     check_pair(domain, 0, 1);
     check_pair(domain, 2, 3);
+    if (rows_are_stretched(settings)) stretch_rows(settings, run, domain);
     return domain;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The fluid's box and its uniform grid, from the resolved case: counts = size / D x cells per
-// diameter, rounded, so that cells are as nearly square as the box allows. Valid C++17.
+// The fluid's box and its grid, from the resolved case: counts = size / D x cells per diameter,
+// rounded, so that cells are as nearly square as the box allows; rows may be stretched above the
+// grains (coupler/protocol/mesh_rows.hpp). Valid C++17.
 #pragma once
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "coupler/protocol/settings.hpp"
 
@@ -14,12 +16,19 @@ namespace turbidite {
 struct FluidDomain {
     std::array<double, 2> size{};  ///< [m]
     std::array<int, 2> cells{};
+    std::vector<double> row_edges;  ///< ascending, if rows have different heights [m]; else empty
+    double equal_height = 0.0;      ///< up to which rows are equal [m]
     double thickness = 0.0;  ///< of the single layer of cells [m]; results are per unit length
     /// wall, free, cyclic or inflow: left, right, bottom, top.
     std::array<std::string, 4> sides{};
 };
 
 inline constexpr std::array<const char*, 4> side_names = {"left", "right", "bottom", "top"};
+
+/// Whether rows have different heights.
+inline bool stretched(const FluidDomain& domain) {
+    return !domain.row_edges.empty();
+}
 
 /// Throws Failure (bad_input) that names the key.
 FluidDomain fluid_domain(const Settings& settings);

@@ -15,8 +15,10 @@
 #include "coupler/keys/key_check.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/case_hash.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/case_entries.hpp"
 #include "launcher/case/case_rules.hpp"
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/earlier_run.hpp"
 #include "launcher/case/grain_forms.hpp"
 #include "launcher/case/grains_adapters.hpp"
@@ -172,6 +174,24 @@ void refuse_grain(const Population& population, std::size_t i, const std::string
 /// Fewer cells show neither a grain's outline nor the flow around it.
 constexpr double least_cells_across = 4.0;
 
+/// The first grain that reaches stretched rows.
+void check_equal_rows(const Population& population, const Settings& settings,
+                      CaseEntries& entries) {
+    const auto rows =
+        mesh_rows(settings, real_list("domain.size", settings.text("domain.size")).at(1));
+    if (!rows) return;
+    const double top = rows->equal_height();
+    const auto reaches = [&](const PlacedGrain& g) { return g.y + g.radius > top * (1.0 + 1e-12); };
+    const auto at = std::find_if(population.grains.begin(), population.grains.end(), reaches);
+    if (at == population.grains.end()) return;
+    refuse_grain(population, at - population.grains.begin(),
+                 fmt::format("reaches y = {:.4g} D", at->y + at->radius),
+                 fmt::format("Grains stay where rows of cells are equal, below {:.4g} D "
+                             "(fluid.stretch_from = {}).",
+                             top, settings.text("fluid.stretch_from")),
+                 "Use a larger fluid.stretch_from, or fluid.allow_coarse: true.", entries);
+}
+
 /// Properties of a grain that the fluid or the adapter does not support; the first of each kind is
 /// named.
 void check_abilities(const Population& population, const Settings& settings,
@@ -214,9 +234,10 @@ void check_abilities(const Population& population, const Settings& settings,
                                  "is {:.3g}.",
                                  least_cells_across, 2.0 * grains[i].radius * cells),
                      "Use more fluid.cells_per_diameter or larger grains.", entries);
-    if (const auto i = first([](const PlacedGrain& g) {
-            return g.density && *g.density <= 1.0 && !g.prescribed;
-        });
+    if (wet && rows_are_stretched(settings) && is(settings, "fluid.allow_coarse", "false"))
+        check_equal_rows(population, settings, entries);
+    if (const auto i = first(
+            [](const PlacedGrain& g) { return g.density && *g.density <= 1.0 && !g.prescribed; });
         i < grains.size() && wet && settings.text("coupling.scheme") != "joint")
         refuse_grain(population, i, fmt::format("density = {}", *grains[i].density),
                      "Without coupling.scheme: joint, grains in a fluid must be denser than it.",
@@ -336,6 +357,13 @@ std::string users_script(Settings& settings, const std::filesystem::path& folder
     return file_text(file);
 }
 
+/// Files in grains.command get absolute paths, with which any program may start it.
+void place_command(Settings& settings, const std::filesystem::path& folder) {
+    if (!settings.has("grains.command")) return;
+    if (const auto words = command_words(settings.text("grains.command")))
+        settings.set("grains.command", command_text(with_absolute_files(*words, folder)));
+}
+
 Quaternion turned(double angle) {
     if (angle == 0.0) return {1.0, 0.0, 0.0, 0.0};
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
@@ -377,7 +405,7 @@ void set_scheme(Settings& settings) {
 
 /// The contact parameters and sub-steps of molecular dynamics.
 void set_soft_contact(Settings& settings, const Packing& grains) {
-    if (grains_adapter(settings).family != "md") return;
+    if (grains_adapter(settings).family == "nscd") return;
     const SoftContact contact = soft_contact(settings, height_of(grains));
     settings.set("run.md_frequency", contact.frequency);
     settings.set("run.md_damping", contact.damping);
@@ -426,6 +454,7 @@ ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
     Population population = make_population(settings, *forms, entries, folder, given_grains);
     std::vector<InnerWall> walls = make_walls(settings, population.grains, *forms, folder, entries);
     std::string script = users_script(settings, folder, entries);
+    place_command(settings, folder);
     if (settings.has("grains.adapter")) check_motions(settings, walls, entries);
     if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
     return finish(std::move(settings), std::move(population), std::move(walls), std::move(script),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/case/grains_adapters.hpp"
 
+#include <limits>
+
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
@@ -22,10 +24,17 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .prescribed_grains = true};
 }
 
+GrainsAdapter external_program(const char* name, const char* help) {
+    GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
+    adapter.family = "any";
+    adapter.most_ranks = std::numeric_limits<int>::max();
+    return adapter;
+}
+
 const GrainsAdapter& grains_adapter(const Settings& settings) {
     const std::string& name = settings.text("grains.adapter");
     for (const GrainsAdapter& adapter : grains_adapters())
-        if (adapter.name == name && !adapter.file.empty()) return adapter;
+        if (adapter.name == name && adapter.available()) return adapter;
     throw Failure(ExitCode::bad_input,
                   "grains.adapter = " + name + " has no program in this version");
 }
@@ -33,7 +42,7 @@ const GrainsAdapter& grains_adapter(const Settings& settings) {
 std::string adapters_that(bool (*can)(const GrainsAdapter&)) {
     std::string names;
     for (const GrainsAdapter& adapter : grains_adapters())
-        if (!adapter.file.empty() && can(adapter))
+        if (!adapter.file.empty() && can(adapter))  // not one that can do anything
             names += (names.empty() ? "" : " or ") + adapter.name;
     return names;
 }

@@ -14,14 +14,15 @@ namespace turbidite {
 
 /// What runs the adapter's file.
 enum class GrainsHost {
-    none,  ///< it is a program itself, BUILD/bin/FILE
-    yade,  ///< YADE runs the script BUILD/lib/yade/FILE
+    none,     ///< it is a program itself, BUILD/bin/FILE
+    yade,     ///< YADE runs the script BUILD/lib/yade/FILE
+    command,  ///< the user names the program: grains.command
 };
 
 struct GrainsAdapter {
     std::string name;    ///< grains.adapter
     std::string help;    ///< one line
-    std::string family;  ///< of keys that apply to it: "nscd" or "md"
+    std::string family;  ///< of keys that apply to it: "nscd", "md", or "any"
     GrainsHost host = GrainsHost::none;
     std::string file = {};                  ///< empty: planned for a later version
     std::vector<std::string> shapes = {};   ///< grains.shape
@@ -34,10 +35,17 @@ struct GrainsAdapter {
     bool materials = false;          ///< more than the first, contact.pairs
     bool prescribed_grains = false;  ///< fixed and driven ones
     int most_ranks = 1;
+
+    /// False: planned for a later version.
+    bool available() const { return !file.empty() || host == GrainsHost::command; }
 };
 
 /// What every host of the contact engine can do.
 GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host, const char* file);
+
+/// A program of the user's own. The handshake says which shapes and schemes it supports; the rest
+/// it has to refuse itself.
+GrainsAdapter external_program(const char* name, const char* help);
 
 /// The entries of grains_adapter_table.def.
 const std::vector<GrainsAdapter>& grains_adapters();
@@ -46,7 +54,7 @@ const std::vector<GrainsAdapter>& grains_adapters();
 /// program in this version.
 const GrainsAdapter& grains_adapter(const Settings& settings);
 
-/// The adapters with a capability, as text: "yade-nscd or standalone-nscd".
+/// The adapters of this project with a capability, as text: "yade-nscd or standalone-nscd".
 std::string adapters_that(bool (*can)(const GrainsAdapter&));
 
 }  // namespace turbidite

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
 
 namespace turbidite {
 namespace {
@@ -15,10 +16,17 @@ constexpr double gigabyte = 1e9;
 
 }  // namespace
 
+double fluid_rows(const Settings& settings) {
+    const double top = real_list("domain.size", settings.text("domain.size")).at(1);
+    const double equal = top * settings.real("fluid.cells_per_diameter");
+    if (!rows_are_stretched(settings)) return equal;
+    const auto rows = mesh_rows(settings, top);
+    return rows ? rows->count() : equal;
+}
+
 double fluid_cells(const Settings& settings) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
-    const double per_diameter = settings.real("fluid.cells_per_diameter");
-    return size.at(0) * per_diameter * size.at(1) * per_diameter;
+    return size.at(0) * settings.real("fluid.cells_per_diameter") * fluid_rows(settings);
 }
 
 double fluid_memory(const Settings& settings) {

@@ -10,7 +10,10 @@ namespace turbidite {
 /// OpenFOAM counts faces with 32 bits, and a mesh of one layer has four per cell.
 inline constexpr double most_cells = 5e8;
 
-/// Cells of the mesh: domain.size times fluid.cells_per_diameter.
+/// Rows of the mesh (coupler/protocol/mesh_rows.hpp); of equal ones where they cannot be stretched.
+double fluid_rows(const Settings& settings);
+
+/// Cells of the mesh: columns times rows.
 double fluid_cells(const Settings& settings);
 
 /// Resident memory of the fluid program [GB = 1e9 bytes]: 750 bytes per cell (figure bytes_per_cell

@@ -6,10 +6,23 @@
 #include <numbers>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/mesh_memory.hpp"
 
 namespace turbidite {
 namespace {
+
+/// Rows of different heights; empty if all are equal.
+std::string rows_text(const Settings& settings, double top) {
+    if (!rows_are_stretched(settings)) return "";
+    const MeshRows rows = *mesh_rows(settings, top);
+    return fmt::format(
+        "  rows: {} equal ones up to {:.4g} D, {} that grow by {:.4f} to {:.3g} "
+        "cells\n",
+        rows.equal, rows.equal_height(), rows.stretched.size(), rows.ratio,
+        rows.largest() / rows.height);
+}
 
 std::string fluid_line(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
@@ -17,12 +30,14 @@ std::string fluid_line(const ResolvedCase& resolved) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double cells = settings.real("fluid.cells_per_diameter");
     return fmt::format("  fluid: {:.0f} x {:.0f} cells (about {:.1g} GB), Re = {:.4g}\n",
-                       size[0] * cells, size[1] * cells, fluid_memory(settings),
-                       resolved.scales.reynolds);
+                       size[0] * cells, fluid_rows(settings), fluid_memory(settings),
+                       resolved.scales.reynolds) +
+           rows_text(settings, size[1]);
 }
 
 std::string md_line(const Settings& settings) {
-    if (!settings.has("run.md_substeps")) return "";
+    const bool external = settings.text("grains.adapter") == "external";
+    if (!settings.has("run.md_substeps") || external) return "";
     const double frequency = settings.real("run.md_frequency");
     const double fall = settings.real("run.gravity") / settings.real("run.diameter");
     return fmt::format(
@@ -33,6 +48,13 @@ std::string md_line(const Settings& settings) {
         settings.integer("run.md_substeps"));
 }
 
+std::string command_line(const Settings& settings) {
+    if (settings.text("grains.adapter") != "external") return "";
+    const auto program = find_program_file(command_words(settings.text("grains.command"))->front());
+    return fmt::format("  grains program: {} ({})\n", settings.text("grains.command"),
+                       program.empty() ? "not found" : program.string());
+}
+
 }  // namespace
 
 std::string case_summary(const ResolvedCase& resolved) {
@@ -40,6 +62,7 @@ std::string case_summary(const ResolvedCase& resolved) {
     std::string text =
         fmt::format("{}: {} grains ({}) in {} D\n", resolved.name, resolved.population.size(),
                     settings.text("grains.adapter"), settings.text("domain.size"));
+    text += command_line(settings);
     text += fluid_line(resolved);
     text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
                         settings.integer("run.windows"), settings.text("time.step"),

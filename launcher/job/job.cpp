@@ -107,11 +107,9 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     while (!has_ended(child)) {
         const int signal = sigwaitinfo(&signals.set(), nullptr);
         if (signal == SIGCHLD || signal < 0) continue;
-        if (end.signal == 0) {
-            end.signal = signal;
-            order.request_stop(signal);
-            continue;
-        }
+        const bool first = end.signal == 0;
+        if (first) end.signal = signal;
+        if (first && order.request_stop(signal)) continue;
         end.killed = true;
         end_session(child, signals);
         break;
@@ -120,6 +118,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     int status = 0;
     waitpid(child, &status, 0);
     end.status = code_of(status);
+    end.crashed = WIFSIGNALED(status) && !end.killed;
     return end;
 }
 

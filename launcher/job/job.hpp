@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A child program in its own session, so that the terminal's Ctrl-C reaches only this process: the
-// first SIGINT, SIGTERM or SIGHUP becomes a stop request, the second kills every process of the
-// session.
+// first SIGINT, SIGTERM or SIGHUP becomes a stop request, the second (or the first, where the
+// program cannot be asked) kills every process of the session.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,16 @@ namespace turbidite {
 
 struct JobOrder {
     std::vector<std::string> arguments;
-    std::filesystem::path error_log;               ///< receives its stderr
-    std::function<void(int signal)> request_stop;  ///< called once, at the first signal
+    std::filesystem::path error_log;  ///< receives its stderr
+    /// Called once, at the first signal. False: the program cannot be asked, it is to be killed.
+    std::function<bool(int signal)> request_stop;
 };
 
 struct JobEnd {
-    int status = 0;       ///< exit code, or 128 + signal
-    int signal = 0;       ///< the first stop signal; 0: none
-    bool killed = false;  ///< a second signal came
+    int status = 0;        ///< exit code, or 128 + signal
+    int signal = 0;        ///< the first stop signal; 0: none
+    bool killed = false;   ///< on request: a second signal came, or it could not be asked
+    bool crashed = false;  ///< ended by a signal that was not sent on request
 };
 
 /// Waits for the end. Throws Failure (exit code 4) if the program cannot be started.

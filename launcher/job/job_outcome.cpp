@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/protocol/run_files.hpp"
 #include "launcher/job/run_json.hpp"
 
 namespace turbidite {
@@ -18,19 +19,23 @@ namespace {
 
 constexpr std::size_t lines_shown = 6;
 
-std::deque<std::string> last_lines(const std::filesystem::path& file) {
+/// The last lines of a log that say more than `message`, which every program repeats.
+std::deque<std::string> last_lines(const std::filesystem::path& file, const std::string& message) {
+    const std::string known = message.substr(0, message.find('\n'));
     std::ifstream input(file);
     std::deque<std::string> lines;
     for (std::string line; std::getline(input, line);) {
-        if (line.empty()) continue;
+        const bool repeats = !known.empty() && line.find(known) != std::string::npos;
+        if (line.empty() || repeats) continue;
         lines.push_back(line);
         if (lines.size() > lines_shown) lines.pop_front();
     }
     return lines;
 }
 
-std::string tail(const RunFolder& folder, const std::filesystem::path& log) {
-    const auto lines = last_lines(log);
+std::string tail(const RunFolder& folder, const std::filesystem::path& log,
+                 const std::string& message) {
+    const auto lines = last_lines(log, message);
     if (lines.empty()) return "";
     std::string text =
         fmt::format("  Last lines of {}:\n", std::filesystem::relative(log, folder.root).string());
@@ -98,9 +103,54 @@ std::string last_word(const std::filesystem::path& log) {
     return word;
 }
 
+/// The rank of the job whose name begins the text; empty if there is none.
+std::string rank_at_front(const std::string& text, const std::vector<std::string>& ranks) {
+    for (const std::string& rank : ranks)
+        if (text.rfind(rank + " ", 0) == 0 || text.rfind(rank + ":", 0) == 0) return rank;
+    return "";
+}
+
+/// Logs are named after the role, and the rank if the role has several.
+std::filesystem::path log_of(const RunFolder& folder, const std::string& rank) {
+    if (rank.empty()) return {};
+    const std::string role = rank.substr(0, rank.find(' '));
+    const auto own = folder.log(role + ".rank" + rank.substr(rank.rfind(' ') + 1));
+    return std::filesystem::exists(own) ? own : folder.log(role);
+}
+
+// The coupler, which mpirun ends with the others, has just had the time to write its wait-for
+// table.
+/// What the coupler last saw of a rank: "was due to send "motion", window 5"; empty if unknown.
+std::string phase_of(const RunFolder& folder, const std::string& rank) {
+    std::ifstream log(folder.log("coupler"));
+    const std::regex state("^  " + rank + R"( \(host .*?, pid \d+\) (.*), for \d+ s$)");
+    std::string phase;
+    std::smatch match;
+    for (std::string line; std::getline(log, line);)
+        if (std::regex_match(line, match, state)) phase = match[1];
+    return std::regex_replace(std::regex_replace(phase, std::regex("^is "), "was "),
+                              std::regex("^waits "), "waited ");
+}
+
+JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first) {
+    const std::string phase = phase_of(folder, first.who);
+    const bool begun = std::filesystem::exists(folder.history());
+    const auto log = log_of(folder, first.who);
+    return {
+        first.code,
+        fmt::format("{} {}, log {}{}{}", first.who, first.what, log.string(),
+                    phase.empty() ? "" : "; it " + phase, begun ? "" : "; the run had not begun"),
+        log};
+}
+
 JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {
-    if (end.killed) return {signal_code(end.signal), "killed on request"};
+    const bool begun = std::filesystem::exists(folder.history());
+    if (end.killed)
+        return {signal_code(end.signal),
+                begun ? "killed on request" : "stopped on request before the first window"};
+    if (const auto first = read_first_end(folder.root); first && !end.crashed)
+        return of_first_end(folder, *first);
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
     const std::string word = last_word(folder.log("coupler"));
     if (!word.empty()) return {code_of_status(end.status), word};
@@ -110,6 +160,11 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
             fmt::format("mpirun ended with status {} and named no program: it was killed, or a "
                         "program of the job never started",
                         end.status)};
+}
+
+JobOutcome of_record(const RunFolder& folder, ExitCode code, const std::string& error,
+                     const std::vector<std::string>& ranks) {
+    return {code, error, log_of(folder, rank_at_front(error, ranks))};
 }
 
 // A message that cannot be saved is still printed.
@@ -129,7 +184,8 @@ JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
     auto record = read_run_json(folder.record());
     if (const auto code = record.find("exit_code");
         code != record.end() && code->is_number_integer())
-        return {static_cast<ExitCode>(code->get<int>()), record.value("error", std::string())};
+        return of_record(folder, static_cast<ExitCode>(code->get<int>()),
+                         record.value("error", std::string()), ranks);
     JobOutcome outcome = without_a_word(folder, end, ranks);
     record["status"] = end.signal == 0 ? "failed" : "interrupted";
     record["exit_code"] = static_cast<int>(outcome.code);
@@ -149,13 +205,14 @@ std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
     return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n",
                        asked_for ? "Interrupted: " : "The run failed: ", outcome.error,
-                       asked_for ? "" : log_tails(folder), folder.root.string(),
+                       asked_for ? "" : last_words(folder, outcome), folder.root.string(),
                        static_cast<int>(outcome.code));
 }
 
-std::string log_tails(const RunFolder& folder) {
+std::string last_words(const RunFolder& folder, const JobOutcome& outcome) {
+    if (!outcome.log.empty()) return tail(folder, outcome.log, outcome.error);
     std::string text;
-    for (const auto& log : log_files(folder)) text += tail(folder, log);
+    for (const auto& log : log_files(folder)) text += tail(folder, log, outcome.error);
     return text;
 }
 

@@ -16,8 +16,12 @@ namespace turbidite {
 struct JobOutcome {
     ExitCode code = ExitCode::done;
     std::string error;  ///< empty when done
+    /// Log of the program at fault; empty if that is not known.
+    std::filesystem::path log = {};
 };
 
+/// The message is, in this order, that of the coupler's record, of the program that ended first
+/// (first_end, with the phase in which the coupler saw it), of the coupler's log, or of mpirun.
 /// Completes run.json if the coupler left no record. `ranks` names the ranks of the world, to
 /// identify the one that mpirun reports as dead.
 JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
@@ -26,7 +30,8 @@ JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
 /// The message for the user at the end.
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome);
 
-/// The last lines of mpirun's log and of every program's.
-std::string log_tails(const RunFolder& folder);
+/// The last lines of the log of the program at fault, or if that is not known, of mpirun's log and
+/// of every program's; without those that repeat the message.
+std::string last_words(const RunFolder& folder, const JobOutcome& outcome);
 
 }  // namespace turbidite

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/grains_adapters.hpp"
 
 namespace turbidite {
@@ -21,8 +22,14 @@ std::filesystem::path grains_file(const GrainsAdapter& adapter, const Programs& 
 }
 
 // -x: a Python error ends the program instead of opening a prompt, where the job would hang.
-Arguments grains_command(const GrainsAdapter& adapter, const Programs& programs,
+Arguments grains_command(const Settings& settings, const Programs& programs,
                          const std::string& run) {
+    const GrainsAdapter& adapter = grains_adapter(settings);
+    if (adapter.host == GrainsHost::command) {
+        Arguments words = *command_words(settings.text("grains.command"));
+        words.push_back(run);
+        return words;
+    }
     const std::string file = grains_file(adapter, programs);
     if (adapter.host == GrainsHost::none) return {file, run};
     return {programs.yade(), "-n", "-x", file, run};
@@ -37,13 +44,30 @@ std::string python_path(const LaunchSite& site) {
     return site.python.empty() ? ours : ours + ":" + site.python;
 }
 
-// mpirun exports -x to the program of the same part only, so every part repeats it.
-Arguments part(std::int64_t ranks, const LaunchSite& site, const Arguments& command) {
-    Arguments part{"-x", "WM_PROJECT_DIR=" + site.openfoam, "-x", "OMP_NUM_THREADS=1",
-                   "-x", "PYTHONPATH=" + python_path(site), "-n", std::to_string(ranks)};
-    append(part, command);
-    return part;
-}
+/// The programs of a job, each with the world ranks after those of the program before it.
+class Parts {
+ public:
+    Parts(const LaunchSite& site, const RunFolder& folder) : site_(site), folder_(folder) {}
+
+    // mpirun exports -x to the program of the same part only, so every part repeats it.
+    void add(const std::string& role, std::int64_t ranks, const Arguments& command) {
+        if (!line_.empty()) line_.push_back(":");
+        append(line_, {"-x", "WM_PROJECT_DIR=" + site_.openfoam, "-x", "OMP_NUM_THREADS=1", "-x",
+                       "PYTHONPATH=" + python_path(site_), "-n", std::to_string(ranks),
+                       site_.programs.member(), folder_.root, role, std::to_string(first_),
+                       std::to_string(ranks)});
+        append(line_, command);
+        first_ += ranks;
+    }
+
+    const Arguments& line() const { return line_; }
+
+ private:
+    const LaunchSite& site_;
+    const RunFolder& folder_;
+    std::int64_t first_ = 0;
+    Arguments line_;
+};
 
 Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
     Arguments part{programs.fluid(), "-case", folder.fluid()};
@@ -87,15 +111,15 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
                                           const LaunchSite& site) {
     const Programs& programs = site.programs;
     Arguments line = mpirun_options(site);
-    append(line, part(1, site, {programs.coupler(), folder.root}));
+    Parts parts(site, folder);
+    parts.add("coupler", 1, {programs.coupler(), folder.root});
     if (settings.flag("fluid.enabled")) {
         const std::int64_t ranks = settings.integer("fluid.ranks");
-        line.push_back(":");
-        append(line, part(ranks, site, fluid_command(ranks, folder, programs)));
+        parts.add("fluid", ranks, fluid_command(ranks, folder, programs));
     }
-    line.push_back(":");
-    append(line, part(settings.integer("grains.ranks"), site,
-                      grains_command(grains_adapter(settings), programs, folder.root)));
+    parts.add("grains", settings.integer("grains.ranks"),
+              grains_command(settings, programs, folder.root));
+    append(line, parts.line());
     return line;
 }
 
@@ -121,9 +145,10 @@ std::string shell_line(const std::vector<std::string>& arguments) {
 
 std::vector<std::filesystem::path> needed_programs(const Settings& settings,
                                                    const Programs& programs) {
-    std::vector<std::filesystem::path> needed{programs.coupler()};
+    std::vector<std::filesystem::path> needed{programs.coupler(), programs.member()};
     if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid());
     const GrainsAdapter& adapter = grains_adapter(settings);
+    if (adapter.host == GrainsHost::command) return needed;  // require_command
     if (adapter.host == GrainsHost::yade) {
         needed.push_back(programs.yade());
         needed.push_back(programs.yade_extension());

@@ -6,7 +6,9 @@
 //     mpirun … -n 1 turbidite-coupler RUN : … -n F turbidite-fluid -case RUN/fluid : … -n G
 //     <grains>
 //
-// It is self-contained: absolute paths, exported variables. Dry cases have no fluid part.
+// with `turbidite-member RUN ROLE FIRST RANKS` before every program, which notices when it ends too
+// early. The line is self-contained: absolute paths, exported variables. Dry cases have no fluid
+// part.
 #pragma once
 
 #include <filesystem>

@@ -14,8 +14,10 @@
 namespace turbidite {
 namespace {
 
-// The coupler looks for this file before every window and ends the run with the code in it.
-void request_stop(const RunFolder& folder, int signal) {
+// The coupler looks for this file before every window and ends the run with the code in it. Before
+// the history begins there is no coupler to look for it, and nothing to keep.
+bool request_stop(const RunFolder& folder, int signal) {
+    if (!std::filesystem::exists(folder.history())) return false;
     const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
     std::ofstream file(folder.stop());
     file << static_cast<int>(code) << "\n";
@@ -23,6 +25,14 @@ void request_stop(const RunFolder& folder, int signal) {
     const char* answer =
         file ? "Stopping after the next window" : "The stop request cannot be written";
     fmt::print(stderr, "\n{}; interrupt again to kill the job.\n", answer);
+    return true;
+}
+
+/// Something to report on: a row of the history.
+bool has_output(const RunFolder& folder) {
+    std::ifstream history(folder.history());
+    std::string header, row;
+    return std::getline(history, header) && std::getline(history, row);
 }
 
 }  // namespace
@@ -41,12 +51,13 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
     const JobEnd end = run_job({.arguments = prepared.line,
                                 .error_log = folder.log("mpirun"),
-                                .request_stop = [&](int s) { request_stop(folder, s); }});
+                                .request_stop = [&](int s) { return request_stop(folder, s); }});
     JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
-    const bool reported = write_report(folder, programs);
     std::fflush(stdout);
     const bool done = outcome.code == ExitCode::done;
-    fmt::print(done ? stdout : stderr, "{}", outcome_text(folder, outcome));
+    if (!done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
+    const bool reported = !has_output(folder) || write_report(folder, programs);
+    if (done) fmt::print("{}", outcome_text(folder, outcome));
     if (!reported) fmt::print(stderr, "report.html could not be written; see above.\n");
     return outcome;
 }

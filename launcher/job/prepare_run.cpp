@@ -11,6 +11,7 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "launcher/case/command_words.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/run_json.hpp"
 
@@ -156,7 +157,25 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
         decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
 }
 
+namespace {
+
+void require_command(const Settings& settings) {
+    if (settings.text("grains.adapter") != "external") return;
+    const std::string program = command_words(settings.text("grains.command"))->front();
+    if (!find_program_file(program).empty()) return;
+    const bool named = program.find('/') != std::string::npos;
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("grains.command = {}\n  There is no executable program {}{}. Give its path, "
+                    "relative to the case file or absolute, or make it executable.\nNothing was "
+                    "started. Exit code 2.",
+                    settings.text("grains.command"), program, named ? "" : " in PATH"));
+}
+
+}  // namespace
+
 void require_programs(const Settings& settings, const std::vector<fs::path>& needed) {
+    require_command(settings);
     for (const fs::path& program : needed) {
         if (fs::exists(program)) continue;
         throw Failure(ExitCode::bad_input,

@@ -15,6 +15,8 @@ struct Programs {
 
     std::filesystem::path build() const { return folder.parent_path(); }
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
+    /// Starts every program of a job and notices when one ends too early.
+    std::filesystem::path member() const { return folder / "turbidite-member"; }
     std::filesystem::path fluid() const { return folder / "turbidite-fluid"; }
     std::filesystem::path bench() const { return folder / "turbidite-bench"; }
     std::filesystem::path yade() const { return "/usr/bin/yade"; }

@@ -12,7 +12,8 @@ import processor_fields
 
 @dataclass
 class VelocityField:
-    """Cell-centred velocity of a one-layer block, arrays of shape (rows, columns)."""
+    """Cell-centred velocity of a one-layer block, arrays of shape (rows, columns). Rows are equally high: of a mesh
+    with stretched rows, each is given as often as rows of the others' height fit into it."""
 
     time: float
     horizontal: np.ndarray
@@ -45,19 +46,52 @@ def velocity_at(run, time, folder):
     if len(values) != columns * rows:
         raise ValueError(f'{folder.name}/U has {len(values)} cells, the case {columns} x {rows}')
     grid = values.reshape(rows, columns, 3)  # x runs fastest
+    if is_stretched(run):
+        grid = grid[rows_at_equal_heights(row_edges(run, columns))]
     return VelocityField(time, grid[:, :, 0], grid[:, :, 1])
 
 
 def mesh_cells(run):
-    """Columns and rows of the one block: domain size in D times cells per diameter."""
+    """Columns and rows of the one block: domain size in D times cells per diameter, unless rows are stretched."""
     per_diameter = float(run.case['fluid.cells_per_diameter'])
-    return tuple(int(round(length * per_diameter)) for length in run.size())
+    columns, rows = (int(round(length * per_diameter)) for length in run.size())
+    return columns, len(row_edges(run, columns)) - 1 if is_stretched(run) else rows
+
+
+def is_stretched(run):
+    """Whether rows of the mesh have different heights."""
+    return float(run.case.get('fluid.stretch_ratio', 1)) > 1
+
+
+def row_edges(run, columns):
+    """Heights at which rows of the mesh begin and end, from the points of its left side; ValueError if the mesh is
+    damaged."""
+    points = read_points(_contents(run.folder / 'fluid/constant/polyMesh/points'))
+    edges = points[:len(points) // 2:columns + 1, 1]  # x runs fastest, then y
+    if len(edges) < 2 or (np.diff(edges) <= 0).any():
+        raise ValueError('fluid/constant/polyMesh/points does not hold rows of cells')
+    return edges
+
+
+def rows_at_equal_heights(edges):
+    """Index of the row at the middle of each of the equal rows of the first one's height."""
+    count = int(round((edges[-1] - edges[0]) / (edges[1] - edges[0])))
+    heights = edges[0] + (np.arange(count) + 0.5) * (edges[-1] - edges[0]) / count
+    return np.searchsorted(edges, heights) - 1
 
 
 def _contents(path):
     if path.exists():
         return path.read_bytes()
     return gzip.decompress(path.with_suffix('.gz').read_bytes())
+
+
+def read_points(data):
+    """The points of an OpenFOAM mesh, (n, 3)."""
+    head = re.search(rb'\n(\d+)\s*\(', data)
+    if not head:
+        raise ValueError('the mesh has no list of points')
+    return _vectors(data, int(head.group(1)), head, 'the list of points')
 
 
 def read_vectors(data, count):
@@ -68,10 +102,15 @@ def read_vectors(data, count):
     head = re.search(rb'internalField\s+nonuniform\s+List<vector>\s+(\d+)\s*\(', data)
     if not head:
         raise ValueError('U has no internal field of vectors')
-    n, start = int(head.group(1)), head.end()
+    return _vectors(data, int(head.group(1)), head, 'U')
+
+
+def _vectors(data, n, head, name):
+    """The n vectors that follow `head`, the match of their beginning; binary or as text."""
+    start = head.end()
     if re.search(rb'format\s+binary', data[:head.start()]):
         if len(data) < start + 24 * n:
-            raise ValueError('U is cut off')
+            raise ValueError(f'{name} is cut off')
         return np.frombuffer(data, dtype='<f8', count=3 * n, offset=start).reshape(n, 3)
     end = data.index(b'\n)', start)
     numbers = data[start:end].replace(b'(', b' ').replace(b')', b' ').split()

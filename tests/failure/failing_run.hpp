@@ -34,12 +34,13 @@ class FailingRun : public ShellTest {
     }
 
     /// Starts the run and returns its process when it has written `rows` rows of history.
-    pid_t start(long rows, const std::string& options = "") const {
+    pid_t start(long rows, const std::string& options = "",
+                const std::string& program = TURBIDITE_PROGRAM) const {
         const pid_t child = fork();
         if (child == 0) {
-            const std::string line = "cd " + scratch.path().string() + " && exec " +
-                                     TURBIDITE_PROGRAM + " run small.yaml" + into_run_folder() +
-                                     " " + options + " >out 2>err </dev/null";
+            const std::string line = "cd " + scratch.path().string() + " && exec " + program +
+                                     " run small.yaml" + into_run_folder() + " " + options +
+                                     " >out 2>err </dev/null";
             execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
             _exit(127);
         }

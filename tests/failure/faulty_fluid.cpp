@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // faulty_fluid -case RUN/fluid, in place of turbidite-fluid: a scripted fluid with the fault named
-// by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, exit, throw.
+// by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, throw, or an end: _exit-0, _exit-3,
+// exit-0, segfault. Before MPI_Init: early-0, early-3, early-hang.
 #include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -30,7 +33,10 @@ class FaultyFluid final : public ScriptedFluid {
         if (fault_ == "nan") kicks.kicks.at(0).velocity[0] = not_a_number;
         if (fault_ == "divergence") kicks.report.divergence = not_a_number;
         if (fault_ == "unsolved") kicks.report.multipliers_converged = false;
-        if (fault_ == "exit") _exit(0);
+        if (fault_ == "_exit-0") _exit(0);
+        if (fault_ == "_exit-3") _exit(3);
+        if (fault_ == "exit-0") std::exit(0);
+        if (fault_ == "segfault") raise(SIGSEGV);
         if (fault_ == "throw") throw std::runtime_error("scripted trouble");
         return kicks;
     }
@@ -40,11 +46,21 @@ class FaultyFluid final : public ScriptedFluid {
     std::string fault_;
 };
 
+/// What a missing library or a wrong argument may do to a program.
+void end_early(const std::string& fault) {
+    if (fault.rfind("early", 0) != 0) return;
+    std::fprintf(stderr, "cannot find my libraries\n");
+    if (fault == "early-hang") pause();
+    std::exit(fault == "early-3" ? 3 : 0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    const char* fault = std::getenv("TURBIDITE_FAULT");
-    FaultyFluid fluid(fault ? fault : "");
+    const char* variable = std::getenv("TURBIDITE_FAULT");
+    const std::string fault = variable ? variable : "";
+    end_early(fault);
+    FaultyFluid fluid(fault);
     const std::filesystem::path foam_case = argv[2];
     return run_fluid(fluid, {&argc, &argv, foam_case.parent_path().string()});
 }

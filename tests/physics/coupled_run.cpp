@@ -22,6 +22,7 @@ std::filesystem::path prepared(const std::filesystem::path& folder, const Couple
 void set_run_values(Settings& settings, const CoupledSetup& setup) {
     set_run_keys(settings);
     settings.set("run.gravity", setup.gravity);
+    settings.set("run.acceleration_x", setup.acceleration_x);
     settings.set("run.viscosity", 1.0 / setup.reynolds);
     settings.set("run.step", setup.step);
     settings.set("run.windows", std::int64_t{setup.windows});
@@ -41,6 +42,10 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.cells_per_diameter", std::int64_t{setup.cells_per_diameter});
     settings.set("fluid.ranks", std::int64_t{1});
     settings.set("fluid.decomposition", std::string("rows"));
+    settings.set("fluid.stretch_ratio", setup.stretch_ratio);
+    settings.set("fluid.stretch_from", setup.stretch_from);
+    settings.set("fluid.stretch_largest", 16.0);
+    settings.set("fluid.allow_coarse", setup.allow_coarse);
     settings.set("fluid.points", setup.points);
     settings.set("fluid.point_spacing", 1.5);
     settings.set("fluid.hydrodynamic_radius", setup.hydrodynamic_radius);
@@ -68,6 +73,10 @@ void set_contact_values(Settings& settings) {
     settings.set("run.slip_tolerance", settings.real("fluid.multiplier_tolerance"));
     settings.set("coupling.positions", std::string("corrected"));
     settings.set("limits.penetration", 0.2);
+    settings.set("limits.grain_balance_soft", 1e-8);
+    settings.set("limits.grain_balance_hard", 1e-4);
+    settings.set("limits.fluid_balance_soft", 1e-6);
+    settings.set("limits.fluid_balance_hard", 1e-2);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct CoupledSetup {
     int cells_per_diameter = 16;
     double density_ratio = 1.5;
     double gravity = 0.0;
+    double acceleration_x = 0.0;  ///< uniform force on the fluid over rho_f
     std::string points = "interior+boundary";
     double tolerance = 1e-4;
     std::int64_t multiplier_iterations = 200;
@@ -33,6 +34,8 @@ struct CoupledSetup {
     std::string transport_scheme = "Gauss limitedLinearV 1";
     std::string time_scheme = "first-order";
     std::string splitting = "marchuk-yanenko";
+    double stretch_ratio = 1.0, stretch_from = 0.0;  ///< of rows; 1: all equal
+    bool allow_coarse = false;
     std::string pressure_solver = "FFT", viscous_solver = "FFT";
     double pressure_tolerance = 1e-6, viscous_tolerance = 1e-8;  ///< of the iterative solvers
 };

@@ -104,6 +104,15 @@ TEST_F(FluidRanks, SidesThatMove) {
         << "the sides do not move the grains";
 }
 
+/// Rows that grow above the column, so many that the ranks do not have as many each.
+TEST_F(FluidRanks, WithStretchedRows) {
+    const std::string stretched =
+        " --set domain.size=[8,12] --set fluid.stretch_ratio=1.07 --set fluid.stretch_from=6.5"
+        " --set domain.top=free";
+    const std::vector<double> one = expect_two_ranks_the_same(stretched);
+    expect_the_same(one, places("fluid.ranks=3" + stretched), "three ranks");
+}
+
 /// OpenFOAM's own solvers, to their tolerance: 1e-12 of a residual norm.
 TEST_F(FluidRanks, WithOpenFoamsSolvers) {
     const std::string matrix =

@@ -1,69 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/schemes/exchanges.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
-#include "coupler/protocol/failure.hpp"
+#include "coupler/hub/arrival.hpp"
 #include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
 namespace {
 
-bool finite(const Vec3& v) {
-    return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
-}
-
-std::string when(Kind kind, std::int64_t window) {
-    if (window < 0) return "at the start";
-    return fmt::format("{} window {}",
-                       kind == Kind::motion ? "after the contacts of" : "after the motion of",
-                       window);
-}
-
-void demand_finite(const Motion& motion, Kind kind, std::int64_t window) {
-    for (const GrainState& g : motion.grains)
-        if (!finite(g.position) || !finite(g.velocity) || !finite(g.angular_velocity))
-            throw PhysicsRefused(fmt::format(
-                "grain {} is not finite {}: position ({}, {}, {}), velocity ({}, {}, {}). Try a "
-                "smaller time.step.",
-                g.id, when(kind, window), g.position[0], g.position[1], g.position[2],
-                g.velocity[0], g.velocity[1], g.velocity[2]));
-}
-
-void demand_finite(const std::vector<ContactRecord>& contacts, std::int64_t window) {
-    for (const ContactRecord& c : contacts)
-        if (!finite(c.point) || !finite(c.normal) || !finite(c.branch) || !finite(c.impulse) ||
-            !finite(c.rolling_impulse) || !std::isfinite(c.gap))
-            throw PhysicsRefused(fmt::format(
-                "a contact of grain {} is not finite in window {}: impulse ({}, {}, {}), gap {}. "
-                "Try a smaller time.step.",
-                c.b, window, c.impulse[0], c.impulse[1], c.impulse[2], c.gap));
-}
-
-void demand_finite(const std::vector<Kick>& kicks, std::int64_t window) {
-    for (const Kick& k : kicks)
-        if (!finite(k.velocity) || !finite(k.angular_velocity) || !finite(k.multiplier_impulse) ||
-            !finite(k.multiplier_angular_impulse))
-            throw PhysicsRefused(fmt::format(
-                "the fluid's kick for grain {} is not finite in window {}: velocity ({}, {}, {}). "
-                "Try a smaller time.step.",
-                k.id, window, k.velocity[0], k.velocity[1], k.velocity[2]));
-}
-
-void demand_finite(const std::vector<FreeResponse>& responses, std::int64_t window) {
-    const auto all = [](const auto& values) {
-        return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-    };
-    for (const FreeResponse& r : responses)
-        if (!finite(r.velocity) || !finite(r.angular_velocity) || !all(r.inertia) ||
-            !std::isfinite(r.mismatch))
-            throw PhysicsRefused(
-                fmt::format("the fluid's response for grain {} is not finite in "
-                            "window {}. Try a smaller time.step.",
-                            r.id, window));
+/// Waits for one message of every rank and checks the numbers in it.
+template <class Record>
+std::vector<Record> receive(ParticipantLink& from, const Arrival& arrival, Cast& cast) {
+    cast.watch.wait_for(from, arrival.kind());
+    std::vector<Record> shares = from.take<Record>(arrival.kind());
+    for (int rank = 0; rank < from.ranks(); ++rank) arrival.check(rank, shares[rank]);
+    return shares;
 }
 
 /// All ranks of a fluid solve together and find the same.
@@ -105,11 +57,10 @@ Kicks merged(const std::vector<Kicks>& shares) {
 }  // namespace
 
 Motion receive_grains(Kind kind, std::int64_t window, Cast& cast) {
-    cast.watch.wait_for(cast.grains, kind);
-    Motion all = cast.plan.gather(cast.grains.take<Motion>(kind));
-    demand_finite(all, kind, window);
-    if (all.contacts) demand_finite(*all.contacts, window);
-    return all;
+    const Arrival arrival(cast.grains, kind, window);
+    const auto shares = receive<Motion>(cast.grains, arrival, cast);
+    cast.roster.check(shares, arrival);
+    return cast.plan.gather(shares);
 }
 
 Motion receive_motion(const Window& window, Cast& cast) {
@@ -117,11 +68,11 @@ Motion receive_motion(const Window& window, Cast& cast) {
 }
 
 std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast) {
-    cast.watch.wait_for(*cast.fluid, Kind::response);
+    const Arrival arrival(*cast.fluid, Kind::response, window.index);
+    const auto shares = receive<std::vector<FreeResponse>>(*cast.fluid, arrival, cast);
+    cast.roster.check(shares, arrival);
     std::vector<FreeResponse> responses;
-    for (const auto& share : cast.fluid->take<std::vector<FreeResponse>>(Kind::response))
-        responses.insert(responses.end(), share.begin(), share.end());
-    demand_finite(responses, window.index);
+    for (const auto& share : shares) responses.insert(responses.end(), share.begin(), share.end());
     return responses;
 }
 
@@ -130,9 +81,10 @@ void send_accept(Cast& cast) {
 }
 
 void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {
-    cast.watch.wait_for(*cast.fluid, Kind::kicks);
-    result.kicks = merged(cast.fluid->take<Kicks>(Kind::kicks));
-    demand_finite(result.kicks.kicks, window.index);
+    const Arrival arrival(*cast.fluid, Kind::kicks, window.index);
+    const auto shares = receive<Kicks>(*cast.fluid, arrival, cast);
+    cast.roster.check(shares, arrival);
+    result.kicks = merged(shares);
     cast.kick_rule.complete(result.kicks.kicks, before, window.step);
 
     std::vector<Kicks> routed;

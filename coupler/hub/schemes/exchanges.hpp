@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Exchanges shared by the schemes. Received numbers are checked here to be finite, once per
-// message; PhysicsRefused names the grain and the window.
+// Exchanges shared by the schemes. Every message is checked here, once, before it is used: its
+// numbers (hub/arrival.hpp) and its grains (hub/grain_roster.hpp).
 #pragma once
 
 #include "coupler/hub/schemes/scheme.hpp"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "coupler/hub/exchange_plan.hpp"
+#include "coupler/hub/grain_roster.hpp"
 #include "coupler/hub/kick_rule.hpp"
 #include "coupler/hub/watch.hpp"
 #include "coupler/output/window_result.hpp"
@@ -23,6 +24,7 @@ struct Cast {
     ParticipantLink* fluid;  ///< null in dry runs
     Watch& watch;
     ExchangePlan& plan;
+    GrainRoster& roster;
     KickRule& kick_rule;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "launcher/case/command_words.hpp"
 #include "launcher/case/grains_adapters.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 #include "launcher/case/soft_contact.hpp"
@@ -16,7 +17,7 @@ namespace {
 std::vector<Choice> adapter_choices() {
     std::vector<Choice> choices;
     for (const GrainsAdapter& adapter : grains_adapters())
-        choices.push_back({adapter.name, adapter.help, !adapter.file.empty()});
+        choices.push_back({adapter.name, adapter.help, adapter.available()});
     return choices;
 }
 
@@ -113,6 +114,25 @@ Ruling script_is_python(const Settings& s) {
     return Objection{"A Python file, whose name ends with .py.", "Rename it."};
 }
 
+bool is_external(const Settings& s) {
+    return is(s, "grains.adapter", "external");
+}
+std::string idle_command(const Settings& s) {
+    return is_external(s) ? "" : "with grains.adapter: " + s.text("grains.adapter");
+}
+
+Ruling command_has_words(const Settings& s) {
+    if (command_words(s.text("grains.command"))) return std::nullopt;
+    return Objection{"A program and its arguments, separated by spaces.",
+                     "Close every quote, and name a program."};
+}
+
+Ruling ranks_are_supported(const Settings& s) {
+    const GrainsAdapter& adapter = grains_adapter(s);
+    if (s.integer("grains.ranks") <= adapter.most_ranks) return std::nullopt;
+    return Objection{fmt::format("{} runs on one rank in this version.", adapter.name), "Use 1."};
+}
+
 void notes(const Settings& s, std::vector<std::string>& notes) {
     const double wanted = s.real("contact.restitution"), least = restitution_of(1.0);
     if (grains_adapter(s).family == "md" && wanted > 0.0 && wanted < least)
@@ -133,10 +153,17 @@ KeyGroup adapter_keys() {
                  {.name = "grains.ranks",
                   .type = KeyType::integer,
                   .fallback = "1",
-                  .range = {.lower = 1.0, .upper = 1.0},
-                  .help = "MPI ranks of the grains program",
-                  .allowed = "The NSCD adapters run on one rank in this version.",
-                  .remedy = "Use 1."}},
+                  .range = {.lower = 1.0},
+                  .help = "MPI ranks of the grains program; more than one with external only"},
+                 {.name = "grains.command",
+                  .type = KeyType::text,
+                  .need = Need::conditional,
+                  .help =
+                      "program of your own and its arguments; the run folder is appended. Files "
+                      "are relative to the case file",
+                  .when = "with grains.adapter: external",
+                  .required = is_external,
+                  .idle = idle_command}},
         .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},
                   {"domain.left", {"grains.adapter"}, left_is_not_cyclic},
                   {"domain.bottom", {"grains.adapter"}, bottom_is_not_cyclic},
@@ -144,6 +171,8 @@ KeyGroup adapter_keys() {
                   {"grains.shape", {"grains.adapter"}, shape_is_known},
                   {"grains.script", {"grains.adapter"}, script_has_a_yade},
                   {"grains.script", {}, script_is_python},
+                  {"grains.command", {}, command_has_words},
+                  {"grains.ranks", {"grains.adapter"}, ranks_are_supported},
                   {"contact.law", {"grains.adapter"}, law_is_known},
                   {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},
                   {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known}},

@@ -81,7 +81,9 @@ KeySpec side_profile() {
 Ruling whole_cells(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const double cells = s.real("fluid.cells_per_diameter");
-    for (const double length : real_list("domain.size", s.text("domain.size"))) {
+    std::vector<double> lengths = real_list("domain.size", s.text("domain.size"));
+    if (s.real("fluid.stretch_ratio") > 1.0) lengths.resize(1);  // rows fit any height
+    for (const double length : lengths) {
         const double count = length * cells;
         const double whole = std::max(1.0, std::round(count));
         if (std::abs(count - whole) > 1e-6)
@@ -179,7 +181,9 @@ KeyGroup domain_keys() {
                   {"domain.right", {"fluid.enabled"}, inflow_has_a_velocity<1>},
                   {"domain.bottom", {"fluid.enabled"}, inflow_has_a_velocity<2>},
                   {"domain.top", {"fluid.enabled"}, inflow_has_a_velocity<3>},
-                  {"domain.size", {"fluid.enabled", "fluid.cells_per_diameter"}, whole_cells}}};
+                  {"domain.size",
+                   {"fluid.enabled", "fluid.cells_per_diameter", "fluid.stretch_ratio"},
+                   whole_cells}}};
 }
 
 }  // namespace turbidite

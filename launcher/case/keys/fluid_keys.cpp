@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 #include "launcher/case/mesh_memory.hpp"
 #include "launcher/case/scales.hpp"
@@ -112,13 +113,34 @@ Ruling ranks_have_cells(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
     const bool rows = s.text("fluid.decomposition") == "rows";
-    const double layers = size.at(rows ? 1 : 0) * s.real("fluid.cells_per_diameter");
+    const double cells = s.real("fluid.cells_per_diameter");
+    const double layers = rows ? fluid_rows(s) : size.at(0) * cells;
     const double most = std::max(1.0, std::floor(layers / least_layers));
     if (static_cast<double>(s.integer("fluid.ranks")) <= most) return std::nullopt;
     return Objection{
         fmt::format("A rank needs at least {} {} of cells, but there are {}.",
                     real_text(least_layers), s.text("fluid.decomposition"), real_text(layers)),
         fmt::format("Use {} or fewer.", real_text(most))};
+}
+
+Ruling rows_can_stretch(const Settings& s) {
+    if (!s.flag("fluid.enabled") || s.real("fluid.stretch_ratio") <= 1.0) return std::nullopt;
+    const double top = real_list("domain.size", s.text("domain.size")).at(1);
+    if (is(s, "domain.bottom", "cyclic"))
+        return Objection{"Rows of cells cannot be stretched between cyclic sides.",
+                         "Set fluid.stretch_ratio: 1, or use walls or free sides."};
+    if (mesh_rows(s, top)) return std::nullopt;
+    const double room = least_stretched_room(s), highest = top - room;
+    if (!(highest > 0.0))
+        return Objection{fmt::format("Rows need {:.3g} D to grow by a ratio of {}, and the domain "
+                                     "is {} D high.",
+                                     room, s.text("fluid.stretch_ratio"), real_text(top)),
+                         "Set fluid.stretch_ratio: 1, or a larger ratio."};
+    return Objection{
+        fmt::format("Rows need {:.3g} D to grow by a ratio of {}, and the domain ends at {} D.",
+                    room, s.text("fluid.stretch_ratio"), real_text(top)),
+        fmt::format("Use {:.4g} or less, a larger fluid.stretch_ratio, or fluid.stretch_ratio: 1.",
+                    std::floor(100.0 * highest) / 100.0)};
 }
 
 Ruling mesh_fits_in_memory(const Settings& s) {
@@ -133,7 +155,7 @@ Ruling mesh_fits_in_memory(const Settings& s) {
                                "are {:.3g} GB{}.",
                                cells / 1e6, needed, limit,
                                s.has("limits.memory") ? " (limits.memory)" : " in this machine"),
-        fmt::format("Use a smaller domain.size or fewer cells{}.",
+        fmt::format("Use a smaller domain.size, fewer cells or fluid.stretch_ratio{}.",
                     too_many ? "" : ", or set limits.memory for a larger machine")};
 }
 
@@ -153,7 +175,7 @@ struct Needed {
 constexpr Needed needed_with_rigid_grains[] = {
     {"coupling.scheme", "joint", "it carries contact impulses from window to window"},
     {"fluid.pressure_solver", "FFT", "that solve is its preconditioner"},
-    {"fluid.viscous_solver", "FFT", "it works on the rows of a uniform box"},
+    {"fluid.viscous_solver", "FFT", "it works on the rows of a box"},
     {"fluid.decomposition", "rows", "it works on complete rows of cells"},
     {"fluid.time_scheme", "first-order", "viscosity is implicit over the whole window"},
 };
@@ -197,6 +219,13 @@ std::string without_iterative_viscosity(const Settings& s) {
 std::string without_iterated_splitting(const Settings& s) {
     return unless(is(s, "fluid.splitting", "implicit-multiplier"), s,
                   "unless fluid.splitting is implicit-multiplier");
+}
+bool rows_stretch(const Settings& s) {
+    return is(s, "fluid.enabled", "true") && s.has("fluid.stretch_ratio") &&
+           s.real("fluid.stretch_ratio") > 1.0;
+}
+std::string without_stretched_rows(const Settings& s) {
+    return unless(rows_stretch(s), s, "with fluid.stretch_ratio: 1");
 }
 std::string without_boundary_points(const Settings& s) {
     return unless(!is(s, "fluid.points", "interior"), s, "with fluid.points: interior");
@@ -251,6 +280,37 @@ KeyGroup fluid_keys() {
                  .range = {.lower = 2.0, .upper = 1024.0},
                  .help = "mesh cells per grain diameter",
                  .idle = without_fluid},
+                {.name = "fluid.stretch_ratio",
+                 .type = KeyType::real,
+                 .fallback = "1",
+                 .range = {.lower = 1.0, .upper = 1.2},
+                 .help = "largest ratio of the heights of neighbouring rows of cells above "
+                         "fluid.stretch_from; 1: all rows are equal",
+                 .idle = without_fluid},
+                {.name = "fluid.stretch_from",
+                 .type = KeyType::real,
+                 .unit = "D",
+                 .need = Need::conditional,
+                 .range = positive,
+                 .help = "height up to which cells are squares; above, rows grow. Grains stay "
+                         "below, unless fluid.allow_coarse",
+                 .remedy = "Write for example stretch_from: 55.",
+                 .when = "fluid.stretch_ratio above 1",
+                 .required = rows_stretch,
+                 .idle = without_stretched_rows},
+                {.name = "fluid.stretch_largest",
+                 .type = KeyType::real,
+                 .unit = "cells",
+                 .fallback = "16",
+                 .range = {.lower = 2.0, .upper = 1000.0},
+                 .help = "largest height of a stretched row over that of the others",
+                 .idle = without_stretched_rows},
+                {.name = "fluid.allow_coarse",
+                 .type = KeyType::flag,
+                 .fallback = "false",
+                 .help = "true: grains may reach stretched rows, where fewer cells resolve them; "
+                         "false: that ends the run with code 6",
+                 .idle = without_stretched_rows},
                 {.name = "fluid.reynolds",
                  .type = KeyType::real,
                  .need = Need::conditional,
@@ -352,7 +412,7 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.pressure_solver",
                  .type = KeyType::choice,
                  .fallback = "FFT",
-                 .choices = {{"FFT", "direct, with fast transforms; uniform boxes"},
+                 .choices = {{"FFT", "direct, with fast transforms; boxes"},
                              {"GAMG", "OpenFOAM's multigrid"},
                              {"PCG", "conjugate gradients"}},
                  .help = "linear solver of the pressure",
@@ -366,7 +426,7 @@ KeyGroup fluid_keys() {
                 {.name = "fluid.viscous_solver",
                  .type = KeyType::choice,
                  .fallback = "FFT",
-                 .choices = {{"FFT", "direct, with fast transforms; uniform boxes"},
+                 .choices = {{"FFT", "direct, with fast transforms; boxes"},
                              {"PCG", "conjugate gradients"}},
                  .help = "linear solver of the viscous step",
                  .idle = without_fluid},
@@ -388,10 +448,16 @@ KeyGroup fluid_keys() {
                "scales.kind"},
               scheme_is_stable},
              {"fluid.ranks",
-              {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter"},
+              {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter",
+               "fluid.stretch_ratio", "fluid.stretch_largest"},
               ranks_have_cells},
+             {"fluid.stretch_from",
+              {"fluid.enabled", "domain.size", "domain.bottom", "fluid.cells_per_diameter",
+               "fluid.stretch_ratio", "fluid.stretch_largest"},
+              rows_can_stretch},
              {"fluid.cells_per_diameter",
-              {"fluid.enabled", "fluid.time_scheme", "domain.size"},
+              {"fluid.enabled", "fluid.time_scheme", "domain.size", "fluid.stretch_ratio",
+               "fluid.stretch_largest"},
               mesh_fits_in_memory},
              {"fluid.splitting",
               {"fluid.enabled", "coupling.scheme", "fluid.pressure_solver", "fluid.viscous_solver",

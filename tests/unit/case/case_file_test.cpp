@@ -203,7 +203,7 @@ TEST_F(CaseFile, MissingFileAndBadYaml) {
 TEST_F(CaseFile, AdaptersOfLaterVersions) {
     const std::string text = refusal("", {"grains.adapter=lammps-md"});
     EXPECT_SAYS(text, "lammps-md is not available in this version.");
-    EXPECT_SAYS(text, "Available: yade-nscd, standalone-nscd, yade-md.");
+    EXPECT_SAYS(text, "Available: yade-nscd, standalone-nscd, yade-md, external.");
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-nsdc"}), "Use yade-nscd.");
 }
 

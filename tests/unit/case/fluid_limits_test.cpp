@@ -4,6 +4,7 @@
 // large for the memory.
 #include <gtest/gtest.h>
 
+#include "launcher/case/mesh_memory.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
@@ -27,6 +28,14 @@ TEST_F(FluidLimits, LightGrainsInAFluidNeedJoint) {
     }
     EXPECT_SAYS(refusal("", {"grains.density_ratio=0", "fluid.enabled=false"}),
                 "grains.density_ratio = 0");
+}
+
+TEST_F(FluidLimits, ABalanceWarnsBeforeItEndsTheRun) {
+    const std::string text = refusal("", {"limits.grain_balance_hard=1e-9"});
+    EXPECT_SAYS(text, "limits.grain_balance_hard = 1e-09");
+    EXPECT_SAYS(text, "at least limits.grain_balance_soft = 1e-08");
+    EXPECT_SAYS(refusal("", {"limits.fluid_balance_soft=0.5"}), "limits.fluid_balance_hard");
+    EXPECT_EQ(refusal("", {"limits.fluid_balance_hard=1", "limits.fluid_balance_soft=1"}), "");
 }
 
 TEST_F(FluidLimits, ExtraFieldsAndProbesAreNamedAndPlaced) {
@@ -64,6 +73,55 @@ TEST_F(FluidLimits, AMeshBeyondTheMemoryIsRefusedWithBoth) {
     EXPECT_EQ(with("limits.memory=80"), "");
     EXPECT_SAYS(with("domain.size=[1e6, 1e6]"), "OpenFOAM counts up to 5e+08");
     EXPECT_EQ(refusal("", {"fluid.enabled=false", "domain.size=[1e4, 1e4]"}), "");
+}
+
+/// 20 grains in 12 x 24 D, below 30 D of a higher box.
+TEST_F(FluidLimits, StretchedRowsNeedAHeightAndRoom) {
+    const auto with = [&](std::vector<std::string> sets) {
+        sets.push_back("domain.size=[12, 60]");
+        sets.push_back("grains.region=[12, 24]");
+        return refusal("", sets);
+    };
+    EXPECT_SAYS(with({"fluid.stretch_ratio=1.05"}), "fluid.stretch_from is missing");
+    EXPECT_SAYS(with({"fluid.stretch_ratio=1.3", "fluid.stretch_from=30"}), "from 1 up to 1.2");
+    EXPECT_SAYS(with({"fluid.stretch_ratio=1.05", "fluid.stretch_from=60"}),
+                "fluid.stretch_from = 60");
+    EXPECT_SAYS(refusal("", {"domain.size=[12, 60.03]", "grains.region=[12, 24]",
+                             "fluid.stretch_ratio=1.05", "fluid.stretch_from=59.8"}),
+                "the domain ends at 60.03 D. Use 59.58 or less");
+    EXPECT_SAYS(with({"fluid.stretch_ratio=1.05", "fluid.stretch_from=30", "domain.bottom=cyclic",
+                      "domain.top=cyclic"}),
+                "between cyclic sides");
+    EXPECT_EQ(with({"fluid.stretch_ratio=1.05", "fluid.stretch_from=59.5"}), "");
+    EXPECT_EQ(with({"fluid.stretch_from=60"}), "");  // without effect
+}
+
+TEST_F(FluidLimits, AGrainInStretchedRowsIsRefusedByItsNumber) {
+    folder.write("g.csv", "id,x,y\n4,3,3\n7,5,10.2\n");
+    const std::vector<std::string> stretched = {"grains.file=g.csv", "fluid.stretch_ratio=1.05",
+                                                "fluid.stretch_from=10.5"};
+    EXPECT_SAYS(refusal("", stretched), "grain 7: reaches y = 10.7 D");
+    std::vector<std::string> allowed = stretched;
+    allowed.push_back("fluid.allow_coarse=true");
+    EXPECT_EQ(refusal("", allowed), "");
+    allowed = stretched;
+    allowed.push_back("fluid.stretch_from=10.7");
+    EXPECT_EQ(refusal("", allowed), "");
+}
+
+/// 192 x 384 cells of D/16; stretched from 8 D on, 128 rows are equal.
+TEST_F(FluidLimits, TheForecastCountsStretchedRows) {
+    const ResolvedCase equal = load();
+    const ResolvedCase stretched =
+        load("", {"fluid.stretch_ratio=1.02", "fluid.stretch_from=8", "fluid.allow_coarse=true"});
+    EXPECT_EQ(fluid_cells(equal.settings), 192.0 * 384.0);
+    EXPECT_GT(fluid_rows(stretched.settings), 128.0 + 80.0);
+    EXPECT_LT(fluid_rows(stretched.settings), 128.0 + 100.0);
+    EXPECT_LT(fluid_memory(stretched.settings), fluid_memory(equal.settings));
+    const std::vector<std::string> odd = {"domain.size=[12, 24.03]", "fluid.stretch_ratio=1.02",
+                                          "fluid.stretch_from=8", "fluid.allow_coarse=true"};
+    EXPECT_EQ(refusal("", odd), "");  // any height
+    EXPECT_SAYS(refusal("", {"domain.size=[12, 24.03]"}), "the mesh needs whole ones");
 }
 
 TEST_F(FluidLimits, AGrainOfFewCellsIsRefusedByItsNumber) {

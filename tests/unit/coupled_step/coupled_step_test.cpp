@@ -46,7 +46,7 @@ class Windows : public testing::TestWithParam<double> {};
 /// A box of fluid comes to rest whatever nu dt/h2 is, here 0.0064 to 64, though viscosity is
 /// predicted explicitly in time and pressure and viscosity are corrected once.
 TEST_P(Windows, ThatAreCorrectedOnceAreStable) {
-    Tank tank(Side::wall, GetParam());
+    Tank tank({Side::wall}, GetParam());
     CoupledStep coupled(tank.step);
     const double begin = energy(tank);
     double before = begin;
@@ -67,7 +67,7 @@ TEST_P(Windows, ThatAreCorrectedOnceAreStable) {
 /// What is carried and corrected once, window after window, follows what is solved in each.
 TEST(Window, CorrectedOnceFollowsTheSolved) {
     constexpr double viscosity = 1.0;  // nu dt/h2 = 0.64
-    Tank once(Side::wall, viscosity), solved(Side::wall, viscosity);
+    Tank once({Side::wall}, viscosity), solved({Side::wall}, viscosity);
     CoupledStep coupled_once(once.step), coupled_solved(solved.step);
     CoupledLimits limits;
     limits.iterated = true;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr IterationLimit to_the_end{400, 1e-7};
 
-class Correction : public testing::TestWithParam<Side> {
+class Correction : public testing::TestWithParam<TankSides> {
  protected:
     /// Largest slip at the points of the grains.
     static double slip(Tank& tank) {
@@ -160,12 +160,8 @@ TEST_P(Correction, OneIterationAlreadyTakesMostOfTheDivergence) {
     EXPECT_LT(second, 0.5 * first);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, Correction, testing::Values(Side::wall, Side::open, Side::cyclic),
-                         [](const auto& info) {
-                             return info.param == Side::wall   ? "wall"
-                                    : info.param == Side::open ? "open"
-                                                               : "cyclic";
-                         });
+INSTANTIATE_TEST_SUITE_P(Sides, Correction, testing::ValuesIn(all_tanks),
+                         [](const auto& info) { return name_of(info.param); });
 
 }  // namespace
 }  // namespace turbidite

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A box of fluid at D/8 with discs in it, for pressure and viscosity with rigid grains.
+// A box of fluid at D/8 with discs in it, for pressure and viscosity with rigid grains; its rows
+// are equal, or stretched above the discs.
 #pragma once
 
 #include <random>
+#include <string>
 
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
@@ -14,10 +16,42 @@ constexpr int cells_across = 48;
 constexpr double cell_size = 1.0 / 8.0;
 constexpr double time_step = 0.01;
 
-inline BoxFluid box_fluid(Side side, double viscosity) {
+struct TankSides {
+    Side side;
+    bool stretched = false;
+};
+
+/// Names of test parameters.
+inline std::string name_of(const TankSides& sides) {
+    const std::string name = sides.side == Side::wall   ? "wall"
+                             : sides.side == Side::open ? "open"
+                                                        : "cyclic";
+    return (sides.stretched ? "stretched_" : "") + name;
+}
+
+inline constexpr TankSides all_tanks[] = {
+    {Side::wall}, {Side::open}, {Side::cyclic}, {Side::wall, true}, {Side::open, true}};
+
+/// Equal up to 4.75 D, then growing by a twelfth each.
+inline std::vector<double> stretched_rows() {
+    std::vector<double> rows(38, cell_size);
+    while (rows.size() < cells_across) rows.push_back(rows.back() * 13.0 / 12.0);
+    return rows;
+}
+
+inline std::vector<double> edges_of(const std::vector<double>& rows) {
+    std::vector<double> edges = {0.0};
+    for (const double row : rows) edges.push_back(edges.back() + row);
+    return edges;
+}
+
+inline BoxFluid box_fluid(const TankSides& sides, double viscosity) {
+    const Side side = sides.side;
     const auto plane = [&](End end) {
         const AxisOperator axis{cells_across, cell_size, end, end};
-        return PlaneOperator{axis, axis};
+        PlaneOperator both{axis, axis};
+        if (sides.stretched) both.y.sizes = stretched_rows();
+        return both;
     };
     BoxFluid fluid;
     fluid.velocity = plane(side == Side::cyclic ? End::periodic
@@ -51,9 +85,8 @@ inline std::vector<double> flux_defect(BoxStep& step) {
     constexpr int n = cells_across;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
-            r[j * n + i] -=
-                (x[j * (n + 1) + i + 1] - x[j * (n + 1) + i] + y[(j + 1) * n + i] - y[j * n + i]) /
-                cell_size;
+            r[j * n + i] -= (x[j * (n + 1) + i + 1] - x[j * (n + 1) + i]) / cell_size +
+                            (y[(j + 1) * n + i] - y[j * n + i]) / step.heights().size(j);
     return r;
 }
 
@@ -65,10 +98,13 @@ inline std::vector<ImmersedGrain> three_discs_of(double density_ratio) {
 }
 
 struct Tank {
-    explicit Tank(Side side, double viscosity = 0.01, double density_ratio = 1.5)
-        : field(cells_across, cells_across, side, cell_size),
+    explicit Tank(const TankSides& sides, double viscosity = 0.01, double density_ratio = 1.5)
+        : rows(sides.stretched ? stretched_rows() : std::vector<double>(cells_across, cell_size)),
+          stretched_field(cells_across, edges_of(rows), sides.side, cell_size),
+          equal_field(cells_across, cells_across, sides.side, cell_size),
+          field(sides.stretched ? stretched_field : equal_field),
           grains(three_discs_of(density_ratio)),
-          step(box_fluid(side, viscosity)),
+          step(box_fluid(sides, viscosity)),
           box(step.operators()) {
         PointPlacement(PointRules{}).place(field, grains, points);
         step.pressure_solve();
@@ -93,11 +129,14 @@ struct Tank {
     Planar momentum() {
         Planar sum = Planar::Zero();
         for (std::size_t c = 0; c < size(); ++c)
-            sum += cell_size * cell_size * Planar(step.velocity(0)[c], step.velocity(1)[c], 0.0);
+            sum += cell_size * rows[c / cells_across] *
+                   Planar(step.velocity(0)[c], step.velocity(1)[c], 0.0);
         return sum;
     }
 
-    MemoryField field;
+    std::vector<double> rows;  // heights
+    MemoryField stretched_field, equal_field;
+    MemoryField& field;
     std::vector<ImmersedGrain> grains;
     CollocationPoints points;
     BoxStep step;

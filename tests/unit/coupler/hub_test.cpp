@@ -70,7 +70,7 @@ TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnMessage) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
-    EXPECT_EQ(job.status.reason.find("fluid rank 0 (host "), 0u) << job.status.reason;
+    EXPECT_EQ(job.status.reason.find("fluid rank 0 (scripted-fluid, host "), 0u) << job.status.reason;
     EXPECT_NE(job.status.reason.find("the disc is on fire"), std::string::npos);
     EXPECT_EQ(job.status.statistics.windows_done, 3);
     for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::physics_refused);
@@ -120,7 +120,7 @@ TEST(Hub, NaNIsRefusedBeforeItTravels) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
-    EXPECT_NE(job.status.reason.find("is not finite after the motion of window 2"),
+    EXPECT_NE(job.status.reason.find("grain 100: position is not finite: (nan, "),
               std::string::npos)
         << job.status.reason;
 }
@@ -144,7 +144,7 @@ TEST(Hub, AMotionOrAKickThatIsNotFiniteNamesGrainAndWindow) {
     });
     grains.run(folder);
     EXPECT_EQ(grains.status.code, ExitCode::physics_refused);
-    EXPECT_NE(grains.status.reason.find("grain 101 is not finite after the contacts of window 2"),
+    EXPECT_NE(grains.status.reason.find("grain 101: velocity is not finite: (nan, "),
               std::string::npos)
         << grains.status.reason;
     Job fluid;
@@ -155,7 +155,8 @@ TEST(Hub, AMotionOrAKickThatIsNotFiniteNamesGrainAndWindow) {
     });
     fluid.run(folder);
     EXPECT_EQ(fluid.status.code, ExitCode::physics_refused);
-    EXPECT_NE(fluid.status.reason.find("kick for grain 102 is not finite in window 2"),
+    EXPECT_NE(fluid.status.reason.find("kick for grain 102: multiplier impulse is not finite: (0, inf, 0), "
+                                       "in \"kicks\" of window 2"),
               std::string::npos)
         << fluid.status.reason;
 }
@@ -420,7 +421,7 @@ TEST(HubJoint, AResponseThatIsNotFiniteIsRefused) {
     Job job = landing(NAN);
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
-    EXPECT_NE(job.status.reason.find("response for grain 100 is not finite in window 0"),
+    EXPECT_NE(job.status.reason.find("response for grain 100: velocity is not finite"),
               std::string::npos)
         << job.status.reason;
 }

@@ -46,10 +46,10 @@ TEST(KickRule, BalanceClosesForAConsistentWindowAndOnlyThen) {
     disc.kicks[0].velocity = {0.3 + (0.01 + multiplier[0]) / m_eff,
                               -0.2 - step + (0.02 + multiplier[1]) / m_eff, 0.0};
     disc.rule.complete(disc.kicks, disc.before, step);
-    EXPECT_LT(disc.rule.defect(disc.kicks, disc.before, disc.contact, step), 1e-14);
+    EXPECT_LT(disc.rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 1e-14);
 
     disc.contact.grains[0].contact_impulse[0] = -0.01;  // a contact force without reaction
-    EXPECT_GT(disc.rule.defect(disc.kicks, disc.before, disc.contact, step), 0.1);
+    EXPECT_GT(disc.rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 0.1);
 }
 
 }  // namespace

@@ -17,8 +17,16 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 // D = u_c = 1: penetrations are in D, divergences in u_c/D. Penetration limit 0.2 D.
 class LedgerTest : public ::testing::Test {
  protected:
-    Ledger ledger{hub_settings(test_settings()), 3};
+    std::vector<std::string> warnings;
+    Ledger ledger = make(test_settings());
     WindowResult result = good();
+
+    Ledger make(const Settings& settings) {
+        Ledger made(hub_settings(settings),
+                    [this](const std::string& text) { warnings.push_back(text); });
+        made.name_programs("grains (my-code)", "fluid (openfoam)");
+        return made;
+    }
 
     static WindowResult good() {
         WindowResult result;
@@ -30,7 +38,9 @@ class LedgerTest : public ::testing::Test {
     /// The ledger's message; empty if it accepts.
     std::string complaint() {
         try {
-            ledger.check(result);
+            Window window;
+            window.index = 7;
+            ledger.check(window, result);
         } catch (const PhysicsRefused& refused) {
             return refused.what();
         }
@@ -42,17 +52,6 @@ class LedgerTest : public ::testing::Test {
 
 TEST_F(LedgerTest, AgreesWithAGoodWindow) {
     EXPECT_EQ(complaint(), "");
-}
-
-TEST_F(LedgerTest, CountsThoseWhoLeft) {
-    result.state.grains.pop_back();
-    result.state.report.removed = 1;
-    EXPECT_EQ(complaint(), "");
-    result.state.report.removed = 0;  // the report still counts it
-    EXPECT_EQ(complaint(), "");
-    result.state.grains.pop_back();  // a grain that vanished without being reported
-    EXPECT_SAYS(complaint(),
-                "1 grains present and 1 removed through free sides do not add up to 3");
 }
 
 TEST_F(LedgerTest, BoundsTheOverlap) {
@@ -70,7 +69,7 @@ TEST_F(LedgerTest, AdvisesHowToReduceOverlaps) {
     EXPECT_SAYS(complaint(), "Use a smaller time.step, or more contact.iterations.");
     Settings settings = test_settings();
     settings.set("grains.adapter", std::string("yade-md"));
-    ledger = Ledger(hub_settings(settings), 3);
+    ledger = make(settings);
     EXPECT_SAYS(complaint(), "Use a smaller contact.md_overlap");
     EXPECT_EQ(complaint().find("contact.iterations"), std::string::npos);
 }
@@ -102,11 +101,43 @@ TEST_F(LedgerTest, ToleratesTwoUnsolvedMultiplierProblemsButNotThree) {
     EXPECT_SAYS(text, "fluid.multiplier_iterations = 200, fluid.multiplier_tolerance = 0.0001 u_c");
 }
 
-TEST_F(LedgerTest, ChecksTheStart) {
-    Motion start = result.state;
-    EXPECT_NO_THROW(ledger.check_start(start));
-    start.grains.pop_back();
-    EXPECT_THROW(ledger.check_start(start), PhysicsRefused);
+// limits.grain_balance_soft = 1e-8, hard 1e-4.
+TEST_F(LedgerTest, WarnsOnceOfAGrainThatIsNotBalancedAndThenEndsTheRun) {
+    result.grain_balance = GrainBalance{1e-8, 101};
+    EXPECT_EQ(complaint(), "");
+    EXPECT_TRUE(warnings.empty());
+    result.grain_balance->defect = 2e-8;
+    EXPECT_EQ(complaint(), "");
+    EXPECT_EQ(complaint(), "");
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_SAYS(warnings[0],
+                "grain_balance = 2e-08 in window 7, limits.grain_balance_soft = 1e-08");
+    EXPECT_SAYS(warnings[0], "fails most for grain 101");
+    for (const double defect : {1.1e-4, not_a_number}) {
+        result.grain_balance->defect = defect;
+        const std::string text = complaint();
+        EXPECT_SAYS(text, "limits.grain_balance_hard = 0.0001");
+        EXPECT_SAYS(text, "masses of grains (my-code) must belong together");
+        EXPECT_SAYS(text, "fluid (openfoam)");
+    }
+}
+
+// limits.fluid_balance_soft = 1e-6, hard 1e-2.
+TEST_F(LedgerTest, JudgesTheFluidsMomentumByItsOwnLimits) {
+    result.kicks.report.momentum_defect = 2e-6;
+    EXPECT_EQ(complaint(), "");
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_SAYS(warnings[0], "fluid_balance = 2e-06 in window 7");
+    result.kicks.report.momentum_defect = 0.011;
+    EXPECT_SAYS(complaint(), "limits.fluid_balance_hard = 0.01");
+    EXPECT_SAYS(complaint(), "as reported by fluid (openfoam)");
+}
+
+TEST_F(LedgerTest, ADryRunHasNoBalances) {
+    Settings dry = test_settings("split", false);
+    ledger = make(dry);
+    result.kicks.report.momentum_defect = 1.0;
+    EXPECT_EQ(complaint(), "");
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ TEST(AFourthScheme, OutOfOrderMessagesAreRefusedByTheCoupler) {
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::participant_failed);
     EXPECT_NE(job.status.reason.find(
-                  "fluid rank 0: received \"kicks\" from the participant in window 1, but "
+                  "): received \"kicks\" from the participant in window 1, but "
                   "\"response\" from the participant is due"),
               std::string::npos)
         << job.status.reason;

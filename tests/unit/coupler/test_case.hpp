@@ -30,6 +30,10 @@ inline Settings test_settings(const std::string& scheme = "split", bool fluid = 
     s.set("limits.stall_soft", 5.0);
     s.set("limits.stall_hard", 20.0);
     s.set("limits.penetration", 0.2);
+    s.set("limits.grain_balance_soft", 1e-8);
+    s.set("limits.grain_balance_hard", 1e-4);
+    s.set("limits.fluid_balance_soft", 1e-6);
+    s.set("limits.fluid_balance_hard", 1e-2);
     s.set("run.hash", std::string("0123456789abcdef"));
     return s;
 }

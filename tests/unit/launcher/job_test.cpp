@@ -22,6 +22,7 @@ class JobTest : public ::testing::Test {
  protected:
     ScratchFolder scratch;
     int requests = 0;
+    bool can_be_asked = true;
 
     JobEnd run(const std::string& script) {
         return run_job({.arguments = {"sh", "-c", script},
@@ -29,6 +30,7 @@ class JobTest : public ::testing::Test {
                         .request_stop = [this](int) {
                             ++requests;
                             scratch.write("STOP", "");
+                            return can_be_asked;
                         }});
     }
 
@@ -77,11 +79,21 @@ TEST_F(JobTest, RunsInItsOwnSession) {
     EXPECT_EQ(text("stderr"), "1\n");
 }
 
+TEST_F(JobTest, TheFirstSignalKillsAProgramThatCannotBeAsked) {
+    can_be_asked = false;
+    const Later signal(1, SIGTERM);
+    const JobEnd end = run("sleep 60");
+    EXPECT_EQ(requests, 1);
+    EXPECT_EQ(end.signal, SIGTERM);
+    EXPECT_TRUE(end.killed);
+    EXPECT_FALSE(end.crashed);
+}
+
 TEST_F(JobTest, NamesAProgramThatIsNotThere) {
     try {
         run_job({.arguments = {"turbidite-no-such-program"},
                  .error_log = scratch.path() / "stderr",
-                 .request_stop = [](int) {}});
+                 .request_stop = [](int) { return true; }});
         FAIL() << "a missing program ran";
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code(), ExitCode::participant_failed);

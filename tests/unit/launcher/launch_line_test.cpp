@@ -17,6 +17,7 @@ LaunchSite site(bool as_root) {
 
 Settings settings(const std::string& adapter, bool wet) {
     Settings result;
+    result.set("grains.command", std::string("my-code --fast 'a b'"));
     result.set("grains.adapter", adapter);
     result.set("grains.ranks", std::int64_t{1});
     result.set("fluid.enabled", wet);
@@ -33,9 +34,20 @@ const std::string exported =
 
 TEST(LaunchLine, WetWithYade) {
     EXPECT_EQ(shell_line(launch_arguments(settings("yade-nscd", true), {"/r"}, site(true))),
-              front + exported + "-n 1 /b/bin/turbidite-coupler /r : " + exported +
-                  "-n 1 /b/bin/turbidite-fluid -case /r/fluid : " + exported +
-                  "-n 1 /usr/bin/yade -n -x /b/lib/yade/turbidite_yade_nscd.py /r");
+              front + exported + "-n 1 /b/bin/turbidite-member /r coupler 0 1 " +
+                  "/b/bin/turbidite-coupler /r : " + exported +
+                  "-n 1 /b/bin/turbidite-member /r fluid 1 1 " +
+                  "/b/bin/turbidite-fluid -case /r/fluid : " + exported +
+                  "-n 1 /b/bin/turbidite-member /r grains 2 1 " +
+                  "/usr/bin/yade -n -x /b/lib/yade/turbidite_yade_nscd.py /r");
+}
+
+TEST(LaunchLine, AnExternalProgramGetsItsArgumentsAndTheRunFolder) {
+    const std::string line =
+        shell_line(launch_arguments(settings("external", true), {"/r"}, site(true)));
+    EXPECT_NE(line.find("/b/bin/turbidite-member /r grains 2 1 my-code --fast 'a b' /r"),
+              std::string::npos)
+        << line;
 }
 
 TEST(LaunchLine, TheUsersPythonPathIsKept) {
@@ -48,8 +60,9 @@ TEST(LaunchLine, TheUsersPythonPathIsKept) {
 
 TEST(LaunchLine, DryWithoutYade) {
     EXPECT_EQ(shell_line(launch_arguments(settings("standalone-nscd", false), {"/r"}, site(true))),
-              front + exported + "-n 1 /b/bin/turbidite-coupler /r : " + exported +
-                  "-n 1 /b/bin/turbidite-grains /r");
+              front + exported + "-n 1 /b/bin/turbidite-member /r coupler 0 1 " +
+                  "/b/bin/turbidite-coupler /r : " + exported +
+                  "-n 1 /b/bin/turbidite-member /r grains 1 1 /b/bin/turbidite-grains /r");
 }
 
 TEST(LaunchLine, RootIsMentionedOnlyForRoot) {
@@ -61,7 +74,9 @@ TEST(LaunchLine, SeveralFluidRanksAreParallel) {
     Settings several = settings("standalone-nscd", true);
     several.set("fluid.ranks", std::int64_t{3});
     const std::string line = shell_line(launch_arguments(several, {"/r"}, site(true)));
-    EXPECT_NE(line.find("-n 3 /b/bin/turbidite-fluid -case /r/fluid -parallel :"),
+    EXPECT_NE(line.find("/b/bin/turbidite-member /r grains 4 1 "), std::string::npos) << line;
+    EXPECT_NE(line.find("-n 3 /b/bin/turbidite-member /r fluid 1 3 /b/bin/turbidite-fluid -case "
+                        "/r/fluid -parallel :"),
               std::string::npos)
         << line;
 }

@@ -51,6 +51,26 @@ class Report(RunFolderTest):
             self.assertEqual(field.horizontal[3, 5], 5.0)
             self.assertEqual(field.vertical[3, 5], 0.03)
 
+    def test_stretched_rows_are_shown_at_their_heights(self):
+        """4 x 12 D at 2 cells per D: rows of 0.5 D up to 4 D, then four of 1 and two of 2 D; 14 instead of 24."""
+        self.write_all()
+        case = self.folder / 'case.yaml'
+        case.write_text(case.read_text().replace('size: [4, 6]', 'size: [4, 12]').replace(
+            'cells_per_diameter: 2', 'cells_per_diameter: 2\n  stretch_ratio: 1.2'))
+        edges = np.concatenate([[0], np.cumsum([0.5] * 8 + [1] * 4 + [2] * 2)])
+        z, y, x = np.meshgrid([0, 1], edges, np.arange(COLUMNS + 1) / 2, indexing='ij')
+        points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+        self.write('fluid/constant/polyMesh/points',
+                   b'FoamFile\n{\n format binary;\n}\n\n\n%d\n(' % len(points) + points.astype('<f8').tobytes() + b')')
+        j, i = np.mgrid[0:14, 0:COLUMNS]
+        values = np.stack([i, j, 0 * i], axis=-1).reshape(-1, 3)
+        self.write('fluid/0/U', b'format binary;\ninternalField nonuniform List<vector> \n%d\n(' % len(values) +
+                   values.astype('<f8').tobytes() + b')\n;\n')
+        field = fluid_fields.velocity_at(run_data.load_run(self.folder), 0, self.folder / 'fluid/0')
+        self.assertEqual(field.vertical[:, 3].tolist(),
+                         list(range(8)) + [8, 8, 9, 9, 10, 10, 11, 11] + [12] * 4 + [13] * 4)
+        self.assertTrue((field.horizontal == np.arange(COLUMNS)).all())
+
     def test_uniform_field(self):
         data = b'format ascii;\ninternalField   uniform (0 1.5 0);\n'
         self.assertTrue((fluid_fields.read_vectors(data, 6) == [0, 1.5, 0]).all())

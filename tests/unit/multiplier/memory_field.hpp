@@ -38,6 +38,12 @@ class MemoryField final : public FluidField {
         grid_.stretch(1, y_edges);
     }
 
+    /// n cells of edge h along x, rows between the given edges.
+    MemoryField(int n, const std::vector<double>& y_edges, Side side, double h)
+        : MemoryField(n, static_cast<int>(y_edges.size()) - 1, side, h) {
+        grid_.stretch(1, y_edges);
+    }
+
     MemoryField(const MemoryField&) = delete;
 
     const CellGrid& grid() const override { return grid_; }

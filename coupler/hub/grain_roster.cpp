@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/grain_roster.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace turbidite {
+namespace {
+
+constexpr int nobody = -1;
+
+const std::string every_grain_once =
+    "Each grain of the run must be sent exactly once; one that left is counted in report.removed "
+    "of \"state\".";
+const std::string is_it_outside =
+    "Every grain must be answered by the rank that owns its centre: is it outside the fluid's "
+    "domain?";
+
+std::int64_t announced_in(const std::vector<Motion>& shares, Kind kind) {
+    std::int64_t removed = 0;
+    if (kind == Kind::state)
+        for (const Motion& share : shares) removed += share.report.removed;
+    return removed;
+}
+
+const std::vector<GrainState>& records_of(const Motion& share) {
+    return share.grains;
+}
+const std::vector<Kick>& records_of(const Kicks& share) {
+    return share.kicks;
+}
+const std::vector<FreeResponse>& records_of(const std::vector<FreeResponse>& share) {
+    return share;
+}
+
+}  // namespace
+
+GrainRoster::GrainRoster(const std::vector<GrainState>& population) {
+    remember({Motion{population, {}}});
+}
+
+void GrainRoster::remember(const std::vector<Motion>& shares) {
+    present_.clear();
+    places_.clear();
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+        for (const GrainState& grain : shares[rank].grains) {
+            places_.emplace(grain.id, present_.size());
+            present_.push_back({grain.id, grain.shape, static_cast<int>(rank)});
+        }
+}
+
+template <class Shares>
+bool GrainRoster::unchanged(const Shares& shares) const {
+    std::size_t at = 0;
+    for (const auto& share : shares)
+        for (const auto& record : records_of(share))
+            if (at == present_.size() || !present_[at++].fits(record)) return false;
+    return at == present_.size();
+}
+
+template <class Shares>
+GrainRoster::Seen GrainRoster::tally(const Shares& shares, const Arrival& arrival) const {
+    Seen seen(present_.size(), nobody);
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+        for (const auto& record : records_of(shares[rank])) {
+            const int sender = static_cast<int>(rank);
+            const auto place = places_.find(record.id);
+            if (place == places_.end())
+                arrival.refuse(sender, fmt::format("grain {} is not in the run", record.id),
+                               every_grain_once);
+            int& first = seen[place->second];
+            if (first != nobody)
+                arrival.refuse(
+                    sender,
+                    fmt::format("grain {} was sent twice, first by rank {}", record.id, first),
+                    every_grain_once);
+            first = sender;
+        }
+    return seen;
+}
+
+void GrainRoster::check_shapes(const std::vector<Motion>& shares, const Arrival& arrival) const {
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+        for (const GrainState& grain : shares[rank].grains) {
+            const std::int32_t known = present_[places_.at(grain.id)].shape;
+            if (grain.shape != known)
+                arrival.refuse(static_cast<int>(rank),
+                               fmt::format("grain {} has shape {}, in the population {}", grain.id,
+                                           grain.shape, known),
+                               "A grain keeps its shape.");
+        }
+}
+
+void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& shares,
+                                const Arrival& arrival) const {
+    const std::int64_t announced = announced_in(shares, arrival.kind());
+    const std::int64_t missing = std::count(seen.begin(), seen.end(), nobody);
+    if (missing == announced) return;
+    const auto first = std::find(seen.begin(), seen.end(), nobody);
+    if (first == seen.end())
+        arrival.refuse(
+            fmt::format("{} grains were announced as removed, none is missing", announced),
+            every_grain_once);
+    const Entry& lost = present_[first - seen.begin()];
+    arrival.refuse(lost.rank,
+                   fmt::format("{} of {} grains are missing, {} announced as removed; the first "
+                               "one missing is grain {}",
+                               missing, present_.size(), announced, lost.id),
+                   every_grain_once);
+}
+
+void GrainRoster::check(const std::vector<Motion>& shares, const Arrival& arrival) {
+    if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) return;
+    const Seen seen = tally(shares, arrival);
+    check_shapes(shares, arrival);
+    check_missing(seen, shares, arrival);
+    remember(shares);
+}
+
+template <class Shares>
+void GrainRoster::check_answers(const Shares& shares, const Arrival& arrival) const {
+    if (unchanged(shares)) return;
+    const Seen seen = tally(shares, arrival);
+    const auto missing = std::count(seen.begin(), seen.end(), nobody);
+    if (missing == 0) return;
+    const auto first = std::find(seen.begin(), seen.end(), nobody);
+    arrival.refuse(fmt::format("no answer for {} of {} grains; the first one is grain {}", missing,
+                               present_.size(), present_[first - seen.begin()].id),
+                   is_it_outside);
+}
+
+void GrainRoster::check(const std::vector<Kicks>& shares, const Arrival& arrival) const {
+    check_answers(shares, arrival);
+}
+
+void GrainRoster::check(const std::vector<std::vector<FreeResponse>>& shares,
+                        const Arrival& arrival) const {
+    check_answers(shares, arrival);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The grains that are in the run: those of the population, less those that the grains program has
+// announced as removed. Every message must speak of each of them exactly once.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "coupler/hub/arrival.hpp"
+
+namespace turbidite {
+
+class GrainRoster {
+ public:
+    explicit GrainRoster(const std::vector<GrainState>& population);
+
+    /// Checks the grains of `motion` or `state`; those that a `state` reports as removed leave the
+    /// run. Throws PhysicsRefused naming the sender and the first grain that is unknown, sent
+    /// twice, of another shape or missing.
+    void check(const std::vector<Motion>& shares, const Arrival& arrival);
+
+    /// Checks the fluid's answers, one for every grain. Throws like the other.
+    void check(const std::vector<Kicks>& shares, const Arrival& arrival) const;
+    void check(const std::vector<std::vector<FreeResponse>>& shares, const Arrival& arrival) const;
+
+    std::size_t size() const { return present_.size(); }
+
+ private:
+    struct Entry {
+        GrainId id = 0;
+        std::int32_t shape = 0;
+        int rank = 0;  ///< the grains rank that sent it when the order last changed
+
+        bool fits(const GrainState& grain) const { return grain.id == id && grain.shape == shape; }
+        template <class Answer>
+        bool fits(const Answer& answer) const {
+            return answer.id == id;
+        }
+    };
+    using Seen = std::vector<int>;  ///< by place in present_: the rank that sent it, or nobody
+
+    /// The common case: the grains of the last message in the same order.
+    template <class Shares>
+    bool unchanged(const Shares& shares) const;
+    template <class Shares>
+    Seen tally(const Shares& shares, const Arrival& arrival) const;
+    void check_shapes(const std::vector<Motion>& shares, const Arrival& arrival) const;
+    void check_missing(const Seen& seen, const std::vector<Motion>& shares,
+                       const Arrival& arrival) const;
+    void remember(const std::vector<Motion>& shares);
+    template <class Shares>
+    void check_answers(const Shares& shares, const Arrival& arrival) const;
+
+    std::vector<Entry> present_;  ///< in the order of the last message of the grains
+    std::unordered_map<GrainId, std::size_t> places_;
+};
+
+}  // namespace turbidite

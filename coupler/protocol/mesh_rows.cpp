@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/protocol/mesh_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turbidite {
+namespace {
+
+constexpr double rounding = 1e-9;  // relative, of lengths from a case
+
+/// In units of h.
+struct Growth {
+    double ratio, largest;
+
+    std::vector<double> heights(int rows) const {
+        std::vector<double> all;
+        double next = 1.0;
+        while (static_cast<int>(all.size()) < rows)
+            all.push_back(next = std::min(next * ratio, largest));
+        return all;
+    }
+
+    double sum(int rows) const {
+        double total = 0.0;
+        for (const double height : heights(rows)) total += height;
+        return total;
+    }
+
+    /// The fewest rows that reach `room`.
+    int rows_to(double room) const {
+        int rows = 0;
+        double reached = 0.0, next = 1.0;
+        while (reached < room * (1.0 - rounding)) {
+            reached += next = std::min(next * ratio, largest);
+            ++rows;
+        }
+        return rows;
+    }
+};
+
+Growth growth_of(const Settings& settings) {
+    return {settings.real("fluid.stretch_ratio"), settings.real("fluid.stretch_largest")};
+}
+
+/// The ratio up to that of `most` with which so many rows fill `room`, by bisection.
+double fitted_ratio(const Growth& most, int rows, double room) {
+    double low = 1.0, high = most.ratio;
+    for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (Growth{middle, most.largest}.sum(rows) < room ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+MeshRows equal_rows(double height, double top) {
+    MeshRows rows;
+    rows.equal = static_cast<int>(std::lround(top / height));
+    rows.height = top / rows.equal;
+    return rows;
+}
+
+}  // namespace
+
+bool rows_are_stretched(const Settings& settings) {
+    return settings.has("fluid.stretch_ratio") && settings.real("fluid.stretch_ratio") > 1.0 &&
+           settings.has("fluid.stretch_from") && settings.has("fluid.stretch_largest");
+}
+
+std::optional<MeshRows> mesh_rows(const Settings& settings, double top) {
+    const double h = 1.0 / settings.real("fluid.cells_per_diameter");
+    if (!rows_are_stretched(settings)) return equal_rows(h, top);
+    const Growth most = growth_of(settings);
+    MeshRows rows;
+    rows.height = h;
+    rows.equal = static_cast<int>(std::ceil(settings.real("fluid.stretch_from") / h - rounding));
+    const double room = top / h - rows.equal;
+    if (!(room > 0.0)) return std::nullopt;
+    const int count = most.rows_to(room);
+    if (count > room * (1.0 + rounding)) return std::nullopt;
+    rows.ratio = fitted_ratio(most, count, room);
+    rows.stretched = Growth{rows.ratio, most.largest}.heights(count);
+    for (double& height : rows.stretched) height *= h;
+    return rows;
+}
+
+double least_stretched_room(const Settings& settings) {
+    const Growth most = growth_of(settings);
+    int rows = 1;
+    while (most.sum(rows) - rows < 1.0) ++rows;
+    return most.sum(rows) / settings.real("fluid.cells_per_diameter");
+}
+
+}  // namespace turbidite

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Files of a run folder that several programs of the job write. Valid C++17.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/hello.hpp"
+
+namespace turbidite {
+
+/// "coupler", "fluid rank 0".
+std::string rank_name(Role role, int rank);
+
+/// RUN/logs/grains.log, or grains.rank1.log if there are several ranks.
+std::filesystem::path log_file(const std::filesystem::path& run, Role role, int rank, int ranks);
+
+/// The program that ended first and before the run was over, in RUN/logs/first_end: since mpirun
+/// ends the others at once, it is the cause.
+struct FirstEnd {
+    ExitCode code = ExitCode::participant_failed;  ///< of the job
+    std::string who;                               ///< rank_name
+    std::string what;                              ///< "ended with status 0"
+};
+
+/// Does nothing if another program was first. Returns whether this one was.
+bool write_first_end(const std::filesystem::path& run, const FirstEnd& end);
+std::optional<FirstEnd> read_first_end(const std::filesystem::path& run);
+
+/// Set for a program started by turbidite-member, which has opened its log.
+inline constexpr const char* member_variable = "TURBIDITE_MEMBER";
+
+}  // namespace turbidite
