@@ -26,7 +26,7 @@ void RigidGrains::weigh_rows() {
     const CellGrid& grid = system_.field().grid();
     if (!grid.stretched(1)) return;
     int row = 0;
-    while (system_.field().cell(0, row, 0) != 0) ++row;
+    while (row < grid.counts[1] && system_.field().cell(0, row, 0) != 0) ++row;
     const std::size_t columns = grid.counts[0];
     for (std::size_t done = 0; done < cells_; done += columns)
         row_weights_.push_back(grid.size(1, row++) / grid.size(1, 0));

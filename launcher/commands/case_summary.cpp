@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/command_words.hpp"
-#include "launcher/case/mesh_memory.hpp"
+#include "launcher/case/mesh_cost.hpp"
 
 namespace turbidite {
 namespace {
@@ -24,14 +25,27 @@ std::string rows_text(const Settings& settings, double top) {
         rows.largest() / rows.height);
 }
 
+/// "40 s", "12 min", "3 h", "2 days"
+std::string rough_time(double seconds) {
+    if (seconds < 100.0) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+    if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+    if (seconds < 172800.0) return fmt::format("{:.0f} h", seconds / 3600.0);
+    return fmt::format("{:.0f} days", seconds / 86400.0);
+}
+
 std::string fluid_line(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
     if (!settings.flag("fluid.enabled")) return "  fluid: none\n";
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double cells = settings.real("fluid.cells_per_diameter");
-    return fmt::format("  fluid: {:.0f} x {:.0f} cells (about {:.1g} GB), Re = {:.4g}\n",
-                       size[0] * cells, fluid_rows(settings), fluid_memory(settings),
-                       resolved.scales.reynolds) +
+    const double windows = static_cast<double>(settings.integer("run.windows"));
+    const std::int64_t ranks = settings.integer("fluid.ranks");
+    return fmt::format(
+               "  fluid: {:.0f} x {:.0f} cells (about {:.1g} GB, roughly {} on {}), "
+               "Re = {:.4g}\n",
+               size[0] * cells, fluid_rows(settings), fluid_memory(settings),
+               rough_time(windows * fluid_window_time(settings)),
+               ranks == 1 ? "one core" : fmt::format("{} cores", ranks), resolved.scales.reynolds) +
            rows_text(settings, size[1]);
 }
 

@@ -21,9 +21,10 @@ class Bench : public ShellTest {
 TEST_F(Bench, QuickGivesEveryFigure) {
     const Answer answer = bench("fluid --quick --json figures.json");
     const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
-    for (const char* name : {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth",
-                             "speedup_2_ranks", "joint_window_d16", "joint_speedup_2_ranks",
-                             "explicit_over_plain", "implicit_over_plain", "bytes_per_cell"}) {
+    for (const char* name :
+         {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth", "speedup_2_ranks",
+          "joint_window_d16", "joint_speedup_2_ranks", "explicit_over_plain", "implicit_over_plain",
+          "avalanche_window_d16", "bytes_per_cell"}) {
         ASSERT_TRUE(figures.contains(name)) << answer.err;
         const auto& figure = figures.at(name);
         ASSERT_TRUE(figure.at("value").is_number()) << figure << answer.err;

@@ -8,7 +8,7 @@
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/keys/key_groups.hpp"
-#include "launcher/case/mesh_memory.hpp"
+#include "launcher/case/mesh_cost.hpp"
 #include "launcher/case/scales.hpp"
 #include "launcher/case/transport_schemes.hpp"
 
