@@ -29,6 +29,8 @@ RunValues run_values(const Settings& settings) {
     run.step = settings.real("run.step");
     run.windows = settings.integer("run.windows");
     run.output_every = settings.integer("run.output_every");
+    run.fields_every = settings.has("run.fields_every") ? settings.integer("run.fields_every")
+                                                        : run.output_every;
     run.size = {settings.real("run.size_x"), settings.real("run.size_y")};
     run.period = {period(settings, "domain.left", run.size[0]),
                   period(settings, "domain.bottom", run.size[1]), 0.0};

@@ -31,6 +31,7 @@ struct RunValues {
     double step = 0.0;              ///< dt, the length of a window [s]
     std::int64_t windows = 0;       ///< of the whole run
     std::int64_t output_every = 1;  ///< windows from one output to the next
+    std::int64_t fields_every = 1;  ///< and from one output of the fluid's fields to the next
 
     std::array<double, 2> size{};  ///< of the domain, [0, size[0]] x [0, size[1]] [m]
     Vec3 period{};                 ///< period of the domain per axis; 0: not cyclic [m]

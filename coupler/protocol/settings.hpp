@@ -10,6 +10,8 @@
 //                                                             unit of forces in contact laws
 //     run.acceleration_x  run.acceleration_y                  fluid.acceleration
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
+//     run.fields_every                      windows from one output of the fluid's fields to the
+//                                           next; missing: as run.output_every
 //     run.size_x    run.size_y  run.size_z                    domain [m]
 //     run.scheme                              order of a window: coupling.scheme, or dry
 //     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]

@@ -242,8 +242,15 @@ void FluidWindow::write_fields() {
                << " 1/s after step 5; multipliers " << report_.multiplier_iterations
                << " iterations, rms slip " << report_.multiplier_residual << " m/s" << Foam::endl;
     report_.probes = probes_.values(fields_, field_);
+    if (!fields_due()) return;
     output_.compute(field_, multipliers_.grains());
     fields_.time.writeNow();
+}
+
+/// An output out of turn is that of an interrupted run.
+bool FluidWindow::fields_due() const {
+    const std::int64_t done = window_.index + 1;
+    return done % run_.fields_every == 0 || done % run_.output_every != 0 || fields_.finished();
 }
 
 void FluidWindow::put_fields() {

@@ -81,6 +81,7 @@ class FluidWindow {
     void correct_fluid(const CoupledLimits& limits);
     void close_ledger();
     void write_fields();
+    bool fields_due() const;
 
     const RunValues run_;
     const FluidDomain domain_;

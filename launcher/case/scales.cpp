@@ -57,6 +57,9 @@ void set_run_times(Settings& settings, double time_scale) {
     settings.set("run.step", step * time_scale);
     settings.set("run.windows", std::int64_t{windows});
     settings.set("run.output_every", std::int64_t{every});
+    if (!settings.has("output.fields_interval")) return;
+    const double outputs = settings.real("output.fields_interval") / (step * every);
+    settings.set("run.fields_every", std::int64_t{every * std::max(1LL, std::llround(outputs))});
 }
 
 /// output.probes in run units: x and y of each point, one after the other.

@@ -36,7 +36,7 @@ def instants(run):
     """Up to six (time, grains file or None, field folder or None), evenly spaced until the grains are at rest, or
     over the run if they are not."""
     grains, fields = grain_files.grain_series(run), fluid_fields.field_times(run)
-    leading = grains or fields
+    leading = fields if run.is_wet() and len(fields) > 1 else grains or fields
     if not leading:
         return []
     times = [time for time, _ in leading]

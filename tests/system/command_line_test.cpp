@@ -129,6 +129,20 @@ TEST_F(CommandLine, WetRunWithYade) {
     EXPECT_EQ(turbidite("report " + run_folder().string()).code, 0);
 }
 
+TEST_F(CommandLine, FieldsMayBeWrittenLessOftenThanRows) {
+    const Answer answer =
+        turbidite("run " + quickstart +
+                  " --set time.end=0.5 --set output.interval=0.1 --set output.fields_interval=0.2" +
+                  into_run_folder());
+    ASSERT_EQ(answer.code, 0) << answer.out << answer.err;
+    std::vector<std::string> times;
+    for (const auto& entry : fs::directory_iterator(run_folder() / "fluid"))
+        if (fs::exists(entry.path() / "U")) times.push_back(entry.path().filename());
+    std::sort(times.begin(), times.end());
+    EXPECT_EQ(times, (std::vector<std::string>{"0", "0.2", "0.4", "0.5"}));  // the end is written
+    EXPECT_EQ(rows_of_history(), 6);
+}
+
 TEST_F(CommandLine, OccupiedFolderIsRefused) {
     scratch.write("run/precious", "x");
     const Answer answer = turbidite("run " + quickstart + quick + into_run_folder());

@@ -63,6 +63,11 @@ void notes(const Settings& settings, std::vector<std::string>& notes) {
                         end, windows, windows * step));
     if (settings.real("output.interval") < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
+    if (settings.has("output.fields_interval") &&
+        settings.real("output.fields_interval") < settings.real("output.interval"))
+        notes.push_back(
+            "output.fields_interval is shorter than output.interval; fields are written at every "
+            "output");
 }
 
 }  // namespace
@@ -89,7 +94,16 @@ KeyGroup time_keys() {
                      .unit = "t_c",
                      .fallback = "0.5",
                      .range = positive,
-                     .help = "interval of rows of history.csv and of pictures; whole windows"},
+                     .help = "interval of rows of history.csv and of files of the grains; whole "
+                             "windows"},
+                    {.name = "output.fields_interval",
+                     .type = KeyType::real,
+                     .unit = "t_c",
+                     .need = Need::optional,
+                     .range = positive,
+                     .help = "interval of the fluid's fields, which need the most space; a whole "
+                             "number of output.interval, the default",
+                     .idle = without_fluid},
                     {.name = "output.fields",
                      .type = KeyType::text,
                      .need = Need::optional,
