@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "coupler/participant/conversation.hpp"
@@ -23,6 +24,9 @@ Session::Session() = default;
 Session::~Session() = default;
 
 const Outcome& Session::outcome() const {
+    if (phase_ != Phase::over)
+        throw std::logic_error(
+            "outcome() was called while the run goes on: call step() until it returns false");
     return talk_->outcome;
 }
 
@@ -49,16 +53,26 @@ bool Session::guarded(Action action) {
         verdict = conversation.fail(
             {static_cast<int>(ExitCode::participant_failed), talk_->other_exception()});
     }
+    phase_ = Phase::over;
     talk_->outcome = {static_cast<ExitCode>(verdict.exit_code), verdict.reason};
     conversation.say_farewell();
     return false;
 }
 
 bool Session::start() {
+    if (phase_ != Phase::made)
+        throw std::logic_error("start() was called a second time: call it once, then step()");
+    phase_ = Phase::started;
     return guarded([this] { begin(); });
 }
 
 bool Session::step() {
+    if (phase_ == Phase::made)
+        throw std::logic_error("step() was called before start(): call start() once, first");
+    if (phase_ == Phase::over)
+        throw std::logic_error(
+            "step() was called after the end of the run: stop when start() or step() returns "
+            "false");
     return guarded([this] {
         do take(talk_->conversation.receive());
         while (talk_->conversation.inside_window());

@@ -35,14 +35,16 @@ class Session {
  public:
     virtual ~Session();
 
-    /// Handshake, settings, initial state. False if the run is already over (refused). Like `step`,
-    /// throws when the coupler no longer answers: the job must then be aborted.
+    /// Handshake, settings, initial state; once. False if the run is already over (refused). Like
+    /// `step`, throws when the coupler no longer answers: the job must then be aborted. Calls in a
+    /// wrong order throw std::logic_error that names the call that is missing.
     bool start();
 
-    /// One window. False when the run is over; `outcome` gives the reason. An exception from an
-    /// adapter ends the run for all participants, with its text.
+    /// One window, after `start`. False when the run is over; `outcome` gives the reason. An
+    /// exception from an adapter ends the run for all participants, with its text.
     bool step();
 
+    /// After `start` or `step` returned false.
     const Outcome& outcome() const;
 
     /// `text` describes an exception that is not a C++ standard exception, such as a Python error
@@ -60,6 +62,9 @@ class Session {
     virtual void take(const Message& message) = 0;
     template <class Action>
     bool guarded(Action action);
+
+    enum class Phase { made, started, over };
+    Phase phase_ = Phase::made;
 };
 
 std::unique_ptr<Session> make_session(GrainsAdapter& adapter, Channel& channel,

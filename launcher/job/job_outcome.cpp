@@ -164,7 +164,8 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
 
 JobOutcome of_record(const RunFolder& folder, ExitCode code, const std::string& error,
                      const std::vector<std::string>& ranks) {
-    return {code, error, log_of(folder, rank_at_front(error, ranks))};
+    const std::string rank = rank_at_front(error, ranks);
+    return {code, error, log_of(folder, rank.empty() ? "coupler" : rank)};
 }
 
 // A message that cannot be saved is still printed.

@@ -40,7 +40,8 @@ void append(Arguments& to, const Arguments& more) {
 }
 
 std::string python_path(const LaunchSite& site) {
-    const std::string ours = site.programs.yade_folder().string();
+    const std::string ours =
+        site.programs.yade_folder().string() + ":" + site.programs.python_module().string();
     return site.python.empty() ? ours : ours + ":" + site.python;
 }
 

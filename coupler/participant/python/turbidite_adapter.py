@@ -1,0 +1,332 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A grains adapter in Python: the participant library for programs that use mpi4py.
+
+    import sys
+    import turbidite_adapter as turbidite
+
+    class MyCode:
+        name, version, host_code = 'my-code', '1.0', 'Python'
+        shapes, native_substeps, effective_inertia = ['disc'], True, False
+
+        def initialise(self, settings, shapes, grains): ...   # -> Motion, the grains at t = 0
+        def advance(self, window, responses): ...             # -> Motion, the contacts (step 4)
+        def apply_kick(self, window, kicks): ...              # -> Motion, the state at the end
+
+    turbidite.run_grains(MyCode(), sys.argv[-1])
+
+The calls mean what docs/write-an-adapter.md says, units and fields are those of coupler/protocol/records.hpp.
+`grains`, `kicks` and `responses` are numpy arrays with named fields (GRAIN, KICK, RESPONSE). An exception ends the
+run for all participants with its text: exit code 4, or 6 for PhysicsRefused. docs/protocol.md describes the bytes.
+"""
+import collections
+import os
+import socket
+import struct
+import sys
+import time
+import traceback
+
+import numpy
+from mpi4py import MPI
+
+PROTOCOL = (1, 6)
+GRAINS = 2                          # the role
+FIRST_COLOUR, ANNOUNCEMENT_TAG, INTERCOMM_TAG, FRAME_TAG = 1000, 1000, 1010, 7
+MAGIC = 0x7469646962727574          # "turbidit"
+HELLO, SETTINGS, SHAPES, POPULATION, ORDER = 1, 2, 3, 4, 6
+WINDOW, CONTACT_INPUT, MOTION, KICK_MESSAGE, STATE = 10, 12, 13, 16, 17
+FAILURE, DISMISS, FAREWELL, RELEASE = 90, 91, 92, 93
+PARTICIPANT_FAILED, STALLED, PHYSICS_REFUSED = 4, 5, 6
+
+
+def _record(*fields):
+    """A record of eight-byte numbers; `name` or (name, count), integers with a trailing `#`."""
+    columns = []
+    for field in fields:
+        name, count = field if isinstance(field, tuple) else (field, 1)
+        kind = '<i8' if name.endswith('#') else '<f8'
+        columns.append((name.rstrip('#'), kind) if count == 1 else (name, kind, (count,)))
+    return numpy.dtype(columns)
+
+
+GRAIN = _record('id#', 'shape#', 'material#', 'prescribed#', 'radius', 'density', ('position', 3),
+                ('orientation', 4), ('velocity', 3), ('angular_velocity', 3), ('contact_impulse', 3),
+                ('contact_angular_impulse', 3), ('announced_impulse', 3), ('announced_angular_impulse', 3))
+KICK = _record('id#', ('velocity', 3), ('angular_velocity', 3), ('multiplier_impulse', 3),
+               ('multiplier_angular_impulse', 3), ('force', 3), ('torque', 3))
+RESPONSE = _record('id#', ('velocity', 3), ('angular_velocity', 3), ('inertia', 21), 'mismatch')
+
+Shape = collections.namedtuple('Shape', 'kind vertices')
+Window = collections.namedtuple('Window', 'index time step write_output write_checkpoint')
+
+
+class PhysicsRefused(Exception):
+    """An unphysical state: exit code 6."""
+
+
+class ProtocolError(Exception):
+    """A message that this library does not expect."""
+
+
+class Motion:
+    """The answer of a call: grains (array of GRAIN) and the report of the contact side.
+
+    residual: scaled natural map, None for codes without one; max_penetration [m]; removed: grains that left through
+    a free side in this window (apply_kick only); iterations: sweeps, or sub-steps.
+    """
+
+    def __init__(self, grains, contacts=0, iterations=0, max_penetration=0.0, removed=0, residual=None,
+                 converged=True, wall_seconds=0.0):
+        self.grains = numpy.ascontiguousarray(grains, GRAIN)
+        self.contacts, self.iterations, self.removed = contacts, iterations, removed
+        self.max_penetration, self.wall_seconds = max_penetration, wall_seconds
+        self.residual, self.converged = residual, converged
+
+
+class Settings(dict):
+    """The resolved case, key -> text, and run.*; the typed look-ups name a key that is missing."""
+
+    def text(self, key):
+        if key not in self:
+            raise KeyError(f'the resolved case has no key "{key}"')
+        return self[key]
+
+    def real(self, key):
+        return float(self.text(key))
+
+    def integer(self, key):
+        return int(self.text(key))
+
+    def flag(self, key):
+        return {'true': True, 'false': False}[self.text(key)]
+
+
+# ---- bytes: eight per number, little-endian; texts and lists after their length --------------------------------
+
+class Reader:
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def take(self, size):
+        if self.at + size > len(self.data):
+            raise ProtocolError(f'payload ends after {len(self.data)} bytes, {self.at + size} needed')
+        self.at += size
+        return self.data[self.at - size:self.at]
+
+    def integer(self):
+        return struct.unpack('<q', self.take(8))[0]
+
+    def real(self):
+        return struct.unpack('<d', self.take(8))[0]
+
+    def text(self):
+        return bytes(self.take(self.integer())).decode()
+
+    def list(self, read):
+        return [read() for _ in range(self.integer())]
+
+    def records(self, dtype):
+        count = self.integer()
+        return numpy.frombuffer(self.take(count * dtype.itemsize), dtype).copy()
+
+
+def _integers(*values):
+    return struct.pack(f'<{len(values)}q', *(int(value) for value in values))
+
+
+def _text(text):
+    data = str(text).encode()
+    return _integers(len(data)) + data
+
+
+def _texts(texts):
+    return _integers(len(texts)) + b''.join(_text(text) for text in texts)
+
+
+def _maybe(value):
+    return _integers(0) if value is None else _integers(1) + struct.pack('<d', value)
+
+
+def _encode_motion(motion):
+    return b''.join((
+        _integers(len(motion.grains)), motion.grains.tobytes(),
+        _integers(motion.contacts, motion.iterations), _maybe(motion.residual),
+        _integers(motion.converged), struct.pack('<d', motion.max_penetration),
+        _integers(motion.removed), struct.pack('<d', motion.wall_seconds),
+        _maybe(None), _maybe(None),                     # quad, max
+        _integers(0)))                                  # single contacts: not sent
+
+
+def _case_hash(run_folder):
+    """FNV-1a, 64 bits, of the resolved case."""
+    value = 0xcbf29ce484222325
+    with open(os.path.join(run_folder, 'case.yaml'), 'rb') as file:
+        for byte in file.read():
+            value = (value ^ byte) * 0x100000001b3 & 0xffffffffffffffff
+    return f'{value:016x}'
+
+
+# ---- the conversation with the coupler --------------------------------------------------------------------------
+
+class _Dismissed(Exception):
+    def __init__(self, code, reason):
+        super().__init__(reason)
+        self.code, self.reason = code, reason
+
+
+class _Coupler:
+    """Frames to and from the coupler, rank 0 of the other side of the intercommunicator."""
+
+    def __init__(self, local):
+        if local.rank == 0:
+            MPI.COMM_WORLD.Send(numpy.array([GRAINS, local.size], 'i'), 0, ANNOUNCEMENT_TAG)
+        self.comm = local.Create_intercomm(0, MPI.COMM_WORLD, 0, INTERCOMM_TAG + GRAINS)
+        self.window, self.iteration, self.sent, self.received = -1, 0, 0, 0
+        self.limit = 600.0                              # [s]
+
+    def send(self, kind, payload=b''):
+        frame = _integers(MAGIC, kind, self.window, self.iteration, self.sent, len(payload)) + payload
+        self.sent += 1
+        self.comm.Send([frame, MPI.BYTE], 0, FRAME_TAG)
+
+    def next(self):
+        """(kind, Reader) of the next message; sleeps while it waits, so that others can use the core."""
+        status, start, pause = MPI.Status(), time.monotonic(), 20e-6
+        while not self.comm.Iprobe(0, FRAME_TAG, status):
+            if time.monotonic() - start > self.limit:
+                print(f'turbidite: the coupler has been silent for {self.limit:.0f} s', file=sys.stderr, flush=True)
+                MPI.COMM_WORLD.Abort(STALLED)
+            time.sleep(pause)
+            pause = min(2 * pause, 400e-6)
+        frame = bytearray(status.Get_count(MPI.BYTE))
+        self.comm.Recv([frame, MPI.BYTE], 0, FRAME_TAG)
+        reader = Reader(memoryview(frame))
+        magic, kind, window, iteration, sequence, _ = (reader.integer() for _ in range(6))
+        if magic != MAGIC:
+            raise ProtocolError('not a frame of this protocol')
+        self.window, self.iteration = window, iteration     # answers belong to the same place
+        self.received, expected = sequence + 1, self.received
+        if kind != DISMISS and sequence != expected:
+            raise ProtocolError(f'message number {sequence}, expected number {expected}')
+        return kind, reader
+
+    def receive(self, *kinds):
+        kind, reader = self.next()
+        if kind == DISMISS:
+            raise _Dismissed(reader.integer(), reader.text())
+        if kind not in kinds:
+            raise ProtocolError(f'received a message of kind {kind}, expected {kinds}')
+        return kind, reader
+
+    def fail(self, code, text):
+        """Reports a failure; returns the coupler's decision on the run."""
+        self.send(FAILURE, _integers(code) + _text(text))
+        while True:
+            kind, reader = self.next()
+            if kind == DISMISS:
+                return reader.integer(), reader.text()
+
+    def leave(self):
+        """The last message; returns when all ranks may leave."""
+        self.send(FAREWELL)
+        while self.next()[0] != RELEASE:
+            pass
+
+
+class _Run:
+    def __init__(self, adapter, coupler, local, run_folder):
+        self.adapter, self.coupler, self.local, self.run_folder = adapter, coupler, local, run_folder
+        self.present = None                             # the window
+        self.solved = False                             # advance was called in it
+
+    def hello(self):
+        adapter, local = self.adapter, self.local
+        return b''.join((
+            _integers(GRAINS, *PROTOCOL), _text(adapter.name), _text(adapter.version), _text(adapter.host_code),
+            _integers(2, local.rank, local.size), _text(socket.gethostname()), _integers(os.getpid()),
+            _text(_log_file(self.run_folder, local)), _text(_case_hash(self.run_folder)),
+            _integers(False, False, False, getattr(adapter, 'native_substeps', False),
+                      getattr(adapter, 'effective_inertia', False)),
+            _texts(getattr(adapter, 'shapes', ['disc'])), _texts(getattr(adapter, 'contact_laws', []))))
+
+    def start(self):
+        coupler = self.coupler
+        coupler.send(HELLO, self.hello())
+        _, reader = coupler.receive(SETTINGS)
+        settings = Settings(reader.list(lambda: (reader.text(), reader.text())))
+        coupler.limit = 1.5 * settings.real('limits.stall_hard')
+        _, reader = coupler.receive(ORDER)
+        order = reader.list(lambda: (reader.integer(), reader.integer() != 0, reader.integer()))
+        # What this side sends after a message of the coupler.
+        self.reply = {kind: after for (kind, ours, _), (after, coupler_sends, _) in zip(order, order[1:])
+                      if ours and not coupler_sends}
+        _, reader = coupler.receive(SHAPES)
+        shapes = reader.list(lambda: Shape(reader.text(), reader.list(reader.real)))
+        _, reader = coupler.receive(POPULATION)
+        coupler.send(STATE, _encode_motion(self.adapter.initialise(settings, shapes, reader.records(GRAIN))))
+
+    def solve(self, responses):
+        self.solved = True
+        return self.adapter.advance(self.present, responses)
+
+    def take(self):
+        kind, reader = self.coupler.receive(WINDOW, CONTACT_INPUT, KICK_MESSAGE)
+        if kind == WINDOW:
+            self.present = Window(reader.integer(), reader.real(), reader.real(), reader.integer() != 0,
+                                  reader.integer() != 0)
+            self.solved = False
+            if self.reply.get(WINDOW) == MOTION:
+                self.coupler.send(MOTION, _encode_motion(self.solve(numpy.zeros(0, RESPONSE))))
+        elif kind == CONTACT_INPUT:
+            self.coupler.send(MOTION, _encode_motion(self.solve(reader.records(RESPONSE))))
+        else:
+            # Without a fluid no motion is asked for: the state is the only report of the window.
+            spent = 0.0 if self.solved else self.solve(numpy.zeros(0, RESPONSE)).wall_seconds
+            state = self.adapter.apply_kick(self.present, reader.records(KICK))
+            state.wall_seconds += spent
+            self.coupler.send(STATE, _encode_motion(state))
+
+    def play(self):
+        """Until the coupler ends the run; returns exit code and reason."""
+        try:
+            self.start()
+            while True:
+                self.take()
+        except _Dismissed as end:
+            return end.code, end.reason
+        except BaseException as error:      # sys.exit as well: it would wait in MPI_Finalize for the others
+            traceback.print_exc()
+            code = PHYSICS_REFUSED if isinstance(error, PhysicsRefused) else PARTICIPANT_FAILED
+            return self.coupler.fail(code, f'{type(error).__name__}: {error}')
+
+
+def _log_file(run_folder, local):
+    number = f'.rank{local.rank}' if local.size > 1 else ''
+    return os.path.join(run_folder, 'logs', f'grains{number}.log')
+
+
+def _redirect_output(file):
+    """Standard output and error into one file; turbidite-member has done so already."""
+    if 'TURBIDITE_MEMBER' in os.environ:
+        return
+    os.makedirs(os.path.dirname(file), exist_ok=True)
+    log = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644)
+    for stream in (1, 2):
+        os.dup2(log, stream)
+
+
+def run_grains(adapter, run_folder):
+    """The whole life of a participant; exits with the exit code of the run.
+
+    All processes of the job make exactly one split of the world, here: after it nothing collective may be done on
+    MPI.COMM_WORLD. The adapter's own ranks, if there are several, communicate over `adapter.comm`.
+    """
+    local = MPI.COMM_WORLD.Split(FIRST_COLOUR + GRAINS, 0)
+    adapter.comm = local
+    _redirect_output(_log_file(run_folder, local))
+    coupler = _Coupler(local)
+    code, reason = _Run(adapter, coupler, local, run_folder).play()
+    if code != 0:
+        print(f'turbidite: the run ended with code {code}: {reason}', file=sys.stderr, flush=True)
+    coupler.leave()
+    sys.exit(code)

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later
+ *
+ * falling RUN: the smallest adapter in C, discs that fall freely and touch nothing. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <turbidite/coupler/participant/turbidite.h>
+
+static turbidite_grain* grains;
+static size_t count;
+static double gravity, fluid_density;
+
+static int answer_with_all(turbidite_state* answer) {
+    memcpy(turbidite_grains(answer, count), grains, count * sizeof *grains);
+    return 0;
+}
+
+static int initialise(void* self, const turbidite_settings* settings, const turbidite_grain* given,
+                      size_t given_count, turbidite_state* answer) {
+    (void)self;
+    count = given_count;
+    grains = malloc(count * sizeof *grains);
+    if (grains == NULL && count > 0) return turbidite_fail("out of memory", 0), 1;
+    memcpy(grains, given, count * sizeof *grains);
+    gravity = turbidite_real(settings, "run.gravity");
+    fluid_density = turbidite_flag(settings, "fluid.enabled")
+                        ? turbidite_real(settings, "run.fluid_density")
+                        : 0.0;
+    return answer_with_all(answer);
+}
+
+/* Inertia cM and weight (M - m_f) g of step 4 are proportional: the fall has acceleration g. */
+static int advance(void* self, const turbidite_window* window, const turbidite_response* responses,
+                   size_t response_count, turbidite_state* answer) {
+    (void)self, (void)responses, (void)response_count;
+    for (size_t i = 0; i < count; ++i) {
+        if (grains[i].density <= fluid_density) return turbidite_fail("a grain floats", 1), 1;
+        grains[i].velocity[1] -= gravity * window->step;
+    }
+    return answer_with_all(answer);
+}
+
+/* In the plane: about z. */
+static void turn(double q[4], double angle) {
+    const double w = q[0], z = q[3], c = cos(angle / 2), s = sin(angle / 2);
+    q[0] = c * w - s * z;
+    q[3] = c * z + s * w;
+}
+
+static int apply_kick(void* self, const turbidite_window* window, const turbidite_kick* kicks,
+                      size_t kick_count, turbidite_state* answer) {
+    (void)self;
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t k = 0; k < kick_count; ++k)
+            if (kicks[k].id == grains[i].id) {
+                memcpy(grains[i].velocity, kicks[k].velocity, sizeof kicks[k].velocity);
+                memcpy(grains[i].angular_velocity, kicks[k].angular_velocity,
+                       sizeof kicks[k].angular_velocity);
+            }
+        for (int axis = 0; axis < 2; ++axis)
+            grains[i].position[axis] += window->step * grains[i].velocity[axis];
+        turn(grains[i].orientation, window->step * grains[i].angular_velocity[2]);
+    }
+    return answer_with_all(answer);
+}
+
+int main(int argc, char** argv) {
+    const turbidite_adapter falling = {.name = "falling-c",
+                                       .version = "1.0",
+                                       .host_code = "C",
+                                       .initialise = initialise,
+                                       .advance = advance,
+                                       .apply_kick = apply_kick};
+    return turbidite_run_grains(&falling, &argc, &argv, argv[argc - 1]);
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The adapter kit as a user meets it: installed, with the examples built outside of the tree, run
+// by grains.adapter: external; and what happens to adapters that go wrong.
+#include "tests/system/history_columns.hpp"
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+class AdapterKit : public ShellTest {
+ protected:
+    void SetUp() override {
+        scratch.write("settle.yaml",
+                      "domain: {size: [8, 8]}\n"
+                      "grains: {adapter: standalone-nscd, count: 12}\n"
+                      "contact: {friction: 0}\n"
+                      "fluid: {reynolds: 30, cells_per_diameter: 6}\n"
+                      "coupling: {scheme: split}\n"
+                      "time: {step: 0.01, end: 2}\n"
+                      "output: {interval: 0.5}\n"
+                      "limits: {stall_soft: 5, stall_hard: 20}\n");
+    }
+
+    Answer run(const std::string& options, const std::string& folder = "run") const {
+        return shell(std::string("timeout 120 ") + TURBIDITE_PROGRAM + " run settle.yaml --out " +
+                     folder + " --force " + options);
+    }
+
+    Answer run_external(const std::string& command, const std::string& more = "") const {
+        return run("--set grains.adapter=external --set 'grains.command=" + command + "' " + more);
+    }
+
+    /// Heights of the mean position.
+    std::vector<double> fall(const std::string& folder) const {
+        return columns_of(text(scratch.path() / folder / "history.csv")).at("mean_position_y");
+    }
+
+    /// Ran under its own name, balanced, and fell like the reference.
+    void expect_settled(const Answer& answer, const std::string& name, double tolerance) const {
+        ASSERT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, "grains rank 0  " + name + " in ");
+        EXPECT_EQ(record().at("ranks").back().at("adapter"), name);
+        EXPECT_LT(record().at("maxima").at("grain_balance").get<double>(), 1e-10);
+        const std::vector<double> reference = fall("reference"), mine = fall("run");
+        ASSERT_EQ(mine.size(), reference.size());
+        EXPECT_LT(reference.back(), reference.front() - 0.1) << "nothing has settled";
+        for (std::size_t i = 0; i < mine.size(); ++i)
+            EXPECT_NEAR(mine[i], reference[i], tolerance) << i;
+    }
+};
+
+TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine) {
+    const std::string cmake = CMAKE_PROGRAM;
+    const Answer build = shell(cmake + " --install " TURBIDITE_BUILD_DIR " --prefix prefix && " +
+                               "cp -r prefix/share/turbidite/examples mine && " + cmake +
+                               " -S mine -B mine/build -DCMAKE_PREFIX_PATH=$PWD/prefix && " +
+                               cmake + " --build mine/build");
+    ASSERT_EQ(build.code, 0) << build.out << build.err;
+    ASSERT_EQ(run("", "reference").code, 0);
+    expect_settled(run_external("mine/build/springs"), "springs", 1e-3);
+    expect_settled(run_external("/usr/bin/python3 mine/springs.py"), "springs-py", 1e-3);
+    // Grains that touch nothing sink into each other: as long as they are apart they fall alike.
+    expect_settled(run_external("mine/build/falling", "--set limits.penetration=10"), "falling-c",
+                   0.05);
+}
+
+TEST_F(AdapterKit, CheckSaysWhetherTheProgramIsThere) {
+    const std::string check = std::string(TURBIDITE_PROGRAM) +
+                              " check settle.yaml --set grains.adapter=external --set "
+                              "grains.command=";
+    EXPECT_SAYS(shell(check + "sh").out, "grains program: sh (/");
+    const Answer missing = shell(check + "no-such-program");
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_SAYS(missing.err, "There is no executable program no-such-program in PATH");
+}
+
+/// A Python adapter whose grains fall freely, with a fault in window 3.
+const char* const faulty = R"(import os, sys
+if sys.argv[1] == 'import': import no_such_module
+import turbidite_adapter as turbidite
+
+class Mine:
+    name, version, host_code = 'mine', '1', 'Python'
+    def initialise(self, settings, shapes, grains):
+        self.grains, self.g = grains, settings.real('run.gravity')
+        return turbidite.Motion(grains)
+    def advance(self, window, responses):
+        self.grains['velocity'][:, 1] -= self.g * window.step
+        fault, sent = sys.argv[1] if window.index == 3 else '', self.grains.copy()
+        if fault == 'raise': raise ValueError('no such thing')
+        if fault == 'refuse': raise turbidite.PhysicsRefused('the disc is on fire')
+        if fault == 'exit': sys.exit(0)
+        if fault == '_exit': os._exit(3)
+        if fault == 'fewer': sent = sent[2:]
+        if fault == 'nan': sent['contact_impulse'][4] = float('nan')
+        if fault == 'impulse': sent['contact_impulse'][4, 0] = 1
+        return turbidite.Motion(sent)
+    def apply_kick(self, window, kicks):
+        self.grains['velocity'] = kicks['velocity']
+        self.grains['angular_velocity'] = kicks['angular_velocity']
+        self.grains['position'] += window.step * self.grains['velocity']
+        return turbidite.Motion(self.grains)
+
+turbidite.run_grains(Mine(), sys.argv[-1])
+)";
+
+struct Fault {
+    const char* name;
+    int code;
+    std::vector<std::string> says;
+};
+class AdapterFault : public AdapterKit, public ::testing::WithParamInterface<Fault> {};
+
+TEST_P(AdapterFault, IsToldAsItsOwn) {
+    scratch.write("mine.py", faulty);
+    const Answer answer = run_external(std::string("/usr/bin/python3 mine.py ") + GetParam().name);
+    EXPECT_EQ(answer.code, GetParam().code) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "The run failed: ");
+    for (const std::string& part : GetParam().says) EXPECT_SAYS(answer.err, part);
+}
+
+const std::string mine = "grains rank 0 (mine, host ";
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, AdapterFault,
+    ::testing::Values(
+        Fault{"import", 4, {"ended with status 1", "the run had not begun", "No module named"}},
+        Fault{"raise", 4, {mine, "ValueError: no such thing", "Last lines of logs/grains.log"}},
+        Fault{"refuse", 6, {mine, "the disc is on fire"}},
+        Fault{"exit", 4, {mine, "SystemExit: 0"}},
+        Fault{"_exit", 4, {"ended with status 3", "was due to send \"motion\", window 3"}},
+        Fault{"fewer", 6, {mine, "2 of 12 grains are missing", "in \"motion\" of window 3"}},
+        Fault{"nan", 6, {mine, "grain 4: contact impulse is not finite: (nan, nan, nan)"}},
+        Fault{"impulse", 6, {"grain_balance = ", "fails most for grain 4", "of grains (mine)"}}),
+    [](const auto& info) {
+        const std::string name = info.param.name;
+        return name[0] == '_' ? "Quick" + name : name;
+    });
+
+}  // namespace
+}  // namespace turbidite
