@@ -56,19 +56,29 @@ int act(const CommandAction& action) {
 }
 
 /// Empty if the first word is a command or an option.
-std::string unknown_command(int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') return "";
+std::string unknown_command(const std::string& word) {
+    if (word.empty() || word[0] == '-') return "";
     std::vector<std::string> names;
     for (const Command& command : commands()) names.push_back(command.name);
-    if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
+    if (std::find(names.begin(), names.end(), word) != names.end()) return "";
     return fmt::format(
         "turbidite: there is no command \"{}\"\n  Did you mean {}? The commands are "
         "{}.",
-        argv[1], nearest_name(argv[1], names), fmt::join(names, ", "));
+        word, nearest_name(word, names), fmt::join(names, ", "));
 }
 
-int turbidite_main(int argc, char** argv) {
-    if (const std::string complaint = unknown_command(argc, argv); !complaint.empty()) {
+/// `turbidite help run` is `turbidite run --help`; without a command the help is shown.
+std::vector<std::string> words_of(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty()) return {"--help"};
+    if (words[0] != "help") return words;
+    words.erase(words.begin());
+    words.push_back("--help");
+    return words;
+}
+
+int turbidite_main(const std::vector<std::string>& words) {
+    if (const std::string complaint = unknown_command(words[0]); !complaint.empty()) {
         fmt::print(stderr, "{}\n", complaint);
         return static_cast<int>(ExitCode::bad_input);
     }
@@ -82,7 +92,8 @@ int turbidite_main(int argc, char** argv) {
         options->callback([&action, run = command.declare(*options)] { action = run; });
     }
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> from_the_end(words.rbegin(), words.rend());  // as CLI11 takes them
+        app.parse(from_the_end);
     } catch (const CLI::ParseError& error) {
         const bool asked_for = error.get_exit_code() == 0;  // --help, --version
         app.exit(error);
@@ -95,5 +106,6 @@ int turbidite_main(int argc, char** argv) {
 }  // namespace turbidite
 
 int main(int argc, char** argv) {
-    return turbidite::turbidite_main(argc, argv);
+    const int code = turbidite::turbidite_main(turbidite::words_of(argc, argv));
+    return argc == 1 ? static_cast<int>(turbidite::ExitCode::bad_input) : code;
 }

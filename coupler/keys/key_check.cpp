@@ -55,7 +55,11 @@ Checked check_integer(const KeySpec& key, const std::string& value, CaseProblem&
     return std::nullopt;
 }
 
-Checked check_list(const KeySpec& key, const CaseEntry& entry) {
+Checked check_list(const KeySpec& key, const CaseEntry& entry, CaseProblem& problem) {
+    if (!entry.is_list || entry.items.empty()) {
+        problem.allowed = "A list of numbers in brackets is needed. " + problem.allowed;
+        return std::nullopt;
+    }
     if (key.entries > 0 && static_cast<int>(entry.items.size()) != key.entries) return std::nullopt;
     std::vector<double> values;
     for (const std::string& item : entry.items) {
@@ -72,7 +76,7 @@ Checked check_flag(const std::string& value) {
 }
 
 Checked check_value(const KeySpec& key, const CaseEntry& entry, CaseProblem& problem) {
-    if (key.type == KeyType::real_list) return check_list(key, entry);
+    if (key.type == KeyType::real_list) return check_list(key, entry, problem);
     if (entry.is_list) {
         problem.allowed = fmt::format("A list is not allowed here. {}", problem.allowed);
         return std::nullopt;

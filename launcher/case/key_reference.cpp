@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
+
+#include "coupler/keys/nearest_name.hpp"
+#include "coupler/protocol/failure.hpp"
 #include "launcher/case/keys.hpp"
 
 namespace turbidite {
@@ -46,12 +51,83 @@ std::string row(const KeySpec& key) {
                        key.unit.empty() ? "-" : key.unit, default_text(key), allowed_text(key));
 }
 
+bool is_part_of(const KeySpec& key, const std::string& name) {
+    return key.name == name || key.name.rfind(name + ".", 0) == 0;
+}
+
+void demand_known(const std::string& name) {
+    const KeyTable& table = key_table();
+    if (std::any_of(table.begin(), table.end(), [&](const auto& k) { return is_part_of(k, name); }))
+        return;
+    std::vector<std::string> known;
+    for (const KeySpec& key : table) {
+        known.push_back(key.name);
+        if (const std::string group = group_of(key.name); !group.empty()) known.push_back(group);
+    }
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("turbidite keys: there is no key or group \"{}\"\n  Did you mean {}?",
+                              name, nearest_name(name, known)));
+}
+
+KeyTable selected(const std::vector<std::string>& names) {
+    for (const std::string& name : names) demand_known(name);
+    KeyTable keys;
+    for (const KeySpec& key : key_table())
+        if (names.empty() || std::any_of(names.begin(), names.end(),
+                                         [&](const auto& name) { return is_part_of(key, name); }))
+            keys.push_back(key);
+    return keys;
+}
+
+/// The words of a text in lines of this width, each begun with `indent` blanks.
+std::string wrapped(const std::string& text, int indent, int width) {
+    std::istringstream words(text);
+    std::string lines, line(indent, ' '), word;
+    bool begun = false;
+    while (words >> word) {
+        if (begun && static_cast<int>(line.size() + 1 + word.size()) > width) {
+            lines += line + "\n";
+            line.assign(indent, ' ');
+            begun = false;
+        }
+        line += (begun ? " " : "") + word;
+        begun = true;
+    }
+    return begun ? lines + line + "\n" : lines;
+}
+
+std::string entry(const KeySpec& key, int width) {
+    const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+    const std::string fallback = key.need == Need::fallback   ? "default " + key.fallback
+                                 : key.need == Need::optional ? "optional"
+                                                              : default_text(key);
+    const std::string name = key.name + unit;
+    const bool fits = static_cast<int>(name.size() + 2 + fallback.size()) <= width;
+    std::string text =
+        fits ? name + "  " + fallback + "\n" : name + "\n" + wrapped(fallback, 4, width);
+    text += wrapped(key.help, 4, width);
+    if (!key.available) return text + wrapped("(later version)", 4, width);
+    if (key.choices.empty()) return text + wrapped(allowed_values(key), 4, width);
+    for (const Choice& choice : key.choices)
+        text += wrapped(fmt::format("{}: {}{}", choice.name, choice.help,
+                                    choice.available ? "" : " (later version)"),
+                        6, width);
+    return text;
+}
+
 }  // namespace
 
-std::string key_reference() {
+std::string key_help(const std::vector<std::string>& names, int width) {
+    std::string text;
+    for (const KeySpec& key : selected(names))
+        text += (text.empty() ? "" : "\n") + entry(key, width);
+    return text;
+}
+
+std::string key_reference(const std::vector<std::string>& names) {
     std::string text = introduction;
     std::string group = "none yet";
-    for (const KeySpec& key : key_table()) {
+    for (const KeySpec& key : selected(names)) {
         if (group_of(key.name) != group) {
             group = group_of(key.name);
             text += fmt::format(

@@ -139,10 +139,36 @@ std::string does_not_fit(const PackingRequest& request) {
         request.region ? "grains.region" : "domain.size");
 }
 
+/// Of a grain of unit circumscribed radius.
+double unit_area(const PackingRequest& request) {
+    if (!has_corners(request)) return std::numbers::pi;
+    const std::vector<Point2>& corners = form_of(request)->outline;
+    double twice = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Point2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        twice += a[0] * b[1] - b[0] * a[1];
+    }
+    return 0.5 * std::abs(twice);
+}
+
+/// Whether the grains would fill more of the region than the densest packing of equal discs does,
+/// or all of it: known at once, while trying takes minutes.
+bool is_overfull(const PackingRequest& request) {
+    const double radius = mean_radius(request);
+    const double share = are_unit_discs(request) ? densest_compacity() : 1.0;
+    const PackingRegion region = request.filled();
+    return static_cast<double>(request.count) * radius * radius * unit_area(request) >
+           share * region.width * region.height;
+}
+
 }  // namespace
 
 PackingResult random_packing(const PackingRequest& request) {
     PackingResult result;
+    if (is_overfull(request)) {
+        result.refusal = does_not_fit(request);
+        return result;
+    }
     for (const double gap : gaps) {
         if (gap < least_gap && !are_unit_discs(request)) break;
         result.grains = add_one_by_one(request, gap);

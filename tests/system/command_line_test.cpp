@@ -42,6 +42,7 @@ TEST_F(CommandLine, MisspeltKeyStartsNothing) {
 
 TEST_F(CommandLine, BadUsage) {
     EXPECT_EQ(turbidite("").code, 2);
+    EXPECT_SAYS(turbidite("").out, "turbidite [OPTIONS]");
     EXPECT_EQ(turbidite("run").code, 2);
     EXPECT_EQ(turbidite("run nowhere.yaml").code, 2);
     EXPECT_EQ(turbidite("run " + quickstart + " --frobnicate").code, 2);
@@ -55,7 +56,29 @@ TEST_F(CommandLine, HelpAndVersion) {
     for (const char* command : {"run", "check", "report", "compare", "keys", "test", "bench"})
         EXPECT_SAYS(help.out, std::string("\n  ") + command);
     EXPECT_SAYS(turbidite("--version").out, "turbidite ");
+    EXPECT_EQ(turbidite("help").out, help.out);
+    EXPECT_EQ(turbidite("help run").out, turbidite("run --help").out);
+    EXPECT_SAYS(turbidite("run --help").out, "--force");
     EXPECT_SAYS(turbidite("keys").out, "| `contact.friction` |");
+    EXPECT_SAYS(turbidite("keys contact").out, "\ncontact.theta");
+    EXPECT_SAYS(turbidite("keys contact --markdown").out, "| `contact.friction` |");
+    const Answer wrong = turbidite("keys contcat");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_SAYS(wrong.err, "Did you mean contact?");
+}
+
+TEST_F(CommandLine, ImpossibleGrainsAreRefusedAtOnce) {
+    const std::string triangles = TURBIDITE_SOURCE_DIR "/configs/sedimentation-triangles.yaml";
+    const Answer many = turbidite("check " + triangles + " --set grains.count=1000000000");
+    EXPECT_EQ(many.code, 2);
+    EXPECT_SAYS(many.err, "grains.count = 1000000000");
+    EXPECT_SAYS(many.err, "no room");
+    for (const char* corners : {"0", "[]"}) {
+        const Answer none = turbidite("check " + triangles + " --set grains.vertices=" + corners);
+        EXPECT_EQ(none.code, 2) << corners;
+        EXPECT_SAYS(none.err, "--set: grains.vertices");
+        EXPECT_SAYS(none.err, "A list of numbers in brackets is needed.");
+    }
 }
 
 TEST_F(CommandLine, CheckWritesNothing) {

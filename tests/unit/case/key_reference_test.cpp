@@ -6,8 +6,10 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 
 #include "coupler/keys/nearest_name.hpp"
+#include "coupler/protocol/failure.hpp"
 #include "launcher/case/keys.hpp"
 
 namespace turbidite {
@@ -17,6 +19,24 @@ TEST(KeyReference, IsWhatTheDocumentHolds) {
     std::ifstream file(TURBIDITE_SOURCE_DIR "/docs/case-reference.md");
     const std::string document{std::istreambuf_iterator<char>(file), {}};
     EXPECT_EQ(document, key_reference()) << "run `turbidite keys > docs/case-reference.md`";
+}
+
+TEST(KeyReference, FitsATerminal) {
+    for (const int width : {60, 120}) {
+        std::istringstream help(key_help({"contact", "fluid.splitting"}, width));
+        std::string line;
+        int lines = 0, friction = 0, others = 0;
+        while (std::getline(help, line)) {
+            ++lines;
+            EXPECT_LE(static_cast<int>(line.size()), width) << line;
+            friction += line.rfind("contact.friction", 0) == 0;
+            others += line.rfind("fluid.splitting_tolerance", 0) == 0;
+        }
+        EXPECT_GT(lines, 50);
+        EXPECT_EQ(friction, 1);
+        EXPECT_EQ(others, 0);  // fluid.splitting is a key, not a group
+    }
+    EXPECT_THROW(key_help({"fluid.spliting"}, 80), Failure);
 }
 
 TEST(KeyTable, IsComplete) {
