@@ -39,10 +39,10 @@ bool has_output(const RunFolder& folder) {
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
     require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
-    const RunFolder folder = make_run_folder(order, resolved.name);
+    const auto [folder, lock] = own_run_folder(order, resolved.name);
     const auto line = launch_arguments(resolved.settings, folder, site);
     prepare_run(resolved, folder, line);
-    return {folder, line, rank_names(resolved.settings)};
+    return {folder, lock, line, rank_names(resolved.settings)};
 }
 
 JobOutcome play(const PreparedRun& prepared, const Programs& programs) {

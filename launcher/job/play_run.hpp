@@ -11,6 +11,7 @@ namespace turbidite {
 
 struct PreparedRun {
     RunFolder folder;
+    std::shared_ptr<RunLock> lock;   ///< on the folder
     std::vector<std::string> line;   ///< mpirun and its arguments
     std::vector<std::string> ranks;  ///< who they are, by number
 };

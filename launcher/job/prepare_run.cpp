@@ -45,7 +45,9 @@ fs::path fresh_folder(std::string case_name) {
 }
 
 bool holds_something(const fs::path& folder) {
-    return fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder));
+    if (!fs::is_directory(folder)) return fs::exists(folder);
+    return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                       [](const auto& entry) { return entry.path().filename() != RunLock::file; });
 }
 
 bool is_run_folder(const RunFolder& folder) {
@@ -112,12 +114,19 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved,
 
 namespace {
 
-RunFolder folder_for(const fs::path& wanted, bool force) {
+OwnFolder folder_for(const fs::path& wanted, bool force) {
     // The trailing slash of `--out DIR/` would become an empty last part.
     const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
     if (folder.root.string().find_first_of(" \t\n\"'") != std::string::npos)
         throw folder_refused(folder.root, "has a space or a quote in its path",
                              "OpenFOAM drops these from file names. Choose another --out.");
+    if (fs::exists(folder.root) && !fs::is_directory(folder.root))
+        throw folder_refused(wanted, "is a file", "Choose another --out.");
+    fs::create_directories(folder.root);
+    std::shared_ptr<RunLock> lock = RunLock::take(folder.root);
+    if (!lock)
+        throw folder_refused(wanted, "is in use by a run that has not ended",
+                             "Wait for it, stop it, or choose another --out.");
     if (force && is_run_folder(folder))
         empty_run_folder(folder);
     else if (holds_something(folder.root))
@@ -125,12 +134,12 @@ RunFolder folder_for(const fs::path& wanted, bool force) {
                              "A run needs a new or empty folder. Choose another --out, or add "
                              "--force to overwrite the run that is there.");
     for (const fs::path& part : {folder.grains(), folder.logs()}) fs::create_directories(part);
-    return folder;
+    return {folder, lock};
 }
 
 }  // namespace
 
-RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
+OwnFolder own_run_folder(const RunOrder& order, const std::string& case_name) {
     fs::path wanted = order.out;
     try {
         if (wanted.empty()) wanted = fresh_folder(case_name);
@@ -140,6 +149,10 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
                              "cannot be created: " + error.code().message(),
                              "Choose a folder you may write to.");
     }
+}
+
+RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
+    return own_run_folder(order, case_name).folder;
 }
 
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,

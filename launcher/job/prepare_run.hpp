@@ -5,11 +5,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/run_folder.hpp"
+#include "launcher/job/run_lock.hpp"
 
 namespace turbidite {
 
@@ -18,8 +20,17 @@ struct RunOrder {
     bool force = false;         ///< empty an existing run folder
 };
 
-/// Creates the folder and returns its absolute path. A non-empty folder is refused (exit code 2)
-/// unless `force`.
+/// A run folder, and that nobody else may use it.
+struct OwnFolder {
+    RunFolder folder;
+    std::shared_ptr<RunLock> lock;
+};
+
+/// Creates the folder, whose path is absolute. A folder in use is refused (exit code 2), and a
+/// non-empty one unless `force`.
+OwnFolder own_run_folder(const RunOrder& order, const std::string& case_name);
+
+/// The same for a caller that needs no lock afterwards.
 RunFolder make_run_folder(const RunOrder& order, const std::string& case_name);
 
 /// Fills it. `command` is the launch line, kept in run.json.

@@ -152,6 +152,21 @@ TEST_F(CommandLine, WetRunWithYade) {
     EXPECT_EQ(turbidite("report " + run_folder().string()).code, 0);
 }
 
+TEST_F(CommandLine, AFolderInUseIsRefused) {
+    const std::string run = std::string(TURBIDITE_PROGRAM) + " run " + quickstart + quick +
+                            into_run_folder() + " --force --set time.end=";
+    const Answer answer =
+        shell(run + "4000 >first.log 2>&1 & job=$!; until [ -s " +
+              (run_folder() / "history.csv").string() + " ]; do sleep 0.1; done; " + run +
+              "1; code=$?; kill -INT $job; wait $job; exit $code");
+    EXPECT_EQ(answer.code, 2) << answer.out;
+    EXPECT_SAYS(answer.err, "is in use by a run that has not ended");
+    EXPECT_SAYS(text(scratch.path() / "first.log"), "stopped on request");  // untouched till then
+    const Answer next = shell(run + "0.1");
+    EXPECT_EQ(next.code, 0) << next.err;
+    EXPECT_FALSE(fs::exists(run_folder() / "lock"));
+}
+
 TEST_F(CommandLine, FieldsMayBeWrittenLessOftenThanRows) {
     const Answer answer =
         turbidite("run " + quickstart +

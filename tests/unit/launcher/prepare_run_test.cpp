@@ -80,7 +80,7 @@ TEST(PrepareRun, DefaultFolderIsFreshAndPlain) {
 TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
     const ScratchFolder scratch;
     scratch.write("file", "x");
-    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}), "is not empty");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}), "is a file");
     EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}), "has a space or a quote in its path");
     EXPECT_SAYS(refusal({.out = scratch.path() / "file/run"}), "cannot be created");
 }

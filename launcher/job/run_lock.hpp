@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A run folder in use: its file `lock` is locked as long as the launcher or the job it started
+// lives, whatever ends them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+namespace turbidite {
+
+class RunLock {
+ public:
+    /// Null if another process has the folder, which must exist. Where the file system knows no
+    /// locks, the folder counts as free.
+    static std::shared_ptr<RunLock> take(const std::filesystem::path& folder);
+
+    /// Name of the file in a run folder.
+    static constexpr const char* file = "lock";
+
+    ~RunLock();
+    RunLock(const RunLock&) = delete;
+    RunLock& operator=(const RunLock&) = delete;
+
+ private:
+    RunLock(std::filesystem::path file, int descriptor)
+        : file_(std::move(file)), descriptor_(descriptor) {}
+
+    std::filesystem::path file_;
+    int descriptor_;  // inherited by the job
+};
+
+}  // namespace turbidite
