@@ -33,8 +33,9 @@ class Springs : public GrainsAdapter {
 
     Motion initialise(const Settings& s, const ShapeTable&,
                       const std::vector<GrainState>& grains) override {
-        if (s.text("domain.left") != "wall" || s.text("domain.bottom") != "wall")
-            throw std::runtime_error("springs supports four walls only");
+        for (const char* side : {"left", "right", "bottom", "top"})
+            if (s.text(std::string("domain.") + side) != "wall")
+                throw std::runtime_error("springs supports four walls only");
         run = run_values(s);
         omega = s.real("run.md_frequency"), damping = s.real("run.md_damping");
         substeps = s.integer("run.md_substeps");

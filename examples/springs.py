@@ -12,7 +12,8 @@ class Springs:
     name, version, host_code, native_substeps = 'springs-py', '1.0', 'numpy', True
 
     def initialise(self, settings, shapes, grains):
-        if settings.text('domain.left') != 'wall' or settings.text('domain.bottom') != 'wall' or grains['prescribed'].any():
+        sides = (settings.text('domain.' + side) for side in ('left', 'right', 'bottom', 'top'))
+        if any(side != 'wall' for side in sides) or grains['prescribed'].any():
             raise ValueError('springs.py supports free grains between four walls only')
         self.grains, self.size = grains, (settings.real('run.size_x'), settings.real('run.size_y'))
         self.gravity, self.substeps = settings.real('run.gravity'), settings.integer('run.md_substeps')
@@ -71,7 +72,8 @@ class Springs:
         q[:, 0], q[:, 3] = numpy.cos(half) * w - numpy.sin(half) * z, numpy.cos(half) * z + numpy.sin(half) * w
         free = self.grains['position'][:, :2] + window.step * self.grains['velocity'][:, :2]
         self.grains['position'][:, :2] = numpy.where(self.touched[:, None], self.moved, free)
-        return turbidite.Motion(self.grains, max_penetration=self.overlap, iterations=self.substeps)
+        return turbidite.Motion(self.grains, max_penetration=self.overlap, contacts=int(self.touched.sum()),
+                                iterations=self.substeps)
 
 
 turbidite.run_grains(Springs(), sys.argv[-1])

@@ -33,6 +33,8 @@ const std::vector<Command>& commands() {
          declare_compare},
         {"study", "run what is missing of a sweep of cases, then its table and figures",
          declare_study},
+        {"adapter-test", "play a scripted partner against a grains adapter, and say what conforms",
+         declare_adapter_test},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"test", "run the tests", declare_test},
         {"bench", "compare the speed of this software with others", declare_bench},

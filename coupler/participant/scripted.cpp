@@ -198,7 +198,11 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
     for (const GrainState& grain : grains) {
         if (!owns(grain)) continue;
         if (first) {
-            grains_.push_back(dragged(grain, window.step, {}));
+            // What the grain already has of the fluid's impulse is taken back: - J_h.
+            grains_.push_back(dragged(grain, window.step, plus({}, -1.0, grain.announced_impulse)));
+            grains_.back().angular_velocity =
+                plus(grain.angular_velocity, -1.0 / grains_.back().inertia,
+                     grain.announced_angular_impulse);
             grains_.back().pushed = grain.contact_impulse;
             grains_.back().angular_pushed = grain.contact_angular_impulse;
         }

@@ -2,8 +2,11 @@
 //
 // Participants with an exact solution, for testing one side of a job without the other.
 //
-// Scripted grains fall freely and never touch:      U^{4/5} = U^n - (M_sub/M_eff) g dt,   q += dt U
-// The scripted fluid is a linear drag, implicit:    M_eff (U^{n+1} - U^{4/5}) = -gamma dt U^{n+1}
+// Scripted grains fall freely and never touch; the scripted fluid is a linear drag, implicit. J_h:
+// announced by grains that hold the fluid's impulse in their sub-steps.
+//
+//     U^{4/5} = U^n - (M_sub/M_eff) g dt,   q += dt U
+//     M_eff (U^{n+1} - U^{4/5}) = -gamma dt U^{n+1} - J_h
 //
 // so that after n windows U_y = -sum over k = 1..n of a dt b^k, a = (M_sub/M_eff) g, b = 1/(1 +
 // gamma dt/M_eff). With grains that it lets fall (`joint`), drag and contact impulse J act

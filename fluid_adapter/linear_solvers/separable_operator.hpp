@@ -34,7 +34,7 @@ enum class End { neumann, dirichlet, periodic };
 
 struct AxisOperator {
     int cells = 0;
-    double spacing = 0.0;  ///< h; of a stretched axis that of most cells [m]
+    double spacing = 0.0;  ///< h; of a stretched axis that of its equal cells [m]
     End lower = End::neumann, upper = End::neumann;
     std::vector<double> sizes = {};  ///< h_j of a stretched axis [m]; empty: all cells are equal
 

@@ -24,6 +24,7 @@ CommandAction declare_check(CLI::App& options);
 CommandAction declare_report(CLI::App& options);
 CommandAction declare_compare(CLI::App& options);
 CommandAction declare_study(CLI::App& options);
+CommandAction declare_adapter_test(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
 CommandAction declare_bench(CLI::App& options);

@@ -44,13 +44,18 @@ class BlockedSignals {
     sigset_t old_;
 };
 
+void redirect(int stream, const std::filesystem::path& file) {
+    const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (log >= 0) dup2(log, stream);
+}
+
 [[noreturn]] void become(const JobOrder& order, const sigset_t& mask, pid_t parent) {
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);  // a job must not outlive a killed `turbidite`
     if (getppid() != parent) _exit(cannot_start);
     sigprocmask(SIG_SETMASK, &mask, nullptr);
-    const int log = open(order.error_log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (log >= 0) dup2(log, STDERR_FILENO);
+    redirect(STDERR_FILENO, order.error_log);
+    if (!order.output_log.empty()) redirect(STDOUT_FILENO, order.output_log);
     const int nothing = open("/dev/null", O_RDONLY);
     if (nothing >= 0) dup2(nothing, STDIN_FILENO);
     std::vector<char*> arguments;

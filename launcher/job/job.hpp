@@ -14,7 +14,8 @@ namespace turbidite {
 
 struct JobOrder {
     std::vector<std::string> arguments;
-    std::filesystem::path error_log;  ///< receives its stderr
+    std::filesystem::path error_log;        ///< receives its stderr
+    std::filesystem::path output_log = {};  ///< its stdout; empty: that of this program
     /// Called once, at the first signal. False: the program cannot be asked, it is to be killed.
     std::function<bool(int signal)> request_stop;
 };

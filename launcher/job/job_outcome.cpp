@@ -19,14 +19,21 @@ namespace {
 
 constexpr std::size_t lines_shown = 6;
 
+/// True for a line that contains the message's first line, or is one of the others.
+bool repeats(const std::string& line, const std::string& message) {
+    const std::string first = message.substr(0, message.find('\n'));
+    const auto words = line.find_first_not_of(' ');
+    return !first.empty() && words != std::string::npos &&
+           (line.find(first) != std::string::npos ||
+            message.find("\n  " + line.substr(words)) != std::string::npos);
+}
+
 /// The last lines of a log that say more than `message`, which every program repeats.
 std::deque<std::string> last_lines(const std::filesystem::path& file, const std::string& message) {
-    const std::string known = message.substr(0, message.find('\n'));
     std::ifstream input(file);
     std::deque<std::string> lines;
     for (std::string line; std::getline(input, line);) {
-        const bool repeats = !known.empty() && line.find(known) != std::string::npos;
-        if (line.empty() || repeats) continue;
+        if (line.empty() || repeats(line, message)) continue;
         lines.push_back(line);
         if (lines.size() > lines_shown) lines.pop_front();
     }

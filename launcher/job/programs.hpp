@@ -12,12 +12,18 @@ struct Programs {
     std::filesystem::path folder;   ///< BUILD/bin, absolute
     std::filesystem::path library;  ///< BUILD/lib
     std::filesystem::path source;   ///< top of the source tree
+    /// In the place of turbidite-fluid; empty: that one.
+    std::filesystem::path other_fluid = {};
 
     std::filesystem::path build() const { return folder.parent_path(); }
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
     /// Starts every program of a job and notices when one ends too early.
     std::filesystem::path member() const { return folder / "turbidite-member"; }
-    std::filesystem::path fluid() const { return folder / "turbidite-fluid"; }
+    std::filesystem::path fluid() const {
+        return other_fluid.empty() ? folder / "turbidite-fluid" : other_fluid;
+    }
+    /// A scripted fluid, for adapter-test.
+    std::filesystem::path partner() const { return folder / "turbidite-partner"; }
     std::filesystem::path bench() const { return folder / "turbidite-bench"; }
     std::filesystem::path yade() const { return "/usr/bin/yade"; }
     /// The extension that YADE's Python imports, and the scripts beside it.
