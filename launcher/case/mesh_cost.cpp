@@ -10,7 +10,8 @@ namespace turbidite {
 namespace {
 
 constexpr double bytes_per_cell = 750.0;
-constexpr double bytes_of_second_order = 80.0;  // per cell, velocities and fluxes of the stages
+constexpr double bytes_of_second_order = 80.0;   // per cell, velocities and fluxes of the stages
+constexpr double bytes_of_rigid_grains = 190.0;  // per cell, pressure and viscosity with them
 constexpr double bytes_without_cells = 1e8;
 constexpr double gigabyte = 1e9;
 
@@ -40,7 +41,9 @@ double fluid_cells(const Settings& settings) {
 
 double fluid_memory(const Settings& settings) {
     const bool second_order = settings.text("fluid.time_scheme") == "second-order";
-    const double per_cell = bytes_per_cell + (second_order ? bytes_of_second_order : 0.0);
+    const bool rigid_grains = settings.text("fluid.splitting") != "marchuk-yanenko";
+    const double per_cell = bytes_per_cell + (second_order ? bytes_of_second_order : 0.0) +
+                            (rigid_grains ? bytes_of_rigid_grains : 0.0);
     return (bytes_without_cells + per_cell * fluid_cells(settings)) / gigabyte;
 }
 

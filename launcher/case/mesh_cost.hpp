@@ -18,7 +18,8 @@ double fluid_rows(const Settings& settings);
 double fluid_cells(const Settings& settings);
 
 /// Resident memory of the fluid program [GB = 1e9 bytes]: 750 bytes per cell (figure bytes_per_cell
-/// of `turbidite bench fluid`) and what OpenFOAM takes by itself.
+/// of `turbidite bench fluid`), the vectors of time and splitting, and what OpenFOAM takes by
+/// itself.
 double fluid_memory(const Settings& settings);
 
 /// Rough time of one window of the fluid on fluid.ranks cores [s], from what the figures of
