@@ -396,6 +396,15 @@ double height_of(const Packing& grains) {
     return height;
 }
 
+/// Replaces coupling.scheme: auto, before anything depends on it.
+void choose_scheme(Settings& settings) {
+    if (!settings.has("coupling.scheme") || settings.text("coupling.scheme") != "auto") return;
+    const bool known = settings.has("grains.adapter") && settings.has("fluid.enabled") &&
+                       settings.flag("fluid.enabled");
+    const char* scheme = known ? best_scheme(grains_adapter(settings)) : "split";
+    settings.set("coupling.scheme", std::string(scheme));
+}
+
 /// The coupling scheme, resolved here once for all programs.
 void set_scheme(Settings& settings) {
     const SchemeEntry& scheme = find_scheme(scheme_name(settings));
@@ -446,6 +455,7 @@ ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
         throw CaseRefused(std::move(entries.problems));
     if (given_grains.earlier) name_grains_file(entries);
     Settings settings = check_keys(key_table(), entries);
+    choose_scheme(settings);
     check_rules(settings, entries);
     check_materials(settings, entries);
     if (given_grains.earlier) accept_overlaps(settings);

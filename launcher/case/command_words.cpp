@@ -56,8 +56,7 @@ std::vector<std::string> with_absolute_files(std::vector<std::string> words,
     for (std::string& word : words) {
         if (word.empty()) continue;
         const auto file = std::filesystem::absolute(folder / word);
-        if (std::filesystem::is_regular_file(file))
-            word = file.lexically_normal().string();
+        if (std::filesystem::is_regular_file(file)) word = file.lexically_normal().string();
     }
     return words;
 }

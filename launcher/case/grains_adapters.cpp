@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/case/grains_adapters.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "coupler/protocol/failure.hpp"
@@ -37,6 +38,12 @@ const GrainsAdapter& grains_adapter(const Settings& settings) {
         if (adapter.name == name && adapter.available()) return adapter;
     throw Failure(ExitCode::bad_input,
                   "grains.adapter = " + name + " has no program in this version");
+}
+
+const char* best_scheme(const GrainsAdapter& adapter) {
+    const bool joint =
+        std::find(adapter.schemes.begin(), adapter.schemes.end(), "joint") != adapter.schemes.end();
+    return joint && adapter.host != GrainsHost::command ? "joint" : "split";
 }
 
 std::string adapters_that(bool (*can)(const GrainsAdapter&)) {

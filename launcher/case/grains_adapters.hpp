@@ -54,6 +54,10 @@ const std::vector<GrainsAdapter>& grains_adapters();
 /// program in this version.
 const GrainsAdapter& grains_adapter(const Settings& settings);
 
+/// The scheme that coupling.scheme: auto stands for with this adapter: "joint" if it is known to
+/// take the fluid's inertia into its contacts; a program of the user's own has to be asked for it.
+const char* best_scheme(const GrainsAdapter& adapter);
+
 /// The adapters of this project with a capability, as text: "yade-nscd or standalone-nscd".
 std::string adapters_that(bool (*can)(const GrainsAdapter&));
 

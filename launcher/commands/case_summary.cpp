@@ -46,7 +46,7 @@ std::string fluid_line(const ResolvedCase& resolved) {
                size[0] * cells, fluid_rows(settings), fluid_memory(settings),
                rough_time(windows * fluid_window_time(settings)),
                ranks == 1 ? "one core" : fmt::format("{} cores", ranks), resolved.scales.reynolds) +
-           rows_text(settings, size[1]);
+           rows_text(settings, size[1]) + "  scheme: " + settings.text("coupling.scheme") + "\n";
 }
 
 std::string md_line(const Settings& settings) {

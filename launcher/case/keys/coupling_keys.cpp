@@ -7,9 +7,10 @@
 namespace turbidite {
 namespace {
 
-/// The schemes of hub/schemes with a fluid, and one planned for later.
+/// The schemes of hub/schemes with a fluid, one that stands for them, and one planned for later.
 std::vector<Choice> scheme_choices() {
-    std::vector<Choice> choices;
+    std::vector<Choice> choices = {
+        {"auto", "joint where the grains' adapter can, otherwise split"}};
     for (const SchemeEntry& scheme : scheme_list())
         if (!scheme.fluid.empty()) choices.push_back({scheme.name, scheme.help});
     choices.push_back({"sub-iterated", "both repeated within a window", false});
@@ -36,7 +37,7 @@ KeyGroup coupling_keys() {
         .keys = {
             {.name = "coupling.scheme",
              .type = KeyType::choice,
-             .fallback = "split",
+             .fallback = "auto",
              .choices = scheme_choices(),
              .help = "order of the exchange",
              .idle = without_fluid},

@@ -380,5 +380,20 @@ TEST_F(CaseFile, DensityOfDryGrainsKeepsItsUnit) {
     EXPECT_EQ(dry.population.at(0).density, 1.5);
 }
 
+/// coupling.scheme: auto is what the adapter can do best; what is named is taken as it is.
+TEST_F(CaseFile, TheSchemeFollowsTheAdapter) {
+    const std::string quickstart = TURBIDITE_SOURCE_DIR "/configs/quickstart.yaml";
+    const auto scheme = [&](const std::vector<std::string>& set) {
+        return load_case(quickstart, set).settings.text("coupling.scheme");
+    };
+    EXPECT_EQ(scheme({}), "joint");
+    EXPECT_EQ(scheme({"grains.adapter=standalone-nscd"}), "joint");
+    EXPECT_EQ(scheme({"grains.adapter=yade-md"}), "split");
+    EXPECT_EQ(scheme({"grains.adapter=external", "grains.command=my-grains"}), "split");
+    EXPECT_EQ(scheme({"coupling.scheme=split"}), "split");
+    EXPECT_EQ(load_case(quickstart, {}).settings.text("run.scheme"), "joint");
+    EXPECT_EQ(load_case(quickstart, {"fluid.enabled=false"}).settings.text("run.scheme"), "dry");
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -41,9 +41,9 @@ TEST_F(IdleKeys, AreNamedWithTheReason) {
         {{"grains.compacity=0.8"},
          "grains.compacity has no effect without grains.generator: lattice"},
         {{"grains.generator=lattice", "random.seed=4"}, "random.seed has no effect"},
-        {{"coupling.tolerance=0.001"},
+        {{"coupling.scheme=split", "coupling.tolerance=0.001"},
          "coupling.tolerance has no effect with coupling.scheme: split"},
-        {{"coupling.scheme=joint", "coupling.positions=contact"},
+        {{"coupling.positions=contact"},
          "coupling.positions has no effect with coupling.scheme: joint"},
         {{"fluid.pressure_tolerance=1e-7"},
          "fluid.pressure_tolerance has no effect with fluid.pressure_solver: FFT"},
@@ -61,7 +61,7 @@ TEST_F(IdleKeys, AreNamedWithTheReason) {
         {{"scales.compacity=0.1"}, "scales.compacity has no effect with scales.kind: avalanche"},
         {{"scales.viscosity=0.1"}, "scales.viscosity has no effect without scales.kind: physical"},
         // Also if the value is the default, since it was given on purpose.
-        {{"coupling.iterations=10"}, "coupling.iterations has no effect"},
+        {{"coupling.scheme=split", "coupling.iterations=10"}, "coupling.iterations has no effect"},
     };
     for (const auto& one : cases) EXPECT_SAYS(notes(one.set), one.note);
 }

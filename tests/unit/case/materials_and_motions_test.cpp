@@ -77,7 +77,8 @@ TEST_F(RichCase, RowsThatMakeNoSenseAreRefused) {
     EXPECT_SAYS(refusal_of_row("1,2,2,fast,0,0,1,steel,free\n"), "vx = fast");
     EXPECT_SAYS(refusal_of_row("1,2,2,0,0,0,0,steel,free\n"), "density = 0");
     EXPECT_SAYS(
-        refusal_of_row("1,2,2,0,0,0,0.9,steel,free\n", {"fluid.enabled=true", "fluid.reynolds=36"}),
+        refusal_of_row("1,2,2,0,0,0,0.9,steel,free\n",
+                       {"fluid.enabled=true", "fluid.reynolds=36", "coupling.scheme=split"}),
         "density = 0.9");
 }
 
