@@ -98,8 +98,9 @@ void Membership::abort(const std::exception& error) {
     const auto code = static_cast<int>(failure ? failure->code() : ExitCode::participant_failed);
     std::fprintf(stderr, "turbidite: %s: %s\n", role_name(state_->role), error.what());
     std::fflush(nullptr);
-    write_first_end(state_->run_folder, {static_cast<ExitCode>(code),
-                                         rank_name(state_->role, state_->rank), error.what()});
+    write_first_end(state_->run_folder,
+                    {static_cast<ExitCode>(code), rank_name(state_->role, state_->rank),
+                     std::string("gave up: ") + error.what()});
     PMPI_Abort(MPI_COMM_WORLD, code);
     _exit(code);
 }

@@ -177,25 +177,28 @@ class _Dismissed(Exception):
 class _Coupler:
     """Frames to and from the coupler, rank 0 of the other side of the intercommunicator."""
 
-    def __init__(self, local):
+    def __init__(self, local, run_folder):
+        self.local, self.run_folder = local, run_folder
         if local.rank == 0:
             MPI.COMM_WORLD.Send(numpy.array([GRAINS, local.size], 'i'), 0, ANNOUNCEMENT_TAG)
         self.comm = local.Create_intercomm(0, MPI.COMM_WORLD, 0, INTERCOMM_TAG + GRAINS)
         self.window, self.iteration, self.sent, self.received = -1, 0, 0, 0
         self.limit = 600.0                              # [s]
+        self.pending = []                               # frames that MPI still reads from
 
     def send(self, kind, payload=b''):
         frame = _integers(MAGIC, kind, self.window, self.iteration, self.sent, len(payload)) + payload
         self.sent += 1
-        self.comm.Send([frame, MPI.BYTE], 0, FRAME_TAG)
+        # A blocking send of a long frame would wait for a coupler that is stopped or gone.
+        self.pending = [(kept, request) for kept, request in self.pending if not request.Test()]
+        self.pending.append((frame, self.comm.Isend([frame, MPI.BYTE], 0, FRAME_TAG)))
 
     def next(self):
         """(kind, Reader) of the next message; sleeps while it waits, so that others can use the core."""
         status, start, pause = MPI.Status(), time.monotonic(), 20e-6
         while not self.comm.Iprobe(0, FRAME_TAG, status):
             if time.monotonic() - start > self.limit:
-                print(f'turbidite: the coupler has been silent for {self.limit:.0f} s', file=sys.stderr, flush=True)
-                MPI.COMM_WORLD.Abort(STALLED)
+                self.give_up(f'the coupler has been silent for {self.limit:.0f} s')
             time.sleep(pause)
             pause = min(2 * pause, 400e-6)
         frame = bytearray(status.Get_count(MPI.BYTE))
@@ -209,6 +212,16 @@ class _Coupler:
         if kind != DISMISS and sequence != expected:
             raise ProtocolError(f'message number {sequence}, expected number {expected}')
         return kind, reader
+
+    def give_up(self, reason):
+        """There is nobody to report to: says so in the log and in logs/first_end, and aborts the job."""
+        print(f'turbidite: grains: {reason}', file=sys.stderr, flush=True)
+        try:
+            with open(os.path.join(self.run_folder, 'logs', 'first_end'), 'x') as file:
+                file.write(f'{STALLED}\ngrains rank {self.local.rank}\ngave up: {reason}\n')
+        except OSError:
+            pass                                        # another program was first
+        MPI.COMM_WORLD.Abort(STALLED)
 
     def receive(self, *kinds):
         kind, reader = self.next()
@@ -324,7 +337,7 @@ def run_grains(adapter, run_folder):
     local = MPI.COMM_WORLD.Split(FIRST_COLOUR + GRAINS, 0)
     adapter.comm = local
     _redirect_output(_log_file(run_folder, local))
-    coupler = _Coupler(local)
+    coupler = _Coupler(local, run_folder)
     code, reason = _Run(adapter, coupler, local, run_folder).play()
     if code != 0:
         print(f'turbidite: the run ended with code {code}: {reason}', file=sys.stderr, flush=True)

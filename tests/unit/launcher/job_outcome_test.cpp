@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "coupler/protocol/run_files.hpp"
 #include "launcher/job/run_json.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
@@ -68,6 +69,50 @@ TEST_F(Outcome, KilledOnRequest) {
     const JobEnd end{.status = 137, .signal = SIGINT, .killed = true};
     EXPECT_EQ(settle_outcome(folder, end, ranks).code, ExitCode::interrupted);
     EXPECT_EQ(read_run_json(folder.record()).at("status"), "interrupted");
+}
+
+// logs/first_end, and the wait-for table that the coupler wrote when mpirun ended it.
+TEST_F(Outcome, NamesTheProgramThatEndedFirstWithPhaseAndLog) {
+    scratch.write("logs/coupler.log",
+                  "window 5\nended from outside; until then\n"
+                  "  fluid rank 0 (host vm, pid 12) is due to send \"kicks\", window 5, for 0 s\n"
+                  "  grains rank 0 (host vm, pid 13) waits for the coupler's \"kick\", window 5, "
+                  "for 0 s\n");
+    scratch.write("history.csv", "step\n0\n");
+    scratch.write("logs/fluid.log", "cannot open shared library\n");
+    ASSERT_TRUE(write_first_end(scratch.path(),
+                                {ExitCode::participant_failed, "fluid rank 0", "ended quietly"}));
+    EXPECT_FALSE(write_first_end(scratch.path(), {ExitCode::stalled, "grains rank 0", "late"}));
+    const JobOutcome outcome = settle_outcome(folder, {.status = 4}, ranks);
+    EXPECT_EQ(outcome.code, ExitCode::participant_failed);
+    EXPECT_EQ(outcome.error, "fluid rank 0 ended quietly, log " + folder.log("fluid").string() +
+                                 "; it was due to send \"kicks\", window 5");
+    const std::string text = outcome_text(folder, outcome);
+    EXPECT_SAYS(text, "Last lines of logs/fluid.log:\n    cannot open shared library\n");
+    EXPECT_EQ(text.find("coupler.log"), std::string::npos) << text;
+}
+
+// A program that gives up since the coupler is silent leaves its own code.
+TEST_F(Outcome, TheFirstEndDecidesTheCode) {
+    std::filesystem::create_directories(folder.logs());
+    write_first_end(scratch.path(),
+                    {ExitCode::stalled, "grains rank 1", "gave up: the coupler is silent"});
+    const JobOutcome outcome = settle_outcome(folder, {.status = 4}, ranks);
+    EXPECT_EQ(outcome.code, ExitCode::stalled);
+    EXPECT_SAYS(outcome.error, "grains rank 1 gave up: the coupler is silent");
+    EXPECT_SAYS(outcome.error, "the run had not begun");
+}
+
+// Every program repeats the reason in its log; it is shown once.
+TEST_F(Outcome, TheReasonIsNotRepeatedByTheLog) {
+    scratch.write("run.json",
+                  R"({"exit_code": 3, "error": "incompatible:\n  grains rank 0: no discs"})");
+    scratch.write("logs/coupler.log",
+                  "grains rank 0  mine\nturbidite: incompatible:\n  grains rank 0: no discs\n");
+    const std::string text = outcome_text(folder, settle_outcome(folder, {.status = 3}, ranks));
+    EXPECT_SAYS(text, "The run failed: incompatible:\n  grains rank 0: no discs\n");
+    EXPECT_EQ(text.find("no discs"), text.rfind("no discs")) << text;
+    EXPECT_SAYS(text, "grains rank 0  mine");
 }
 
 TEST_F(Outcome, FailureShowsTheLogs) {
