@@ -34,7 +34,9 @@ std::string word_after(const std::string& start, const std::string& text) {
 std::string first_words(const std::string& text) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
-        if (line.find_first_not_of("- \t") != std::string::npos) return line;
+        if (const auto at = line.find_first_not_of(" \t");
+            at != std::string::npos && line.compare(at, 2, "--") != 0)
+            return line.substr(at);
     return "";
 }
 

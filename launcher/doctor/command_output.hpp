@@ -18,7 +18,7 @@ CommandOutput output_of(const std::vector<std::string>& line);
 /// The text behind `start`, up to a space, a bracket or the end of the line; empty without `start`.
 std::string word_after(const std::string& start, const std::string& text);
 
-/// The first line with anything in it but dashes.
+/// The first line that is neither empty nor a heading or rule of dashes, without indentation.
 std::string first_words(const std::string& text);
 
 }  // namespace turbidite

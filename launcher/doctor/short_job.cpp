@@ -34,10 +34,12 @@ JobEnd start(const PreparedRun& prepared) {
     return end;
 }
 
-/// Empty if it went well.
+/// Empty if it went well. What follows the first semicolon names files that are removed.
 std::string fault(const PreparedRun& prepared) {
     const JobOutcome outcome = settle_outcome(prepared.folder, start(prepared), prepared.ranks);
-    return outcome.code == ExitCode::done ? "" : first_words(outcome.error);
+    return outcome.code == ExitCode::done
+               ? ""
+               : first_words(outcome.error.substr(0, outcome.error.find(';')));
 }
 
 Finding play(const LaunchSite& site, const std::filesystem::path& folder) {

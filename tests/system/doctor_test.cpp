@@ -80,13 +80,23 @@ TEST_F(Doctor, NamesAMissingPackageAndItsRemedy) {
                 "        apt-get install --no-install-recommends python3-matplotlib\n");
 }
 
+TEST_F(Doctor, NamesAWrongVariable) {
+    const Answer answer =
+        shell(std::string("WM_PROJECT_DIR=/nowhere ") + TURBIDITE_PROGRAM + " doctor --no-job");
+    EXPECT_EQ(answer.code, 2) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "wrong   OpenFOAM                    Could not find mandatory");
+    EXPECT_SAYS(answer.out, "\n        unset WM_PROJECT_DIR\n");
+}
+
 TEST_F(Doctor, SaysThatTheJobFailed) {
     const fs::path program = build_without("turbidite-coupler");
     scratch.write("bin/turbidite-coupler", "#!/bin/sh\necho the coupler is not well >&2\nexit 9\n");
     fs::permissions(scratch.path() / "bin/turbidite-coupler", fs::perms::owner_all);
     const Answer answer = examine(program, "");
     EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
-    EXPECT_SAYS(answer.out, "\nwrong   coupled job ");
+    EXPECT_SAYS(answer.out,
+                "\nwrong   coupled job                 coupler ended with status 9 before the run "
+                "was over\n");
     EXPECT_SAYS(answer.out, "        ./turbidite run ");
     EXPECT_SAYS(answer.out, "The job failed. Exit code 4.");
     EXPECT_TRUE(fs::is_empty(scratch.path() / "tmp"));
