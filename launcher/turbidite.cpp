@@ -36,6 +36,8 @@ const std::vector<Command>& commands() {
         {"adapter-test", "play a scripted partner against a grains adapter, and say what conforms",
          declare_adapter_test},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
+        {"doctor", "say what is installed and built, what is missing, and play a short job",
+         declare_doctor},
         {"test", "run the tests", declare_test},
         {"bench", "compare the speed of this software with others", declare_bench},
         {"yade", "run your own YADE script with the contact engine", declare_yade},

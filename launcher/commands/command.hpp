@@ -26,6 +26,7 @@ CommandAction declare_compare(CLI::App& options);
 CommandAction declare_study(CLI::App& options);
 CommandAction declare_adapter_test(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
+CommandAction declare_doctor(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
 CommandAction declare_bench(CLI::App& options);
 CommandAction declare_yade(CLI::App& options);

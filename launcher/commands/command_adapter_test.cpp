@@ -4,14 +4,15 @@
 // which requirements it meets.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "launcher/adapter_test/requirements.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/command_words.hpp"
 #include "launcher/case/grains_adapters.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/job/temporary_folder.hpp"
 
 namespace turbidite {
 namespace {
@@ -21,13 +22,6 @@ struct AdapterTestOptions {
     std::filesystem::path keep;
     std::vector<std::string> words;
 };
-
-std::filesystem::path scratch_folder() {
-    std::string pattern = std::filesystem::temp_directory_path() / "turbidite-adapter-test-XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr)
-        throw Failure(ExitCode::participant_failed, "cannot create a folder like " + pattern);
-    return pattern;
-}
 
 /// The second line of a refusal: why.
 std::string reason(const std::string& refusal) {
@@ -67,7 +61,8 @@ int test_adapter(AdapterTestOptions options) {
                       "--adapter NAME for a shipped one. Exit code 2.");
     check_name(options.candidate.adapter);
     const bool keep = !options.keep.empty();
-    const auto folder = keep ? options.keep : scratch_folder();
+    std::optional<TemporaryFolder> scratch;
+    const auto folder = keep ? options.keep : scratch.emplace("adapter-test").path();
     int failed = 0;
     for (const Requirement& requirement : requirements()) {
         const Finding finding = judge(requirement, options.candidate, folder);
@@ -75,7 +70,6 @@ int test_adapter(AdapterTestOptions options) {
         fmt::print("{:<6}{:<36}{}\n", word(finding.grade), requirement.name, finding.text);
         std::fflush(stdout);
     }
-    if (!keep) std::filesystem::remove_all(folder);
     fmt::print("{}\n",
                failed == 0 ? "conforms" : fmt::format("{} requirements are not met", failed));
     return static_cast<int>(failed == 0 ? ExitCode::done : ExitCode::tests_failed);

@@ -78,6 +78,18 @@ builds "yade c.py" "run_programs"
 builds "bench fluid" "bench_programs run_programs"
 builds "test --unit" "bench_programs run_programs tests"
 builds "" "run_programs"
+builds "doctor" "run_programs"  # the program there knows no doctor
+
+# A program that can judge the installation is started as it is.
+cp "$build/bin/turbidite" "$work/program"
+printf '#!/bin/bash\n[[ $* != "doctor --help" ]] || exit 0\necho "arguments: $*"\nexit 5\n' >"$build/bin/turbidite"
+rm -f "$work/built"
+code=0
+output=$(cd / && "$work/a link" doctor --no-job 2>&1) || code=$?
+[[ $code == 5 && $output == "arguments: doctor --no-job" ]] || broken "doctor was not started at once"
+[[ ! -e $work/built ]] || broken "doctor built: $(xargs <"$work/built")"
+cp "$work/program" "$build/bin/turbidite"
+
 for target in run_programs bench_programs; do
     grep -q "^add_custom_target($target " "$project/CMakeLists.txt" || broken "CMake has no target $target"
 done

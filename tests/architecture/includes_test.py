@@ -57,6 +57,7 @@ RULES = [
     ("launcher/case/**/*.[hc]pp", [ENGINE, FLUID, MPI, PYTHON, BENCH], "the case knows names of laws, solvers and schemes, and no program"),
     ("launcher/commands/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "commands start programs and include none of their code"),
     ("launcher/job/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a job is prepared, started and watched from outside"),
+    ("launcher/doctor/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT, MPI], "programs and libraries are looked at from outside"),
     ("launcher/report/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a report reads files"),
     ("bench/array_code/*.[hc]pp", [PROJECT, MPI, EIGEN, OPENFOAM], "the reference for timings uses nothing of the project"),
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
