@@ -27,6 +27,7 @@ grains:
   density_ratio: 1.5
 fluid: {reynolds: 36, cells_per_diameter: 8, multiplier_tolerance: 1e-9}
 contact: {friction: 0.3, tolerance: 1e-9}
+coupling: {scheme: split}
 scales: {kind: avalanche}
 time: {step: 0.0125, end: 2.5}
 output: {interval: 2.5}
