@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "coupler/shapes/disc.hpp"
@@ -144,6 +146,20 @@ void CoupledRun::advance(bool write_output) {
     answer_ = fluid_.impose(window);
     grains_ = contact_.apply_kick(window, answer_.kicks).grains;
     ++window_;
+}
+
+double largest_difference(CoupledRun& a, CoupledRun& b, std::array<int, 2> cells) {
+    double largest = 0.0;
+    const double per_p = a.setup().step * a.setup().cells_per_diameter;
+    for (int j = 0; j < cells[1]; ++j)
+        for (int i = 0; i < cells[0]; ++i) {
+            for (int axis : {0, 1})
+                largest = std::max(largest, std::abs(a.fluid().velocity(i, j)[axis] -
+                                                     b.fluid().velocity(i, j)[axis]));
+            const double dp = a.fluid().pressure(i, j) - b.fluid().pressure(i, j);
+            largest = std::max(largest, per_p * std::abs(dp));
+        }
+    return largest;
 }
 
 }  // namespace turbidite

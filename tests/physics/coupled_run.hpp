@@ -4,6 +4,7 @@
 // or messages. Run units: D = u_c = rho_f = 1.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -91,5 +92,8 @@ class CoupledRun {
     Kicks answer_;
     std::int64_t window_ = 0, contacts_ = 0;
 };
+
+/// max |difference| of u, and of p dt over a cell of D, over columns and rows of cells.
+double largest_difference(CoupledRun& a, CoupledRun& b, std::array<int, 2> cells);
 
 }  // namespace turbidite
