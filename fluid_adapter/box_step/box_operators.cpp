@@ -46,6 +46,29 @@ double BoxOperators::sum_of_cells(const std::vector<double>& values) const {
     return sum;
 }
 
+double BoxOperators::dot(const std::vector<double>& a, const std::vector<double>& b) const {
+    double sum = 0.0;
+    for (int j = 0; j < ny_; ++j)
+        sum += heights_.relative(j) * dot_row(nx_, a.data() + at(j), b.data() + at(j));
+    return sum;
+}
+
+double BoxOperators::volume() const {
+    double sum = 0.0;
+    for (int j = 0; j < ny_; ++j) sum += heights_.relative(j) * nx_;
+    return sum;
+}
+
+/// Of row j, whose rows these are.
+void BoxOperators::add_products(int j, const double* image, const double* d, const double* r,
+                                ImageProducts& products) const {
+    const double volume = heights_.relative(j);
+    products.direction += volume * dot_row(nx_, image, d);
+    products.residual += volume * dot_row(nx_, image, r);
+    products.itself += volume * dot_row(nx_, image, image);
+    products.step += volume * dot_row(nx_, r, d);
+}
+
 void BoxOperators::laplacian(double share, int axis, const double* u, double* f) {
     RowReader& rows = velocity_[axis];
     rows.begin(u);
@@ -116,12 +139,7 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
         double* out = image ? image + at(j) : image_.data();
         differences().laplacian(j, -share, rows, out);
         add_row(nx_, 1.0, d + at(j), out);
-        const double* here = rows.row(j);
-        const double volume = heights_.relative(j);
-        products.direction += volume * dot_row(nx_, out, here);
-        products.residual += volume * dot_row(nx_, out, r + at(j));
-        products.itself += volume * dot_row(nx_, out, out);
-        products.step += volume * dot_row(nx_, r + at(j), here);
+        add_products(j, out, rows.row(j), r + at(j), products);
     }
     return products;
 }
@@ -203,11 +221,7 @@ ImageProducts BoxOperators::flux_image(double step, const double* w, const doubl
         double* out = image ? image + at(j) : image_.data();
         divergence_of(j, 1.0, change_[0], change_[1], out);
         add_smoothing(j, step, out);
-        const double volume = heights_.relative(j);
-        products.direction += volume * dot_row(nx_, out, d + at(j));
-        products.residual += volume * dot_row(nx_, out, r + at(j));
-        products.itself += volume * dot_row(nx_, out, out);
-        products.step += volume * dot_row(nx_, r + at(j), d + at(j));
+        add_products(j, out, d + at(j), r + at(j), products);
     }
     return products;
 }

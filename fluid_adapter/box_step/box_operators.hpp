@@ -82,6 +82,12 @@ class BoxOperators {
     /// Sum over the rank's cells, weighted by volumes over those of cells that are not stretched.
     double sum_of_cells(const std::vector<double>& values) const;
 
+    /// The same of a[c] b[c].
+    double dot(const std::vector<double>& a, const std::vector<double>& b) const;
+
+    /// The same of 1.
+    double volume() const;
+
     // By every rank; arrays of this rank's rows. A velocity has the values that sides prescribe, a
     // change of a velocity is zero there.
 
@@ -125,6 +131,8 @@ class BoxOperators {
     RowDifferences differences() const { return {nx_, hx_, heights_}; }
     std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
     std::size_t along(int j) const { return static_cast<std::size_t>(j) * (nx_ + 1); }
+    void add_products(int j, const double* image, const double* d, const double* r,
+                      ImageProducts& products) const;
     void gradient_rows(double step, double* x, double* y);
     void gradient_across(int j, double step, double* y);
     void divergence_of(int j, double share, RowReader& u, RowReader& v, double* out);

@@ -25,10 +25,20 @@ struct IterationLimit {
     double slip_reduction = 1e-3;  ///< of one direction; what is left adds to the flow's own slip
 };
 
+/// Of a residual, over all ranks: what its rms is made of.
+struct ResidualSquare {
+    double sum = 0.0;    ///< |r|^2
+    double cells = 0.0;  ///< both weighted by volumes as in box_operators.hpp
+
+    static constexpr int count = 2;
+    double* data() { return &sum; }
+};
+static_assert(sizeof(ResidualSquare) == ResidualSquare::count * sizeof(double));
+
 /// Iterates until |r| <= tolerance sqrt(scale) or less than the reduction asks for, from |r|^2 =
-/// `square`. `choose(first, rz)` finds
-/// the next direction from z and the r.z of the last one, and replaces that unless it is the first;
-/// `apply()` returns the products of its image; `move(alpha)` goes along it.
+/// `square`. `choose(first, rz)` finds the next direction from z and the r.z of the last one, and
+/// replaces that unless it is the first; `apply()` returns the products of its image; `move(alpha)`
+/// goes along it.
 template <class Choose, class Apply, class Move>
 IterationResult iterate(const IterationLimit& limit, double square, double scale, Choose choose,
                         Apply apply, Move move) {

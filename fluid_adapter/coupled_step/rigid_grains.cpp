@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/coupled_step/rigid_grains.hpp"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
-
-#include "fluid_adapter/box_step/row_work.hpp"
 
 namespace turbidite {
 
@@ -15,24 +11,7 @@ RigidGrains::RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelo
       flow_(flow),
       velocity_(velocity),
       settings_(settings),
-      cells_(system.field().owned_cells()),
-      all_cells_(static_cast<double>(cells_)) {
-    weigh_rows();
-    system.field().sum_over_ranks(&all_cells_, 1);
-}
-
-/// The rank's cells are complete rows, in the order of the rows.
-void RigidGrains::weigh_rows() {
-    const CellGrid& grid = system_.field().grid();
-    if (!grid.stretched(1)) return;
-    int row = 0;
-    while (row < grid.counts[1] && system_.field().cell(0, row, 0) != 0) ++row;
-    const std::size_t columns = grid.counts[0];
-    for (std::size_t done = 0; done < cells_; done += columns)
-        row_weights_.push_back(grid.size(1, row++) / grid.size(1, 0));
-    all_cells_ = static_cast<double>(columns) *
-                 std::accumulate(row_weights_.begin(), row_weights_.end(), 0.0);
-}
+      cells_(system.field().owned_cells()) {}
 
 void RigidGrains::make_rigid(RigidChange& change, double reduction) {
     MultiplierSettings settings = settings_;
@@ -87,18 +66,6 @@ CellVelocity RigidGrains::velocity() {
         velocity_.y[c] += change.share * change.y[c];
     }
     return velocity_;
-}
-
-double RigidGrains::dot(const double* a, const double* b) const {
-    using Vector = Eigen::Map<const Eigen::VectorXd>;
-    const auto size = static_cast<Eigen::Index>(cells_);
-    double sum = row_weights_.empty() ? Vector(a, size).dot(Vector(b, size)) : 0.0;
-    const std::size_t columns = row_weights_.empty() ? 0 : cells_ / row_weights_.size();
-    for (std::size_t j = 0; j < row_weights_.size(); ++j)
-        sum +=
-            row_weights_[j] * dot_row(static_cast<int>(columns), a + j * columns, b + j * columns);
-    system_.field().sum_over_ranks(&sum, 1);
-    return sum;
 }
 
 }  // namespace turbidite

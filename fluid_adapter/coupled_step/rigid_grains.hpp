@@ -50,14 +50,10 @@ class RigidGrains {
     /// Removes the slip that changes have left in the window's velocity; returns what remains.
     MultiplierResult settle();
 
-    /// Sum over the cells of all ranks, weighted by volumes as in box_operators.hpp.
-    double dot(const double* a, const double* b) const;
-
     void sum_over_ranks(double* values, int count) const {
         system_.field().sum_over_ranks(values, count);
     }
 
-    double all_cells() const { return all_cells_; }  ///< on all ranks, weighted by volumes
     /// Of the window, with what is pending made unless it was taken.
     CellVelocity velocity();
 
@@ -67,7 +63,6 @@ class RigidGrains {
 
  private:
     void note(const MultiplierResult& result);
-    void weigh_rows();
 
     SaddleOperator& system_;
     ConstrainedFlow& flow_;
@@ -76,8 +71,6 @@ class RigidGrains {
     MultiplierSettings settings_;
     MultiplierWorkspace work_;
     std::size_t cells_;
-    double all_cells_;
-    std::vector<double> row_weights_;  // heights over that of the first row; empty: all equal
     std::int64_t iterations_ = 0;
     bool converged_ = true;
 };

@@ -18,21 +18,23 @@ void RigidPressure::begin(const CollocationPoints& points, double dt, double k) 
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
                                        const IterationLimit& limit) {
-    const double square = find_residual(box, grains);
+    const ResidualSquare square = find_residual(box, grains);
     return iterate(
-        limit, square, grains.all_cells(),
+        limit, square.sum, square.cells,
         [&](bool first, double& rz) { choose_direction(box, grains, first, rz, limit); },
         [&] { return apply(box, grains, limit.most > 1); },
         [&](double alpha) { move(grains, alpha, limit.most > 1); });
 }
 
 /// r = -(D u + div e); returns |r|^2.
-double RigidPressure::find_residual(BoxOperators& box, RigidGrains& grains) {
+ResidualSquare RigidPressure::find_residual(BoxOperators& box, RigidGrains& grains) {
     const PendingChange change = grains.take_pending();  // made as the velocity is read
     const CellVelocity u = grains.velocity();
-    double square =
+    ResidualSquare square;
+    square.sum =
         box.flux_residual(dt_, step_.pressure(), u.x, u.y, excess(), change, residual_.data());
-    grains.sum_over_ranks(&square, 1);
+    square.cells = box.volume();
+    grains.sum_over_ranks(square.data(), ResidualSquare::count);
     return square;
 }
 

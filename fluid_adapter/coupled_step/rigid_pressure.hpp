@@ -31,7 +31,7 @@ class RigidPressure {
     void end(BoxOperators& box) { box.update_excess(dt_, step_.pressure(), excess()); }
 
  private:
-    double find_residual(BoxOperators& box, RigidGrains& grains);
+    ResidualSquare find_residual(BoxOperators& box, RigidGrains& grains);
     double precondition(const RigidGrains& grains);
     void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
                           const IterationLimit& limit);

@@ -31,36 +31,37 @@ std::array<double, 2> RigidViscosity::sum(const BoxOperators& box) {
 
 IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
                                         const IterationLimit& limit) {
-    const double square = find_residual(box, grains);
-    if (square == 0.0) return {};
+    const ResidualSquare square = find_residual(box, grains);
+    if (square.sum == 0.0) return {};
     return iterate(
-        limit, square, window_.dt * window_.dt * grains.all_cells(),
-        [&](bool first, double& rz) { choose_direction(grains, first, rz, limit); },
+        limit, square.sum, window_.dt * window_.dt * square.cells,
+        [&](bool first, double& rz) { choose_direction(box, grains, first, rz, limit); },
         [&] { return apply(box, grains, limit.most > 1); },
         [&](double alpha) { move(grains, alpha, limit.most > 1); });
 }
 
 /// r = dt nu L u - f; returns |r|^2.
-double RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
+ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
     residual_.resize(box.size());
     rigid_residual_.resize(box.size());
     const CellVelocity u = grains.velocity();
     const RowsOfTwo& f = impulse();
-    double square = 0.0;
+    ResidualSquare square;
     for (int axis = 0; axis < 2; ++axis) {
         const ViscousSums one =
             box.viscous_residual(per_laplacian_, axis, axis == 0 ? u.x : u.y, f[axis].data(),
                                  residual_[axis].data(), rigid_residual_[axis].data());
-        square += one.square;
+        square.sum += one.square;
         sum_residual_[axis] = one.sum;
     }
-    grains.sum_over_ranks(&square, 1);
+    square.cells = box.volume();
+    grains.sum_over_ranks(square.data(), ResidualSquare::count);
     return square;
 }
 
 /// z = W r, and d = r + beta d with W d.
-void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& rz,
-                                      const IterationLimit& limit) {
+void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grains, bool first,
+                                      double& rz, const IterationLimit& limit) {
     if (!first) {
         rigid_residual_.x = residual_.x;
         rigid_residual_.y = residual_.y;
@@ -72,8 +73,8 @@ void RigidViscosity::choose_direction(RigidGrains& grains, bool first, double& r
         return;
     }
     const double last = rz;
-    rz = grains.dot(residual_.x.data(), rigid_residual_.x.data()) +
-         grains.dot(residual_.y.data(), rigid_residual_.y.data());
+    rz = box.dot(residual_.x, rigid_residual_.x) + box.dot(residual_.y, rigid_residual_.y);
+    grains.sum_over_ranks(&rz, 1);
     const double beta = rz / last;
     for (int axis = 0; axis < 2; ++axis)
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)

@@ -33,8 +33,9 @@ class RigidViscosity {
     std::array<double, 2> sum(const BoxOperators& box);
 
  private:
-    double find_residual(BoxOperators& box, RigidGrains& grains);
-    void choose_direction(RigidGrains& grains, bool first, double& rz, const IterationLimit& limit);
+    ResidualSquare find_residual(BoxOperators& box, RigidGrains& grains);
+    void choose_direction(const BoxOperators& box, RigidGrains& grains, bool first, double& rz,
+                          const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
     void move(RigidGrains& grains, double alpha, bool again);
     void move_only(RigidGrains& grains, double alpha);

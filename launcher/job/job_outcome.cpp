@@ -125,9 +125,8 @@ std::filesystem::path log_of(const RunFolder& folder, const std::string& rank) {
     return std::filesystem::exists(own) ? own : folder.log(role);
 }
 
-// The coupler, which mpirun ends with the others, has just had the time to write its wait-for
-// table.
-/// What the coupler last saw of a rank: "was due to send "motion", window 5"; empty if unknown.
+/// What the coupler last saw of a rank: "was due to send "motion", window 5"; empty if unknown. The
+/// coupler, which mpirun ends with the others, has just had the time to write its wait-for table.
 std::string phase_of(const RunFolder& folder, const std::string& rank) {
     std::ifstream log(folder.log("coupler"));
     const std::regex state("^  " + rank + R"( \(host .*?, pid \d+\) (.*), for \d+ s$)");

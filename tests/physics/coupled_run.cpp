@@ -148,6 +148,18 @@ void CoupledRun::advance(bool write_output) {
     ++window_;
 }
 
+void resume_after_three(CoupledRun& straight, CoupledRun& resumed) {
+    for (int n = 0; n < 3; ++n) straight.advance();
+    const SavedState state = straight.fluid().save();
+    resumed.advance();
+    resumed.fluid().restore(state);
+}
+
+void advance_both(CoupledRun& straight, CoupledRun& resumed) {
+    const double step = straight.setup().step;
+    for (CoupledRun* run : {&straight, &resumed}) run->fluid().advance({3, 3 * step, step});
+}
+
 double largest_difference(CoupledRun& a, CoupledRun& b, std::array<int, 2> cells) {
     double largest = 0.0;
     const double per_p = a.setup().step * a.setup().cells_per_diameter;

@@ -93,6 +93,13 @@ class CoupledRun {
     std::int64_t window_ = 0, contacts_ = 0;
 };
 
+/// Plays three windows of one, another course of the other, and restores the state of the first in
+/// the second.
+void resume_after_three(CoupledRun& straight, CoupledRun& resumed);
+
+/// The fluid's steps 1 to 3 of the fourth window.
+void advance_both(CoupledRun& straight, CoupledRun& resumed);
+
 /// max |difference| of u, and of p dt over a cell of D, over columns and rows of cells.
 double largest_difference(CoupledRun& a, CoupledRun& b, std::array<int, 2> cells);
 

@@ -101,12 +101,8 @@ TEST_P(MovingSidesOfTheFluid, GoOnFromASavedState) {
             setup.transport_scheme = scheme;
             setup.time_scheme = time_scheme;
             CoupledRun straight(setup, two_discs(setup)), resumed(setup, two_discs(setup));
-            for (int n = 0; n < 3; ++n) straight.advance();
-            const SavedState state = straight.fluid().save();
-            resumed.advance();
-            resumed.fluid().restore(state);
-            straight.fluid().advance({3, 3 * setup.step, setup.step});
-            resumed.fluid().advance({3, 3 * setup.step, setup.step});
+            resume_after_three(straight, resumed);
+            advance_both(straight, resumed);
             EXPECT_EQ(largest_difference(straight, resumed, {nx, ny}), 0.0);
         }
 }
