@@ -26,9 +26,11 @@ Averages averages(const Motion& state, const ImmersedBodies& bodies) {
         mean.speed += std::sqrt(speed2) / n;
         mean.front = std::max(mean.front, grain.position[0] + grain.radius);
         mean.kinetic_energy += 0.5 * (body.mass * speed2 + spin_energy);
+        mean.height += body.submerged_mass * grain.position[1];
         mean.mass += body.mass;
         mean.solid += body.mass / grain.density;
     }
+    if (mean.mass > 0.0) mean.height /= mean.mass;
     return mean;
 }
 

@@ -35,6 +35,7 @@ struct Averages {
     double speed = 0.0;
     double front = 0.0;           ///< max (x + R) of the grains still in the box
     double kinetic_energy = 0.0;  ///< sum of (m U^2 + I w^2)/2 [J]
+    double height = 0.0;          ///< sum of (M - m_f) y over sum of m [m]
     double mass = 0.0;            ///< sum of m [kg]
     double solid = 0.0;           ///< sum of V [m2]
 };

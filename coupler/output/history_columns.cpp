@@ -63,6 +63,12 @@ double force(Cell c, std::size_t axis) {
            (c.run.fluid_density * c.run.velocity * c.run.velocity * c.run.diameter);
 }
 
+/// Work since the last row over the mass of all grains times u_c^2.
+std::string work(Cell c, double GrainWork::*part) {
+    if (!c.row.since || c.row.state->grains.empty()) return "";
+    return number(c.row.since->work.*part / (c.mean.mass * c.run.velocity * c.run.velocity));
+}
+
 /// Empty with marchuk-yanenko.
 template <class Value>
 std::string splitting(Cell c, Value value) {
@@ -168,6 +174,12 @@ const std::vector<Column> columns = {
              return s.viscous_residual * c.run.diameter / (c.run.velocity * c.run.velocity);
          });
      }},
+    {"potential_energy",
+     [](Cell c) {
+         return mean(c, c.run.gravity * c.mean.height / (c.run.velocity * c.run.velocity));
+     }},
+    {"contact_work", [](Cell c) { return work(c, &GrainWork::contacts); }},
+    {"fluid_work", [](Cell c) { return c.row.fluid ? work(c, &GrainWork::fluid) : std::string(); }},
 };
 
 template <class Part>

@@ -30,6 +30,7 @@ double RunOutput::lap() {
 
 void RunOutput::record(const Window& window, WindowResult result, double waited) {
     window_ = window;
+    const GrainWork work = work_(last_.state, result, window.step);
     last_ = std::move(result);
     statistics_.take_in(last_);
     WallTimes spent;
@@ -37,7 +38,7 @@ void RunOutput::record(const Window& window, WindowResult result, double waited)
     spent.fluid = last_.kicks.report.wall_seconds;
     spent.grains = last_.motion.report.wall_seconds + last_.state.report.wall_seconds;
     spent.coupling = std::max(0.0, spent.step - waited);
-    since_row_.take_in(spent, last_.motion.report.converged);
+    since_row_.take_in(spent, last_.motion.report.converged, work);
 }
 
 Row RunOutput::row() const {

@@ -49,6 +49,7 @@ class RunOutput {
     ContactSeries contacts_;
     ProbeSeries probes_;
     RunStatistics statistics_;
+    WorkOnGrains work_;
     SinceRow since_row_;
     Window window_;
     WindowResult last_;

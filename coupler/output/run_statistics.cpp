@@ -7,8 +7,9 @@
 #include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
-void SinceRow::take_in(const WallTimes& spent, bool converged) {
+void SinceRow::take_in(const WallTimes& spent, bool converged, const GrainWork& done) {
     ++windows;
+    work += done;
     unconverged += converged ? 0 : 1;
     wall.step += spent.step;
     wall.fluid += spent.fluid;

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "coupler/output/grain_work.hpp"
 #include "coupler/output/window_result.hpp"
 #include "coupler/protocol/run_values.hpp"
 
@@ -24,8 +25,9 @@ struct SinceRow {
     std::int64_t windows = 0;
     std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance
     WallTimes wall;
+    GrainWork work;
 
-    void take_in(const WallTimes& spent, bool converged);
+    void take_in(const WallTimes& spent, bool converged, const GrainWork& done = {});
 };
 
 /// Scaled natural map of every window's contact solve, for adapters that have one.

@@ -10,6 +10,9 @@ import relaxation
 # Residuals of single contacts are round-off; drawn at their value they would compress all other curves.
 LOG_FLOOR = 1e-16
 TIME_LABEL = r'$t\,/\,t_c$'
+PANEL = (5.4, 3.5)  # inches: its text reads at 420 pixels
+MARKERS = 'os^Dv<>P'
+DASHES = ('-', '--', '-.', ':', (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (3, 3)))
 
 
 @dataclass
@@ -119,6 +122,30 @@ def draw(plot, run, axes):
         relaxation.draw(run, axes)
     if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(fontsize=8)
+
+
+def panel(title, x_label, y_label, size=PANEL):
+    """A figure of one plot, and its axes."""
+    result, axes = plt.subplots(figsize=size, layout='constrained')
+    decorate(axes, title, y_label)
+    axes.set_xlabel(x_label)
+    return result, axes
+
+
+def dash(i):
+    """A style of line of its own, so that coinciding curves show."""
+    return DASHES[i % len(DASHES)]
+
+
+def in_order(i, count):
+    """A colour for the i-th of several times."""
+    return plt.get_cmap('viridis')(0.9 * i / max(1, count - 1))
+
+
+def edges_of(middles):
+    """Half-way between the middles, and as far beyond the first and the last."""
+    between = 0.5 * (middles[1:] + middles[:-1])
+    return np.concatenate([[2 * middles[0] - between[0]], between, [2 * middles[-1] - between[-1]]])
 
 
 def decorate(axes, title, unit):

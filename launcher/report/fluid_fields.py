@@ -40,15 +40,28 @@ def field_times(run):
 
 def velocity_at(run, time, folder):
     """The field of one (time, folder) of `field_times`; ValueError if it is damaged."""
+    grid = _field(run, folder, 'U', read_vectors)
+    return VelocityField(time, grid[:, :, 0], grid[:, :, 1])
+
+
+def pressure_at(run, time, folder):
+    """p/rho_f of one (time, folder) of `field_times`, (rows, columns); ValueError if it is missing or damaged."""
+    if not ((folder / 'p').exists() or (folder / 'p.gz').exists()):
+        raise ValueError(f'{folder.name} has no pressure')
+    return _field(run, folder, 'p', read_scalars)
+
+
+def _field(run, folder, name, read):
+    """(rows, columns, ...) with equally high rows."""
     columns, rows = mesh_cells(run)
     values = processor_fields.whole_field(
-        folder, columns * rows, lambda part, n: read_vectors(_contents(part / 'U'), n))
+        folder, columns * rows, lambda part, n: read(_contents(part / name), n))
     if len(values) != columns * rows:
-        raise ValueError(f'{folder.name}/U has {len(values)} cells, the case {columns} x {rows}')
-    grid = values.reshape(rows, columns, 3)  # x runs fastest
+        raise ValueError(f'{folder.name}/{name} has {len(values)} cells, the case {columns} x {rows}')
+    grid = values.reshape(rows, columns, *values.shape[1:])  # x runs fastest
     if is_stretched(run):
         grid = grid[rows_at_equal_heights(row_edges(run, columns))]
-    return VelocityField(time, grid[:, :, 0], grid[:, :, 1])
+    return grid
 
 
 def mesh_cells(run):
@@ -103,6 +116,22 @@ def read_vectors(data, count):
     if not head:
         raise ValueError('U has no internal field of vectors')
     return _vectors(data, int(head.group(1)), head, 'U')
+
+
+def read_scalars(data, count):
+    """The internal field of an OpenFOAM scalar field, (n,)."""
+    uniform = re.search(rb'internalField\s+uniform\s+([-+.\deE]+)\s*;', data)
+    if uniform:
+        return np.full(count, float(uniform.group(1)))
+    head = re.search(rb'internalField\s+nonuniform\s+List<scalar>\s+(\d+)\s*\(', data)
+    if not head:
+        raise ValueError('p has no internal field of scalars')
+    n, start = int(head.group(1)), head.end()
+    if re.search(rb'format\s+binary', data[:head.start()]):
+        if len(data) < start + 8 * n:
+            raise ValueError('p is cut off')
+        return np.frombuffer(data, dtype='<f8', count=n, offset=start)
+    return np.array(data[start:data.index(b')', start)].split(), dtype=float)
 
 
 def _vectors(data, n, head, name):

@@ -16,6 +16,7 @@ class Grains:
     ids: np.ndarray = None         # (n,)
     velocities: np.ndarray = None  # (n, 2)
     outlines: dict = None          # index of a polygon: its corners (k, 2)
+    forces: np.ndarray = None      # (n, 2) of the fluid, buoyancy apart
 
     def speeds(self):
         return None if self.velocities is None else np.hypot(*self.velocities.T)
@@ -46,6 +47,8 @@ def read_grains(time, path):
         grains.ids = arrays['id'].astype(np.int64)
     if 'velocity' in arrays:
         grains.velocities = in_plane(arrays['velocity'])
+    if 'force' in arrays:
+        grains.forces = in_plane(arrays['force'])
     corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))
     if corners != path and corners.exists():
         grains.outlines = read_outlines(corners, grains.ids)

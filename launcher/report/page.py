@@ -15,6 +15,9 @@ table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; vertic
 th { text-align: left; font-weight: 600; } td:first-child { color: #666; } img { max-width: 100%; }
 table.numbers td + td, table.numbers th + th { text-align: right; font-variant-numeric: tabular-nums; }
 .wide { overflow-x: auto; }
+figure { margin: 0; } figcaption { color: #444; max-width: 75ch; }
+.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 400px), 1fr)); gap: 8px; }
+.panels img { width: 100%; }
 .bad { color: #a40000; } .remark { color: #7a5c00; }
 details pre { background: #f6f6f4; padding: 1em; overflow-x: auto; font-size: 12px; }
 """
@@ -36,14 +39,22 @@ class Page:
 
     def figure(self, figure, name, caption):
         """Embeds a figure and closes it; `name` is also that of the PNG file."""
+        self.parts.append(f'<figure>{self._image(figure, name)}'
+                          f'<figcaption>{html.escape(caption)}</figcaption></figure>')
+
+    def panels(self, figures, caption):
+        """Several (figure, name) with one caption: side by side where there is room, below each other where not."""
+        images = ''.join(self._image(figure, name) for figure, name in figures)
+        self.parts.append(f'<figure><div class="panels">{images}</div>'
+                          f'<figcaption>{html.escape(caption)}</figcaption></figure>')
+
+    def _image(self, figure, name):
         buffer = io.BytesIO()
         figure.savefig(buffer, format='png', dpi=RESOLUTION)
         plt.close(figure)
         self.pictures[name] = buffer.getvalue()
         data = base64.b64encode(self.pictures[name]).decode()
-        self.parts.append(f'<figure style="margin:0"><img alt="{html.escape(name)}" '
-                          f'src="data:image/png;base64,{data}">'
-                          f'<figcaption>{html.escape(caption)}</figcaption></figure>')
+        return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
 
     def table(self, rows, header=None, css=''):
         line = lambda tag, cells: '<tr>' + ''.join(

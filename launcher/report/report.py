@@ -18,8 +18,8 @@ import findings
 import force_network
 import pictures
 import run_data
-import surface
 import wall_shares
+from analysis import panels
 from page import Page, write_whole
 
 
@@ -75,10 +75,6 @@ def add_sequence(page, run):
         return page.paragraph('There is nothing to draw yet.', 'remark')
     loaded = [pictures.load(run, instant) for instant in chosen]
     page.figure(pictures.figure(run, loaded), 'sequence', captions.sequence(run, loaded))
-    grains = [picture.grains for picture in loaded if picture.grains is not None]
-    if grains and not run.is_wet():
-        page.figure(surface.figure(run, grains), 'surface',
-                    'Highest point of the grains in each column of one D.')
 
 
 def add_curves(page, run):
@@ -86,7 +82,7 @@ def add_curves(page, run):
         page.heading('Curves')
         return page.paragraph('There is no history, so there are no curves.', 'remark')
     motion = ('settling', curves.SETTLING, captions.settling)
-    if not run.is_wet() or run.is_avalanche():
+    if run.is_avalanche():
         motion = ('collapse', curves.COLLAPSE, captions.collapse)
     for heading, name, plots, caption in (
             ('Mean motion', *motion),
@@ -133,6 +129,7 @@ def make_page(run):
     add_sequence(page, run)
     add_contacts(page, run)
     add_curves(page, run)
+    panels.add_all(page, run)
     add_wall_time(page, run)
     add_remarks(page, run)
     return page

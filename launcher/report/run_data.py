@@ -14,6 +14,9 @@ from pathlib import Path
 import numpy as np
 
 
+BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
+
+
 @dataclass
 class RunData:
     folder: Path
@@ -21,6 +24,7 @@ class RunData:
     case: dict = field(default_factory=dict)
     history: dict = None
     remarks: list = field(default_factory=list)
+    measured: dict = field(default_factory=dict)  # analysis/once.py
 
     def scale(self, name):
         """D, u_c or t_c; 1 if it is not in run.json (non-physical cases)."""
@@ -34,8 +38,10 @@ class RunData:
         return self.case.get('fluid.enabled') != 'false'
 
     def is_avalanche(self):
-        """Velocities are in sqrt(g D), and a column collapses."""
-        return self.case.get('scales.kind') == 'avalanche'
+        """A column collapses: velocities are in sqrt(g D), and at first the grains leave a part of the floor bare."""
+        _, front = self.column('front_x')
+        bare = not len(front) or 'domain.size' not in self.case or front[0] < BARE_FROM * self.size()[0]
+        return self.case.get('scales.kind') == 'avalanche' and bare
 
     def column(self, name):
         """The rows of the history that contain a quantity: times [t_c] and values."""

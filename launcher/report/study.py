@@ -21,11 +21,9 @@ import numpy as np
 import compare
 import compare_page
 import curves
-import findings
-import peaks
-import relaxation
 import run_data
 import seeds
+from measured import DRAWN, MEASURED
 from page import Page, write_whole
 
 
@@ -33,63 +31,6 @@ from page import Page, write_whole
 class StudyRun:
     entry: dict                # of study.json
     data: run_data.RunData     # history None where the run is missing
-
-
-@dataclass
-class Measured:
-    """A column of the table: what is measured of a run, None where it cannot be told."""
-
-    name: str    # in study.csv
-    title: str
-    unit: str
-    of: object   # function of RunData
-
-
-def end_of(column):
-    def value(run):
-        _, values = run.column(column)
-        return float(values[-1]) if len(values) else None
-    return value
-
-
-def end_norm(x, y):
-    """Norm of a vector in the last row."""
-    def value(run):
-        parts = [end_of(column)(run) for column in (x, y)]
-        return None if None in parts else float(np.hypot(*parts))
-    return value
-
-
-def peak_part(part):
-    def value(run):
-        found = peaks.peak(run)
-        return getattr(found, part) if found else None
-    return value
-
-
-def maximum(column, in_record):
-    return lambda run: findings.largest(run, column, in_record)
-
-
-MEASURED = [
-    Measured('peak_velocity', 'Peak of the mean velocity', r'$|\langle u \rangle|\,/\,u_c$', peak_part('value')),
-    Measured('peak_time', 'Time of the peak', curves.TIME_LABEL, peak_part('time')),
-    Measured('relaxation_time', 'Relaxation time of an avalanche', curves.TIME_LABEL, relaxation.relaxation_time),
-    Measured('rest_time', 'At rest from', curves.TIME_LABEL, findings.rest_time),
-    Measured('end_front', 'Front at the end', r'$\max(x+R)\,/\,D$', end_of('front_x')),
-    Measured('end_height', 'Mean height at the end', r'$\langle y \rangle\,/\,D$', end_of('mean_position_y')),
-    Measured('end_velocity', 'Mean velocity at the end', r'$|\langle u \rangle|\,/\,u_c$',
-             end_of('mean_velocity_norm')),
-    Measured('end_flow', 'Mean velocity of the whole box at the end', r'$|\langle u_f \rangle|\,/\,u_c$',
-             end_norm('flow_x', 'flow_y')),
-    Measured('end_force', 'Force of the fluid on all grains at the end', r'$|\Sigma F|\,/\,\rho_f u_c^2 D$',
-             end_norm('fluid_force_x', 'fluid_force_y')),
-    Measured('overlap', 'Largest overlap', r'overlap $/\,D$', maximum('max_penetration', 'penetration')),
-    Measured('grain_balance', 'Defect of the grains\' momentum', 'relative', maximum('grain_balance', 'grain_balance')),
-    Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', maximum('', 'unconverged_windows')),
-    Measured('wall_seconds', 'Wall time', 's', lambda run: compare.wall_seconds(run)[0]),
-]
-DRAWN = ('peak_velocity', 'peak_time', 'relaxation_time', 'rest_time', 'end_front', 'end_height', 'wall_seconds')
 
 
 def load(folder):
@@ -162,15 +103,13 @@ def add_part(page, part, runs):
 
 
 def add_table(page, members, keys, values):
+    """A row per quantity, a column per member."""
     shown = [m for m in MEASURED if any(m.of(run) is not None for member in members for run in member.runs)]
-    page.table([[values[member.name].get(key, '') for key in keys] + [str(len(member.runs))]
-                + [spread([m.of(run) for run in member.runs]) for m in shown] for member in members],
-               css='numbers', header=[*keys, 'runs', *[f'{m.title} [{plain_unit(m)}]' for m in shown]])
-
-
-def plain_unit(measured):
-    return {'peak_velocity': 'u_c', 'peak_time': 't_c', 'relaxation_time': 't_c', 'rest_time': 't_c',
-            'end_front': 'D', 'end_height': 'D', 'end_velocity': 'u_c', 'overlap': 'D', 'wall_seconds': 's'}.get(measured.name, measured.unit)
+    page.table([[f'{m.title} [{m.plain_unit}]'] + [spread([m.of(run) for run in member.runs]) for member in members]
+                for m in shown], css='numbers',
+               header=['', *[', '.join([*(values[member.name].get(key, '') for key in keys),
+                                        f'{len(member.runs)} runs' if member.is_group() else '']).strip(', ')
+                             or member.name for member in members]])
 
 
 def spread(values):

@@ -34,7 +34,8 @@ VTP = """<?xml version="1.0"?>
 </DataArray></Points>
 <Verts><DataArray type="Int64" Name="connectivity" format="ascii">0 1</DataArray></Verts>
 <PointData><DataArray type="Int64" Name="id" format="ascii">4 9</DataArray>
-<DataArray type="Float64" Name="radius" format="ascii">0.5 0.4</DataArray></PointData>
+<DataArray type="Float64" Name="radius" format="ascii">0.5 0.4</DataArray>
+<DataArray type="Float64" Name="velocity" NumberOfComponents="3" format="ascii">0 0 0 0 0 0</DataArray></PointData>
 </Piece></PolyData></VTKFile>
 """
 

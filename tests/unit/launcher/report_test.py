@@ -20,7 +20,7 @@ import report
 import run_data
 import surface
 
-FIGURES = ['motion.png', 'sequence.png', 'settling.png', 'solvers.png', 'wall_time.png']
+FIGURES = ['concentration.png', 'concentration_profiles.png', 'motion.png', 'sequence.png', 'settling.png', 'solvers.png', 'wall_time.png']
 
 
 class Report(RunFolderTest):
@@ -103,8 +103,8 @@ class Report(RunFolderTest):
         page = self.make()
         self.assertIn('history.csv is missing', page)
         self.assertIn('holds no velocity field', page)
-        self.assertEqual(page.count('src="data:image/png;base64,'), 1)  # grains only
-        self.assertEqual(self.pictures(), ['sequence.png'])
+        self.assertEqual(page.count('src="data:image/png;base64,'), 3)  # of grains only
+        self.assertEqual(self.pictures(), ['concentration.png', 'concentration_profiles.png', 'sequence.png'])
 
     def test_empty_folder(self):
         page = self.make()
@@ -173,12 +173,12 @@ class Report(RunFolderTest):
         page = self.make()
         self.assertIn('Colour: speed of the grains', page)
         self.assertIn('Fastest here: 2 u_c', page)
-        self.assertEqual(self.pictures(), ['collapse.png', 'motion.png', 'sequence.png', 'solvers.png',
-                                           'surface.png', 'wall_time.png'])
+        self.assertEqual(self.pictures(), FIGURES)
 
     def test_captions_of_a_collapse(self):
         self.write_all()
-        self.write('case.yaml', CASE.replace('enabled: true', 'enabled: false'))
+        self.write('case.yaml', CASE.replace('enabled: true', 'enabled: false').replace('sedimentation', 'avalanche')
+                   .replace('[4, 6]', '[40, 6]'))
         self.write('history.csv', 'step,time,mean_velocity_norm,front_x,grains\n0,0,0,25,9\n'
                    '10,1,0.5,26,9\n20,2,0.25,29,7\n')
         page = self.make()

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Concentration over height: the solid share of horizontal layers of the box, at the output times. A disc is cut by the
+layers exactly; a polygon counts as the disc of its area."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis import snapshots
+from analysis.once import once_per_run
+
+LAYER = 1.0  # D
+
+
+@dataclass
+class Concentration:
+    time: np.ndarray    # (n,) t_c
+    edges: np.ndarray   # (m + 1,) heights between the layers [D]
+    shares: np.ndarray  # (n, m)
+
+
+@once_per_run
+def concentration(run):
+    """None without a domain or grains."""
+    there = snapshots.snapshots(run) if 'domain.size' in run.case else []
+    if not there:
+        return None
+    width, height = run.size()
+    edges = np.linspace(0.0, height, max(1, int(round(height / LAYER))) + 1)
+    return Concentration(np.array([one.time for one in there]), edges,
+                         np.array([in_layers(one, edges) / (width * np.diff(edges)) for one in there]))
+
+
+def in_layers(snapshot, edges):
+    """Solid area of each layer [D^2]."""
+    radius = np.sqrt(snapshot.areas / np.pi)
+    below = [below_level(snapshot.centres[:, 1], radius, level).sum() for level in edges]
+    return np.diff(below)
+
+
+def below_level(height, radius, level):
+    """Area of discs below a level: R^2 (pi/2 + s sqrt(1 - s^2) + asin s), s = (level - y)/R within -1 and 1."""
+    s = np.clip((level - height) / radius, -1.0, 1.0)
+    return radius**2 * (0.5 * np.pi + s * np.sqrt(1.0 - s**2) + np.arcsin(s))
+
+
+def bed(run):
+    """(height [D] below which the layers are denser than half of the densest, concentration there) at the end."""
+    found = concentration(run)
+    if found is None:
+        return None
+    last = found.shares[-1]
+    filled = np.flatnonzero(last >= 0.5 * last.max())
+    top = int(filled[-1]) + 1
+    return float(found.edges[top]), float(last[:top].mean())

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The heap that an avalanche leaves: run-out, height and slope of its free surface (Topin et al. 2011, section 3.2:
+"the final spreading length").
+
+The foot is where the surface, followed to the right from its highest column, first meets bare floor: single grains
+beyond do not count. Run-out: (foot at the end - foot at the start) / foot at the start.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+import grain_files
+import surface
+from analysis.once import once_per_run
+
+FITTED = (0.1, 0.9)  # of the height: the part of the surface whose slope is fitted
+FEWEST_COLUMNS = 3
+
+
+@dataclass
+class Deposit:
+    """Lengths in D; `slope` in degrees, positive where the surface falls to the right, None if too short to fit."""
+
+    time: float  # t_c
+    x: np.ndarray
+    height: np.ndarray
+    first_foot: float
+    foot: float
+    top: float
+    slope: float
+    line: tuple  # (level at x = 0, rise per D) of the fit, or None
+
+    @property
+    def run_out(self):
+        return (self.foot - self.first_foot) / self.first_foot
+
+
+@once_per_run
+def deposit(run):
+    """At the last output of an avalanche; None without grains or domain."""
+    if not run.is_avalanche() or 'domain.size' not in run.case:
+        return None
+    last, first = surface.final_surface(run), first_surface(run)
+    if last is None or first is None or not first[1].any() or not last[2].any():
+        return None
+    time, x, height = last
+    line = fitted_line(x, height)
+    slope = None if line is None else float(np.degrees(np.arctan(-line[1])))
+    return Deposit(time, x, height, foot_of(*first), foot_of(x, height), float(height.max()), slope, line)
+
+
+def first_surface(run):
+    series = grain_files.grain_series(run)
+    return surface.surface(run, grain_files.read_grains(*series[0])) if series else None
+
+
+def foot_of(x, height):
+    """Right end of the last column before bare floor [D], columns of one D."""
+    highest = int(height.argmax())
+    bare = np.flatnonzero(height[highest:] == 0.0)
+    return float(x[highest + bare[0]] - 0.5) if len(bare) else float(x[-1] + 0.5)
+
+
+def fitted_line(x, height):
+    """Least-squares (level, rise) of the surface from its highest column to the foot, between a tenth and nine tenths
+    of its height; None for fewer than three columns."""
+    highest, low, high = int(height.argmax()), *(part * height.max() for part in FITTED)
+    side = (np.arange(len(x)) >= highest) & (x < foot_of(x, height)) & (height >= low) & (height <= high)
+    if side.sum() < FEWEST_COLUMNS:
+        return None
+    rise, level = np.polyfit(x[side], height[side], 1)
+    return float(level), float(rise)
+
+
+def draw(found, axes):
+    """The fitted line, within the height of the heap."""
+    if found.line is None:
+        return
+    level, rise = found.line
+    heights = np.array([part * found.top for part in FITTED])
+    axes.plot((heights - level) / rise, heights, color='black', linestyle='--', linewidth=1.0,
+              label=rf'fit, ${found.slope:.1f}\degree$')
+
+
+def caption(found):
+    text = (f'Heap at t = {found.time:.4g} t_c: foot at {found.foot:.4g} D, at first {found.first_foot:.4g} D '
+            f'(run-out {found.run_out:.3g}), height {found.top:.4g} D')
+    return text + ('.' if found.slope is None else f', slope {found.slope:.3g}°.')

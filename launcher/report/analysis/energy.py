@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the potential energy of the grains goes: their motion, contacts, the liquid.
+
+Per window the coupler adds up the works of contacts and of the liquid on the grains (docs/outputs.md), so that
+
+    d(E_kin + E_pot) = W_contacts + W_fluid + (dt/2) sum (M - m_f) g dU_y
+
+The last term is that of grains that move with their new velocity; over any time it is at most (1 - rho_f/rho_s) g dt/2
+times the change of the mean vertical velocity. What the liquid receives, -W_fluid, is its own kinetic energy (of the
+velocity fields, cells in grains taken off), and what viscosity dissipates or flows out of the box: the rest.
+Energies over (sum of m) u_c^2.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+import fluid_fields
+from analysis import snapshots
+from analysis.once import once_per_run
+from analysis.weight_balance import submerged_share
+
+MOST_FIELDS = 11
+
+
+@dataclass
+class Budget:
+    """From the first row on, while no grain has left."""
+
+    time: np.ndarray       # t_c
+    kinetic: np.ndarray    # change of the grains'
+    potential: np.ndarray  # change, negative when they sink
+    contacts: np.ndarray   # work on the grains, negative: dissipated
+    fluid: np.ndarray
+    splitting: np.ndarray  # the known term of the time integration
+
+    def defect(self):
+        """What remains unexplained, over the largest of the terms."""
+        largest = max(np.abs(part).max() for part in (self.kinetic, self.potential, self.contacts, self.fluid))
+        left = self.kinetic + self.potential - self.contacts - self.fluid - self.splitting
+        return left / largest if largest > 0.0 else left
+
+
+@once_per_run
+def budget(run):
+    """None for runs of versions that do not write the works."""
+    time, contacts = run.column('contact_work')
+    potential = run.column('potential_energy')[1]
+    if not len(contacts) or len(potential) != len(contacts) + 1:
+        return None
+    whole = run.history['grains'] == run.history['grains'][0]
+    rows = len(whole) if whole.all() else int(np.argmin(whole))
+    work = lambda name: np.append(0.0, np.nancumsum(run.history[name][1:rows]))
+    change = lambda name: run.history[name][:rows] - run.history[name][0]
+    step = float(run.case.get('time.step', 0.0)) * run.scale('t_c')
+    gravity = float(run.record.get('g') or 1.0) / run.scale('u_c')
+    return Budget(run.history['time'][:rows], change('kinetic_energy'), change('potential_energy'),
+                  work('contact_work'), work('fluid_work') if run.is_wet() else np.zeros(rows),
+                  0.5 * step * gravity * submerged_share(run) * change('mean_velocity_y'))
+
+
+def largest_defect(run):
+    found = budget(run)
+    return None if found is None else float(np.abs(found.defect()).max())
+
+
+def dissipated_share(run, part):
+    """Of the potential energy lost until the end, the share that went to contacts or to the fluid; None if the grains
+    have not sunk."""
+    found = budget(run)
+    if found is None or found.potential[-1] >= 0.0:
+        return None
+    return float(getattr(found, part)[-1] / found.potential[-1])
+
+
+@once_per_run
+def fluid_kinetic(run):
+    """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields; None without fields.
+    Cells in grains move with them and have rho_f/rho_s of the grains' kinetic energy."""
+    time, grains = run.column('kinetic_energy')
+    ratio = float(run.case.get('grains.density_ratio', 1.0))
+    there = snapshots.snapshots(run)
+    if not run.is_wet() or not there or not len(grains) or 'domain.size' not in run.case:
+        return None
+    mass = there[0].areas.sum() * ratio  # in rho_f D^2
+    times, fields = [], fluid_fields.field_times(run)
+    for moment, folder in [fields[i] for i in snapshots.evenly(len(fields), MOST_FIELDS)]:
+        try:
+            velocity = fluid_fields.velocity_at(run, moment, folder)
+        except (ValueError, KeyError, OSError):
+            continue  # the pictures note it
+        area = np.prod(run.size()) / velocity.vertical.size
+        whole = 0.5 * area * (velocity.vertical**2 + velocity.horizontal**2).sum() / run.scale('u_c')**2 / mass
+        now = moment / run.scale('t_c')
+        times.append((now, whole - np.interp(now, time, grains) / ratio))
+    return tuple(np.array(times).T) if times else None
+
+
+def caption(run, found):
+    share = lambda part: -100.0 * getattr(found, part)[-1] / lost
+    lost = -found.potential[-1]
+    text = f'Until t = {found.time[-1]:.4g} t_c the grains lose {lost:.4g} m u_c² of potential energy each (mean)'
+    if lost > 0.0:
+        text += (f': {-share("kinetic"):.3g} % is their motion, {share("contacts"):.3g} % went to contacts'
+                 + (f', {share("fluid"):.3g} % to the liquid' if run.is_wet() else ''))
+    return (text + f'. The budget closes to {np.abs(found.defect()).max():.1e} of its largest term, the part of the '
+            f'time integration (at most {np.abs(found.splitting).max():.1e} m u_c²) included.')

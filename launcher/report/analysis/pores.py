@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Change of the pore volume during a collapse, Fig. 10 of Topin et al. 2011: dV/V0 against the relative displacement
+dx/x0 of the centre of gravity.
+
+Of the whole column V is `pore_volume` of history.csv. Of a cell of a coarse grid it is measured at constant solid,
+dV/V0 = e/e0 - 1 with e the void ratio (pores over solid of the triangles in the cell): the same for a set of grains
+that stays together, and it does not change when grains only pass through. The void ratio of the whole packing has no
+edge at which triangles appear and vanish as the column spreads.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis import coarse_grid, packing_triangles, snapshots
+from analysis.once import once_per_run
+
+AT = 0.05  # dx/x0 at which runs are compared
+LEAST_SOLID = 3.0  # D^2 in a cell: fewer grains have no void ratio
+
+
+@dataclass
+class PoreCurve:
+    """Over the rows of the history, and over snapshots for the void ratio."""
+
+    displacement: np.ndarray  # dx/x0
+    change: np.ndarray        # dV/V0
+    void_displacement: np.ndarray
+    void_change: np.ndarray   # e/e0 - 1 of the whole packing
+
+
+@once_per_run
+def pore_curve(run):
+    """None unless the scales are an avalanche's and the history has pores and positions."""
+    time, pores = run.column('pore_volume')
+    _, x = run.column('mean_position_x')
+    if not run.is_avalanche() or len(pores) < 2 or len(x) != len(pores) or pores[0] <= 0.0 or x[0] <= 0.0:
+        return None
+    there, voids = [], []
+    for snapshot in snapshots.snapshots(run):
+        mesh = packing_triangles.triangles(snapshot)
+        if mesh is not None and mesh.solid.sum() > 0.0:
+            there.append(snapshot.time)
+            voids.append(mesh.pores().sum() / mesh.solid.sum())
+    moved = x / x[0] - 1.0
+    voids = np.array(voids)
+    return PoreCurve(moved, pores / pores[0] - 1.0, np.interp(there, time, moved) if there else np.empty(0),
+                     voids / voids[0] - 1.0 if len(voids) else voids)
+
+
+def change_at(run, displacement=AT):
+    """dV/V0 of the whole column when its centre of gravity has first moved so far; None if it has not."""
+    found = pore_curve(run)
+    if found is None or found.displacement.max() < displacement:
+        return None
+    after = int(np.argmax(found.displacement >= displacement))
+    part = slice(max(after - 1, 0), after + 1)
+    return float(np.interp(displacement, found.displacement[part], found.change[part]))
+
+
+def largest_change(run):
+    """dV/V0 of largest magnitude until the centre of gravity has moved by AT."""
+    found = pore_curve(run)
+    if found is None:
+        return None
+    initial = found.change[:int(np.argmax(found.displacement >= AT)) or None]
+    return float(initial[np.abs(initial).argmax()]) if len(initial) else None
+
+
+def change_per_cell(run, snapshot):
+    """(grid, (rows, columns) of e/e0 - 1) between the first output and this one; nan where either has too few
+    grains."""
+    grid = coarse_grid.grid_over(run)
+    first, now = (void_ratio(grid, packing_triangles.triangles(one))
+                  for one in (snapshots.snapshots(run)[0], snapshot))
+    return grid, coarse_grid.ratio(now, first) - 1.0
+
+
+def void_ratio(grid, mesh):
+    if mesh is None:
+        return np.full((grid.rows, grid.columns), np.nan)
+    solid = grid.sums(mesh.middles, mesh.solid)
+    return np.where(solid >= LEAST_SOLID, coarse_grid.ratio(grid.sums(mesh.middles, mesh.pores()), solid), np.nan)

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Grains and contacts at the output times, dimensionless: what the other measurements start from."""
+from dataclasses import dataclass
+
+import numpy as np
+
+import contact_files
+import grain_files
+from analysis.once import once_per_run
+
+MOST_SNAPSHOTS = 41  # as many as a curve of a measurement over files has points
+
+
+@dataclass
+class Contacts:
+    """Contact points with an impulse; at a wall `first` is -1 - wall (0 left, 1 right, 2 bottom, 3 top)."""
+
+    first: np.ndarray   # (n,) id
+    second: np.ndarray  # (n,) id
+    ends: np.ndarray    # (n, 2, 2) [D], from a (or the contact point at a wall) to b
+    force: np.ndarray   # (n, 2) on b [rho_s g D^2]
+
+    def branches(self):
+        """(n, 2) from the centre of a (or the contact point at a wall) to that of b [D]."""
+        return self.ends[:, 1] - self.ends[:, 0]
+
+
+@dataclass
+class Snapshot:
+    """Grains at one time. Solid areas are those of discs of the grains' circumscribed radius, or of their outlines."""
+
+    time: float             # t_c
+    ids: np.ndarray         # (n,)
+    centres: np.ndarray     # (n, 2) [D]
+    radii: np.ndarray       # (n,) [D]
+    velocities: np.ndarray  # (n, 2) [u_c]
+    areas: np.ndarray       # (n,) solid [D^2]
+    fluid_force: np.ndarray  # (n, 2) buoyancy apart [rho_s g D^2]; None without a fluid
+    contacts: Contacts      # None where the adapter tells none
+
+
+def evenly(count, most=MOST_SNAPSHOTS):
+    """Indices of at most so many of `count` entries, first and last among them."""
+    return sorted({int(round(i)) for i in np.linspace(0, count - 1, min(count, most))}) if count else []
+
+
+@once_per_run
+def snapshots(run):
+    """At most 41 of the outputs, evenly spaced, the first and the last among them; without the damaged ones."""
+    series = grain_files.grain_series(run)
+    index = run.folder / 'grains' / 'contacts.pvd'
+    contacts = dict(grain_files.series(index)) if index.exists() else {}
+    found = []
+    for time, path in [series[i] for i in evenly(len(series))]:
+        try:
+            found.append(read_snapshot(run, time, path, contacts.get(time)))
+        except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
+            run.remarks.append(f'{path.name} cannot be analysed: {error}')
+    return found
+
+
+def read_snapshot(run, time, grain_file, contact_file):
+    grains = grain_files.read_grains(time, grain_file)
+    if grains.velocities is None or grains.ids is None:
+        raise ValueError('it has no ids or no velocities')
+    diameter = run.scale('D')
+    force = None
+    if run.is_wet() and grains.forces is not None:
+        force = grains.forces / contact_files.unit_force(run)
+    return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, grains.radii / diameter,
+                    grains.velocities / run.scale('u_c'), solid_areas(grains, diameter), force,
+                    read_contacts(run, contact_file) if contact_file else None)
+
+
+def solid_areas(grains, diameter):
+    """Areas of discs, or of the outlines of polygons [D^2]."""
+    areas = np.pi * (grains.radii / diameter)**2
+    for i, corners in (grains.outlines or {}).items():
+        x, y = corners.T / diameter
+        areas[i] = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+    return areas
+
+
+def read_contacts(run, path):
+    arrays = grain_files.read_arrays(path)
+    return Contacts(arrays['id_a'].astype(np.int64), arrays['id_b'].astype(np.int64),
+                    grain_files.in_plane(arrays['Points']).reshape(-1, 2, 2) / run.scale('D'),
+                    grain_files.in_plane(arrays['force']) / contact_files.unit_force(run))

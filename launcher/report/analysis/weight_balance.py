@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Who carries the weight of the grains: contacts (effective stress), the liquid, or nobody, so that they accelerate.
+
+At a level y, of all grains whose centres are above it,
+
+    N(y) + F(y) - W(y) = d/dt of their vertical momentum
+
+N the vertical force that contacts hand up through the level (those between a grain above and one below or the floor,
+and those of the grains above with side walls), F the vertical force of the liquid on them, buoyancy apart, W their
+submerged weight. Forces are in units of the submerged weight of all grains.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis import snapshots
+from analysis.once import once_per_run
+
+LEVELS = 1.0     # D apart
+FLOOR = -3       # id of the bottom wall in contacts.pvd
+SETTLED = 1e-3   # u_c: below this mean speed the balance has to close
+
+
+@dataclass
+class Profile:
+    time: float           # t_c
+    level: np.ndarray     # y [D]
+    weight: np.ndarray    # W(y)
+    contacts: np.ndarray  # N(y)
+    fluid: np.ndarray     # F(y), 0 in dry runs
+
+
+def submerged_share(run):
+    """1 - rho_f/rho_s in a fluid, 1 in dry runs."""
+    return 1.0 - 1.0 / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 1.0
+
+
+def profile(run, snapshot):
+    """None without contacts, or for grains that weigh nothing in the fluid."""
+    share = submerged_share(run)
+    if snapshot.contacts is None or len(snapshot.ids) == 0 or share <= 0.0:
+        return None
+    weights = snapshot.areas * share
+    level = np.arange(0.0, snapshot.centres[:, 1].max(), LEVELS)
+    heights = snapshot.centres[:, 1]
+    lift = np.zeros(len(heights)) if snapshot.fluid_force is None else snapshot.fluid_force[:, 1]
+    total = weights.sum()
+    return Profile(snapshot.time, level, above(level, heights, weights) / total,
+                   handed_up(snapshot.contacts, level) / total, above(level, heights, lift) / total)
+
+
+def above(level, heights, values):
+    """Sums of the values whose height exceeds each level."""
+    order = np.argsort(heights)
+    sums = np.append(np.cumsum(values[order][::-1])[::-1], 0.0)
+    return sums[np.searchsorted(heights[order], level, side='right')]
+
+
+def handed_up(contacts, level):
+    """Vertical force on the bodies above each level by contacts with what is not above it."""
+    upper = contacts.ends[:, 1, 1]  # centre of b
+    lower = np.where(contacts.first < 0, -np.inf, contacts.ends[:, 0, 1])  # walls are above no level
+    force = contacts.force[:, 1]    # on b; -force on a
+    return above(level, upper, force) - above(level, lower, force)
+
+
+@dataclass
+class Carriers:
+    """Shares of the submerged weight of all grains, over the snapshots with contacts."""
+
+    time: np.ndarray
+    floor: np.ndarray
+    sides: np.ndarray
+    fluid: np.ndarray
+
+    def rest(self):
+        """What is carried by nothing: it accelerates the grains downwards."""
+        return 1.0 - self.floor - self.sides - self.fluid
+
+
+@once_per_run
+def carriers(run):
+    """None without contacts in the outputs."""
+    rows = []
+    for one in snapshots.snapshots(run):
+        if one.contacts is None or len(one.ids) == 0 or submerged_share(run) <= 0.0:
+            continue
+        total = (one.areas * submerged_share(run)).sum()
+        floor = one.contacts.force[one.contacts.first == FLOOR, 1].sum()
+        sides = one.contacts.force[(one.contacts.first < 0) & (one.contacts.first != FLOOR), 1].sum()
+        lift = 0.0 if one.fluid_force is None else one.fluid_force[:, 1].sum()
+        rows.append((one.time, floor / total, sides / total, lift / total))
+    return Carriers(*np.array(rows).T) if rows else None
+
+
+def final_defect(run):
+    """|1 - what carries the weight| at the last output of grains at rest (mean speed below 1e-3 u_c); else None."""
+    found = carriers(run)
+    _, speed = run.column('mean_speed')
+    if found is None or not len(speed) or speed[-1] > SETTLED:
+        return None
+    return float(abs(found.rest()[-1]))
+
+
+def least_on_contacts(run):
+    """Smallest share of the weight on floor and walls after the start of an avalanche."""
+    found = carriers(run)
+    return float((found.floor + found.sides).min()) if found is not None and run.is_avalanche() else None

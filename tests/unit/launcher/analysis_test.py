@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The analysis on made-up grains, contacts and histories whose answers are known in closed form."""
+import unittest
+from pathlib import Path
+
+import numpy as np
+from made_up_run import RunFolderTest
+
+import run_data
+from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, pore_pressure, pores,
+                      rheology, shear_band, snapshots, weight_balance)
+from measured import MEASURED
+
+DISC = np.pi / 4.0
+
+
+def snapshot(centres, velocities=None, contacts=None, force=None, time=1.0):
+    centres = np.array(centres, dtype=float)
+    n = len(centres)
+    return snapshots.Snapshot(time, np.arange(n), centres, np.full(n, 0.5),
+                              np.zeros((n, 2)) if velocities is None else np.array(velocities, dtype=float),
+                              np.full(n, DISC), force, contacts)
+
+
+def lattice(columns, rows, spacing=1.0):
+    """Triangular lattice of neighbours at this distance, from (0.5, 0.5) on."""
+    return np.array([[0.5 + spacing * (i + 0.5 * (j % 2)), 0.5 + spacing * j * np.sqrt(0.75)]
+                     for j in range(rows) for i in range(columns)])
+
+
+def run(case=None, record=None, **history):
+    data = run_data.RunData('nowhere')
+    data.case = {'scales.kind': 'avalanche', 'domain.size': '[40, 30]', 'grains.density_ratio': '1.5',
+                 'fluid.enabled': 'true', 'domain.right': 'free', **(case or {})}
+    data.record = {'D': 1.0, 'u_c': 1.0, 't_c': 1.0, 'g': 1.0, **(record or {})}
+    data.history = {name: np.array(values, dtype=float) for name, values in history.items()} or None
+    return data
+
+
+def with_snapshots(data, *those):
+    data.measured['analysis.snapshots.snapshots'] = list(those)
+    return data
+
+
+class Triangles(unittest.TestCase):
+    def test_pores_of_the_dense_lattice(self):
+        # A triangle of three touching discs: sqrt(3)/4 - pi/8 of pores.
+        mesh = packing_triangles.triangles(snapshot(lattice(8, 6)))
+        inner = np.isclose(mesh.areas, np.sqrt(3) / 4)
+        self.assertGreater(inner.sum(), 60)
+        np.testing.assert_allclose(mesh.pores()[inner], np.sqrt(3) / 4 - np.pi / 8, atol=1e-12)
+
+    def test_far_grains_are_not_joined(self):
+        self.assertEqual(len(packing_triangles.triangles(snapshot([[0, 0], [1, 0], [0, 9], [5, 5]])).areas), 0)
+
+    def test_lines_and_pairs_have_none(self):
+        self.assertIsNone(packing_triangles.triangles(snapshot([[0, 0], [1, 0], [2, 0]])))
+        self.assertIsNone(packing_triangles.triangles(snapshot([[0, 0], [1, 1]])))
+
+    def test_a_linear_field_has_its_gradient_everywhere(self):
+        # u = (0.3 y, -0.1 x + 0.2 y): growth 0.2, shear hypot(-0.2, 0.2).
+        places = lattice(6, 6)
+        mesh = packing_triangles.triangles(snapshot(places, places @ np.array([[0.0, -0.1], [0.3, 0.2]])))
+        np.testing.assert_allclose(mesh.gradients, np.tile([[0.0, 0.3], [-0.1, 0.2]], (len(mesh.areas), 1, 1)),
+                                   atol=1e-12)
+        np.testing.assert_allclose(mesh.dilatancy(), 0.2, atol=1e-12)
+        np.testing.assert_allclose(mesh.shear_rate(), np.hypot(0.2, 0.2), atol=1e-12)
+
+
+class Grids(unittest.TestCase):
+    def test_sums_go_to_their_cells_and_no_others(self):
+        grid = coarse_grid.Grid(3, 2, 2.0)
+        sums = grid.sums(np.array([[1.0, 1.0], [1.9, 0.1], [5.0, 3.0], [6.1, 1.0], [1.0, -0.1]]), [1, 2, 4, 8, 16])
+        self.assertEqual(sums.tolist(), [[3, 0, 0], [0, 0, 4]])
+
+    def test_empty_cells_have_no_mean(self):
+        means = coarse_grid.Grid(2, 1, 1.0).means(np.array([[0.5, 0.5]] * 2), np.array([1.0, 4.0]), np.array([2.0, 1.0]))
+        self.assertEqual(means[0, 0], 2.0)
+        self.assertTrue(np.isnan(means[0, 1]))
+
+
+class Heaps(unittest.TestCase):
+    x = np.arange(40) + 0.5
+
+    def test_slope_and_foot_of_a_straight_heap(self):
+        height = np.maximum(0.0, 12.0 - 0.5 * self.x)  # meets the floor at 24
+        self.assertEqual(deposit.foot_of(self.x, height), 24.0)
+        level, rise = deposit.fitted_line(self.x, height)
+        self.assertAlmostEqual(level, 12.0)
+        self.assertAlmostEqual(rise, -0.5)
+
+    def test_single_grains_beyond_the_foot_do_not_count(self):
+        height = np.maximum(0.0, 12.0 - 0.5 * self.x)
+        height[35] = 1.0
+        self.assertEqual(deposit.foot_of(self.x, height), 24.0)
+
+    def test_run_out_is_over_the_first_width(self):
+        found = deposit.Deposit(1.0, self.x, self.x, 10.0, 25.0, 1.0, None, None)
+        self.assertEqual(found.run_out, 1.5)
+
+    def test_a_cliff_has_no_slope(self):
+        self.assertIsNone(deposit.fitted_line(self.x, np.where(self.x < 10, 9.0, 0.0)))
+
+
+class ShearBands(unittest.TestCase):
+    def slide(self, angle):
+        """Above a plane that falls to the right from (0, y0), grains move along it with 1; below they rest."""
+        places = lattice(30, 34)
+        slope = np.tan(np.radians(angle))
+        above = places[:, 1] > 4.0 + slope * (30.0 - places[:, 0]) * 0.8
+        along = np.array([np.cos(np.radians(angle)), -np.sin(np.radians(angle))])
+        return snapshot(places, above[:, None] * along)
+
+    def test_the_plane_of_a_sliding_block(self):
+        for angle in (25.0, 45.0):
+            found = shear_band.band_of(self.slide(angle), coarse_grid.Grid(27, 24, shear_band.CELL))
+            # The plane of slide() falls with 0.8 tan(angle).
+            self.assertAlmostEqual(found.angle, np.degrees(np.arctan(0.8 * np.tan(np.radians(angle)))), delta=2.5)
+            self.assertGreater(found.elongation, 5.0)
+            self.assertGreater(found.quiescent, 0.2)
+
+    def test_uniform_shear_has_no_band_direction(self):
+        places = lattice(12, 14)
+        found = shear_band.band_of(snapshot(places, places[:, ::-1] * [0.1, 0.0]), coarse_grid.Grid(9, 9, 1.5))
+        self.assertIsNone(found.angle)
+        np.testing.assert_allclose(found.rate[~np.isnan(found.rate)], 0.1, atol=1e-12)
+
+    def test_rest_has_no_band(self):
+        self.assertIsNone(shear_band.band_of(snapshot(lattice(6, 6)), coarse_grid.Grid(4, 4, 1.5)))
+
+    def test_only_connected_cells_make_a_band(self):
+        rate = np.array([[1.0, 0.9, 0.0, 0.95], [0.0, 0.0, 0.0, 0.0], [0.9, 0.9, 0.9, 0.0]])
+        self.assertEqual(shear_band.strongest_part(rate, 0.5).tolist(),
+                         [[False] * 4, [False] * 4, [True, True, True, False]])
+
+    def test_axis_of_a_diagonal(self):
+        middle, angle, ratio = shear_band.axis_of(coarse_grid.Grid(5, 5, 1.0), np.fliplr(np.eye(5)))
+        self.assertAlmostEqual(angle, 45.0)  # falls to the right
+        np.testing.assert_allclose(middle, [2.5, 2.5])
+        self.assertGreater(ratio, 4.0)
+
+
+class Pores(unittest.TestCase):
+    def test_curve_of_a_column_that_dilates(self):
+        data = with_snapshots(run(time=[0, 1, 2], pore_volume=[10, 11, 13], mean_position_x=[5, 5.25, 6]))
+        found = pores.pore_curve(data)
+        np.testing.assert_allclose(found.displacement, [0, 0.05, 0.2])
+        np.testing.assert_allclose(found.change, [0, 0.1, 0.3])
+        self.assertAlmostEqual(pores.change_at(data), 0.1)
+        self.assertAlmostEqual(pores.change_at(data, 0.125), 0.2)
+
+    def test_column_that_has_not_moved_so_far(self):
+        data = with_snapshots(run(time=[0, 1], pore_volume=[10, 9], mean_position_x=[5, 5.1]))
+        self.assertIsNone(pores.change_at(data))
+        self.assertAlmostEqual(pores.largest_change(data), -0.1)
+
+    def test_void_ratio_of_a_stretched_lattice(self):
+        # e = A/S - 1 grows from 0.1027 to 0.2158 with a spacing of 1.05.
+        first, last = snapshot(lattice(20, 16)), snapshot(lattice(20, 16, 1.05))
+        grid, change = pores.change_per_cell(with_snapshots(run(), first, last), last)
+        e = lambda a: np.sqrt(3) / 2 * a**2 / DISC - 1.0
+        self.assertAlmostEqual(change[2, 3], e(1.05) / e(1.0) - 1.0, places=9)
+        self.assertTrue(np.isnan(change[-1, -1]))
+
+
+class DilatancyAngles(unittest.TestCase):
+    def test_shear_with_growth(self):
+        # u = (0.2 y, 0.05 y): growth 0.05, rate hypot(0.05, 0.2).
+        places = lattice(8, 8)
+        data = with_snapshots(run(), snapshot(places, places[:, 1:] * [0.2, 0.05]))
+        angles = dilatancy.dilatancy(data).angles()
+        self.assertAlmostEqual(float(angles[0]), np.degrees(np.arcsin(0.05 / np.hypot(0.05, 0.2))))
+
+    def test_rest_has_none(self):
+        self.assertIsNone(dilatancy.dilatancy(with_snapshots(run(), snapshot(lattice(5, 5)))))
+
+
+class Pressures(unittest.TestCase):
+    def test_bilinear_between_the_middles_of_cells(self):
+        j, i = np.mgrid[0:6, 0:8]
+        pressure = 2.0 * (i + 0.5) - 3.0 * (j + 0.5)  # of cells of one D
+        places = np.array([[3.3, 2.7], [0.0, 5.0], [7.9, 0.1]])
+        np.testing.assert_allclose(pore_pressure.at_places(pressure, places, (8, 6)),
+                                   [2 * 3.3 - 3 * 2.7, 2 * 0.5 - 3 * 5.0, 2 * 7.5 - 3 * 0.5])
+
+    def test_unit_is_the_submerged_weight_of_a_layer(self):
+        self.assertAlmostEqual(pore_pressure.unit(run(record={'D': 2.0, 'g': 3.0})), 0.5 * 3.0 * 2.0)
+        self.assertIsNone(pore_pressure.unit(run({'grains.density_ratio': '0.9'})))
+
+    def test_a_closed_box_has_no_level(self):
+        self.assertTrue(pore_pressure.has_level(run()))
+        self.assertFalse(pore_pressure.has_level(run({'domain.right': 'wall'})))
+
+
+def tower(lift=0.0):
+    """Three discs on each other on the floor, submerged weight w each; the liquid carries `lift` of each."""
+    weight = DISC * (1.0 - 1.0 / 1.5)
+    ends = [[[1, 0], [1, 0.5]], [[1, 0.5], [1, 1.5]], [[1, 1.5], [1, 2.5]]]
+    forces = [[0, k * weight * (1 - lift)] for k in (3, 2, 1)]
+    contacts = snapshots.Contacts(np.array([-3, 0, 1]), np.array([0, 1, 2]), np.array(ends, dtype=float),
+                                  np.array(forces))
+    return snapshot([[1, 0.5], [1, 1.5], [1, 2.5]], contacts=contacts,
+                    force=np.tile([0.0, lift * weight], (3, 1)))
+
+
+class Weights(unittest.TestCase):
+    def test_contacts_hand_the_weight_down(self):
+        found = weight_balance.profile(run(), tower())
+        np.testing.assert_allclose(found.level, [0, 1, 2])
+        np.testing.assert_allclose(found.weight, [1, 2 / 3, 1 / 3])
+        np.testing.assert_allclose(found.contacts, [1, 2 / 3, 1 / 3])
+        np.testing.assert_allclose(found.fluid, 0, atol=1e-15)
+
+    def test_the_liquid_takes_its_share(self):
+        found = weight_balance.profile(run(), tower(0.25))
+        np.testing.assert_allclose(found.contacts + found.fluid, found.weight)
+        np.testing.assert_allclose(found.fluid, 0.25 * found.weight)
+
+    def test_a_contact_listed_the_other_way_round(self):
+        # b below a: the force on b is downwards, and a is the one that is held.
+        one = tower()
+        one.contacts.ends[1] = one.contacts.ends[1][::-1].copy()
+        one.contacts.force[1] *= -1.0
+        np.testing.assert_allclose(weight_balance.profile(run(), one).contacts, [1, 2 / 3, 1 / 3])
+
+    def test_side_walls_hold_the_grains_above(self):
+        # The topmost disc hangs on the left wall; the two others stand on the floor.
+        weight = DISC / 3.0
+        contacts = snapshots.Contacts(np.array([-3, 0, -1]), np.array([0, 1, 2]),
+                                      np.array([[[1, 0], [1, 0.5]], [[1, 0.5], [1, 1.5]], [[0, 2.5], [1, 2.5]]]),
+                                      np.array([[0, 2 * weight], [0, weight], [5.0, weight]]))
+        one = snapshot([[1, 0.5], [1, 1.5], [1, 2.5]], contacts=contacts)
+        np.testing.assert_allclose(weight_balance.profile(run(), one).contacts, [1, 2 / 3, 1 / 3])
+        found = weight_balance.carriers(with_snapshots(run(), one))
+        self.assertAlmostEqual(float(found.sides[0]), 1 / 3)
+        self.assertAlmostEqual(float(found.rest()[0]), 0.0)
+
+    def test_the_balance_has_to_close_at_rest_only(self):
+        data = with_snapshots(run(time=[0, 1], mean_speed=[0, 1e-5]), tower(0.25))
+        self.assertAlmostEqual(weight_balance.final_defect(data), 0.0)
+        data = with_snapshots(run(time=[0, 1], mean_speed=[0, 0.1]), tower())
+        self.assertIsNone(weight_balance.final_defect(data))
+
+
+class Energies(unittest.TestCase):
+    def fall(self, **changed):
+        """Free fall in a liquid of two thirds of the density, dt = 0.1: g' = 1/3, y moves with the new velocity."""
+        gravity, step, n = 1.0 / 3.0, 0.1, np.arange(21)
+        speed = gravity * step * n
+        sunk = np.cumsum(speed) * step
+        columns = dict(time=step * n, grains=0 * n + 7, kinetic_energy=0.5 * speed**2, potential_energy=5.0 - gravity * sunk,
+                       mean_velocity_y=-speed, contact_work=np.where(n > 0, 0.0, np.nan),
+                       fluid_work=np.where(n > 0, 0.0, np.nan))
+        return run({'time.step': '0.1'}, **{**columns, **changed})
+
+    def test_free_fall_closes_with_the_term_of_the_integration(self):
+        found = energy.budget(self.fall())
+        self.assertLess(np.abs(found.defect()).max(), 1e-12)
+        # Half a step of the final speed: g' dt/2 |u|.
+        self.assertAlmostEqual(found.splitting[-1], -(1 / 3) * 0.05 * (2 / 3))
+
+    def test_work_that_is_not_told_is_missed(self):
+        work = np.append(np.nan, np.full(20, -0.01))
+        self.assertGreater(energy.largest_defect(self.fall(contact_work=work)), 0.1)
+
+    def test_only_until_a_grain_leaves(self):
+        grains = np.full(21, 7.0)
+        grains[12:] = 6
+        self.assertEqual(len(energy.budget(self.fall(grains=grains)).time), 12)
+
+    def test_histories_without_works_have_none(self):
+        self.assertIsNone(energy.budget(run(time=[0, 1], grains=[1, 1], kinetic_energy=[0, 1])))
+
+
+class Rheology(unittest.TestCase):
+    def pressed(self, rate):
+        """A lattice that shears, its contacts pressed so that each cell has s_yy = 2, s_xx = 1 (up to the edges)."""
+        places = lattice(30, 30)
+        pairs = [(i, j) for i in range(len(places)) for j in range(i + 1, min(i + 32, len(places)))
+                 if abs(np.hypot(*(places[j] - places[i])) - 1.0) < 1e-9]
+        branches = np.array([places[j] - places[i] for i, j in pairs])
+        # sum of f (x) l over the three contacts of a grain is its area sqrt(3)/2 times the stress.
+        forces = branches * np.where(np.abs(branches[:, 1:]) < 1e-9, 1.0, 0.0)
+        diagonal = np.abs(branches[:, 1]) > 1e-9
+        area = np.sqrt(0.75)
+        forces[diagonal] = np.stack([np.zeros(diagonal.sum()), 2.0 * area / (2 * area) * np.sign(branches[diagonal, 1])], 1)
+        forces[~diagonal] = np.stack([np.full((~diagonal).sum(), area), np.zeros((~diagonal).sum())], 1)
+        ends = np.array([[places[i], places[j]] for i, j in pairs])
+        contacts = snapshots.Contacts(np.array([i for i, _ in pairs]), np.array([j for _, j in pairs]), ends, forces)
+        return snapshot(places, places[:, ::-1] * [rate, 0.0], contacts)
+
+    def test_numbers_of_a_known_state(self):
+        data = with_snapshots(run(record={'reynolds': 10.0}), self.pressed(0.3))
+        found = rheology.cells(data)
+        # p = 1.5, mu = 0.5/1.5, I = 0.3/sqrt(1.5), J = 0.3/(10 1.5 1.5); cells cut the contacts of their edges.
+        self.assertAlmostEqual(float(np.median(found.friction)), 1 / 3, delta=0.05)
+        self.assertAlmostEqual(float(np.median(found.inertial)), 0.3 / np.sqrt(1.5), delta=0.02)
+        self.assertAlmostEqual(float(np.median(found.viscous)), 0.3 / 22.5, delta=0.001)
+        self.assertAlmostEqual(float(np.median(found.compacity)), np.pi / (2 * np.sqrt(3)), places=6)
+        self.assertAlmostEqual(rheology.friction_between(data, 0.1, 1.0), 1 / 3, delta=0.05)
+        self.assertIsNone(rheology.friction_between(data, 1e-4, 1e-2))
+
+    def test_units_follow_the_scales(self):
+        # The same state told with u_c = 2 sqrt(g D): rates in u_c/D are half as large, I the same.
+        there = self.pressed(0.15)
+        found = rheology.cells(with_snapshots(run(record={'u_c': 2.0}), there))
+        self.assertAlmostEqual(float(np.median(found.inertial)), 0.3 / np.sqrt(1.5), delta=0.02)
+
+
+class Concentrations(unittest.TestCase):
+    def test_layers_cut_discs_exactly(self):
+        one = snapshot([[1, 0.5], [3, 1.0]])
+        np.testing.assert_allclose(concentration.in_layers(one, np.array([0.0, 1.0, 2.0])), [1.5 * DISC, 0.5 * DISC])
+
+    def test_shares_of_the_box(self):
+        data = with_snapshots(run({'domain.size': '[4, 3]'}), snapshot([[1, 0.5], [3, 0.5]]))
+        found = concentration.concentration(data)
+        np.testing.assert_allclose(found.shares, [[2 * DISC / 4, 0, 0]], atol=1e-15)
+        self.assertEqual(concentration.bed(data), (1.0, found.shares[0, 0]))
+
+
+class Snapshots(RunFolderTest):
+    def test_damaged_outputs_are_said_and_left_out(self):
+        self.write_all()
+        first = self.folder / 'grains/grains_00000000.vtp'
+        first.write_text(first.read_text().replace('velocity', 'other'))
+        data = run_data.load_run(self.folder)
+        self.assertEqual([one.time for one in snapshots.snapshots(data)], [1.0])
+        self.assertEqual(data.remarks, ['grains_00000000.vtp cannot be analysed: it has no ids or no velocities'])
+
+    def test_measured_once(self):
+        self.write_all()
+        data = run_data.load_run(self.folder)
+        self.assertIs(snapshots.snapshots(data), snapshots.snapshots(data))
+        self.assertEqual(len(snapshots.snapshots(data)), 2)
+
+    def test_evenly_keeps_the_ends(self):
+        self.assertEqual(snapshots.evenly(3), [0, 1, 2])
+        chosen = snapshots.evenly(100, 5)
+        self.assertEqual((chosen[0], chosen[-1], len(chosen)), (0, 99, 5))
+
+
+class Table(RunFolderTest):
+    def test_every_column_is_explained(self):
+        docs = Path(__file__).resolve().parents[3] / 'docs'
+        text = (docs / 'studies.md').read_text() + (docs / 'analysis.md').read_text()
+        for quantity in MEASURED:
+            self.assertIn(f'`{quantity.name}`', text)
+
+    def test_of_a_run_without_anything_every_cell_is_empty(self):
+        data = run_data.load_run(self.folder)
+        self.assertEqual({quantity.name for quantity in MEASURED if quantity.of(data) is not None}, set())
+
+    def test_of_a_settling_run_only_what_applies(self):
+        self.write_all()
+        told = {quantity.name for quantity in MEASURED if quantity.of(run_data.load_run(self.folder)) is not None}
+        self.assertIn('bed_height', told)
+        self.assertFalse(told & {'run_out', 'slip_angle', 'pore_change', 'relaxation_time', 'friction_slow'})
+
+
+if __name__ == '__main__':
+    unittest.main()
