@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Prescribed motions of the sides of the box and of walls inside it, from the resolved case
-// (written by launcher/case/wall_motion), for grains and fluid alike:
+// Prescribed motions of the sides of the box, of walls inside it and of grains, from the resolved
+// case (written by launcher/case/wall_motion), for grains and fluid alike:
 //
 //     run.wall_motions     `WALL KIND NUMBERS...` in run units, separated by `;`
 //     run.inflow_motions   the same for the fluid that enters through sides `inflow`
+//     run.grain_motions    `ID KIND NUMBERS...` of grains that follow a motion
 //
-// A motion is a displacement d(t) and an angle a(t) about the wall's pivot, both zero at t = 0:
+// A motion is a displacement d(t) and an angle a(t) about a pivot, of a grain its centre, both zero
+// at t = 0:
 //
 //     constant   d = v t                                             a = w t
 //     harmonic   d = A (sin(2 pi t/T + phase) - sin(phase))          a likewise
 //     table      linear between its entries; constant after the last
 //
-// In a window a wall has the mean velocity of its motion, (d(t + dt) - d(t))/dt, so that it is at
-// its prescribed position at the end of every window, and so has the fluid at this wall. Valid
+// In a window a wall or grain has the mean velocity of its motion, (d(t + dt) - d(t))/dt, so that
+// it is at its prescribed position at the end of every window, and so has the fluid there. Valid
 // C++17.
 #pragma once
 
@@ -26,30 +28,34 @@
 
 namespace turbidite {
 
-/// Displacement of a moving wall since t = 0, or its rate.
-struct WallShift {
+/// Displacement of what follows a motion since t = 0, or its rate.
+struct Shift {
     Vec3 displacement{};  ///< [m]
     double angle = 0.0;   ///< counter-clockwise [rad]
 };
 
-class WallMotion {
+class PrescribedMotion {
  public:
-    virtual ~WallMotion() = default;
-    virtual WallShift at(double time) const = 0;
+    virtual ~PrescribedMotion() = default;
+    virtual Shift at(double time) const = 0;
 
     /// Mean velocity and spin of the window [time, time + step].
-    virtual WallShift rate(double time, double step) const;
+    virtual Shift rate(double time, double step) const;
 };
 
-/// A motion and the key of its wall: 0 left, 1 right, 2 bottom, 3 top, then the walls inside the
-/// box.
-struct MovedWall {
-    std::int32_t wall = 0;
-    std::shared_ptr<const WallMotion> motion;
+/// A motion and what follows it.
+struct Moved {
+    /// The key of a wall: 0 left, 1 right, 2 bottom, 3 top, then the walls inside the box. Or the
+    /// id of a grain.
+    std::int64_t what = 0;
+    std::shared_ptr<const PrescribedMotion> motion;
 };
 
 /// The motions under a key; none if it is missing or empty. Throws std::invalid_argument if the
 /// text has another format.
-std::vector<MovedWall> moved_walls(const Settings& settings, const char* key = "run.wall_motions");
+std::vector<Moved> motions_of(const Settings& settings, const char* key);
+
+/// The motion with a constant velocity [m/s] and spin [rad/s].
+std::shared_ptr<const PrescribedMotion> constant_motion(const Vec3& velocity, double spin);
 
 }  // namespace turbidite

@@ -57,13 +57,29 @@ Eigen::Matrix3d ConvexPolygon::inertia_per_density(double radius) const {
     return inertia;
 }
 
+double ConvexPolygon::beyond(std::size_t side, const Eigen::Vector3d& point, double radius) const {
+    const Point2 &v = vertices_[side], &n = normals_[side];
+    return n[0] * (point.x() - radius * v[0]) + n[1] * (point.y() - radius * v[1]);
+}
+
 bool ConvexPolygon::contains(const Eigen::Vector3d& point, double radius) const {
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-        const Point2 &v = vertices_[i], &n = normals_[i];
-        if (n[0] * (point.x() - radius * v[0]) + n[1] * (point.y() - radius * v[1]) > 0.0)
-            return false;
-    }
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+        if (beyond(i, point, radius) > 0.0) return false;
     return true;
+}
+
+double ConvexPolygon::least_distance(const Eigen::Vector3d& point, double radius) const {
+    double distance = 0.0;
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+        distance = std::max(distance, beyond(i, point, radius));
+    return distance;
+}
+
+double ConvexPolygon::extent(const Eigen::Vector3d& direction, double radius) const {
+    double extent = 0.0;
+    for (const Point2& v : vertices_)
+        extent = std::max(extent, radius * (v[0] * direction.x() + v[1] * direction.y()));
+    return extent;
 }
 
 std::vector<SurfacePoint> ConvexPolygon::surface_points(double radius, double spacing) const {

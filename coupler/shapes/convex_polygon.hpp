@@ -22,6 +22,11 @@ class ConvexPolygon final : public Shape {
     Eigen::Matrix3d inertia_per_density(double radius) const override;
     bool contains(const Eigen::Vector3d& point, double radius) const override;
 
+    /// From the farthest of the lines along its sides.
+    double least_distance(const Eigen::Vector3d& point, double radius) const override;
+
+    double extent(const Eigen::Vector3d& direction, double radius) const override;
+
     /// Corners first, then equally spaced points on the sides; a point nearer than `spacing` to a
     /// previous one is left out, so that the distance is kept at sharp corners as well. The normal
     /// at a corner bisects the angle between those of the sides.
@@ -30,6 +35,9 @@ class ConvexPolygon final : public Shape {
     std::vector<Point2> outline() const override { return vertices_; }
 
  private:
+    /// Distance of a point from the line along a side, positive outside [m].
+    double beyond(std::size_t side, const Eigen::Vector3d& point, double radius) const;
+
     std::vector<Point2> vertices_;
     std::vector<Point2> normals_;  ///< of the side from a vertex to the next, outward
     double area_ = 0.0;

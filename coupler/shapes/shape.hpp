@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,14 @@ class Shape {
 
     /// Points nearer to the centre than this are inside; zero gives no information.
     virtual double core_radius(double) const { return 0.0; }
+
+    /// A distance that the point certainly has from the shape; zero gives no information [m].
+    virtual double least_distance(const Eigen::Vector3d& point, double radius) const {
+        return std::max(0.0, point.norm() - radius);
+    }
+
+    /// Largest coordinate of the shape along a unit direction, body frame; or more [m].
+    virtual double extent(const Eigen::Vector3d&, double radius) const { return radius; }
 
     /// Surface points spaced as evenly as the shape allows, never closer than `spacing` [m].
     virtual std::vector<SurfacePoint> surface_points(double radius, double spacing) const = 0;

@@ -97,6 +97,8 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
                                            const CellGrid& grid, const std::vector<int>& cells) {
     const BoxCells box =
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
+    if (in_second_order(settings))
+        demand_marchuk_yanenko(settings, "it needs fluid.time_scheme = first-order");
     std::optional<TransportMethod> method = transport_on_rows(fields);
     if (method) method->second_order = in_second_order(settings);
     if (method) method->coupled = corrects_with_rigid_grains(settings);

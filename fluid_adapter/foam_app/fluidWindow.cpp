@@ -60,13 +60,14 @@ void FluidWindow::advance(const Window& window) {
 
 void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
     check_rows(grains);
-    answer("step 5 (free grains)", [&] { multipliers_.take_free(grains, window_.step); });
+    answer("step 5 (free grains)", [&] { multipliers_.take_free(grains, window_); });
 }
 
 void FluidWindow::correct(const std::vector<GrainState>& grains) {
     if (!grains_taken_) check_rows(grains);
     if (!grains_taken_)
-        return answer("step 5 (multipliers)", [&] { multipliers_.take_constrained(grains); });
+        return answer("step 5 (multipliers)",
+                      [&] { multipliers_.take_constrained(grains, window_); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
                 [&] { note(multipliers_.push(grains)); });
     if (coupled_limits_.iterated) correct_fluid(coupled_limits_);

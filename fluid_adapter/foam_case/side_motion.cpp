@@ -38,8 +38,8 @@ double SideMotion::share(double from, double to) const {
 std::array<SideMotion, 4> side_motions(const Settings& settings) {
     std::array<SideMotion, 4> sides;
     for (const char* key : {"run.wall_motions", "run.inflow_motions"})
-        for (const MovedWall& moved : moved_walls(settings, key))
-            if (moved.wall < 4) sides[moved.wall].motion = moved.motion;
+        for (const Moved& moved : motions_of(settings, key))
+            if (moved.what < 4) sides[moved.what].motion = moved.motion;
     for (int side = 0; side < 4; ++side)
         sides[side].parabolic = parabolic(settings, side_names[side]);
     return sides;

@@ -20,7 +20,7 @@
 namespace turbidite {
 
 struct SideMotion {
-    std::shared_ptr<const WallMotion> motion;  ///< null: at rest
+    std::shared_ptr<const PrescribedMotion> motion;  ///< null: at rest
     bool parabolic = false;
 
     /// v of the window [time, time + step] [m/s].

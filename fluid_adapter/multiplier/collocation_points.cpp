@@ -111,8 +111,9 @@ struct Layers {
 };
 
 Layers layers_of(const CellGrid& grid, int axis, const ImmersedGrain& grain) {
-    return {grid.layer(axis, grain.position[axis] - grain.radius),
-            grid.layer(axis, grain.position[axis] + grain.radius)};
+    const Eigen::Vector3d up = grain.orientation.row(axis).transpose();  // the axis, body frame
+    return {grid.layer(axis, grain.position[axis] - grain.shape->extent(-up, grain.radius)),
+            grid.layer(axis, grain.position[axis] + grain.shape->extent(up, grain.radius))};
 }
 
 /// Whether the grain contains a position relative to its centre. Inside the core radius the shape
@@ -136,13 +137,26 @@ class Inside {
     double core_squared_;
 };
 
+/// How far the next image is along a cyclic axis, for a body that reaches around it, whose layers
+/// are then cut to one turn; 0 for all others [m].
+double cut_to_a_turn(const CellGrid& grid, int axis, Layers& layers) {
+    if (!grid.cyclic(axis) || layers.high - layers.low < grid.counts[axis]) return 0.0;
+    layers.high = layers.low + grid.counts[axis] - 1;
+    return grid.length(axis);
+}
+
 /// Calls visit(point) for the cells known to this rank whose centre the grain contains.
 template <class Visit>
 void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit visit) {
     const CellGrid& grid = field.grid();
     const CellTable& cells = field.cells();
-    const Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
-    const Inside inside(grain);
+    Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
+    const double around = cut_to_a_turn(grid, 0, across), over = cut_to_a_turn(grid, 1, up);
+    const Inside body(grain);
+    const auto inside = [&](double x, double y) {
+        return body(x, y) || (around > 0.0 && body(x + around, y)) ||
+               (over > 0.0 && body(x, y + over));
+    };
     for (int j = up.low; j <= up.high; ++j) {
         const int row = grid.wrapped(1, j);
         if (row < 0) continue;
@@ -194,7 +208,7 @@ void PointPlacement::find_candidates(const FluidField& field,
     local_size_.clear();
     for (const ImmersedGrain& grain : grains) {
         local_size_.push_back(field.grid().largest_size(grain.position, grain.radius));
-        if (rules_.boundary)
+        if (rules_.boundary && grain.has_boundary_points)
             for (const SurfacePoint& point :
                  surface_points(grain, rules_.spacing * local_size_.back())) {
                 Candidate candidate;
@@ -231,7 +245,11 @@ void PointPlacement::apply_wall_rule(const CellGrid& grid,
 void PointPlacement::find_pairs(const CellGrid& grid, const std::vector<ImmersedGrain>& grains) {
     const double largest =
         local_size_.empty() ? 0.0 : *std::max_element(local_size_.begin(), local_size_.end());
-    pairs_ = near_pairs(grid, grains, rules_.boundary ? rules_.spacing * largest : 0.0);
+    const bool walls = std::any_of(grains.begin(), grains.end(), [](const ImmersedGrain& grain) {
+        return !grain.has_boundary_points;
+    });
+    const double reach = walls ? std::max(rules_.spacing, rules_.wall_distance) : rules_.spacing;
+    pairs_ = near_pairs(grid, grains, rules_.boundary ? reach * largest : 0.0);
     overlapped_.assign(grains.size(), 0);
     for (const auto& [a, b] : pairs_) {
         const double apart = grid.nearest_image(grains[a].position - grains[b].position).norm();
@@ -242,7 +260,9 @@ void PointPlacement::find_pairs(const CellGrid& grid, const std::vector<Immersed
 
 void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a,
                              int b) {
-    const double reach = rules_.spacing * std::max(local_size_[a], local_size_[b]);
+    const double size = std::max(local_size_[a], local_size_[b]);
+    const bool is_wall = !grains[b].has_boundary_points;
+    const double reach = size * (is_wall ? rules_.wall_distance : rules_.spacing);
     const double outer = grains[b].radius + reach;
     const Eigen::Vector3d apart = grid.nearest_image(grains[a].position - grains[b].position);
     const Eigen::Matrix3d to_body = grains[b].orientation.transpose();
@@ -250,8 +270,11 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
         Candidate& candidate = candidates_[c];
         const Eigen::Vector3d from_b = apart + candidate.arm;
         if (candidate.fate == Fate::near_wall || from_b.squaredNorm() > outer * outer) continue;
-        if (grains[b].shape->contains(to_body * from_b, grains[b].radius))
-            candidate.fate = Fate::inside_grain;
+        const Eigen::Vector3d in_b = to_body * from_b;
+        if (grains[b].shape->least_distance(in_b, grains[b].radius) > reach) continue;
+        if (is_wall) candidate.fate = Fate::near_wall;
+        if (is_wall) continue;
+        if (grains[b].shape->contains(in_b, grains[b].radius)) candidate.fate = Fate::inside_grain;
         if (candidate.fate == Fate::inside_grain) continue;
         for (int other = first_[b]; other < first_[b + 1]; ++other)
             if ((from_b - candidates_[other].arm).squaredNorm() < reach * reach)

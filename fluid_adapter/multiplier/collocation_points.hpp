@@ -17,7 +17,8 @@
 // earlier rule, so that the result does not depend on the numbering of the grains. Lengths in cells
 // refer to the longest edge of the cells around a grain, in rule 1 to the cell at the point.
 //
-//   1. A boundary point closer than 2 cells to a wall is dropped.
+//   1. A boundary point closer than 2 cells to a wall, or to a body that has interior points only,
+//      is dropped.
 //   2. A boundary point inside another grain is dropped.
 //   3. Two boundary points of different grains closer than the point spacing are both dropped.
 //   4. A boundary point whose 2 x 2 cells leave the grid is dropped.

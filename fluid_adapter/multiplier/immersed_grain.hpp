@@ -25,7 +25,8 @@ struct ImmersedGrain {
     double effective_mass = 0.0;                                ///< cM [kg/m]
     double effective_inertia = 0.0;                             ///< cI about z [kg m]
     Planar contact_motion = Planar::Zero();                     ///< U^{n+4/5}, omega^{n+4/5}
-    bool prescribed = false;                    ///< keeps contact_motion, whatever acts on it
+    bool has_boundary_points = true;  ///< if there are any; otherwise its cells are all it has
+    bool prescribed = false;          ///< keeps contact_motion, whatever acts on it
     Planar announced_impulse = Planar::Zero();  ///< J_h and its moment
     Planar given_impulse = Planar::Zero();      ///< (M - m_f) g dt + J^n, unless U^{n+4/5} has them
 

@@ -61,6 +61,8 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
     : field_(field),
       run_(run_values(settings)),
       bodies_(run_, shapes),
+      plates_(settings),
+      moved_grains_(motions_of(settings, "run.grain_motions")),
       settings_(multiplier_settings(settings, run_)),
       carries_contacts_(corrects_with_rigid_grains(settings)),
       placement_(point_rules(settings)) {
@@ -83,31 +85,45 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     return grain;
 }
 
-void ImmersedStep::take(const std::vector<GrainState>& states) {
+void ImmersedStep::take(const std::vector<GrainState>& states, const Window& window) {
     grains_.clear();
     index_.clear();
     for (const GrainState& state : states) {
         index_.emplace(state.id, grains_.size());
         grains_.push_back(immersed(state));
     }
+    states_ = grains_.size();
+    prescribe(window);
+    for (const ImmersedGrain& plate : plates_.bodies(window.time, window.step))
+        grains_.push_back(plate);
     contact_impulses_.assign(grains_.size(), Planar::Zero());
     mismatch_.assign(grains_.size(), 0.0);
     placement_.place(field_, grains_, points_);
 }
 
-void ImmersedStep::take_free(const std::vector<GrainState>& states, double step) {
-    take(states);
+/// Grains that follow a motion, which changes from window to window.
+void ImmersedStep::prescribe(const Window& window) {
+    for (const Moved& moved : moved_grains_) {
+        const auto at = index_.find(moved.what);
+        if (at == index_.end()) continue;
+        const Shift rate = moved.motion->rate(window.time, window.step);
+        grains_[at->second].contact_motion = planar(rate.displacement, {0.0, 0.0, rate.angle});
+    }
+}
+
+void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window& window) {
+    take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
         Planar& given = grains_[g].given_impulse;
-        given.y() = -bodies_(states[g]).submerged_mass * run_.gravity * step;
+        given.y() = -bodies_(states[g]).submerged_mass * run_.gravity * window.step;
         if (!carries_contacts_) continue;
         contact_impulses_[g] = planar(states[g].contact_impulse, states[g].contact_angular_impulse);
         given += contact_impulses_[g];
     }
 }
 
-void ImmersedStep::take_constrained(const std::vector<GrainState>& states) {
-    take(states);
+void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const Window& window) {
+    take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
         const GrainState& state = states[g];
         contact_impulses_[g] = planar(state.contact_impulse, state.contact_angular_impulse);
@@ -145,13 +161,13 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         contact_impulses_[at->second] = impulse;
         solved_[at->second] = planar(state.velocity, state.angular_velocity);
     }
-    if (with_contacts.size() != grains_.size())
+    if (with_contacts.size() != states_)
         throw std::runtime_error("contact impulses were received for " +
                                  std::to_string(with_contacts.size()) +
-                                 " grains, but the window has " + std::to_string(grains_.size()));
+                                 " grains, but the window has " + std::to_string(states_));
     flow_.push(changes_);
     const MultiplierResult result = uzawa_cg(flow_, continued(), work_);
-    for (std::size_t g = 0; g < grains_.size(); ++g) {
+    for (std::size_t g = 0; g < states_; ++g) {
         const Planar off = flow_.motions()[g] - solved_[g];
         mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());
     }
@@ -174,7 +190,7 @@ bool ImmersedStep::answers_for(std::size_t grain) const {
 
 std::vector<FreeResponse> ImmersedStep::responses() const {
     std::vector<FreeResponse> responses;
-    for (std::size_t g = 0; g < grains_.size(); ++g) {
+    for (std::size_t g = 0; g < states_; ++g) {
         if (!answers_for(g)) continue;
         responses.push_back(response(g));
     }
@@ -203,7 +219,7 @@ void ImmersedStep::impose() {
 
 std::vector<Kick> ImmersedStep::kicks() const {
     std::vector<Kick> kicks;
-    for (std::size_t g = 0; g < grains_.size(); ++g) {
+    for (std::size_t g = 0; g < states_; ++g) {
         if (!answers_for(g)) continue;
         const Planar& motion = flow_.motions()[g];
         const Planar& impulse = flow_.impulses()[g];

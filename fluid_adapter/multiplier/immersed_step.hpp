@@ -6,6 +6,9 @@
 //     free         at t^n, moving with U^n + g' dt, where g' is their submerged weight over cM
 //     constrained  after a contact solve, with the velocities and impulses it found
 //
+// Behind them come the walls inside the box (immersed_plates.hpp), which only the fluid knows as
+// bodies. Grains that follow run.grain_motions have its velocities.
+//
 // Then follow solve, push as often as the coupler asks, and `impose`, which writes u and makes the
 // kicks available. A push applies the changes of the contact impulses to the coupled system of
 // fluid and grains, whose momentum is therefore exact even if the effective inertia used by the
@@ -18,6 +21,7 @@
 
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
+#include "fluid_adapter/multiplier/immersed_plates.hpp"
 #include "fluid_adapter/multiplier/uzawa_cg.hpp"
 
 namespace turbidite {
@@ -29,12 +33,12 @@ class ImmersedStep {
     ImmersedStep(FluidField& field, const Settings& settings, const ShapeTable& shapes);
 
     /// Takes the grains that touch this rank and places their points; first call of a window. The
-    /// grains are free, and fall for `step` [s]; with a splitting that corrects with rigid grains
+    /// grains are free, and fall for its length; with a splitting that corrects with rigid grains
     /// they also have the contact impulses of the last window, until `push` corrects them.
-    void take_free(const std::vector<GrainState>& grains, double step);
+    void take_free(const std::vector<GrainState>& grains, const Window& window);
 
     /// The same for grains whose velocities already contain their contact impulses.
-    void take_constrained(const std::vector<GrainState>& grains);
+    void take_constrained(const std::vector<GrainState>& grains, const Window& window);
 
     /// Solves for the multipliers of the grains taken.
     MultiplierResult solve();
@@ -52,11 +56,11 @@ class ImmersedStep {
     /// Kicks of the grains whose centre this rank owns; after impose.
     std::vector<Kick> kicks() const;
 
-    /// Sum of the multiplier impulses over these grains [N s/m], and of their moments [N s]; after
+    /// Sum of the multiplier impulses over these bodies [N s/m], and of their moments [N s]; after
     /// impose.
     Planar impulse_to_grains() const;
 
-    /// The grains of the window, as the multipliers see them.
+    /// The grains and plates of the window, as the multipliers see them.
     const std::vector<ImmersedGrain>& grains() const { return grains_; }
 
     const CollocationPoints& points() const { return points_; }
@@ -70,7 +74,8 @@ class ImmersedStep {
 
  private:
     ImmersedGrain immersed(const GrainState& state) const;
-    void take(const std::vector<GrainState>& states);
+    void take(const std::vector<GrainState>& states, const Window& window);
+    void prescribe(const Window& window);
     bool answers_for(std::size_t grain) const;
     FreeResponse response(std::size_t g) const;
 
@@ -78,11 +83,14 @@ class ImmersedStep {
     std::vector<std::shared_ptr<const Shape>> shapes_;
     RunValues run_;
     ImmersedBodies bodies_;
+    ImmersedPlates plates_;
+    std::vector<Moved> moved_grains_;
     MultiplierSettings settings_;
     bool carries_contacts_;   // from window to window
     double slip_goal_ = 0.0;  // rms slip to reach, set by the window's first solve [m/s]
 
-    std::vector<ImmersedGrain> grains_;
+    std::vector<ImmersedGrain> grains_;  // and plates
+    std::size_t states_ = 0;             // of the grains alone
     std::unordered_map<GrainId, std::size_t> index_;
     std::vector<Planar> contact_impulses_;  // J, contained in the present motions
     std::vector<Planar> changes_;

@@ -66,9 +66,20 @@ class Bins {
     std::vector<int> near_;
 };
 
-double largest_radius(const std::vector<ImmersedGrain>& grains) {
+/// Bodies that are much larger than most, such as long plates, would make the bins useless: they
+/// are compared with all others.
+constexpr double much_larger = 4.0;
+
+double mean_radius(const std::vector<ImmersedGrain>& grains) {
+    double sum = 0.0;
+    for (const ImmersedGrain& grain : grains) sum += grain.radius;
+    return sum / static_cast<double>(grains.size());
+}
+
+double largest_radius(const std::vector<ImmersedGrain>& grains, double limit) {
     double radius = 0.0;
-    for (const ImmersedGrain& grain : grains) radius = std::max(radius, grain.radius);
+    for (const ImmersedGrain& grain : grains)
+        if (grain.radius <= limit) radius = std::max(radius, grain.radius);
     return radius;
 }
 
@@ -79,17 +90,27 @@ std::vector<std::pair<int, int>> near_pairs(const CellGrid& grid,
                                             double margin) {
     std::vector<std::pair<int, int>> pairs;
     if (grains.size() < 2) return pairs;
-    Bins bins(grid, 2.0 * largest_radius(grains) + margin);
-    for (std::size_t b = 0; b < grains.size(); ++b) {
-        // Only grains with a smaller index are in the bins: each pair is found once.
-        for (int bin : bins.around(grains[b].position))
-            for (int a : bins.grains(bin)) {
-                const Eigen::Vector3d apart =
-                    grid.nearest_image(grains[b].position - grains[a].position);
-                const double reach = grains[a].radius + grains[b].radius + margin;
-                if (apart.squaredNorm() < reach * reach) pairs.emplace_back(a, static_cast<int>(b));
-            }
-        bins.add(static_cast<int>(b), grains[b].position);
+    const double limit = much_larger * mean_radius(grains);
+    Bins bins(grid, 2.0 * largest_radius(grains, limit) + margin);
+    std::vector<int> large, all;
+    for (int b = 0; b < static_cast<int>(grains.size()); ++b) {
+        const auto compare = [&](int a) {
+            const Eigen::Vector3d apart =
+                grid.nearest_image(grains[b].position - grains[a].position);
+            const double reach = grains[a].radius + grains[b].radius + margin;
+            if (apart.squaredNorm() < reach * reach) pairs.emplace_back(a, b);
+        };
+        // Only bodies with a smaller index are in the lists: each pair is found once.
+        const bool binned = grains[b].radius <= limit;
+        if (binned)
+            for (const int bin : bins.around(grains[b].position))
+                for (const int a : bins.grains(bin)) compare(a);
+        for (const int a : binned ? large : all) compare(a);
+        if (binned)
+            bins.add(b, grains[b].position);
+        else
+            large.push_back(b);
+        all.push_back(b);
     }
     return pairs;
 }

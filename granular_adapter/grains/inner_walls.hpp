@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls inside the box, from the resolved case (`run.walls`, written by launcher/case/inner_walls).
+// Walls inside the box (coupler/protocol/plates.hpp) as walls of the contact problem.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
@@ -11,9 +10,8 @@
 
 namespace turbidite {
 
-/// Plates in the run's units; none if the setting is missing or empty. `first_key` is the key of
-/// the first plate, so that borders keep theirs. Throws std::invalid_argument if the text has
-/// another format.
-std::vector<nscd::Wall> inner_walls(const Settings& settings, std::int32_t first_key);
+/// Plates in the run's units; none if the setting is missing or empty. Throws std::invalid_argument
+/// if the text has another format.
+std::vector<nscd::Wall> inner_walls(const Settings& settings);
 
 }  // namespace turbidite

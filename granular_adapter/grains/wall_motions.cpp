@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/grains/wall_motions.hpp"
 
+#include <unordered_map>
+
 namespace turbidite {
 
-void set_velocities(std::vector<nscd::Wall>& walls, const std::vector<MovedWall>& moved,
-                    double time, double step) {
+void set_velocities(std::vector<nscd::Wall>& walls, const std::vector<Moved>& moved, double time,
+                    double step) {
     for (nscd::Wall& wall : walls)
-        for (const MovedWall& entry : moved) {
-            if (entry.wall != wall.key) continue;
-            const WallShift rate = entry.motion->rate(time, step);
+        for (const Moved& entry : moved) {
+            if (entry.what != wall.key) continue;
+            const Shift rate = entry.motion->rate(time, step);
             wall.velocity = rate.displacement;
             wall.spin = rate.angle;
         }
+}
+
+void set_velocities(nscd::Bodies& bodies, const std::vector<Moved>& moved, double time,
+                    double step) {
+    if (moved.empty()) return;
+    std::unordered_map<std::int64_t, Shift> rates;
+    for (const Moved& entry : moved) rates.emplace(entry.what, entry.motion->rate(time, step));
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (const auto at = rates.find(bodies.id[i]); at != rates.end())
+            bodies.twist[i] = {at->second.displacement, {0.0, 0.0, at->second.angle}};
 }
 
 void follow_walls(std::vector<Border>& borders, const std::vector<nscd::Wall>& walls) {

@@ -80,10 +80,10 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     run_ = run_values(settings);
     positions_ = parse_positions(settings.text("coupling.positions"));
     borders_ = lay_borders(settings);
-    moved_walls_ = moved_walls(settings);
+    moved_walls_ = motions_of(settings, "run.wall_motions");
+    moved_grains_ = motions_of(settings, "run.grain_motions");
     std::vector<nscd::Wall> walls = walls_of(borders_);
-    for (const nscd::Wall& wall : inner_walls(settings, static_cast<std::int32_t>(borders_.size())))
-        walls.push_back(wall);
+    for (const nscd::Wall& wall : inner_walls(settings)) walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
     light_ = first_light_grain(run_, shapes, grains);
     add_grains(bodies(), run_, shapes, grains);
@@ -100,6 +100,7 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     begin_round();
     check_inside(bodies(), borders_, in_window(window) + " before contacts");
     set_velocities(engine().walls(), moved_walls_, window.time, window.step);
+    set_velocities(bodies(), moved_grains_, window.time, window.step);
     const nscd::StepReport step = solve_contacts(window, responses);
     check_velocities(bodies(), in_window(window) + " after contacts");
     contact_twists_ = bodies().twist;

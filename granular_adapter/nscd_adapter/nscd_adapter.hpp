@@ -8,7 +8,8 @@
 //
 // Walls inside the box (run.walls) are plates with grains on both sides. They and the sides of the
 // box are at rest or move as run.wall_motions prescribes. Grains with prescribed motion keep their
-// velocity. For the materials of grains and their pairs see contact_settings.hpp.
+// velocity, or follow run.grain_motions. For the materials of grains and their pairs see
+// contact_settings.hpp.
 //
 // Reads: contact.*, coupling.positions, domain.{left,right,bottom,top}, fluid.enabled,
 // fluid.hydrodynamic_radius, run.*. Gravity acts along -y; sides as in borders.hpp.
@@ -95,13 +96,13 @@ class NscdAdapter final : public GrainsAdapter {
     bool answered_ = false;  ///< the fluid has sent responses in this window
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;
-    std::vector<MovedWall> moved_walls_;
+    std::vector<Moved> moved_walls_, moved_grains_;
     std::unique_ptr<nscd::Engine> engine_;
     std::vector<nscd::Twist> start_twists_;    ///< U^n of this window
     std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window
     std::vector<GrainId> removed_;
     std::optional<GrainId> light_;  ///< the first grain that is not denser than the fluid
-    ContactReport report_;  ///< of this window
+    ContactReport report_;          ///< of this window
 };
 
 }  // namespace turbidite

@@ -145,7 +145,8 @@ Population grains_from_file(const std::filesystem::path& file, const Settings& s
         entries.problems.push_back(missing_file(entries, "grains.file", file));
         return {};
     }
-    PopulationFile read = read_population_csv(file, forms, material_names(settings));
+    PopulationFile read =
+        read_population_csv(file, forms, material_names(settings), motion_names(settings));
     for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
     if (!read.problems.empty()) return {};  // unreadable positions would be checked as 0
     return {std::move(read.grains), std::move(read.source), {}};
@@ -223,6 +224,14 @@ void check_abilities(const Population& population, const Settings& settings,
             fmt::format("{} supports free grains only.", adapter.name),
             fmt::format("Use motion = free, or grains.adapter: {}.",
                         adapters_that([](const GrainsAdapter& a) { return a.prescribed_grains; })),
+            entries);
+    if (const auto i = first([](const PlacedGrain& g) { return !g.motion.empty(); });
+        i < grains.size() && !adapter.moved_grains)
+        refuse_grain(
+            population, i, "motion = " + grains[i].motion,
+            fmt::format("In {} no grain follows a motion of domain.motions.", adapter.name),
+            fmt::format("Use motion = free, or grains.adapter: {}.",
+                        adapters_that([](const GrainsAdapter& a) { return a.moved_grains; })),
             entries);
     const double cells = settings.real("fluid.cells_per_diameter");
     if (const auto i = first([&](const PlacedGrain& g) {
@@ -339,6 +348,11 @@ std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
     if (read.problems.empty())
         read.problems = check_walls(read.walls, grains, forms, file.filename().string(),
                                     std::max(overlap_of(settings), touching_tolerance));
+    if (settings.flag("fluid.enabled"))
+        for (CaseProblem& problem :
+             check_thickness(read.walls, file.filename().string(),
+                             1.0 / settings.real("fluid.cells_per_diameter")))
+            read.problems.push_back(std::move(problem));
     for (CaseProblem& problem : read.problems) entries.problems.push_back(std::move(problem));
     settings.set("domain.walls_file", std::string(copied_walls));
     return std::move(read.walls);
@@ -441,6 +455,8 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
                  walls_setting(walls, result.scales, settings.real("contact.friction")));
     settings.set("run.wall_motions", motions_setting(settings, walls, result.scales));
     settings.set("run.inflow_motions", inflows_setting(settings, result.scales));
+    settings.set("run.grain_motions",
+                 grain_motions_setting(settings, population.grains, result.scales));
     set_materials(settings);
     set_soft_contact(settings, population.grains);
     result.packing = std::move(population.grains);

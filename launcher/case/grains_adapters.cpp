@@ -22,12 +22,14 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .inner_walls = true,
             .moving_sides = true,
             .materials = true,
-            .prescribed_grains = true};
+            .prescribed_grains = true,
+            .moved_grains = true};
 }
 
 GrainsAdapter external_program(const char* name, const char* help) {
     GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
     adapter.family = "any";
+    adapter.moved_grains = false;
     adapter.most_ranks = std::numeric_limits<int>::max();
     return adapter;
 }

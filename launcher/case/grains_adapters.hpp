@@ -34,6 +34,7 @@ struct GrainsAdapter {
     bool moving_sides = false;       ///< domain.SIDE_motion
     bool materials = false;          ///< more than the first, contact.pairs
     bool prescribed_grains = false;  ///< fixed and driven ones
+    bool moved_grains = false;       ///< that follow a motion of domain.motions
     int most_ranks = 1;
 
     /// False: planned for a later version.

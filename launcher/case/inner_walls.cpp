@@ -17,9 +17,11 @@ constexpr std::size_t most_problems = 10;  // a wall through a packing cuts many
 
 const CsvForm& csv_form() {
     static const CsvForm form = {
-        {"id", "x1", "y1", "x2", "y2", "vx", "vy", "spin", "px", "py", "friction", "motion"},
+        {"id", "x1", "y1", "x2", "y2", "thickness", "vx", "vy", "spin", "px", "py", "friction",
+         "motion"},
         {"id", "x1", "y1", "x2", "y2"},
-        "The first line must read id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction][,motion]; "
+        "The first line must read "
+        "id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]; "
         "lengths in D, "
         "velocities in u_c, spin in 1/t_c.",
         "wall"};
@@ -29,9 +31,9 @@ const CsvForm& csv_form() {
 /// The member that a column sets.
 double* number_of(InnerWall& wall, const std::string& column) {
     const std::map<std::string, double*> numbers = {
-        {"x1", &wall.from[0]}, {"y1", &wall.from[1]},     {"x2", &wall.to[0]},
-        {"y2", &wall.to[1]},   {"vx", &wall.velocity[0]}, {"vy", &wall.velocity[1]},
-        {"spin", &wall.spin}};
+        {"x1", &wall.from[0]}, {"y1", &wall.from[1]},         {"x2", &wall.to[0]},
+        {"y2", &wall.to[1]},   {"vx", &wall.velocity[0]},     {"vy", &wall.velocity[1]},
+        {"spin", &wall.spin},  {"thickness", &wall.thickness}};
     if (const auto at = numbers.find(column); at != numbers.end()) return at->second;
     if (column == "friction") return &wall.friction.emplace();
     if (!wall.pivot) wall.pivot.emplace();
@@ -43,6 +45,9 @@ void check_wall(CsvTable& table, int line, const InnerWall& wall) {
     if (!(length > shortest))
         table.refuse(line, fmt::format("wall {} has length {:.4g}", wall.id, length),
                      "Its ends must be apart.", "Move one of them.");
+    if (!(wall.thickness >= 0.0))
+        table.refuse(line, fmt::format("wall {}: thickness = {}", wall.id, wall.thickness),
+                     "A thickness must be zero or positive.", "Use 0 for a thin plate.");
     if (wall.friction && !(*wall.friction >= 0.0))
         table.refuse(line, fmt::format("wall {}: friction = {}", wall.id, *wall.friction),
                      "A friction coefficient must be zero or positive.",
@@ -109,16 +114,16 @@ InnerWalls read_walls_csv(const std::filesystem::path& file) {
 std::string walls_csv(const std::vector<InnerWall>& walls) {
     const bool with_friction = std::all_of(walls.begin(), walls.end(),
                                            [](const InnerWall& w) { return bool(w.friction); });
-    std::string text = "id,x1,y1,x2,y2,vx,vy,spin,px,py";
+    std::string text = "id,x1,y1,x2,y2,thickness,vx,vy,spin,px,py";
     const bool with_motion = std::any_of(walls.begin(), walls.end(),
                                          [](const InnerWall& w) { return !w.motion.empty(); });
     if (with_friction) text += ",friction";
     text += with_motion ? ",motion\n" : "\n";
     for (const InnerWall& wall : walls) {
         const Point2 pivot = wall.pivot.value_or(middle(wall));
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", wall.id, wall.from[0], wall.from[1],
-                            wall.to[0], wall.to[1], wall.velocity[0], wall.velocity[1], wall.spin,
-                            pivot[0], pivot[1]);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", wall.id, wall.from[0], wall.from[1],
+                            wall.to[0], wall.to[1], wall.thickness, wall.velocity[0],
+                            wall.velocity[1], wall.spin, pivot[0], pivot[1]);
         if (with_friction) text += fmt::format(",{}", *wall.friction);
         text += with_motion ? "," + wall.motion + "\n" : "\n";
     }
@@ -132,7 +137,8 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
     for (const InnerWall& wall : walls) {
         const PlacedOutline plate{middle(wall), 0.0, {wall.from, wall.to}};
         for (const PlacedGrain& grain : grains) {
-            const double gap = surface_gap(plate, placed_outline(grain, forms));
+            const double gap =
+                surface_gap(plate, placed_outline(grain, forms)) - 0.5 * wall.thickness;
             if (gap >= -tolerance || problems.size() >= most_problems) continue;
             problems.push_back(
                 {.source = source,
@@ -148,16 +154,36 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
     return problems;
 }
 
+std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
+                                         const std::string& source, double cell) {
+    std::vector<CaseProblem> problems;
+    const double least = least_cells_of_plate * cell;
+    for (const InnerWall& wall : walls)
+        if (wall.thickness < least * (1.0 - 1e-12))
+            problems.push_back(
+                {.source = source,
+                 .line = 0,
+                 .key = {},
+                 .value = {},
+                 .fault = fmt::format("wall {}: thickness = {:.4g} D", wall.id, wall.thickness),
+                 .allowed = fmt::format("The fluid would pass through it: at least {:.0f} cells, "
+                                        "here {:.4g} D.",
+                                        least_cells_of_plate, least),
+                 .remedy = "Give a column thickness, or use more fluid.cells_per_diameter."});
+    return problems;
+}
+
 std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
                           double friction) {
     const double d = scales.diameter, u = scales.velocity;
     std::string text;
     for (const InnerWall& wall : walls) {
         const Point2 pivot = wall.pivot.value_or(middle(wall));
-        text += fmt::format("{}{} {} {} {} {} {} {} {} {} {} {}", text.empty() ? "" : ";", wall.id,
-                            wall.from[0] * d, wall.from[1] * d, wall.to[0] * d, wall.to[1] * d,
-                            wall.velocity[0] * u, wall.velocity[1] * u, wall.spin / scales.time,
-                            pivot[0] * d, pivot[1] * d, wall.friction.value_or(friction));
+        text += fmt::format("{}{} {} {} {} {} {} {} {} {} {} {} {}", text.empty() ? "" : ";",
+                            wall.id, wall.from[0] * d, wall.from[1] * d, wall.to[0] * d,
+                            wall.to[1] * d, wall.velocity[0] * u, wall.velocity[1] * u,
+                            wall.spin / scales.time, pivot[0] * d, pivot[1] * d,
+                            wall.friction.value_or(friction), wall.thickness * d);
     }
     return text;
 }

@@ -26,6 +26,7 @@ struct PlacedGrain {
     std::optional<double> density = {};  ///< ratio to rho_f; grains.density_ratio unless given
     std::int32_t material = 0;           ///< index of material_names
     bool prescribed = false;             ///< keeps its velocity and spin: fixed or driven
+    std::string motion = {};             ///< below domain.motions, which it follows if not empty
 };
 using Packing = std::vector<PlacedGrain>;
 

@@ -19,6 +19,7 @@ constexpr std::size_t most_problems_of_a_kind = 10;
 struct FileWords {
     const GrainForms& forms;
     const std::vector<std::string>& materials;
+    const std::vector<std::string>& motions;
 };
 
 const CsvForm& csv_form() {
@@ -61,13 +62,19 @@ void set_material(CsvTable& table, int line, const std::vector<std::string>& mat
                      "Describe it below contact.materials, or correct the name.");
 }
 
-void set_motion(CsvTable& table, int line, const std::string& text, PlacedGrain& grain) {
+void set_motion(CsvTable& table, int line, const std::vector<std::string>& motions,
+                const std::string& text, PlacedGrain& grain) {
     grain.prescribed = text != "free";
-    if (text != "free" && text != "fixed" && text != "driven")
-        table.refuse(line, fmt::format("motion = {}", text),
-                     "free grains move under forces, fixed ones do not move, driven ones keep vx, "
-                     "vy and spin.",
-                     "Use one of the three.");
+    if (text == "free" || text == "fixed" || text == "driven") return;
+    grain.motion = text;
+    if (std::find(motions.begin(), motions.end(), text) == motions.end())
+        table.refuse(
+            line, fmt::format("motion = {}", text),
+            fmt::format("free grains move under forces, fixed ones do not move, driven "
+                        "ones keep vx, vy and spin, others follow a motion of "
+                        "domain.motions; there are {}.",
+                        motions.empty() ? "none" : fmt::format("{}", fmt::join(motions, ", "))),
+            "Use one of these.");
 }
 
 const char* field_remedy(const std::string& column) {
@@ -82,7 +89,7 @@ void set_field(CsvTable& table, int line, const FileWords& words, const std::str
                const std::string& text, PlacedGrain& grain) {
     if (column == "shape") return set_shape(table, line, words.forms, text, grain);
     if (column == "material") return set_material(table, line, words.materials, text, grain);
-    if (column == "motion") return set_motion(table, line, text, grain);
+    if (column == "motion") return set_motion(table, line, words.motions, text, grain);
     if (column == "id") {
         grain.id = whole_number(table, line, column, text).value_or(0);
         return;
@@ -102,13 +109,19 @@ void set_field(CsvTable& table, int line, const FileWords& words, const std::str
     if (column == "density") grain.density = *number;
 }
 
-/// A fixed grain is one whose prescribed velocity is zero.
+/// A fixed grain is one whose prescribed velocity is zero; that of a motion is not given here.
 void check_fixed(CsvTable& table, const CsvTable::Row& row, const PlacedGrain& grain) {
+    const bool has_velocity = grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0;
+    if (!grain.motion.empty() && has_velocity)
+        table.refuse(
+            row.line,
+            fmt::format("grain {} follows motion {} and has a velocity", grain.id, grain.motion),
+            "vx, vy and spin of a grain that follows a motion are 0.", "Set them to 0.");
     const auto column = std::find(table.columns.begin(), table.columns.end(), "motion");
     if (column == table.columns.end()) return;
     const bool fixed =
         row.fields[static_cast<std::size_t>(column - table.columns.begin())] == "fixed";
-    if (fixed && (grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0))
+    if (fixed && has_velocity)
         table.refuse(row.line, fmt::format("grain {} is fixed and has a velocity", grain.id),
                      "vx, vy and spin of a fixed grain are 0.",
                      "Set them to 0, or use motion = driven.");
@@ -235,12 +248,13 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
 }  // namespace
 
 PopulationFile read_population_csv(const std::filesystem::path& file, const GrainForms& forms,
-                                   const std::vector<std::string>& materials) {
+                                   const std::vector<std::string>& materials,
+                                   const std::vector<std::string>& motions) {
     CsvTable table = read_csv(file, csv_form());
     PopulationFile result;
     result.source.name = table.name;
     for (const CsvTable::Row& row : table.rows) {
-        result.grains.push_back(grain_of(table, row, {forms, materials}));
+        result.grains.push_back(grain_of(table, row, {forms, materials, motions}));
         result.source.lines.push_back(row.line);
     }
     result.problems = std::move(table.problems);
@@ -269,8 +283,9 @@ bool moves(const PlacedGrain& grain, const GrainForms&) {
     return grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0;
 }
 
-const char* motion_of(const PlacedGrain& grain) {
+std::string motion_of(const PlacedGrain& grain) {
     if (!grain.prescribed) return "free";
+    if (!grain.motion.empty()) return grain.motion;
     return moves(grain, plain_discs()) ? "driven" : "fixed";
 }
 
@@ -290,7 +305,7 @@ const OptionalColumns optional_columns[] = {
          return "," + words.materials.at(static_cast<std::size_t>(g.material));
      }},
     {",motion", [](const PlacedGrain& g, const GrainForms&) { return g.prescribed; },
-     [](const PlacedGrain& g, const FileWords&) { return std::string(",") + motion_of(g); }},
+     [](const PlacedGrain& g, const FileWords&) { return "," + motion_of(g); }},
 };
 
 }  // namespace
@@ -308,7 +323,7 @@ std::string population_csv(const Packing& grains, const GrainForms& forms,
     for (const PlacedGrain& grain : grains) {
         text += fmt::format("{},{},{},{}", grain.id, grain.x, grain.y, grain.radius);
         for (const OptionalColumns* column : columns)
-            text += column->text(grain, {forms, materials});
+            text += column->text(grain, {forms, materials, {}});
         text += "\n";
     }
     return text;

@@ -19,17 +19,6 @@ constexpr const char* prefix = "domain.motions.";
 constexpr const char* sides[] = {"left", "right", "bottom", "top"};  // keys 0 to 3 of the walls
 constexpr std::int32_t first_inner_wall = 4;
 
-std::vector<std::string> motion_names(const Settings& s) {
-    std::vector<std::string> names;
-    for (const auto& [key, value] : s.entries()) {
-        if (key.rfind(prefix, 0) != 0) continue;
-        const std::string name = key.substr(15, key.find('.', 15) - 15);
-        if (names.empty() || names.back() != name) names.push_back(name);
-    }
-    return names;
-}
-static_assert(std::string_view(prefix).size() == 15);
-
 std::string key_of(const std::string& name, const char* part) {
     return prefix + name + "." + part;
 }
@@ -210,10 +199,10 @@ void check_inner_wall(const Settings& s, const InnerWall& wall, CaseEntries& ent
                 "Set them to 0, or leave motion empty."});
 }
 
-void append(std::string& text, std::int32_t wall, const Settings& s, const std::string& name,
+void append(std::string& text, std::int64_t what, const Settings& s, const std::string& name,
             const Scales& scales) {
     const Kind& kind = kind_of(s, name);
-    text += fmt::format("{}{} {} {}", text.empty() ? "" : ";", wall, kind.name,
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ";", what, kind.name,
                         fmt::join(kind.numbers(s, name, scales), " "));
 }
 
@@ -238,12 +227,12 @@ struct Exchanged {
     double net = 0.0, either_way = 0.0;
 };
 
-Exchanged exchanged(const std::vector<MovedWall>& inflows, const std::vector<double>& size,
+Exchanged exchanged(const std::vector<Moved>& inflows, const std::vector<double>& size,
                     double time) {
     Exchanged sum;
-    for (const MovedWall& inflow : inflows) {
-        const int axis = inflow.wall / 2;
-        const double inward = inflow.wall % 2 == 0 ? 1.0 : -1.0;
+    for (const Moved& inflow : inflows) {
+        const int axis = static_cast<int>(inflow.what / 2);
+        const double inward = inflow.what % 2 == 0 ? 1.0 : -1.0;
         const double volume = inward * inflow.motion->at(time).displacement[axis] * size[1 - axis];
         sum.net += volume;
         sum.either_way += std::abs(volume);
@@ -258,7 +247,7 @@ std::optional<double> first_imbalance(const Settings& s) {
     Scales unit;
     unit.diameter = unit.velocity = unit.time = 1.0;
     in_diameters.set("run.inflow_motions", side_motions(s, unit, true));
-    const auto inflows = moved_walls(in_diameters, "run.inflow_motions");
+    const auto inflows = motions_of(in_diameters, "run.inflow_motions");
     const auto size = real_list("domain.size", s.text("domain.size"));
     const double step = s.real("time.step");
     const long long windows = std::min(std::llround(s.real("time.end") / step), 1'000'000LL);
@@ -288,6 +277,17 @@ void check_balance(const Settings& s, CaseEntries& entries) {
 
 }  // namespace
 
+std::vector<std::string> motion_names(const Settings& s) {
+    const std::size_t start = std::string(prefix).size();
+    std::vector<std::string> names;
+    for (const auto& [key, value] : s.entries()) {
+        if (key.rfind(prefix, 0) != 0) continue;
+        const std::string name = key.substr(start, key.find('.', start) - start);
+        if (names.empty() || names.back() != name) names.push_back(name);
+    }
+    return names;
+}
+
 void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
                    CaseEntries& entries) {
     for (const std::string& name : motion_names(settings)) check_motion(settings, name, entries);
@@ -302,6 +302,14 @@ void check_motions(const Settings& settings, const std::vector<InnerWall>& walls
 
 std::string inflows_setting(const Settings& settings, const Scales& scales) {
     return side_motions(settings, scales, true);
+}
+
+std::string grain_motions_setting(const Settings& settings, const Packing& grains,
+                                  const Scales& scales) {
+    std::string text;
+    for (const PlacedGrain& grain : grains)
+        if (!grain.motion.empty()) append(text, grain.id, settings, grain.motion, scales);
+    return text;
 }
 
 std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,

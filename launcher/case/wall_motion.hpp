@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Prescribed motions of walls, defined below domain.motions and named by a side of the box
-// (domain.left_motion) or a wall inside it (column motion). Their definition is in
-// coupler/protocol/prescribed_motion.hpp.
+// Prescribed motions, defined below domain.motions and named by a side of the box
+// (domain.left_motion), by a wall inside it, or by a grain (column motion of both files). Their
+// definition is in coupler/protocol/prescribed_motion.hpp.
 #pragma once
 
 #include <string>
@@ -23,6 +23,13 @@ void check_motions(const Settings& settings, const std::vector<InnerWall>& walls
 /// The value of `run.wall_motions`, in run units.
 std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,
                             const Scales& scales);
+
+/// The names below domain.motions.
+std::vector<std::string> motion_names(const Settings& settings);
+
+/// The value of `run.grain_motions`, in run units.
+std::string grain_motions_setting(const Settings& settings, const Packing& grains,
+                                  const Scales& scales);
 
 /// The value of `run.inflow_motions`, in run units.
 std::string inflows_setting(const Settings& settings, const Scales& scales);

@@ -37,6 +37,8 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("domain.top", setup.top);
     settings.set("run.wall_motions", setup.wall_motions);
     settings.set("run.inflow_motions", setup.inflow_motions);
+    settings.set("run.walls", setup.walls);
+    settings.set("run.grain_motions", setup.grain_motions);
     settings.set("domain.left_profile", setup.left_profile);
 }
 

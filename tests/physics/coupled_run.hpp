@@ -20,6 +20,7 @@ struct CoupledSetup {
     double width = 4.0, height = 4.0;  ///< [D]
     std::string left = "wall", right = "wall", bottom = "wall", top = "wall";
     std::string wall_motions, inflow_motions;  ///< as run.wall_motions
+    std::string walls, grain_motions;          ///< as run.walls, run.grain_motions
     std::string left_profile = "uniform";
     double reynolds = 100.0;
     double step = 0.01;

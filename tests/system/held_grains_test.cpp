@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Fixed and driven grains in the fluid, and a fluid driven by a body force.
+#include <algorithm>
 #include <numbers>
 
 #include "tests/system/history_columns.hpp"
@@ -154,6 +155,44 @@ TEST_F(HeldGrains, ABodyForceBetweenWallsIsRefused) {
     EXPECT_EQ(answer.code, 2);
     EXPECT_SAYS(answer.err + answer.out, "fluid.acceleration = [0, 0.1]");
     EXPECT_SAYS(answer.err + answer.out, "domain.bottom is wall");
+}
+
+const char* const a_funnel = R"(
+domain: {size: [6, 8], walls_file: walls.csv, motions: {shake: {kind: harmonic, amplitude: [0.3, 0], period: 2}}}
+grains: {adapter: standalone-nscd, file: grains.csv, density_ratio: 1.5}
+fluid: {reynolds: 400, cells_per_diameter: 8, splitting: explicit-multiplier}
+contact: {friction: 0.3}
+time: {step: 0.02, end: 8}
+output: {interval: 1}
+)";
+
+// Grains sink onto the inclined plates of a funnel and slide down, on the film of fluid that is
+// left at first; a grain at its outlet shakes from side to side.
+TEST_F(HeldGrains, PlatesHoldGrainsAndFluidUnderEverySchemeAndHost) {
+    scratch.write("walls.csv",
+                  "id,x1,y1,x2,y2,thickness\n1,0,4,2.2,2.5,0.25\n2,6,4,3.8,2.5,0.25\n");
+    scratch.write("grains.csv",
+                  "id,x,y,motion\n1,1.2,4.6,free\n2,3,5,free\n3,4.8,4.6,free\n4,3,2,shake\n"
+                  "5,1.9,5.9,free\n6,4.1,5.9,free\n");
+    scratch.write("case.yaml", a_funnel);
+    std::vector<std::vector<double>> each;
+    for (const std::string changes :
+         {"", " --set fluid.ranks=2", " --set grains.adapter=yade-nscd",
+          " --set coupling.scheme=split --set fluid.splitting=marchuk-yanenko"}) {
+        const Columns run = play(changes);
+        EXPECT_GT(*std::max_element(run.at("contacts").begin() + 1, run.at("contacts").end()), 0.0)
+            << changes;
+        const std::vector<double> x = centres("00000400");
+        ASSERT_EQ(x.size(), 18u) << changes;
+        EXPECT_NEAR(x[9], 3.0, 1e-9) << changes;  // four periods of the motion
+        for (const int k : {0, 2}) EXPECT_GT(x[3 * k + 1], 3.5) << changes;
+        each.push_back(x);
+    }
+    EXPECT_EQ(each[2], each[0]);
+    EXPECT_LT(largest_difference(each[1], each[0]), 1e-3);
+    scratch.write("walls.csv", "id,x1,y1,x2,y2,thickness\n1,0,0.1,0.2,0.1,0.25\n");
+    play("");
+    EXPECT_GT(largest_difference(centres("00000400"), each[0]), 0.5);  // without the funnel
 }
 
 }  // namespace

@@ -112,7 +112,12 @@ void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) 
 }
 
 void NarrowPhase::wall(const WallView& view, std::vector<ContactPoint>& points) const {
-    walls_.at(static_cast<std::size_t>(view.bodies.shape[view.body]))(view, points);
+    const std::size_t before = points.size();
+    const double half = view.wall.half_thickness;
+    const WallView of_line{view.bodies,     view.body,         view.wall,
+                           view.wall_index, view.alert + half, view.polygons};
+    walls_.at(static_cast<std::size_t>(view.bodies.shape[view.body]))(of_line, points);
+    for (std::size_t i = before; i < points.size(); ++i) points[i].gap -= half;
 }
 
 }  // namespace turbidite::nscd

@@ -46,6 +46,8 @@ void check_wall(const Wall& wall) {
         throw std::invalid_argument(name + "friction must be zero or positive");
     if (!(wall.half_length > 0.0))
         throw std::invalid_argument(name + "the half length must be positive");
+    if (!(wall.half_thickness >= 0.0))
+        throw std::invalid_argument(name + "the half thickness must be zero or positive");
     if (!is_finite(wall.velocity) || !is_finite(wall.pivot) || !std::isfinite(wall.spin))
         throw std::invalid_argument(name + "its motion must be finite");
     if (wall.velocity[2] != 0.0) throw std::invalid_argument(name + "it must move in the plane");

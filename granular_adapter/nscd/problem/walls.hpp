@@ -24,6 +24,8 @@ struct Wall {
     double friction = 0.0;       ///< mu of contacts with this wall, if it has no material
     /// Of a segment; infinite for a half-plane [m].
     double half_length = std::numeric_limits<double>::infinity();
+    /// A segment is all that is nearer to its line than this, with round ends [m].
+    double half_thickness = 0.0;
     std::int32_t key = 0;  ///< identifies the wall in the contact memory; distinct per wall
     /// Index into the SurfaceTable; -1: the surface of the touching body, with `friction`.
     std::int32_t material = -1;

@@ -86,11 +86,8 @@ Ruling rolling_is_known(const Settings& s) {
     return unknown_to(s, "has no rolling resistance: 0", adheres_and_rolls, "Use 0");
 }
 
-// The fluid's mesh has only the sides of the box; soft-sphere adapters do not support plates.
+// Soft-sphere adapters do not support plates.
 Ruling walls_have_an_engine(const Settings& s) {
-    if (s.flag("fluid.enabled"))
-        return Objection{"The fluid does not see walls inside the box.",
-                         "Set fluid.enabled: false, or remove them."};
     if (grains_adapter(s).inner_walls) return std::nullopt;
     return Objection{
         fmt::format("Walls inside the box need a contact-dynamics adapter, not {}.",
@@ -167,7 +164,7 @@ KeyGroup adapter_keys() {
         .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},
                   {"domain.left", {"grains.adapter"}, left_is_not_cyclic},
                   {"domain.bottom", {"grains.adapter"}, bottom_is_not_cyclic},
-                  {"domain.walls_file", {"fluid.enabled", "grains.adapter"}, walls_have_an_engine},
+                  {"domain.walls_file", {"grains.adapter"}, walls_have_an_engine},
                   {"grains.shape", {"grains.adapter"}, shape_is_known},
                   {"grains.script", {"grains.adapter"}, script_has_a_yade},
                   {"grains.script", {}, script_is_python},

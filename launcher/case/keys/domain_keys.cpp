@@ -171,9 +171,10 @@ KeyGroup domain_keys() {
              .need = Need::optional,
              .help =
                  "CSV file of walls inside the box, at rest or moving (header "
-                 "id,x1,y1,x2,y2[,vx,vy][,spin][,px,py][,friction][,motion]; lengths in D, "
-                 "velocities in u_c, spin in 1/t_c about (px,py); path relative to the case file); "
-                 "dry cases"},
+                 "id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]; lengths "
+                 "in D, "
+                 "velocities in u_c, spin in 1/t_c about (px,py); path relative to the case file). "
+                 "In a fluid they are at least two cells thick"},
         }),
         .rules = {{"domain.left", {"domain.right"}, left_right},
                   {"domain.bottom", {"domain.top"}, bottom_top},

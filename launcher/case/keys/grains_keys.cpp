@@ -210,7 +210,8 @@ KeyGroup grains_keys() {
                          "id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin]"
                          "[,density][,material][,motion]; lengths in D, angles in rad, velocities "
                          "in u_c, spin in 1/t_c, density over the "
-                         "fluid's, motion free, fixed or driven; path relative to the case file); "
+                         "fluid's, motion free, fixed, driven or of domain.motions; path relative "
+                         "to the case file); "
                          "overrides the generator"},
                 {.name = "grains.script",
                  .type = KeyType::text,

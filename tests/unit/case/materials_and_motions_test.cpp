@@ -137,6 +137,17 @@ TEST_F(MovingWalls, InnerWallsNameThem) {
     EXPECT_SAYS(refusal("", {"domain.walls_file=w.csv"}), "wall 7: motion = m");
 }
 
+TEST_F(MovingWalls, GrainsNameThem) {
+    folder.write("g.csv", "id,x,y,motion\n5,2,3,m\n6,4,3,free\n");
+    const std::vector<std::string> set{"grains.file=g.csv", "domain.motions.m.kind=harmonic",
+                                       "domain.motions.m.turn=0.3", "domain.motions.m.period=2"};
+    EXPECT_EQ(load("", set).settings.text("run.grain_motions"), "5 harmonic 0 0 0.3 1 0");
+    std::vector<std::string> others = set;
+    others.push_back("grains.adapter=external");
+    others.push_back("grains.command=true");
+    EXPECT_SAYS(refusal("", others), "no grain follows a motion of domain.motions");
+}
+
 TEST_F(MovingWalls, WhatMakesNoSenseIsRefused) {
     const std::string kind = "domain.motions.m.kind=";
     EXPECT_SAYS(refusal("", with({})), "domain.right_motion = m");

@@ -49,6 +49,22 @@ TEST(PopulationFile, WritesWhatItReads) {
     EXPECT_EQ(again[1].id, 4000000000);
 }
 
+TEST(PopulationFile, GrainsFollowMotionsByName) {
+    const ScratchFolder folder;
+    const auto read = [&](const std::string& rows) {
+        return read_population_csv(folder.write("g.csv", "id,x,y,vx,motion\n" + rows),
+                                   plain_discs(), {"default"}, {"shake"});
+    };
+    const PopulationFile good = read("1,1,1,0,shake\n2,3,1,0,free\n3,5,1,0,fixed\n");
+    ASSERT_EQ(texts(good.problems), "");
+    EXPECT_TRUE(good.grains[0].prescribed);
+    EXPECT_EQ(good.grains[0].motion, "shake");
+    EXPECT_EQ(good.grains[2].motion, "");
+    EXPECT_SAYS(population_csv(good.grains), "1,1,1,0.5,shake\n2,3,1,0.5,free\n");
+    EXPECT_SAYS(texts(read("1,1,1,0,shale\n").problems), "there are shake");
+    EXPECT_SAYS(texts(read("1,1,1,0.5,shake\n").problems), "follows motion shake and has");
+}
+
 TEST(PopulationFile, ErrorsNameTheLine) {
     EXPECT_SAYS(read_errors("id,x,y\n0,1,1\n1,2\n"), "grains.csv line 3: 2 values in \"1,2\"");
     EXPECT_SAYS(read_errors("id,x,y\n0,one,1\n"), "grains.csv line 2: x = one");

@@ -192,7 +192,7 @@ TEST_F(WallsFile, IsHandedOnInTheRunsUnits) {
     const ResolvedCase box = load("grains: {file: grains.csv, adapter: standalone-nscd}\n",
                                   {"domain.walls_file=walls.csv", "contact.friction=0.4"});
     EXPECT_EQ(box.settings.text("run.walls"),
-              "1 0 5 8 5 0.5 0 0 4 5 0.4;7 2 9 4 9 0 0 0.1 3 9 0.4");
+              "1 0 5 8 5 0.5 0 0 4 5 0.4 0;7 2 9 4 9 0 0 0.1 3 9 0.4 0");
     EXPECT_EQ(box.settings.text("domain.walls_file"), "grains/walls.csv");
     write_run(box);
     const ResolvedCase again = load_run_folder(folder.path() / "run");
@@ -204,6 +204,7 @@ TEST_F(WallsFile, NonsenseIsRefusedByLine) {
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,4,3\n1,5,5,6,6\n"), "wall id 1 is given twice");
     EXPECT_SAYS(refused("id,x1,y1,x2\n1,3,3,4\n"), "column \"y2\" is missing");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2,vx\n1,3,3,4,3,1\n"), "only one is given");
+    EXPECT_SAYS(refused("id,x1,y1,x2,y2,thickness\n1,3,3,4,3,-1\n"), "thickness = -1");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2,friction\n1,3,3,4,3,-1\n"), "friction = -1");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,nan,4,3\n"), "y1 = nan");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2,colour\n1,3,3,4,3,2\n"), "column \"colour\" is unknown");
@@ -219,11 +220,15 @@ TEST_F(WallsFile, GrainsThatAWallCutsAreNamed) {
                 "wall 1 cuts grain 9 at (3, 3.2) by 0.3 D");
 }
 
-TEST_F(WallsFile, NeedsADryContactEngine) {
+TEST_F(WallsFile, IsForContactEnginesWithOrWithoutAFluid) {
     folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0.001,8,0.001\n");
-    EXPECT_SAYS(
-        refusal(grains, {"domain.walls_file=walls.csv", "fluid.enabled=true", "fluid.reynolds=36"}),
-        "The fluid does not see walls");
+    const std::vector<std::string> wet = {"domain.walls_file=walls.csv", "fluid.enabled=true",
+                                          "fluid.reynolds=36"};
+    EXPECT_SAYS(refusal(grains, wet), "The fluid would pass through it: at least 2 cells, here");
+    folder.write("walls.csv", "id,x1,y1,x2,y2,thickness\n1,0,0.001,8,0.001,0.125\n");
+    EXPECT_SAYS(load(grains, wet).settings.text("run.walls"), " 0.3 0.125");
+    EXPECT_SAYS(refusal("grains: {file: grains.csv, adapter: yade-md}\n", wet),
+                "need a contact-dynamics adapter, not yade-md");
 }
 
 }  // namespace

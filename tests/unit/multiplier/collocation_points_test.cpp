@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <set>
 
 #include "fluid_adapter/multiplier/boundary_operator.hpp"
+#include "fluid_adapter/multiplier/neighbours.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 
 namespace turbidite {
@@ -151,7 +154,8 @@ double interpolation_error(double cell) {
     double error = 0.0;
     for (int p = 0; p < points.boundary_points(); ++p)
         error = std::max(
-            error, std::abs(slip[2 * p] - wave(2.013 + points.arm_x[p], 2.007 + points.arm_y[p]).x()));
+            error,
+            std::abs(slip[2 * p] - wave(2.013 + points.arm_x[p], 2.007 + points.arm_y[p]).x()));
     return error;
 }
 
@@ -160,6 +164,76 @@ TEST(CollocationPoints, BoundaryInterpolationIsOfThirdOrder) {
     const double coarse = interpolation_error(1.0 / 16.0), fine = interpolation_error(1.0 / 32.0);
     EXPECT_GT(coarse / fine, 6.0);
     EXPECT_LT(coarse / fine, 11.0);
+}
+
+ImmersedGrain plate(GrainId id, double x, double y, double half_length, double angle) {
+    static std::vector<std::shared_ptr<const Shape>> kept;
+    ImmersedGrain body = disc(id, x, y);
+    body.radius = std::hypot(half_length, h);
+    const double u = half_length / body.radius, v = h / body.radius;
+    kept.push_back(make_shape({"polygon", {-u, -v, u, -v, u, v, -u, v}}));
+    body.shape = kept.back().get();
+    body.orientation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    body.has_boundary_points = false;
+    return body;
+}
+
+// Wherever it lies, no two cells on different sides of a plate of two cells share a face.
+TEST(CollocationPoints, APlateHasNoGaps) {
+    MemoryField field(64, 64, Side::wall);
+    for (const double angle : {0.0, 0.1, 0.4, 0.7854, 1.2, 1.5708}) {
+        const auto body = plate(1, 2.013, 2.007, 4.0, angle);
+        std::vector<int> side(64 * 64);
+        for (int cell = 0; cell < 64 * 64; ++cell) {
+            const double x = (cell % 64 + 0.5) * h - 2.013, y = (cell / 64 + 0.5) * h - 2.007;
+            side[cell] = std::cos(angle) * y > std::sin(angle) * x ? 1 : -1;
+        }
+        const CollocationPoints points = place(field, {body});
+        EXPECT_EQ(points.boundary_points(), 0);
+        ASSERT_GT(points.interior.size(), 100u);
+        for (const InteriorCell& point : points.interior) side[point.cell] = 0;
+        for (int cell = 0; cell < 64 * 63; ++cell) {
+            EXPECT_NE(side[cell] * side[cell + 64], -1) << angle << " above cell " << cell;
+            if (cell % 64 < 63) {
+                EXPECT_NE(side[cell] * side[cell + 1], -1) << angle << " beside cell " << cell;
+            }
+        }
+    }
+}
+
+// Beside a plate a grain has no points within two cells, as beside a wall, and leaves it its cells.
+TEST(CollocationPoints, AGrainBesideAPlateIsAsBesideAWall) {
+    MemoryField field(64, 64, Side::wall);
+    const double top = 1.0 + h;  // on a face of cells
+    const auto wall = plate(2, 2.0, 1.0, 1.5, 0.0);
+    const auto body = disc(1, 2.013, top + 0.55);
+    const CollocationPoints alone = place(field, {wall});
+    const CollocationPoints both = place(field, {body, wall});
+    ASSERT_LT(boundary_points(both, 0), full_ring);
+    for (int p = 0; p < boundary_points(both, 0); ++p)
+        EXPECT_GT(body.position.y() + both.arm_y[p] - top, 2.0 * h);
+    EXPECT_EQ(both.interior_begin[2] - both.interior_begin[1], alone.interior_begin[1]);
+}
+
+// Long bodies are near many; every pair is found once.
+TEST(Neighbours, OfBodiesOfAllSizes) {
+    MemoryField field(96, 96, Side::cyclic);
+    std::vector<ImmersedGrain> bodies;
+    for (int k = 0; k < 60; ++k) {
+        bodies.push_back(disc(k, 0.37 * k - 6.0 * (k / 16), 0.4 + 0.5 * (k % 11)));
+        bodies.back().radius = 0.1 + 0.002 * k;
+        if (k % 20 == 7) bodies.back().radius = 2.2;
+    }
+    std::set<std::pair<int, int>> expected;
+    for (int b = 0; b < 60; ++b)
+        for (int a = 0; a < b; ++a)
+            if (field.grid().nearest_image(bodies[a].position - bodies[b].position).norm() <
+                bodies[a].radius + bodies[b].radius + 0.05)
+                expected.emplace(a, b);
+    const auto found = near_pairs(field.grid(), bodies, 0.05);
+    EXPECT_EQ(found.size(), expected.size());
+    EXPECT_EQ((std::set<std::pair<int, int>>(found.begin(), found.end())), expected);
+    EXPECT_GT(expected.size(), 60u);
 }
 
 TEST(CollocationPoints, RefusesThreeDimensions) {

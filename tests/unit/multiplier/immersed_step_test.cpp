@@ -12,6 +12,7 @@ namespace turbidite {
 namespace {
 
 constexpr double step = 0.01;
+const Window window{0, 0.0, step};
 constexpr double tolerance = 1e-5;  // of the mismatch
 
 Settings settings(double slip_tolerance = 0.1 * tolerance) {
@@ -83,7 +84,7 @@ double largest_mismatch(const std::vector<FreeResponse>& responses) {
 TEST(ImmersedStep, AGrainByItselfNeedsOneRound) {
     Scene scene;
     const std::vector<GrainState> grains = {grain(4, 3.013, 3.007, {0.1, -0.5, 0.0})};
-    scene.five.take_free(grains, step);
+    scene.five.take_free(grains, window);
     scene.five.solve();
     scene.five.push(after_contacts(grains, scene.five.responses()));
     EXPECT_LT(largest_mismatch(scene.five.responses()), 1e-9);
@@ -91,7 +92,7 @@ TEST(ImmersedStep, AGrainByItselfNeedsOneRound) {
 
 TEST(ImmersedStep, NeighboursAgreeWithinTheToleranceAfterAFewRounds) {
     Scene scene;
-    scene.five.take_free(neighbours(), step);
+    scene.five.take_free(neighbours(), window);
     scene.five.solve();
     double mismatch = 1.0;
     int rounds = 0;
@@ -110,7 +111,7 @@ TEST(ImmersedStep, MomentumIsExactWithContactImpulses) {
     // c M (U - U^n) = c M g dt + J + dt lambda, and the fluid loses dt lambda.
     Scene scene;
     const Planar before = scene.field.momentum();
-    scene.five.take_free(neighbours(), step);
+    scene.five.take_free(neighbours(), window);
     scene.five.solve();
     const auto pushed = after_contacts(neighbours(), scene.five.responses());
     scene.five.push(pushed);
@@ -129,11 +130,11 @@ TEST(ImmersedStep, MomentumIsExactWithContactImpulses) {
 TEST(ImmersedStep, WithoutContactsFreeGrainsAreThoseThatFellBefore) {
     // U^{n+4/5} = U^n - g dt is the result of a contact solve without contacts.
     Scene free_fall, constrained(1e-4);
-    free_fall.five.take_free(neighbours(), step);
+    free_fall.five.take_free(neighbours(), window);
     free_fall.five.solve();
     std::vector<GrainState> fallen = neighbours();
     for (GrainState& state : fallen) state.velocity[1] -= step;
-    constrained.five.take_constrained(fallen);
+    constrained.five.take_constrained(fallen, window);
     constrained.five.solve();
     const std::vector<FreeResponse> free = free_fall.five.responses();
     constrained.five.impose();
@@ -150,7 +151,7 @@ TEST(ImmersedStep, PrescribedGrainsKeepTheirMotionAndTheFluidIsPushed) {
     std::vector<GrainState> grains = neighbours();
     grains[0].prescribed = grains[1].prescribed = true;
     grains[1].velocity = {};
-    scene.five.take_free(grains, step);
+    scene.five.take_free(grains, window);
     scene.five.solve();
     std::vector<FreeResponse> responses = scene.five.responses();
     for (int g : {0, 1}) {
@@ -177,7 +178,7 @@ TEST(ImmersedStep, PrescribedGrainsKeepTheirMotionAndTheFluidIsPushed) {
 TEST(ImmersedStep, AGrainOnItsWayOutIsAnsweredFor) {
     MemoryField field(96, 96, Side::open);
     ImmersedStep five(field, settings(1e-4), {{"disc", {}}});
-    five.take_constrained({grain(9, -0.3, 2.0), grain(10, 2.0, 6.2)});
+    five.take_constrained({grain(9, -0.3, 2.0), grain(10, 2.0, 6.2)}, window);
     five.solve();
     five.impose();
     EXPECT_EQ(five.kicks().size(), 2u);
@@ -185,7 +186,7 @@ TEST(ImmersedStep, AGrainOnItsWayOutIsAnsweredFor) {
 
 TEST(ImmersedStep, NamesAGrainThatTheWindowDidNotBeginWith) {
     Scene scene;
-    scene.five.take_free({grain(4, 3.0, 3.0)}, step);
+    scene.five.take_free({grain(4, 3.0, 3.0)}, window);
     scene.five.solve();
     try {
         scene.five.push({grain(5, 3.0, 3.0)});

@@ -78,6 +78,28 @@ TEST(PolygonWall, EndOfAPlateMeetsACorner) {
     expect_near(points[0].arm_b, {-0.5, -0.5, 0.0});
 }
 
+// A thickness is taken from the gap, beside the plate and around its ends, and changes nothing
+// else.
+TEST(PolygonWall, APlateWithAThicknessHasRoundEnds) {
+    const ShapeTable shapes = {scenes::square_record(), {"disc", {}}};
+    Wall thick = plate(0.2);
+    thick.half_thickness = 0.03;
+    for (const bool disc : {false, true})
+        for (const double x : {0.1, 0.66}) {
+            Bodies bodies = one_square(x, 0.54);
+            if (disc) bodies.shape[0] = 1, bodies.radius[0] = 0.5;
+            const auto thin_points = scenes::at_wall(shapes, bodies, plate(0.2), 0.23);
+            const auto points = scenes::at_wall(shapes, bodies, thick, 0.2);
+            ASSERT_EQ(points.size(), thin_points.size());
+            ASSERT_GT(points.size(), 0u);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                EXPECT_NEAR(points[i].gap, thin_points[i].gap - 0.03, 1e-15);
+                expect_near(points[i].normal, thin_points[i].normal);
+                expect_near(points[i].arm_b, thin_points[i].arm_b);
+            }
+        }
+}
+
 // The names of a plate's ends do not depend on the side from which they are touched.
 TEST(PolygonWall, EndsOfAPlateKeepTheirNames) {
     const auto feature_at_right = [](double side) {

@@ -38,13 +38,13 @@ std::vector<GrainState> play(const Settings& settings, const std::vector<GrainSt
     return motion.grains;
 }
 
-TEST(WallMotion, KindsAreWhatTheySay) {
+TEST(PrescribedMotion, KindsAreWhatTheySay) {
     Settings settings;
     settings.set("run.wall_motions", std::string("0 constant 1 -2 0.5;2 harmonic 0.1 0 0.2 4 0;"
                                                  "4 table 0 0 0 0 1 2 0 0 3 2 4 1"));
-    const std::vector<MovedWall> moved = moved_walls(settings);
+    const std::vector<Moved> moved = motions_of(settings, "run.wall_motions");
     ASSERT_EQ(moved.size(), 3u);
-    EXPECT_EQ(moved[2].wall, 4);
+    EXPECT_EQ(moved[2].what, 4);
     EXPECT_DOUBLE_EQ(moved[0].motion->at(2.0).displacement[1], -4.0);
     EXPECT_DOUBLE_EQ(moved[0].motion->at(2.0).angle, 1.0);
     EXPECT_NEAR(moved[1].motion->at(1.0).displacement[0], 0.1, 1e-15);
@@ -54,17 +54,17 @@ TEST(WallMotion, KindsAreWhatTheySay) {
     EXPECT_DOUBLE_EQ(moved[2].motion->at(9.0).angle, 1.0);
 }
 
-TEST(WallMotion, TextThatIsNoMotionIsRefused) {
+TEST(PrescribedMotion, TextThatIsNoMotionIsRefused) {
     for (const char* text :
          {"0 circular 1 1 1", "0 harmonic 1 0", "0 table 0 0 0", "0 constant x"}) {
         Settings settings;
         settings.set("run.wall_motions", std::string(text));
-        EXPECT_ANY_THROW(moved_walls(settings)) << text;
+        EXPECT_ANY_THROW(motions_of(settings, "run.wall_motions")) << text;
     }
 }
 
 // A sin(w t) with A w^2 = 0.41 g: the disc never leaves the floor.
-TEST(WallMotion, AGrainFollowsAShakenFloor) {
+TEST(PrescribedMotion, AGrainFollowsAShakenFloor) {
     Settings settings = dry_box();
     const double period = 2.0 * std::numbers::pi / 2.03;
     settings.set("run.wall_motions", "2 harmonic 0 0.1 0 " + std::to_string(period) + " 0");
@@ -79,7 +79,7 @@ TEST(WallMotion, AGrainFollowsAShakenFloor) {
 }
 
 // The right side moves in by 2 D and stops: what is in its way moves with it, and no farther.
-TEST(WallMotion, ASideOfTheBoxPushesAsItsTableSays) {
+TEST(PrescribedMotion, ASideOfTheBoxPushesAsItsTableSays) {
     Settings settings = dry_box();
     settings.set("contact.friction", 0.0);
     settings.set("run.wall_motions", std::string("1 table 0 0 0 0 1 -2 0 0"));
@@ -89,7 +89,7 @@ TEST(WallMotion, ASideOfTheBoxPushesAsItsTableSays) {
 }
 
 // A fixed grain cannot move out of the way.
-TEST(WallMotion, AGrainBeyondAMovedSideEndsTheRun) {
+TEST(PrescribedMotion, AGrainBeyondAMovedSideEndsTheRun) {
     Settings settings = dry_box();
     settings.set("run.wall_motions", std::string("1 table 0 0 0 0 1 -2 0 0"));
     GrainState fixed = grain_at(1, 9.2, 0.5);

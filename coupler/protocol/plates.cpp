@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/protocol/plates.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace turbidite {
+namespace {
+
+constexpr std::int32_t first_key = 4;  // after the sides of the box
+constexpr std::size_t numbers_per_plate = 12;
+using Numbers = std::array<double, numbers_per_plate>;
+
+/// Parses exactly twelve numbers, with strtod, since streams do not read every format that is
+/// written.
+Numbers numbers_of(const std::string& text) {
+    Numbers numbers{};
+    const char* at = text.c_str();
+    for (double& number : numbers) {
+        char* end = nullptr;
+        number = std::strtod(at, &end);
+        if (end == at)
+            throw std::invalid_argument("run.walls: \"" + text + "\" has fewer than 12 numbers");
+        at = end;
+    }
+    if (*at != '\0')
+        throw std::invalid_argument("run.walls: \"" + text + "\" has more than 12 numbers");
+    return numbers;
+}
+
+Plate plate_of(const Numbers& n, std::int32_t key) {
+    Plate plate;
+    plate.key = key;
+    plate.from = {n[1], n[2], 0.0};
+    plate.to = {n[3], n[4], 0.0};
+    plate.pivot = {n[8], n[9], 0.0};
+    plate.friction = n[10];
+    plate.thickness = n[11];
+    plate.motion = constant_motion({n[5], n[6], 0.0}, n[7]);
+    return plate;
+}
+
+Vec3 middle(const Plate& plate) {
+    return {0.5 * (plate.from[0] + plate.to[0]), 0.5 * (plate.from[1] + plate.to[1]), 0.0};
+}
+
+}  // namespace
+
+double length(const Plate& plate) {
+    return std::hypot(plate.to[0] - plate.from[0], plate.to[1] - plate.from[1]);
+}
+
+PlacedPlate place(const Plate& plate, double time, double step) {
+    const Shift shift = plate.motion->at(time), rate = plate.motion->rate(time, step);
+    const double c = std::cos(shift.angle), s = std::sin(shift.angle);
+    const Vec3 start = middle(plate);
+    const double x = start[0] - plate.pivot[0], y = start[1] - plate.pivot[1];
+    const double arm_x = c * x - s * y, arm_y = s * x + c * y;
+    PlacedPlate placed;
+    placed.middle = {plate.pivot[0] + shift.displacement[0] + arm_x,
+                     plate.pivot[1] + shift.displacement[1] + arm_y, 0.0};
+    placed.angle =
+        std::atan2(plate.to[1] - plate.from[1], plate.to[0] - plate.from[0]) + shift.angle;
+    placed.spin = rate.angle;
+    placed.velocity = {rate.displacement[0] - rate.angle * arm_y,
+                       rate.displacement[1] + rate.angle * arm_x, 0.0};
+    return placed;
+}
+
+std::vector<Plate> plates_of(const Settings& settings) {
+    std::vector<Plate> plates;
+    if (!settings.has("run.walls")) return plates;
+    std::istringstream list(settings.text("run.walls"));
+    std::int32_t key = first_key;
+    for (std::string text; std::getline(list, text, ';');)
+        plates.push_back(plate_of(numbers_of(text), key++));
+    for (const Moved& moved : motions_of(settings, "run.wall_motions"))
+        if (const auto at = moved.what - first_key;
+            at >= 0 && at < static_cast<std::int64_t>(plates.size()))
+            plates[at].motion = moved.motion;
+    return plates;
+}
+
+}  // namespace turbidite
