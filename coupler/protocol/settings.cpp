@@ -57,7 +57,7 @@ bool Settings::has(const std::string& key) const {
 const std::string& Settings::text(const std::string& key) const {
     const auto at = position(entries_, key);
     if (at == entries_.end() || at->first != key)
-        throw std::out_of_range("the resolved case has no key \"" + key + "\"");
+        throw MissingKey("the resolved case has no key \"" + key + "\"");
     return at->second;
 }
 

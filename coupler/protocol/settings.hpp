@@ -25,11 +25,17 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace turbidite {
+
+/// A key that was asked for is not there.
+struct MissingKey : std::out_of_range {
+    using std::out_of_range::out_of_range;
+};
 
 class Settings {
  public:
@@ -43,7 +49,7 @@ class Settings {
 
     bool has(const std::string& key) const;
 
-    /// Typed look-ups; a missing key or a value of another type throws std::out_of_range or
+    /// Typed look-ups; a missing key or a value of another type throws MissingKey or
     /// std::invalid_argument naming the key.
     const std::string& text(const std::string& key) const;
     double real(const std::string& key) const;

@@ -197,7 +197,6 @@ void check_equal_rows(const Population& population, const Settings& settings,
 /// named.
 void check_abilities(const Population& population, const Settings& settings,
                      const GrainForms& forms, CaseEntries& entries) {
-    if (!settings.has("grains.adapter") || !settings.has("fluid.enabled")) return;
     const GrainsAdapter& adapter = grains_adapter(settings);
     const bool wet = settings.flag("fluid.enabled");
     const Packing& grains = population.grains;
@@ -299,13 +298,9 @@ bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
     return region->width > box.width || region->height > box.height;
 }
 
-/// Grains from the given file, else from grains.file, else generated. Needs a valid box.
+/// Grains from the given file, else from grains.file, else generated.
 Population make_population(Settings& settings, const GrainForms& forms, CaseEntries& entries,
                            const std::filesystem::path& folder, const GivenGrains& given) {
-    for (const char* key : {"domain.size", "domain.left", "domain.right", "domain.bottom",
-                            "domain.top", "grains.generator", "grains.compacity", "grains.jitter",
-                            "grains.size_ratio", "grains.overlap", "random.seed"})
-        if (!settings.has(key)) return {};
     if (region_is_refused(settings, entries)) return {};
     const bool from_file = given.earlier || !given.file.empty() || settings.has("grains.file");
     // The generator needs a valid count.
@@ -465,6 +460,16 @@ ResolvedCase finish(Settings settings, Population population, std::vector<InnerW
     return result;
 }
 
+/// A check that needs a key is left out if the key was refused.
+template <class Check>
+void unless_refused(const CaseEntries& entries, Check check) {
+    try {
+        check();
+    } catch (const MissingKey&) {
+        if (entries.problems.empty()) throw;
+    }
+}
+
 ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
                      const GivenGrains& given_grains) {
     if (entries.entries.empty() && !entries.problems.empty())
@@ -477,11 +482,16 @@ ResolvedCase resolve(CaseEntries entries, const std::filesystem::path& folder,
     if (given_grains.earlier) accept_overlaps(settings);
     const std::optional<GrainForms> forms = forms_of(settings);
     if (!forms) throw CaseRefused(std::move(entries.problems));
-    Population population = make_population(settings, *forms, entries, folder, given_grains);
-    std::vector<InnerWall> walls = make_walls(settings, population.grains, *forms, folder, entries);
+    Population population;
+    unless_refused(entries, [&] {
+        population = make_population(settings, *forms, entries, folder, given_grains);
+    });
+    std::vector<InnerWall> walls;
+    unless_refused(
+        entries, [&] { walls = make_walls(settings, population.grains, *forms, folder, entries); });
     std::string script = users_script(settings, folder, entries);
     place_command(settings, folder);
-    if (settings.has("grains.adapter")) check_motions(settings, walls, entries);
+    unless_refused(entries, [&] { check_motions(settings, walls, entries); });
     if (!entries.problems.empty()) throw CaseRefused(std::move(entries.problems));
     return finish(std::move(settings), std::move(population), std::move(walls), std::move(script),
                   *forms, entries);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A case that was mutated at random is refused with code 2, or is valid and then means in its run
+// folder what it meant when it was checked. It never ends in another way, in a crash, or not at
+// all. TURBIDITE_MUTATIONS=100000 plays as many; a failure prints the case.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "coupler/protocol/run_files.hpp"
+#include "launcher/case/case_file.hpp"
+#include "tests/mutation/mutate.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+using mutation::CaseText;
+
+constexpr long usual_mutations = 2000, per_process = 500;
+constexpr unsigned longest = 30;                          // for one case [s]
+constexpr rlim_t most_memory = 3UL * 1024 * 1024 * 1024;  // of the process [bytes]
+
+const char* const grains_csv =
+    "id,x,y,radius,shape,angle,vx,vy,spin,density,material,motion\n"
+    "1,2,2,0.5,disc,0,0,0,0,1.5,default,free\n2,4,2,0.5,disc,0,0.1,0,0,1.5,default,free\n"
+    "3,6,2,0.75,triangle,0.4,0,0,0,1.2,steel,free\n4,2,5,0.5,disc,0,0,0,0,1.5,default,m\n"
+    "5,4,5,0.5,disc,0,0,0,0,1.5,default,fixed\n";
+const char* const walls_csv =
+    "id,x1,y1,x2,y2,thickness,vx,vy,spin,px,py,friction,motion\n"
+    "1,1,7,5,7.5,0.5,0,0,0,3,7,0.3,\n2,6,6,7,7,0.5,0,0,0,6,6,0.2,m\n";
+const char* const every_kind_of_key = R"(
+domain:
+  size: [8, 10]
+  walls_file: walls.csv
+  right_motion: m
+  motions: {m: {kind: harmonic, amplitude: [0, 0.1], period: 2}}
+grains: {adapter: standalone-nscd, file: grains.csv, density_ratio: 1.5}
+fluid: {reynolds: 36, cells_per_diameter: 8, splitting: explicit-multiplier}
+contact: {friction: 0.3, materials: {steel: {friction: 0.1}}}
+time: {step: 0.01, end: 1}
+output: {interval: 0.1, probes: [1, 1, 2, 2]}
+)";
+
+std::vector<CaseText> starting_cases() {
+    std::vector<CaseText> cases(4, CaseText{every_kind_of_key, grains_csv, walls_csv, {}});
+    for (const auto& file : std::filesystem::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
+        std::ifstream in(file.path());
+        std::stringstream text;
+        text << in.rdbuf();
+        if (file.path().extension() == ".yaml" && text.str().find("domain:") != std::string::npos)
+            cases.push_back({text.str(), grains_csv, walls_csv, {}});
+    }
+    return cases;
+}
+
+/// What is wrong with how a case ended; empty if nothing is.
+std::string fault_of(const CaseText& text, const ScratchFolder& folder, long& valid) {
+    folder.write("grains.csv", text.grains);
+    folder.write("walls.csv", text.walls);
+    const auto file = folder.write("case.yaml", text.yaml);
+    try {
+        const ResolvedCase checked = load_case(file, text.set);
+        ++valid;
+        folder.write("run/case.yaml", checked.yaml);
+        folder.write("run/grains/initial.csv", checked.grains_csv);
+        if (!checked.walls_csv.empty()) folder.write("run/grains/walls.csv", checked.walls_csv);
+        if (!checked.script.empty()) return "";  // its file is not written here
+        if (load_run_folder(folder.path() / "run").settings.entries() != checked.settings.entries())
+            return "the run folder means something else";
+    } catch (const Failure& refused) {
+        if (refused.code() != ExitCode::bad_input)
+            return fmt::format("code {}: {}", static_cast<int>(refused.code()), refused.what());
+        if (std::string(refused.what()).empty()) return "refused without a word";
+    } catch (const std::exception& error) {
+        return std::string("an exception: ") + error.what();
+    }
+    return "";
+}
+
+/// Plays mutations in this process, which ends; the one in work is in the file `last`.
+[[noreturn]] void play(long first, long count, const std::vector<CaseText>& cases,
+                       const std::filesystem::path& last) {
+    const rlimit memory{most_memory, most_memory};
+    setrlimit(RLIMIT_AS, &memory);
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder.path() / "run" / "grains");
+    long valid = 0, faults = 0;
+    for (long n = first; n < first + count; ++n) {
+        mutation::Random random(static_cast<std::uint64_t>(n));
+        const CaseText text = mutated(cases[static_cast<std::size_t>(n) % cases.size()], random);
+        std::ofstream(last) << "mutation " << n << "\n" << text.all();
+        alarm(longest);
+        const std::string fault = fault_of(text, folder, valid);
+        if (!fault.empty() && ++faults <= 5) {
+            std::fprintf(stderr, "mutation %ld: %s\n%s\n", n, fault.c_str(), text.all().c_str());
+        }
+    }
+    alarm(0);
+    std::ofstream(last) << valid << "\n";
+    std::filesystem::remove_all(folder.path());
+    _exit(faults > 0 ? 1 : 0);
+}
+
+TEST(MutatedCases, AreRefusedOrMeanWhatTheySay) {
+    const char* const wanted = std::getenv("TURBIDITE_MUTATIONS");
+    const long mutations = wanted ? std::atol(wanted) : usual_mutations;
+    const std::vector<CaseText> cases = starting_cases();
+    ASSERT_GT(cases.size(), 8u);
+    const ScratchFolder folder;
+    const auto last = folder.path() / "last.txt";
+    long valid = 0;
+    for (long first = 0; first < mutations; first += per_process) {
+        const pid_t child = fork();
+        if (child == 0) play(first, std::min(per_process, mutations - first), cases, last);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        std::ifstream in(last);
+        std::stringstream text;
+        text << in.rdbuf();
+        EXPECT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status) << " in " << text.str();
+        EXPECT_EQ(WEXITSTATUS(status), 0);
+        valid += std::atol(text.str().c_str());
+    }
+    std::printf("%ld mutations, %ld of them valid\n", mutations, valid);
+    EXPECT_GT(valid, mutations / 50);
+    EXPECT_LT(valid, mutations / 2);
+}
+
+}  // namespace
+}  // namespace turbidite
