@@ -35,6 +35,8 @@ const std::vector<Command>& commands() {
          declare_study},
         {"adapter-test", "play a scripted partner against a grains adapter, and say what conforms",
          declare_adapter_test},
+        {"replay", "play a recorded run again with one of its programs alone, and compare",
+         declare_replay},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
         {"doctor", "say what is installed and built, what is missing, and play a short job",
          declare_doctor},

@@ -12,6 +12,7 @@
 
 #include "coupler/hub/hub.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
+#include "coupler/transport/recording.hpp"
 #include "coupler/transport/world.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/run_folder.hpp"
@@ -75,14 +76,34 @@ MPI_Comm join_world(const std::string& directory, double limit,
     return local;
 }
 
+/// The channel itself, or one that records it.
+class MaybeRecorded {
+ public:
+    MaybeRecorded(Channel* channel, const ResolvedCase& resolved, const RunFolder& folder,
+                  Role role)
+        : channel_(channel) {
+        const std::string& wanted = resolved.settings.text("coupling.recording");
+        const std::string name = role_name(role);
+        if (channel && (wanted == "both" || wanted == name))
+            channel_ = &recording_.emplace(*channel, folder.recording(name));
+    }
+    Channel* channel() { return channel_; }
+
+ private:
+    std::optional<RecordingChannel> recording_;
+    Channel* channel_;
+};
+
 RunStatus couple(const std::string& directory, std::optional<MpiEnvironment>& mpi) {
     ResolvedCase resolved = load_run_folder(directory);
     const double limit = resolved.settings.real("limits.start");
     const MPI_Comm local = join_world(directory, limit, mpi);
     Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"), limit);
-    Hub hub({resolved.settings, resolved.shapes, resolved.population},
-            hub_files(RunFolder{directory}), *meeting.grains, meeting.fluid.get(),
-            find_scheme(resolved.settings.text("run.scheme")));
+    const RunFolder folder{directory};
+    MaybeRecorded grains(meeting.grains.get(), resolved, folder, Role::grains);
+    MaybeRecorded fluid(meeting.fluid.get(), resolved, folder, Role::fluid);
+    Hub hub({resolved.settings, resolved.shapes, resolved.population}, hub_files(folder),
+            *grains.channel(), fluid.channel(), find_scheme(resolved.settings.text("run.scheme")));
     std::signal(SIGTERM, [](int) { ended_from_outside = 1; });
     hub.heed(ended_from_outside);
     return hub.run();

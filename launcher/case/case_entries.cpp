@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "launcher/case/file_names.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -89,7 +91,7 @@ void read_document(const std::string& text, const Place& place, CaseEntries& res
 void read_file(const std::filesystem::path& file, CaseEntries& result) {
     std::ifstream input(file);
     std::stringstream text;
-    if (std::filesystem::is_directory(file) || !input || !(text << input.rdbuf())) {
+    if (is_folder(file) || !input || !(text << input.rdbuf())) {
         result.problems.push_back(problem_at(file.string(), 0, "cannot be read",
                                              "A case file (YAML) is needed.", "Check the path."));
         return;

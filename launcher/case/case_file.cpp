@@ -20,6 +20,7 @@
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/command_words.hpp"
 #include "launcher/case/earlier_run.hpp"
+#include "launcher/case/file_names.hpp"
 #include "launcher/case/grain_forms.hpp"
 #include "launcher/case/grains_adapters.hpp"
 #include "launcher/case/inner_walls.hpp"
@@ -141,7 +142,7 @@ CaseProblem missing_file(const CaseEntries& entries, const std::string& key,
 
 Population grains_from_file(const std::filesystem::path& file, const Settings& settings,
                             const GrainForms& forms, CaseEntries& entries) {
-    if (!std::filesystem::is_regular_file(file)) {
+    if (!is_file(file)) {
         entries.problems.push_back(missing_file(entries, "grains.file", file));
         return {};
     }
@@ -335,7 +336,7 @@ std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
                                   CaseEntries& entries) {
     if (!settings.has("domain.walls_file")) return {};
     const auto file = folder / settings.text("domain.walls_file");
-    if (!std::filesystem::is_regular_file(file)) {
+    if (!is_file(file)) {
         entries.problems.push_back(missing_file(entries, "domain.walls_file", file));
         return {};
     }
@@ -358,7 +359,7 @@ std::string users_script(Settings& settings, const std::filesystem::path& folder
                          CaseEntries& entries) {
     if (!settings.has("grains.script")) return {};
     const auto file = folder / settings.text("grains.script");
-    if (!std::filesystem::is_regular_file(file)) {
+    if (!is_file(file)) {
         entries.problems.push_back(missing_file(entries, "grains.script", file));
         return {};
     }

@@ -7,11 +7,13 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "launcher/case/file_names.hpp"
+
 namespace turbidite {
 namespace {
 
 bool is_executable(const std::filesystem::path& file) {
-    return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
+    return is_file(file) && access(file.c_str(), X_OK) == 0;
 }
 
 }  // namespace
@@ -56,7 +58,7 @@ std::vector<std::string> with_absolute_files(std::vector<std::string> words,
     for (std::string& word : words) {
         if (word.empty()) continue;
         const auto file = std::filesystem::absolute(folder / word);
-        if (std::filesystem::is_regular_file(file)) word = file.lexically_normal().string();
+        if (is_file(file)) word = file.lexically_normal().string();
     }
     return words;
 }

@@ -12,6 +12,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "launcher/case/file_names.hpp"
 #include "launcher/case/run_folder.hpp"
 
 namespace turbidite {
@@ -120,14 +121,14 @@ std::int32_t material_of(const std::string& name, const std::vector<std::string>
 EarlierRun parse_earlier_run(const std::string& text) {
     EarlierRun run{text, std::nullopt};
     const auto at = text.rfind('@');
-    if (at != std::string::npos && !std::filesystem::exists(text)) {
+    if (at != std::string::npos && !is_there(text)) {
         run.folder = text.substr(0, at);
         run.time = parse_real(text.substr(at + 1));
         if (!run.time || !std::isfinite(*run.time))
             throw refused(fmt::format("\"{}\" is not a time", text.substr(at + 1)),
                           "Write DIR@time with the time in t_c, for example runs/a@2.5.");
     }
-    if (!std::filesystem::exists(RunFolder{run.folder}.resolved_case()))
+    if (!is_there(RunFolder{run.folder}.resolved_case()))
         throw refused(run.folder.string() + " is not a run folder: it has no case.yaml",
                       "Give a folder written by `turbidite run`.");
     return run;

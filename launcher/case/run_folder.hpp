@@ -21,6 +21,10 @@ struct RunFolder {
     std::filesystem::path fluid() const { return root / "fluid"; }
     std::filesystem::path logs() const { return root / "logs"; }
     std::filesystem::path log(const std::string& role) const { return logs() / (role + ".log"); }
+    /// Messages of "grains" or "fluid", if coupling.recording says so.
+    std::filesystem::path recording(const std::string& role) const {
+        return root / "recording" / (role + ".frames");
+    }
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
 

@@ -21,6 +21,7 @@ struct Command {
 
 CommandAction declare_run(CLI::App& options);
 CommandAction declare_check(CLI::App& options);
+CommandAction declare_replay(CLI::App& app);
 CommandAction declare_report(CLI::App& options);
 CommandAction declare_compare(CLI::App& options);
 CommandAction declare_study(CLI::App& options);

@@ -9,6 +9,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "launcher/case/key_reference.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/commands/key_schema.hpp"
 #include "launcher/commands/terminal_width.hpp"
 
 namespace turbidite {
@@ -16,12 +17,14 @@ namespace {
 
 struct KeysOptions {
     std::vector<std::string> names;
-    bool markdown = false;
+    bool markdown = false, schema = false;
 };
 
 int print_keys(const KeysOptions& options) {
     const bool for_a_file = options.names.empty() && !isatty(STDOUT_FILENO);
-    if (options.markdown || for_a_file)
+    if (options.schema)
+        fmt::print("{}", key_schema());
+    else if (options.markdown || for_a_file)
         fmt::print("{}", key_reference(options.names));
     else
         fmt::print("{}", key_help(options.names, terminal_width()));
@@ -36,6 +39,8 @@ CommandAction declare_keys(CLI::App& app) {
                    "groups or keys, for example contact or fluid.reynolds; default: all");
     app.add_flag("--markdown", options->markdown,
                  "tables as in docs/case-reference.md, also what a file or pipe gets of all keys");
+    app.add_flag("--schema", options->schema,
+                 "a JSON Schema of all keys, with which editors complete and check case files");
     return [options] { return print_keys(*options); };
 }
 

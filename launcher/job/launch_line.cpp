@@ -45,6 +45,12 @@ std::string python_path(const LaunchSite& site) {
     return site.python.empty() ? ours : ours + ":" + site.python;
 }
 
+Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
+    Arguments part{programs.fluid(), "-case", folder.fluid()};
+    if (ranks > 1) part.push_back("-parallel");
+    return part;
+}
+
 /// The programs of a job, each with the world ranks after those of the program before it.
 class Parts {
  public:
@@ -61,6 +67,14 @@ class Parts {
         first_ += ranks;
     }
 
+    /// A participant of the case.
+    void add(const std::string& role, const Settings& settings, const Programs& programs) {
+        const std::int64_t ranks = settings.integer(role + ".ranks");
+        add(role, ranks,
+            role == "fluid" ? fluid_command(ranks, folder_, programs)
+                            : grains_command(settings, programs, folder_.root));
+    }
+
     const Arguments& line() const { return line_; }
 
  private:
@@ -69,12 +83,6 @@ class Parts {
     std::int64_t first_ = 0;
     Arguments line_;
 };
-
-Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
-    Arguments part{programs.fluid(), "-case", folder.fluid()};
-    if (ranks > 1) part.push_back("-parallel");
-    return part;
-}
 
 bool is_plain(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-+=./:,@%", c) != nullptr;
@@ -114,12 +122,19 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
     Arguments line = mpirun_options(site);
     Parts parts(site, folder);
     parts.add("coupler", 1, {programs.coupler(), folder.root});
-    if (settings.flag("fluid.enabled")) {
-        const std::int64_t ranks = settings.integer("fluid.ranks");
-        parts.add("fluid", ranks, fluid_command(ranks, folder, programs));
-    }
-    parts.add("grains", settings.integer("grains.ranks"),
-              grains_command(settings, programs, folder.root));
+    if (settings.flag("fluid.enabled")) parts.add("fluid", settings, programs);
+    parts.add("grains", settings, programs);
+    append(line, parts.line());
+    return line;
+}
+
+std::vector<std::string> replay_arguments(const Settings& settings, const RunFolder& folder,
+                                          const LaunchSite& site, const std::string& role,
+                                          const std::filesystem::path& recording) {
+    Arguments line = mpirun_options(site);
+    Parts parts(site, folder);
+    parts.add("coupler", 1, {site.programs.replay(), folder.root, role, recording});
+    parts.add(role, settings, site.programs);
     append(line, parts.line());
     return line;
 }

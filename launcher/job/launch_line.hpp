@@ -37,6 +37,12 @@ std::vector<std::string> mpirun_options(const LaunchSite& site);
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
                                           const LaunchSite& site);
 
+/// The same with a recording in the place of the coupler and of the other participant; `role` is
+/// "grains" or "fluid".
+std::vector<std::string> replay_arguments(const Settings& settings, const RunFolder& folder,
+                                          const LaunchSite& site, const std::string& role,
+                                          const std::filesystem::path& recording);
+
 /// Name of a rank of the world: "coupler", "fluid rank 0", …
 std::vector<std::string> rank_names(const Settings& settings);
 

@@ -58,7 +58,8 @@ bool is_run_folder(const RunFolder& folder) {
 void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
-          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.stop()})
+          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.stop(),
+          folder.recording("grains").parent_path(), folder.root / "differences"})
         fs::remove_all(part);
 }
 

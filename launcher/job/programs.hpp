@@ -22,6 +22,8 @@ struct Programs {
     std::filesystem::path fluid() const {
         return other_fluid.empty() ? folder / "turbidite-fluid" : other_fluid;
     }
+    /// A recording in the place of coupler and partner.
+    std::filesystem::path replay() const { return folder / "turbidite-replay"; }
     /// A scripted fluid, for adapter-test.
     std::filesystem::path partner() const { return folder / "turbidite-partner"; }
     std::filesystem::path bench() const { return folder / "turbidite-bench"; }

@@ -8,6 +8,7 @@
 
 #include "coupler/keys/case_error.hpp"
 #include "coupler/keys/nearest_name.hpp"
+#include "launcher/case/file_names.hpp"
 
 namespace turbidite {
 namespace {
@@ -126,7 +127,7 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
                        "Add case: FILE, with a path relative to the study file.");
     } else {
         part.case_file = folder / file.Scalar();
-        if (!fs::is_regular_file(part.case_file))
+        if (!is_file(part.case_file))
             complaints.add(
                 file, "case: " + file.Scalar() + " does not exist",
                 "It is a case file, its path relative to the study file.",

@@ -62,6 +62,11 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_SAYS(turbidite("keys").out, "| `contact.friction` |");
     EXPECT_SAYS(turbidite("keys contact").out, "\ncontact.theta");
     EXPECT_SAYS(turbidite("keys contact --markdown").out, "| `contact.friction` |");
+    const auto schema = nlohmann::json::parse(turbidite("keys --schema").out);
+    const auto& contact = schema.at("properties").at("contact").at("properties");
+    EXPECT_EQ(contact.at("friction").at("minimum"), 0.0);
+    EXPECT_EQ(contact.at("materials").at("additionalProperties").at("properties").count("friction"),
+              1u);
     const Answer wrong = turbidite("keys contcat");
     EXPECT_EQ(wrong.code, 2);
     EXPECT_SAYS(wrong.err, "Did you mean contact?");

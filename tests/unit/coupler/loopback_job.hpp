@@ -14,6 +14,7 @@
 #include "coupler/participant/scripted.hpp"
 #include "coupler/participant/session.hpp"
 #include "coupler/transport/loopback_channel.hpp"
+#include "coupler/transport/recording.hpp"
 #include "tests/unit/coupler/test_case.hpp"
 
 namespace turbidite {
@@ -32,6 +33,7 @@ struct Job {
     LoopbackChannel::Hook to_fluid;
     LoopbackChannel::Hook from_fluid, from_grains;
     std::optional<SchemeEntry> scheme;  // instead of run.scheme
+    std::filesystem::path recordings;   // folder for grains.frames and fluid.frames
 
     RunStatus status;
     std::vector<Outcome> outcomes;
@@ -63,8 +65,15 @@ struct Job {
                     live(*make_session(adapter_object, *end, identity(rank, fluid_ranks)));
             });
         {
-            Hub hub({settings, {{"disc", {}}}, test_population()}, folder.files(), *grains,
-                    wet ? fluid.get() : nullptr, scheme ? *scheme : find_scheme(settings.text("run.scheme")));
+            Channel *to_grains_program = grains.get(), *to_fluid_program = fluid.get();
+            std::optional<RecordingChannel> grains_recorded, fluid_recorded;
+            if (!recordings.empty()) {
+                to_grains_program =
+                    &grains_recorded.emplace(*grains, recordings / "grains.frames");
+                to_fluid_program = &fluid_recorded.emplace(*fluid, recordings / "fluid.frames");
+            }
+            Hub hub({settings, {{"disc", {}}}, test_population()}, folder.files(),
+                    *to_grains_program, wet ? to_fluid_program : nullptr, scheme ? *scheme : find_scheme(settings.text("run.scheme")));
             status = hub.run();
         }
         for (std::thread& thread : threads) thread.join();

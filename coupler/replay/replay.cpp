@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/replay/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <deque>
+
+#include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/message.hpp"
+#include "coupler/replay/record_numbers.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr std::size_t most_sentences = 10;
+
+bool same(double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+std::string text_of(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
+/// "motion" of window 5, rank 0
+std::string place_of(const Message& message, int rank) {
+    const Envelope& at = message.envelope;
+    return "\"" + kind_name(at.kind) + "\" of window " + std::to_string(at.window) +
+           (at.iteration > 0 ? ", round " + std::to_string(at.iteration) : std::string()) +
+           ", rank " + std::to_string(rank);
+}
+
+/// The first number of a table that differs, and the largest relative difference.
+struct TableDifference {
+    std::string first;  ///< empty: none
+    double largest = 0.0;
+};
+
+TableDifference difference(const NumberTable& now, const NumberTable& then) {
+    if (now.ids != then.ids || now.numbers.size() != then.numbers.size())
+        return {now.ids.size() == then.ids.size()
+                    ? now.what + "s come in another order, or are others"
+                    : std::to_string(now.ids.size()) + " records (" + now.what + ") instead of " +
+                          std::to_string(then.ids.size()),
+                INFINITY};
+    const std::size_t per_record = then.names.size();
+    std::vector<double> scale(per_record, 0.0);
+    for (std::size_t i = 0; i < then.numbers.size(); ++i)
+        if (!std::isnan(then.numbers[i]))
+            scale[i % per_record] = std::max(scale[i % per_record], std::abs(then.numbers[i]));
+    TableDifference result;
+    for (std::size_t i = 0; i < then.numbers.size(); ++i) {
+        const double a = now.numbers[i], b = then.numbers[i];
+        if (same(a, b)) continue;
+        const std::size_t name = i % per_record;
+        const GrainId id = then.ids[i / per_record];
+        if (result.first.empty())
+            result.first = then.what + (id < 0 ? "" : " " + std::to_string(id)) + ": " +
+                           then.names[name] + " = " + text_of(a) + " instead of " + text_of(b);
+        const double relative = std::abs(a - b) / (scale[name] > 0.0 ? scale[name] : 1.0);
+        result.largest = std::max(result.largest, std::isnan(relative) ? INFINITY : relative);
+    }
+    return result;
+}
+
+class Replay {
+ public:
+    Replay(Recording& recording, Channel& participant, const ReplayOrder& order)
+        : recording_(recording),
+          channel_(participant),
+          order_(order),
+          arrived_(static_cast<std::size_t>(participant.peers())),
+          last_(arrived_.size()),
+          sent_(arrived_.size(), 0),
+          released_(arrived_.size(), false) {}
+
+    ReplayReport play() {
+        demand_ranks();
+        while (auto frame = recording_.next())
+            if (frame->sent_by_coupler)
+                send(*frame);
+            else
+                compare(frame->peer, unframe(frame->bytes));
+        end_what_was_cut_off();
+        while (!channel_.flushed()) Patience().wait();
+        return report_;
+    }
+
+ private:
+    void demand_ranks() const {
+        if (channel_.peers() == recording_.peers()) return;
+        throw Failure(ExitCode::handshake_refused,
+                      "the recording is of " + std::to_string(recording_.peers()) +
+                          " ranks, and the participant has " + std::to_string(channel_.peers()));
+    }
+
+    void send(const RecordedFrame& frame) {
+        const Envelope envelope = unframe(frame.bytes).envelope;
+        const auto peer = static_cast<std::size_t>(frame.peer);
+        last_[peer] = envelope;
+        ++sent_[peer];
+        released_[peer] = envelope.kind == Kind::release;
+        if (envelope.kind == Kind::window && frame.peer == 0) order_.progress(report_.windows++);
+        channel_.send(frame.peer, frame.bytes);
+    }
+
+    /// The next message of a rank. Throws Failure for one that cannot go on, or is silent.
+    Message receive(int peer) {
+        auto& queue = arrived_[static_cast<std::size_t>(peer)];
+        for (Patience patience; queue.empty(); patience.wait()) {
+            if (auto frame = channel_.try_receive())
+                arrived_[static_cast<std::size_t>(frame->peer)].push_back(unframe(frame->bytes));
+            if (patience.seconds() > order_.limit)
+                throw Failure(ExitCode::stalled, "rank " + std::to_string(peer) +
+                                                     " has not answered within limits.stall_hard");
+        }
+        Message message = std::move(queue.front());
+        queue.pop_front();
+        if (message.envelope.kind != Kind::failure) return message;
+        const auto verdict = decode<Verdict>(message.payload);
+        throw Failure(static_cast<ExitCode>(verdict.exit_code), verdict.reason);
+    }
+
+    void compare(int peer, const Message& then) {
+        last_[static_cast<std::size_t>(peer)] = then.envelope;
+        const Message now = receive(peer);
+        if (now.envelope.kind != then.envelope.kind ||
+            now.envelope.window != then.envelope.window ||
+            now.envelope.iteration != then.envelope.iteration)
+            throw Failure(ExitCode::participant_failed,
+                          "it sent " + place_of(now, peer) + " instead of " + place_of(then, peer));
+        ++report_.messages;
+        const auto ours = numbers_of(now), theirs = numbers_of(then);
+        bool differs = ours.size() != theirs.size();
+        std::string why = differs ? "it reports other things than then" : "";
+        for (std::size_t t = 0; t < std::min(ours.size(), theirs.size()); ++t) {
+            const TableDifference table = difference(ours[t], theirs[t]);
+            if (table.first.empty()) continue;
+            if (why.empty()) why = table.first;
+            differs = true;
+            report_.largest = std::max(report_.largest, table.largest);
+        }
+        if (!differs) return;
+        ++report_.differences;
+        if (report_.first.size() < most_sentences)
+            report_.first.push_back(place_of(now, peer) + ": " + why);
+    }
+
+    /// Ranks that were never released are dismissed where the recording ends.
+    void end_what_was_cut_off() {
+        for (std::size_t peer = 0; peer < released_.size(); ++peer) {
+            if (released_[peer]) continue;
+            report_.complete = false;
+            send_end(peer, Kind::dismiss, encode(Verdict{0, "the recording ends here"}));
+            while (receive(static_cast<int>(peer)).envelope.kind != Kind::farewell) {
+            }
+        }
+        for (std::size_t peer = 0; peer < released_.size(); ++peer)
+            if (!released_[peer]) send_end(peer, Kind::release, {});
+    }
+
+    void send_end(std::size_t peer, Kind kind, Bytes payload) {
+        Envelope envelope = last_[peer];
+        envelope.kind = kind;
+        envelope.sequence = sent_[peer]++;
+        channel_.send(static_cast<int>(peer), frame({envelope, std::move(payload)}));
+    }
+
+    Recording& recording_;
+    Channel& channel_;
+    const ReplayOrder& order_;
+    std::vector<std::deque<Message>> arrived_;  // by rank
+    std::vector<Envelope> last_;                // sent or compared
+    std::vector<std::int64_t> sent_;
+    std::vector<bool> released_;
+    ReplayReport report_;
+};
+
+}  // namespace
+
+ReplayReport replay(Recording& recording, Channel& participant, const ReplayOrder& order) {
+    return Replay(recording, participant, order).play();
+}
+
+}  // namespace turbidite

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/transport/recording.hpp"
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr std::int64_t magic = 0x6469627275745f31, version = 1;
+constexpr std::int64_t most_bytes = std::int64_t{1} << 40;  // a longer frame is damage
+
+void write_number(std::ofstream& out, std::int64_t number) {
+    out.write(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+std::optional<std::int64_t> read_number(std::ifstream& in) {
+    std::int64_t number = 0;
+    in.read(reinterpret_cast<char*>(&number), sizeof number);
+    return in ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+RecordingChannel::RecordingChannel(Channel& channel, std::filesystem::path file)
+    : channel_(channel), file_(std::move(file)) {
+    std::filesystem::create_directories(file_.parent_path());
+    out_.open(file_, std::ios::binary);
+    for (const std::int64_t number : {magic, version, std::int64_t{channel_.peers()}})
+        write_number(out_, number);
+    if (!out_.flush())
+        throw Failure(ExitCode::participant_failed, "cannot write " + file_.string());
+}
+
+void RecordingChannel::send(int peer, Bytes bytes) {
+    record(true, peer, bytes);
+    channel_.send(peer, std::move(bytes));
+}
+
+std::optional<Channel::Frame> RecordingChannel::try_receive() {
+    auto frame = channel_.try_receive();
+    if (frame) record(false, frame->peer, frame->bytes);
+    return frame;
+}
+
+void RecordingChannel::record(bool sent, int peer, const Bytes& bytes) {
+    for (const std::int64_t number :
+         {std::int64_t{sent}, std::int64_t{peer}, static_cast<std::int64_t>(bytes.size())})
+        write_number(out_, number);
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!out_)
+        throw Failure(ExitCode::participant_failed,
+                      "cannot write " + file_.string() +
+                          ": is the disk full? Without coupling.recording nothing is kept");
+}
+
+Recording::Recording(const std::filesystem::path& file) : in_(file, std::ios::binary) {
+    const auto first = read_number(in_), second = read_number(in_), ranks = read_number(in_);
+    if (first != magic)
+        throw Failure(ExitCode::bad_input, file.string() + " is not a recording of turbidite");
+    if (second != version || !ranks || *ranks < 1)
+        throw Failure(ExitCode::bad_input, file.string() + " was recorded by another version");
+    peers_ = static_cast<int>(*ranks);
+}
+
+std::optional<RecordedFrame> Recording::next() {
+    const auto sent = read_number(in_), peer = read_number(in_), size = read_number(in_);
+    if (!size || *size < 0 || *size > most_bytes || *peer < 0 || *peer >= peers_)
+        return std::nullopt;
+    RecordedFrame frame{*sent != 0, static_cast<int>(*peer),
+                        Bytes(static_cast<std::size_t>(*size))};
+    in_.read(frame.bytes.data(), static_cast<std::streamsize>(*size));
+    return in_ ? std::optional(std::move(frame)) : std::nullopt;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// All frames between the coupler and one participant in a file, in the order in which the coupler
+// sent and received them: what `turbidite replay` plays to the participant again. The file is
+//
+//     magic, version, ranks                           of the participant
+//     { sent by the coupler, rank, length, bytes }    one entry per frame
+//
+// where everything but the bytes is a signed 64-bit number, little-endian. An entry that is cut off
+// ends the recording: that of a run that was killed.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "coupler/transport/channel.hpp"
+
+namespace turbidite {
+
+/// A channel that records what passes through another one.
+class RecordingChannel final : public Channel {
+ public:
+    /// Throws Failure (participant failed) naming the file when it cannot be written, here and
+    /// later.
+    RecordingChannel(Channel& channel, std::filesystem::path file);
+
+    int peers() const override { return channel_.peers(); }
+    void send(int peer, Bytes bytes) override;
+    std::optional<Frame> try_receive() override;
+    bool flushed() override { return channel_.flushed(); }
+
+ private:
+    void record(bool sent, int peer, const Bytes& bytes);
+
+    Channel& channel_;
+    std::filesystem::path file_;
+    std::ofstream out_;
+};
+
+struct RecordedFrame {
+    bool sent_by_coupler = false;
+    int peer = 0;
+    Bytes bytes;
+};
+
+class Recording {
+ public:
+    /// Throws Failure (bad input) naming the file if it is not a recording.
+    explicit Recording(const std::filesystem::path& file);
+
+    /// Ranks of the participant.
+    int peers() const { return peers_; }
+
+    /// Nothing at the end.
+    std::optional<RecordedFrame> next();
+
+ private:
+    std::ifstream in_;
+    int peers_ = 0;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite replay RUN: one participant against what its partner had said.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "launcher/case/file_names.hpp"
+#include "launcher/commands/command.hpp"
+#include "launcher/job/play_run.hpp"
+
+namespace turbidite {
+namespace {
+
+struct ReplayOptions {
+    std::string run, side;
+    RunOrder order;
+    bool dry_run = false;
+};
+
+Failure refused(const std::string& text) {
+    return Failure(ExitCode::bad_input, text + " Exit code 2.");
+}
+
+/// --side, or the one that was recorded.
+std::string side_of(const ReplayOptions& options, const RunFolder& recorded) {
+    std::vector<std::string> there;
+    for (const char* role : {"grains", "fluid"})
+        if (is_there(recorded.recording(role))) there.emplace_back(role);
+    if (there.empty())
+        throw refused(
+            fmt::format("{} has no recording.\n  Play the case again with --set "
+                        "coupling.recording=grains, fluid or both.",
+                        options.run));
+    if (options.side.empty() && there.size() == 1) return there.front();
+    if (options.side.empty())
+        throw refused(
+            fmt::format("{} has recordings of grains and fluid.\n  Say which program is "
+                        "to run: --side grains or --side fluid.",
+                        options.run));
+    if (!is_there(recorded.recording(options.side)))
+        throw refused(
+            fmt::format("{} has no recording of the {}.\n  Play the case again with "
+                        "--set coupling.recording=both.",
+                        options.run, options.side));
+    return options.side;
+}
+
+int replay(const ReplayOptions& options) {
+    const RunFolder recorded{std::filesystem::absolute(options.run).lexically_normal()};
+    if (!is_there(recorded.resolved_case()))
+        throw refused(fmt::format("{} is not a run folder: it has no case.yaml.", options.run));
+    const std::string side = side_of(options, recorded);
+    const ResolvedCase resolved = load_run_folder(recorded.root);
+    const LaunchSite site = this_site();
+    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
+    const auto line =
+        replay_arguments(resolved.settings, folder, site, side, recorded.recording(side));
+    prepare_run(resolved, folder, line);
+    fmt::print(options.dry_run ? stderr : stdout, "The {} of {} again, alone.  folder: {}\n", side,
+               options.run, folder.root.string());
+    std::fflush(nullptr);
+    if (options.dry_run) {
+        fmt::print("{}\n", shell_line(line));
+        return static_cast<int>(ExitCode::done);
+    }
+    const JobEnd end =
+        run_job({.arguments = line, .error_log = folder.log("mpirun"), .request_stop = [](int) {
+                     return false;
+                 }});
+    const JobOutcome outcome = settle_outcome(folder, end, {"replay", side + " rank 0"});
+    if (outcome.code != ExitCode::done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
+    const bool differs = is_there(folder.root / "differences");
+    return static_cast<int>(outcome.code == ExitCode::done && differs ? ExitCode::tests_failed
+                                                                      : outcome.code);
+}
+
+}  // namespace
+
+CommandAction declare_replay(CLI::App& app) {
+    const auto options = std::make_shared<ReplayOptions>();
+    app.add_option("RUN", options->run, "run folder with a recording (coupling.recording)")
+        ->required()
+        ->type_name("DIR");
+    app.add_option("--side", options->side, "the program that runs; the other one is the recording")
+        ->check(CLI::IsMember({"grains", "fluid"}))
+        ->type_name("grains|fluid");
+    app.add_option("--out", options->order.out,
+                   "folder of the replay, new or empty; default runs/<run>-replay-<date>-<time>")
+        ->type_name("DIR");
+    app.add_flag("--force", options->order.force, "overwrite an existing run in --out");
+    app.add_flag("--dry-run", options->dry_run,
+                 "prepare everything and print the mpirun line, for a debugger");
+    return [options] { return replay(*options); };
+}
+
+}  // namespace turbidite

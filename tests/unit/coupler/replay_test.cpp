@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Recordings of whole jobs, and one participant against them.
+#include "coupler/replay/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "coupler/protocol/message.hpp"
+#include "tests/unit/coupler/loopback_job.hpp"
+
+namespace turbidite {
+namespace {
+
+/// A recorded job whose grains meet a floor, on two ranks each, under `joint`.
+class Replayed : public testing::Test {
+ protected:
+    Replayed() : folder("replay") {
+        job.settings = test_settings("joint");
+        job.floor = 4.4995;
+        job.grains_ranks = job.fluid_ranks = 2;
+        job.recordings = folder.path();
+        job.run(folder);
+    }
+
+    std::filesystem::path file(const char* role) const {
+        return folder.path() / (std::string(role) + ".frames");
+    }
+
+    /// The grains again, with a floor at this height and ranks that begin with `fault`.
+    ReplayReport grains_again(double floor, int ranks = 2, Fault fault = {}) {
+        auto [coupler, ends] = LoopbackChannel::connect(ranks);
+        std::vector<std::thread> threads;
+        for (int rank = 0; rank < ranks; ++rank)
+            threads.emplace_back([&, rank, end = ends[rank].get()] {
+                ScriptedGrains adapter("scripted", fault);
+                adapter.lay_floor(floor);
+                live(*make_session(adapter, *end, {rank, ranks, "b.log", job.hash}));
+            });
+        return joined(threads, [&, end = coupler.get()] { return play("grains", *end); });
+    }
+
+    ReplayReport fluid_again(double drag_now) {
+        auto [coupler, ends] = LoopbackChannel::connect(2);
+        std::vector<std::thread> threads;
+        for (int rank = 0; rank < 2; ++rank)
+            threads.emplace_back([&, rank, end = ends[rank].get()] {
+                ScriptedFluid adapter(drag_now, rank, 2);
+                live(*make_session(adapter, *end, {rank, 2, "b.log", job.hash}));
+            });
+        return joined(threads, [&, end = coupler.get()] { return play("fluid", *end); });
+    }
+
+    TestFolder folder;
+    Job job;
+
+ private:
+    ReplayReport play(const char* role, Channel& channel) const {
+        Recording recording(file(role));
+        ReplayOrder order;
+        order.limit = 10.0;
+        return replay(recording, channel, order);
+    }
+
+    template <class Play>
+    static ReplayReport joined(std::vector<std::thread>& threads, Play play) {
+        try {
+            const ReplayReport report = play();
+            for (std::thread& thread : threads) thread.join();
+            return report;
+        } catch (...) {
+            for (std::thread& thread : threads) thread.detach();
+            throw;
+        }
+    }
+
+    static void live(Session& session) {
+        for (bool going = session.start(); going; going = session.step()) {
+        }
+    }
+};
+
+TEST_F(Replayed, ParticipantsAnswerWhatTheyAnsweredThen) {
+    ASSERT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    const auto windows = job.settings.integer("run.windows");
+    for (const ReplayReport& report : {grains_again(4.4995), fluid_again(drag)}) {
+        EXPECT_EQ(report.windows, windows);
+        EXPECT_GT(report.messages, 4 * windows);  // two or more a window, from two ranks
+        EXPECT_EQ(report.differences, 0) << report.first.front();
+        EXPECT_TRUE(report.complete);
+    }
+}
+
+// The floor of the replay is lower: grains fall on where they had been held.
+TEST_F(Replayed, WhatDiffersIsNamed) {
+    const ReplayReport grains = grains_again(4.49);
+    EXPECT_GT(grains.differences, 0);
+    EXPECT_LT(grains.differences, grains.messages);  // before they land nothing differs
+    EXPECT_GT(grains.largest, 1e-6);
+    ASSERT_FALSE(grains.first.empty());
+    EXPECT_NE(grains.first.front().find("\"motion\" of window"), std::string::npos);
+    EXPECT_NE(grains.first.front().find("grain 10"), std::string::npos) << grains.first.front();
+    EXPECT_NE(grains.first.front().find("instead of"), std::string::npos);
+
+    const ReplayReport fluid = fluid_again(1.1 * drag);
+    EXPECT_GT(fluid.differences, 0);
+    EXPECT_NE(fluid.first.front().find("response of grain 10"), std::string::npos)
+        << fluid.first.front();
+}
+
+TEST_F(Replayed, ARecordingThatWasCutOffIsPlayedToItsEnd) {
+    std::filesystem::resize_file(file("grains"), std::filesystem::file_size(file("grains")) / 2);
+    const ReplayReport report = grains_again(4.4995);
+    EXPECT_FALSE(report.complete);
+    EXPECT_GT(report.windows, 0);
+    EXPECT_LT(report.windows, job.settings.integer("run.windows"));
+    EXPECT_EQ(report.differences, 0);
+}
+
+TEST_F(Replayed, AFailureOfTheParticipantIsItsOwn) {
+    const Fault fault = [](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 2) throw std::runtime_error("no more grains");
+    };
+    try {
+        grains_again(4.4995, 2, fault);
+        FAIL() << "nothing was thrown";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::participant_failed);
+        EXPECT_NE(std::string(failure.what()).find("no more grains"), std::string::npos);
+    }
+}
+
+TEST_F(Replayed, OtherFilesAndRanksAreRefused) {
+    EXPECT_THROW(Recording(folder.files().history), Failure);
+    EXPECT_THROW(Recording(folder.path() / "none"), Failure);
+    auto [coupler, ends] = LoopbackChannel::connect(3);
+    Recording recording(file("grains"));
+    EXPECT_THROW(replay(recording, *coupler, {}), Failure);
+}
+
+}  // namespace
+}  // namespace turbidite
