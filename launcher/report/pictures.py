@@ -121,6 +121,38 @@ def figure(run, pictures):
     return result
 
 
+def panel_width(run, shown):
+    """Pixels that a single picture needs to be readable: tall ones stand beside each other on a telephone."""
+    width, height = view(run, [one.grains for one in shown])
+    aspect = height / width
+    return 180 if aspect > 1.5 else 280 if aspect > 0.6 else 400
+
+
+def panel_size(run, shown, bar=0.0):
+    """Width and height of the figure of one picture [inches], its text readable at panel_width pixels."""
+    width, height = view(run, [one.grains for one in shown])
+    inches = panel_width(run, shown) / 75.0
+    return inches, min((inches - 0.5) * height / width + 0.8, 3.4 * inches) + bar
+
+
+def panels(run, shown):
+    """(figure, name) of each picture, the colour bar below each."""
+    wet, found = run.is_wet(), []
+    limit = colour_limit(run, shown) if wet else speed_limit(run, shown)
+    size = view(run, [picture.grains for picture in shown])
+    for k, picture in enumerate(shown):
+        result, axes = plt.subplots(figsize=panel_size(run, shown, 0.55), layout='constrained')
+        image = _draw(run, picture, limit, size, axes)
+        if image is not None:
+            bar = result.colorbar(image, ax=axes, orientation='horizontal', aspect=25, pad=0.02,
+                                  extend='both' if wet else 'max')
+            bar.set_label(r'fluid, $v\,/\,u_c$' if wet else r'grains, $|u|\,/\,u_c$', fontsize=8)
+            bar.ax.tick_params(labelsize=7)
+            bar.ax.locator_params(nbins=4)
+        found.append((result, f'sequence-{k}'))
+    return found
+
+
 def frame(run, all_grains, beside=BAR_WIDTH):
     """A figure with axes for each picture, and the width and height that each shows [D]; `beside` inches are left for
     labels and a colour bar."""

@@ -15,7 +15,6 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 
 import compare
@@ -95,11 +94,15 @@ def add_part(page, part, runs):
     values = {member.name: by_folder[member.runs[0].folder].entry['values'] for member in members}
     add_table(page, members, keys, values)
     comparison = compare.measure(members)
-    page.figure(compare_page.draw_curves(comparison), f'{part}-curves', compare_page.curves_caption(members))
+    page.legend(compare_page.legend_entries(members))
+    page.panels(((figure, f'{part}-{name}') for figure, name in compare_page.draw_curves(comparison)),
+                'All against t/t_c.' + (' Lines: means over the seeds; bands: smallest to largest.'
+                                        if any(member.is_group() for member in members) else ''))
     for key in keys:
-        figure = draw_against(key, members, values)
-        if figure is not None:
-            page.figure(figure, f'{part}-{key}', f'Against {key}; bars from the smallest to the largest of the seeds.')
+        shown = draw_against(key, members, values)
+        if shown:
+            page.panels([(figure, f'{part}-{key}-{name}') for figure, name in shown],
+                        f'Against {key}; bars from the smallest to the largest of the seeds.')
 
 
 def add_table(page, members, keys, values):
@@ -144,24 +147,21 @@ def seeds_word(key):
 
 
 def draw_against(key, members, values):
-    """One panel per measured quantity; None where the key has fewer than two numbers."""
+    """(figure, name) per measured quantity; none where the key has fewer than two numbers."""
     abscissae = numbers_of(key, members, values)
     if abscissae is None or len(set(abscissae)) < 2:
-        return None
-    shown = [m for m in MEASURED if m.name in DRAWN
-             and any(m.of(run) is not None for member in members for run in member.runs)]
-    rows = -(-len(shown) // 2)
-    figure, axes = plt.subplots(rows, 2, squeeze=False, layout='constrained', figsize=(11.0, 3.2 * rows))
-    for measured, place in zip(shown, axes.flat):
+        return []
+    shown = []
+    for measured in (m for m in MEASURED if m.name in DRAWN):
+        if not any(measured.of(run) is not None for member in members for run in member.runs):
+            continue
+        figure, axes = curves.panel(measured.title, key, measured.unit)
         for i, (label, points) in enumerate(lines_of(key, members, values, abscissae).items()):
-            draw_line(place, i, label.strip(), points, measured)
-        curves.decorate(place, measured.title, measured.unit)
-        place.set_xlabel(key)
-    for unused in list(axes.flat)[len(shown):]:
-        unused.set_axis_off()
-    if axes.flat[0].get_legend_handles_labels()[0]:
-        axes.flat[0].legend(fontsize=8)
-    return figure
+            draw_line(axes, i, label.strip(), points, measured)
+        if len(axes.get_legend_handles_labels()[1]) > 0:
+            axes.legend(fontsize=8)
+        shown.append((figure, measured.name))
+    return shown
 
 
 def draw_line(axes, i, label, points, measured):
@@ -174,8 +174,8 @@ def draw_line(axes, i, label, points, measured):
     mean = np.array([np.mean(known) for _, known in found])
     below = mean - [min(known) for _, known in found]
     above = np.array([max(known) for _, known in found]) - mean
-    axes.errorbar(x, mean, yerr=[below, above], marker='o', markersize=4, capsize=3, color=f'C{i % 10}',
-                  label=label or None, linewidth=1.2)
+    axes.errorbar(x, mean, yerr=[below, above], marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=4, capsize=3,
+                  color=f'#{compare_page.colour_of(i)}', linestyle=curves.dash(i), label=label or None, linewidth=1.2)
 
 
 def main(arguments):

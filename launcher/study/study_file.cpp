@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> part_keys = {"case", "set", "sweep", "variants"};
+const std::vector<std::string> part_keys = {"case", "set", "full", "quick", "sweep", "variants"};
 
 /// What is wrong with a study file, collected.
 class Complaints {
@@ -26,9 +26,7 @@ class Complaints {
         problems_.push_back(problem_at(source_, node.Mark().line + 1, fault, allowed, remedy));
     }
 
-    void refuse_if_any() {
-        if (!problems_.empty()) throw CaseRefused(std::move(problems_));
-    }
+    std::vector<CaseProblem> all() const { return problems_; }
 
  private:
     std::string source_;
@@ -125,14 +123,17 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
         complaints.add(node, name + " has no case", "Every part needs a case file.",
                        "Add case: FILE, with a path relative to the study file.");
     } else {
-        part.case_file = folder / file.Scalar();
-        if (!fs::is_regular_file(part.case_file))
-            complaints.add(
-                file, "case: " + file.Scalar() + " does not exist",
-                "It is a case file, its path relative to the study file.",
-                "Looked for " + fs::absolute(part.case_file).lexically_normal().string() + ".");
+        const fs::path path = folder / file.Scalar();
+        if (fs::is_regular_file(path))
+            part.case_file = path;
+        else
+            complaints.add(file, "case: " + file.Scalar() + " does not exist",
+                           "It is a case file, its path relative to the study file.",
+                           "Looked for " + fs::absolute(path).lexically_normal().string() + ".");
     }
     part.overrides = overrides_of(node["set"], "set", complaints);
+    part.full = overrides_of(node["full"], "full", complaints);
+    part.quick = overrides_of(node["quick"], "quick", complaints);
     add_variants(node["variants"], part, complaints);
     const YAML::Node sweep = node["sweep"];
     if (sweep.IsDefined() && sweep.IsMap()) add_swept_keys("", sweep, part, complaints);
@@ -180,7 +181,9 @@ Study read_study(const fs::path& file) {
         root["out"].IsDefined() ? fs::path(root["out"].Scalar()) : fs::path("runs") / study.name;
     const YAML::Node parts = root["parts"];
     if (!parts.IsDefined()) {
-        refuse_unknown_keys(root, {"out", "case", "set", "sweep", "variants"}, complaints);
+        std::vector<std::string> known = part_keys;
+        known.push_back("out");
+        refuse_unknown_keys(root, known, complaints);
         study.parts = {read_part(study.name, root, file.parent_path(), complaints)};
     } else {
         refuse_unknown_keys(root, {"out", "parts"}, complaints);
@@ -195,7 +198,7 @@ Study read_study(const fs::path& file) {
                     read_part(item.first.Scalar(), item.second, file.parent_path(), complaints));
             }
     }
-    complaints.refuse_if_any();
+    study.problems = complaints.all();
     return study;
 }
 

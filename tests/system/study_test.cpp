@@ -45,7 +45,7 @@ TEST_F(StudyRuns, PlaysWhatIsMissingAndTabulatesAll) {
     EXPECT_EQ(lines("s/study.csv"), 4);
     EXPECT_SAYS(text(scratch.path() / "s/study.html"), "Against contact.friction");
     EXPECT_GT(
-        std::filesystem::file_size(scratch.path() / "s/pictures/frictions-contact.friction.png"),
+        std::filesystem::file_size(scratch.path() / "s/pictures/frictions-contact.friction-peak_velocity.png"),
         1000u);
 
     std::filesystem::remove_all(scratch.path() / "s/frictions/friction-0.3");
