@@ -99,7 +99,7 @@ def panels(run, plots, section):
     shown = []
     for plot in plots:
         if available(plot, run):
-            result, axes = plt.subplots(figsize=PANEL, layout='constrained')
+            result, axes = bare_panel()
             draw(plot, run, axes)
             shown.append((result, f'{section}-{available(plot, run)[0].column}'))
     return shown
@@ -128,9 +128,16 @@ def draw(plot, run, axes):
         axes.legend(fontsize=8)
 
 
-def panel(title, x_label, y_label, size=PANEL):
-    """A figure of one plot, and its axes."""
-    result, axes = plt.subplots(figsize=size, layout='constrained')
+def bare_panel(size=PANEL, right=0.97):
+    """A figure of one plot with fixed margins, and its axes: finding the margins takes longer than the drawing."""
+    result, axes = plt.subplots(figsize=size)
+    result.subplots_adjust(left=0.83 / size[0], right=right, bottom=0.55 / size[1], top=1.0 - 0.35 / size[1])
+    return result, axes
+
+
+def panel(title, x_label, y_label, size=PANEL, bar=False):
+    """A figure of one plot, and its axes; with room for a colour bar and its label if asked for."""
+    result, axes = bare_panel(size, 0.9 if bar else 0.97)
     decorate(axes, title, y_label)
     axes.set_xlabel(x_label)
     return result, axes

@@ -41,7 +41,7 @@ def titled(member, picture):
 
 def series_of(run):
     """(time [t_c], file of grains) of every output."""
-    return [(time / run.scale('t_c'), path) for time, path in grain_files.grain_series(run)]
+    return [(time / run.scale('t_c'), path) for time, path in grain_files.quiet_series(run)]
 
 
 def instant_near(run, row, time):

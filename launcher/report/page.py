@@ -66,7 +66,7 @@ class Page:
     def file_only(self, figure, name):
         """A PNG beside the page that is not part of it."""
         buffer = io.BytesIO()
-        figure.savefig(buffer, format='png', dpi=RESOLUTION)
+        figure.savefig(buffer, format='png', dpi=RESOLUTION, pil_kwargs={'compress_level': 4})
         plt.close(figure)
         self.pictures[name] = buffer.getvalue()
 

@@ -24,6 +24,10 @@ import run_data
 import seeds
 from measured import DRAWN, MEASURED
 from page import Page, write_whole
+from paper import add as paper
+from working import Progress
+
+FIGURE_SETS = {'paper': paper.add}  # by the study's `figures`
 
 
 @dataclass
@@ -33,14 +37,14 @@ class StudyRun:
 
 
 def load(folder):
-    """Title and runs."""
+    """Title, name of a set of further figures or empty, and runs."""
     record = json.loads((folder / 'study.json').read_text())
     runs = []
     for entry in record['runs']:
         there = entry['status'] != 'missing'
         data = run_data.load_run(folder / entry['folder']) if there else run_data.RunData(folder / entry['folder'])
         runs.append(StudyRun(entry, data))
-    return record['study'], runs
+    return record['study'], record.get('figures', ''), runs
 
 
 def swept_keys(runs):
@@ -183,11 +187,15 @@ def main(arguments):
         print('usage: study.py FOLDER   (of `turbidite study`)', file=sys.stderr)
         return 2
     folder = Path(arguments[1])
-    title, runs = load(folder)
+    title, figures, runs = load(folder)
+    working = Progress('study')
+    working('tables and figures')
     page = make_page(title, runs)
+    written = [FIGURE_SETS[figures](page, folder, runs)] if figures in FIGURE_SETS else []
+    working.end()
     pictures = folder / 'pictures'
     pictures.mkdir(exist_ok=True)
-    written = [write_whole(pictures / f'{name}.png', content) for name, content in page.pictures.items()]
+    written += [write_whole(pictures / f'{name}.png', content) for name, content in page.pictures.items()]
     written += [write_whole(folder / 'study.csv', as_csv(runs)),
                 write_whole(folder / 'study.html', page.text())]
     return 0 if all(written) else 4

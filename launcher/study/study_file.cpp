@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> part_keys = {"case", "set", "full", "quick", "sweep", "variants"};
 
+/// Sets of figures, launcher/report/NAME.
+const std::vector<std::string> figure_sets = {"paper"};
+
 /// What is wrong with a study file, collected.
 class Complaints {
  public:
@@ -143,6 +146,16 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
     return part;
 }
 
+std::string figures_of(const YAML::Node& node, Complaints& complaints) {
+    if (!node.IsDefined()) return "";
+    const std::string name = node.IsScalar() ? node.Scalar() : "";
+    if (std::find(figure_sets.begin(), figure_sets.end(), name) == figure_sets.end())
+        complaints.add(node, "figures: " + value_text(node) + " is unknown",
+                       fmt::format("It is one of {}.", fmt::join(figure_sets, ", ")),
+                       "Leave it out for the figures of every study.");
+    return name;
+}
+
 YAML::Node document(const fs::path& file) {
     const std::string source = file.filename().string();
     try {
@@ -179,14 +192,15 @@ Study read_study(const fs::path& file) {
     study.name = file.stem().string();
     study.out =
         root["out"].IsDefined() ? fs::path(root["out"].Scalar()) : fs::path("runs") / study.name;
+    study.figures = figures_of(root["figures"], complaints);
     const YAML::Node parts = root["parts"];
     if (!parts.IsDefined()) {
         std::vector<std::string> known = part_keys;
-        known.push_back("out");
+        known.insert(known.end(), {"out", "figures"});
         refuse_unknown_keys(root, known, complaints);
         study.parts = {read_part(study.name, root, file.parent_path(), complaints)};
     } else {
-        refuse_unknown_keys(root, {"out", "parts"}, complaints);
+        refuse_unknown_keys(root, {"out", "figures", "parts"}, complaints);
         if (!parts.IsMap() || parts.size() == 0)
             complaints.add(parts, "parts contains no names",
                            "It is a map of names, each with a case.",

@@ -16,7 +16,10 @@
 //           nscd: {grains.adapter: standalone-nscd}
 //           md: {grains.adapter: yade-md}
 //
-// A study of one part may write these keys without `parts`.
+//     figures: paper                    # further figures and a table, by name (docs/studies.md)
+//
+// A key of `full` or `quick` that is swept as well takes the place of its whole list. A study of
+// one part may write the keys of a part without `parts`.
 #pragma once
 
 #include <filesystem>
@@ -50,6 +53,7 @@ struct StudyPart {
 struct Study {
     std::string name;  ///< of the file, without its ending
     std::filesystem::path out;
+    std::string figures;  ///< a set of figures besides those of every study; empty: none
     std::vector<StudyPart> parts;
     std::vector<CaseProblem> problems;  ///< of the file itself
 };

@@ -63,6 +63,14 @@ std::vector<PlannedRun> along(const std::vector<PlannedRun>& runs, const SweepAx
     return result;
 }
 
+/// The axis, or the one value that `full` or `quick` gives to its key.
+SweepAxis at_level(const SweepAxis& axis, const std::vector<std::string>& level) {
+    for (const std::string& override_ : level)
+        if (override_.rfind(axis.key + "=", 0) == 0)
+            return {axis.key, {{override_.substr(axis.key.size() + 1), {override_}}}};
+    return axis;
+}
+
 std::vector<PlannedRun> runs_of(const StudyPart& part, bool quick) {
     std::vector<PlannedRun> runs = {{.part = part.name,
                                      .name = {},
@@ -71,7 +79,7 @@ std::vector<PlannedRun> runs_of(const StudyPart& part, bool quick) {
                                      .values = {}}};
     const std::vector<std::string>& level = quick ? part.quick : part.full;
     runs[0].overrides.insert(runs[0].overrides.end(), level.begin(), level.end());
-    for (const SweepAxis& axis : part.axes) runs = along(runs, axis, part);
+    for (const SweepAxis& axis : part.axes) runs = along(runs, at_level(axis, level), part);
     if (part.axes.empty()) runs[0].name = part.case_file.stem().string();
     return runs;
 }

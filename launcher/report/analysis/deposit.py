@@ -50,7 +50,7 @@ def deposit(run):
 
 
 def first_surface(run):
-    series = grain_files.grain_series(run)
+    series = grain_files.quiet_series(run)
     return surface.surface(run, grain_files.read_grains(*series[0])) if series else None
 
 

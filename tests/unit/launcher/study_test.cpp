@@ -158,6 +158,24 @@ variants: {rough: {contact.friction: 0.5}, plain: {}}
     EXPECT_GT(predicted_seconds(full), predicted_seconds(quick));
 }
 
+TEST_F(StudyTest, AQuickKeyTakesThePlaceOfItsSweep) {
+    const Study both = study(R"(
+case: column.yaml
+quick: {random: {seed: 2}}
+sweep: {random.seed: [1, 2, 3], contact.friction: [0, 0.5]}
+)");
+    EXPECT_EQ(plan_study(both, {}).size(), 6u);
+    const auto quick = plan_study(both, {}, true);
+    ASSERT_EQ(quick.size(), 2u);
+    EXPECT_EQ(quick[1].path(), "study/seed-2-friction-0.5");
+    EXPECT_EQ(quick[1].values[0].second, "2");
+}
+
+TEST_F(StudyTest, FiguresAreKnownSets) {
+    EXPECT_EQ(study("{case: column.yaml, figures: paper}").figures, "paper");
+    EXPECT_SAYS(refusal("{case: column.yaml, figures: papers}"), "figures: papers is unknown");
+}
+
 TEST_F(StudyTest, QuickIsRefusedWhereThereIsNone) {
     try {
         plan_study(study("{case: column.yaml}"), {}, true);
