@@ -113,7 +113,7 @@ def packing(run):
     """The loosest packing, and the share of sliding contacts at the end."""
     text = []
     _, pores = run.column('pore_volume')
-    if len(pores) and pores[0] > 0.0:
+    if len(pores) and pores[0] > 0.0 and run.is_packed():
         text.append(f'Pores from {pores[0]:.4g} D^2 to {pores[-1]:.4g} D^2 '
                     f'({100 * (pores[-1] / pores[0] - 1):+.3g} %).')
     _, sliding = run.column('sliding_share')

@@ -6,6 +6,7 @@ import numpy as np
 import curves
 import findings
 import member_pictures
+import run_data
 import surface
 from analysis import concentration
 from differences import common_span
@@ -98,7 +99,10 @@ def made_by(run):
 def add_parameters(page, comparison):
     page.heading('Parameters that differ')
     if comparison.parameters:
-        page.table([[key] + values for key, values in comparison.parameters],
+        case = comparison.members[0].runs[0].folder / 'case.yaml'
+        units = run_data.read_units(case) if case.exists() else {}
+        page.table([[f'{key} [{units[key]}]' if key in units else key] + values
+                    for key, values in comparison.parameters],
                    header=['key'] + [member.name for member in comparison.members])
     else:
         page.paragraph('The cases are the same, key by key.')

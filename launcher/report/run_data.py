@@ -44,6 +44,10 @@ class RunData:
         bare = not len(front) or 'domain.size' not in self.case or front[0] < BARE_FROM * self.size()[0]
         return self.case.get('scales.kind') == 'avalanche' and bare
 
+    def is_packed(self):
+        """The grains are a packing from the start: they stand on a lattice."""
+        return self.case.get('grains.generator') == 'lattice' or self.is_avalanche()
+
     def has_springs(self):
         """Contacts are springs in sub-steps of a window, not a problem that is solved."""
         return self.case.get('grains.adapter', '').endswith('-md')
@@ -106,6 +110,19 @@ def read_resolved_case(path):
             name = (group if line.startswith(' ') else '') + key
             case[name] = value.strip().strip('"')
     return case
+
+
+def read_units(path):
+    """Units of the keys that have one, from the comments of a resolved case."""
+    units, group = {}, ''
+    for line in path.read_text().splitlines():
+        text, _, unit = line.partition('  # ')
+        key, _, value = text.strip().partition(':')
+        if text and not text.startswith((' ', '#')) and not value.strip():
+            group = key + '.'
+        elif unit:
+            units[(group if line.startswith(' ') else '') + key] = unit.strip()
+    return units
 
 
 def read_history(path):

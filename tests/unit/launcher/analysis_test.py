@@ -98,6 +98,9 @@ class Heaps(unittest.TestCase):
         found = deposit.Deposit(1.0, self.x, self.x, 10.0, 25.0, 1.0, None, None)
         self.assertEqual(found.run_out, 1.5)
 
+    def test_a_column_that_still_stands_has_no_slope(self):
+        self.assertIsNone(deposit.fitted_line(self.x, np.where(self.x < 20, 9.9 + 0.1 * np.cos(self.x), 0.0)))
+
     def test_a_cliff_has_no_slope(self):
         self.assertIsNone(deposit.fitted_line(self.x, np.where(self.x < 10, 9.0, 0.0)))
 

@@ -223,6 +223,8 @@ class Report(RunFolderTest):
         self.write_all()
         self.write('history.csv', 'step,time,pore_volume,coordination,sliding_share\n0,0,2,,\n'
                    '10,1,2.5,3.2,0.25\n')
+        self.assertNotIn('Pores from', self.make())  # a suspension has no pores to speak of
+        self.write('case.yaml', CASE.replace('  adapter:', '  generator: lattice\n  adapter:'))
         page = self.make()
         self.assertIn(typeset('Pores from 2 D^2 to 2.5 D^2 (+25 %). Sliding contacts at the end: 25 %.'), page)
         self.assertIn('packing-coordination.png', self.pictures())
