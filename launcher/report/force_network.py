@@ -49,7 +49,7 @@ def panels(run, networks):
     scale, found = force_scale(networks), []
     size = pictures.view(run, [network.grains for network in networks])
     for k, network in enumerate(networks):
-        result, axes = plt.subplots(figsize=pictures.panel_size(run, networks), layout='constrained')
+        result, axes, _ = pictures.panel_axes(run, networks)
         grain_drawing.draw(axes, network.grains, run.scale('D'), alpha=0.45)
         axes.add_collection(lines(network, scale))
         pictures.decorate(run, axes, size, network.grains.time)

@@ -77,6 +77,10 @@ def make_page(title, runs):
         page.bullets(failed, 'bad')
     for part in dict.fromkeys(run.entry['part'] for run in runs):
         add_part(page, part, [run for run in runs if run.entry['part'] == part])
+    remarks = [f'{run.entry["folder"]}: {remark}' for run in runs for remark in run.data.remarks]
+    if remarks:
+        page.heading('Remarks')
+        page.bullets(remarks, 'remark')
     return page
 
 

@@ -8,6 +8,7 @@ import grain_files
 import surface
 from analysis import (concentration, deposit, dilatancy, energy, pore_pressure, pores, rheology, shear_band, snapshots,
                       weight_balance)
+from analysis.once import or_remark
 from curves import MARKERS, TIME_LABEL, panel
 
 SURFACES = 5
@@ -20,7 +21,7 @@ def add_all(page, run):
     """In the order of the page. A closed box has neither heap nor slip plane; a suspension has a concentration."""
     for add in (add_deposit, add_shear, add_pores, add_pressure, add_weight, add_energy, add_rheology,
                 add_concentration):
-        add(page, run)
+        or_remark(run, add.__name__.removeprefix('add_').capitalize(), lambda: add(page, run))
 
 
 def add_deposit(page, run):
