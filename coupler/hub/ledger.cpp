@@ -19,7 +19,7 @@ constexpr int windows_until_refused = 3;
 /// Advice on reducing overlaps; for springs, their own keys set the stiffness and with it the
 /// sub-steps.
 std::string against_overlap(const std::string& adapter) {
-    if (adapter == "yade-md")
+    if (adapter == "yade-md" || adapter == "lammps-md")
         return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
     if (adapter == "external")
         return "Use a smaller time.step, or stiffer or better converged contacts in your program.";

@@ -20,7 +20,7 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "D",
              .fallback = "0.001",
              .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
-             .help = "yade-md: overlap for which the stiffness is chosen",
+             .help = "molecular dynamics: overlap for which the stiffness is chosen",
              .family = "md",
              .idle = beside_stiffness},
             {.name = "contact.md_speed",
@@ -28,7 +28,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "u_c",
              .need = Need::optional,
              .range = positive,
-             .help = "yade-md: approach speed for which the stiffness is chosen; default: 2 with a "
+             .help = "molecular dynamics: approach speed for which the stiffness is chosen; "
+                     "default: 2 with a "
                      "fluid; without one, twice the speed of a fall from the top of the packing",
              .remedy = "Leave it out, or use for example 2.",
              .family = "md",
@@ -38,7 +39,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "m g/D",
              .need = Need::optional,
              .range = positive,
-             .help = "yade-md: stiffness of two touching grains; default: from contact.md_overlap, "
+             .help = "molecular dynamics: stiffness of two touching grains; default: from "
+                     "contact.md_overlap, "
                      "contact.md_speed and the height of the packing",
              .remedy = "Leave it out, or use for example 1e5.",
              .family = "md"},
@@ -47,7 +49,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "per contact time",
              .fallback = "20",
              .range = {.lower = 12.0, .upper = 1000.0},
-             .help = "yade-md: smallest number of sub-steps in the contact time of two grains",
+             .help = "molecular dynamics: smallest number of sub-steps in the contact time of two "
+                     "grains",
              .allowed = "Between 12, below which dense packings may become unstable, and 1000.",
              .remedy = "Use 20.",
              .family = "md"},

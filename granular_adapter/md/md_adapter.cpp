@@ -9,6 +9,7 @@
 
 #include "granular_adapter/grains/by_grain.hpp"
 #include "granular_adapter/grains/case_bodies.hpp"
+#include "granular_adapter/md/rows.hpp"
 #include "granular_adapter/nscd/engine/engine.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
@@ -92,15 +93,21 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     check_inside(bodies_, borders_, "at the start");
     held_.assign(bodies_.size(), {});
     host_.create(settings, bodies_);
+    follow_migration(nullptr);
     report_ = {};
     report_.max_penetration = deepest_overlap(bodies_, shapes, walls_of(borders_));
     report_.wall_seconds = seconds_since(start);
     return motion(at_protocol_positions());
 }
 
+/// What velocities are behind the host's positions, in time [s].
+double MdAdapter::velocity_lag() const {
+    return host_.velocity_lag() * (run_.step / static_cast<double>(substep_count_));
+}
+
 /// How far the protocol's positions are ahead of the host's, in time [s].
 double MdAdapter::lead() const {
-    return 0.5 * (run_.step - run_.step / static_cast<double>(substep_count_));
+    return 0.5 * (run_.step - velocity_lag());
 }
 
 Substeps MdAdapter::substeps(const Window& window) const {
@@ -123,14 +130,14 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
             ", but molecular dynamics cannot use them: use coupling.scheme split");
     host_.read(bodies_);
     check_inside(bodies_, borders_, in_window(window) + " before contacts");
-    const nscd::Bodies before = bodies_;
     nscd::Bodies sent = at_protocol_positions();
     std::vector<Load> loads;
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
     SubstepReport run = host_.run(substeps(window), loads);
+    follow_migration(&sent);
     host_.read(bodies_);
     check_inside(bodies_, borders_, in_window(window) + " after contacts");
-    book_contacts(before, run, window.step);
+    book_contacts(sent.twist, run, window.step);
     contacts_.reset();
     if (window.write_output) contacts_ = std::move(run.touching);
     sent.twist = bodies_.twist;
@@ -146,20 +153,20 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
 }
 
 /// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed the impulses.
-void MdAdapter::book_contacts(const nscd::Bodies& before, const SubstepReport& run, double dt) {
+void MdAdapter::book_contacts(const std::vector<nscd::Twist>& before, const SubstepReport& run,
+                              double dt) {
     touched_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Vec3 weight{0.0, -bodies_.weight_mass[i] * run_.gravity * dt, 0.0};
-        const Vec3 gained =
-            bodies_.mass[i] * (bodies_.twist[i].velocity - before.twist[i].velocity);
-        const Vec3 turned = bodies_.inertia[i] * (bodies_.twist[i].spin - before.twist[i].spin);
+        const Vec3 gained = bodies_.mass[i] * (bodies_.twist[i].velocity - before[i].velocity);
+        const Vec3 turned = bodies_.inertia[i] * (bodies_.twist[i].spin - before[i].spin);
         const Held& held = held_[i];
         Vec3& impulse = bodies_.contact_impulse[i];
         Vec3& angular = bodies_.contact_angular_impulse[i];
         impulse = gained - held.impulse - weight;
         angular = turned - held.angular_impulse;
         const double scale = norm(held.impulse) + norm(weight) +
-                             bodies_.mass[i] * (norm(before.twist[i].velocity) + norm(gained));
+                             bodies_.mass[i] * (norm(before[i].velocity) + norm(gained));
         touched_[i] = norm(impulse) > round_off * scale;
         if (run.impulses.empty()) continue;
         const Load given = load(i, dt);
@@ -186,7 +193,7 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
     const std::vector<nscd::Twist> with_contact = bodies_.twist;
     const auto ordered = by_grain(bodies_.id, kicks, "kick", in_window(window));
     take_velocities(bodies_, kicks, in_window(window));
-    const double lag = 0.5 * (window.step + window.step / static_cast<double>(substep_count_));
+    const double lag = 0.5 * (window.step + velocity_lag());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const nscd::Twist& now = bodies_.twist[i];
         if (!touched_[i]) {
@@ -204,7 +211,7 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
 void MdAdapter::remove_leavers() {
     const std::vector<std::uint8_t> stays = those_inside(at_protocol_positions(), borders_);
     report_.removed = std::count(stays.begin(), stays.end(), 0);
-    if (report_.removed == 0) return;
+    if (report_.removed == 0 && !host_.shares_bodies()) return;
     std::vector<Held> kept;
     std::vector<GrainId> gone;
     for (std::size_t i = 0; i < stays.size(); ++i)
@@ -213,9 +220,26 @@ void MdAdapter::remove_leavers() {
         else
             gone.push_back(bodies_.id[i]);
     held_ = std::move(kept);
-    if (contacts_) drop_contacts_of(gone, *contacts_);
+    if (contacts_) drop_contacts_of(host_.from_all_ranks(gone), *contacts_);
     bodies_.keep(stays);
     host_.keep(stays);
+}
+
+/// Bodies, with those at the protocol's positions if they are given, and what they hold, after the
+/// host has moved them between ranks.
+void MdAdapter::follow_migration(nscd::Bodies* sent) {
+    if (!host_.migrated()) return;
+    RowPacker packer;
+    const auto visit = [&](auto&& each) {
+        nscd::Bodies::for_each_array(bodies_, each);
+        if (sent) nscd::Bodies::for_each_array(*sent, each);
+        each(held_);
+    };
+    visit([&](auto& array) { packer.measure(array); });
+    std::vector<char> rows = packer.empty_rows(bodies_.size());
+    visit([&](auto& array) { packer.pack(array, rows); });
+    rows = host_.migrate(rows, packer.row_size());
+    visit([&](auto& array) { packer.unpack(rows, array); });
 }
 
 nscd::Bodies MdAdapter::at_protocol_positions() const {
@@ -248,6 +272,7 @@ void MdAdapter::restore(const SavedState& state) {
     });
     held_ = reader.array<Held>();
     host_.restore(reader.array<char>());
+    follow_migration(nullptr);
     advanced_ = false;
 }
 

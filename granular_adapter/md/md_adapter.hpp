@@ -12,13 +12,14 @@
 // the sub-steps, also during a collision, and the remaining change in step 5 is small.
 //
 // The position in the protocol is that of the contact engine, half a window ahead of the velocity;
-// that of the host is half a sub-step ahead (both are leap-frog schemes), so
+// that of the host is half a sub-step ahead if it is a leap-frog scheme (s = delta), and at the
+// time of the velocity if it is velocity Verlet (s = 0), so
 //
-//     q = x + (dt - delta)/2 U
+//     q = x + (dt - s)/2 U
 //
 // A grain without contact in the window is moved as if the kick had acted all along,
 //
-//     x^{n+1} = x' + (dt + delta)/2 (U^{n+1} - U^{n+4/5})
+//     x^{n+1} = x' + (dt + s)/2 (U^{n+1} - U^{n+4/5})
 //
 // which makes q^{n+1} = q^n + dt U^{n+1} exactly, with or without J_h; orientations likewise. A
 // grain with a contact stays at its position after the sub-steps: moving it with the kick would
@@ -68,12 +69,14 @@ class MdAdapter final : public GrainsAdapter {
         Vec3 angular_impulse{};
     };
 
+    double velocity_lag() const;
     double lead() const;
     Substeps substeps(const Window& window) const;
     Load load(std::size_t i, double dt) const;
-    void book_contacts(const nscd::Bodies& before, const SubstepReport& run, double dt);
+    void book_contacts(const std::vector<nscd::Twist>& before, const SubstepReport& run, double dt);
     void take_kicks(const Window& window, const std::vector<Kick>& kicks);
     void remove_leavers();
+    void follow_migration(nscd::Bodies* sent);
     nscd::Bodies at_protocol_positions() const;
     Motion motion(const nscd::Bodies& bodies) const;
 

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A soft-sphere code as used by md_adapter: it owns bodies and contacts, and integrates them
-// itself, with the leap-frog scheme common to such codes:
+// itself, with one of the schemes common to such codes:
 //
-//     v <- v + (F/m) delta,   x <- x + v delta         delta: one sub-step
+//     leap-frog          v <- v + (F/m) delta,   x <- x + v delta         delta: one sub-step
+//     velocity Verlet    the same with half of the first and of the last impulse, so that x and v
+//                        belong to the same time
 //
 // Bodies are passed in the order of nscd::Bodies, with the host's own positions x.
+//
+// A host on several ranks may move bodies from one to another in create(), run() and restore():
+// migrated() tells it, and migrate() brings along what others keep about each body. Functions
+// that are not const, and save(), are then called on all ranks.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +54,10 @@ class MdHost {
     /// Name and version of the code, e.g. "YADE 2023.02a".
     virtual std::string code() const = 0;
 
+    /// How far velocities are behind positions, in sub-steps: 1 for leap-frog, whose velocities
+    /// belong to the middle of a sub-step and positions to its end; 0 for velocity Verlet.
+    virtual double velocity_lag() const { return 1.0; }
+
     /// Creates the bodies, with the given mass and inertia, and the walls of the domain.
     virtual void create(const Settings& settings, const nscd::Bodies& bodies) = 0;
 
@@ -64,6 +74,23 @@ class MdHost {
     /// settings.
     virtual SavedState save() const = 0;
     virtual void restore(const SavedState& state) = 0;
+
+    /// Whether there are other ranks, with which bodies are exchanged.
+    virtual bool shares_bodies() const { return false; }
+
+    /// Whether bodies changed their rank in the last create(), run() or restore(); the same on all
+    /// ranks. Reports of that call already have the new order.
+    virtual bool migrated() const { return false; }
+
+    /// `rows` has `row_size` bytes for each body that this rank had before; returns those of the
+    /// bodies that it has now, in their order.
+    virtual std::vector<char> migrate(const std::vector<char>& rows, std::size_t row_size) {
+        (void)row_size;
+        return rows;
+    }
+
+    /// `ids` of all ranks.
+    virtual std::vector<GrainId> from_all_ranks(const std::vector<GrainId>& ids) { return ids; }
 };
 
 }  // namespace turbidite

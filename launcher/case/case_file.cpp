@@ -513,6 +513,9 @@ ResolvedCase load_case(const std::filesystem::path& file, const std::vector<std:
     if (!from.empty()) given.earlier = earlier_run(from);
     ResolvedCase result = resolve(read_case_entries(file, overrides), file.parent_path(), given);
     result.name = file.stem().string();
+    result.file = std::filesystem::absolute(file).lexically_normal();
+    result.overrides = overrides;
+    result.from = from;
     return result;
 }
 

@@ -29,6 +29,9 @@ struct ResolvedCase {
     std::string yaml;                    ///< resolved case; loads to itself
     std::vector<std::string> notes;      ///< notes for the user, one sentence each
     Scales scales;
+    std::filesystem::path file;  ///< the arguments of load_case, for run.json
+    std::vector<std::string> overrides;
+    std::string from;
 };
 
 /// Overrides are the arguments of --set, `key=value` with the value in YAML; `from` is the argument

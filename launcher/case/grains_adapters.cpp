@@ -2,7 +2,6 @@
 #include "launcher/case/grains_adapters.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "coupler/protocol/failure.hpp"
 
@@ -30,7 +29,7 @@ GrainsAdapter external_program(const char* name, const char* help) {
     GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
     adapter.family = "any";
     adapter.moved_grains = false;
-    adapter.most_ranks = std::numeric_limits<int>::max();
+    adapter.most_ranks = any_number;
     return adapter;
 }
 

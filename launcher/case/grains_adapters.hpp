@@ -5,6 +5,7 @@
 // grains_adapter_table.def.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ enum class GrainsHost {
     yade,     ///< YADE runs the script BUILD/lib/yade/FILE
     command,  ///< the user names the program: grains.command
 };
+
+constexpr int any_number = std::numeric_limits<int>::max();
 
 struct GrainsAdapter {
     std::string name;    ///< grains.adapter

@@ -10,6 +10,7 @@
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/command_words.hpp"
 #include "launcher/case/mesh_cost.hpp"
+#include "launcher/case/run_cost.hpp"
 
 namespace turbidite {
 namespace {
@@ -23,14 +24,6 @@ std::string rows_text(const Settings& settings, double top) {
         "cells\n",
         rows.equal, rows.equal_height(), rows.stretched.size(), rows.ratio,
         rows.largest() / rows.height);
-}
-
-/// "40 s", "12 min", "3 h", "2 days"
-std::string rough_time(double seconds) {
-    if (seconds < 100.0) return fmt::format("{:.0f} s", std::max(1.0, seconds));
-    if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
-    if (seconds < 172800.0) return fmt::format("{:.0f} h", seconds / 3600.0);
-    return fmt::format("{:.0f} days", seconds / 86400.0);
 }
 
 std::string fluid_line(const ResolvedCase& resolved) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "launcher/case/run_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/launch_line.hpp"
@@ -17,16 +18,19 @@ namespace {
 struct CheckOptions {
     std::string file;
     std::vector<std::string> overrides;
+    bool quick = false;
 };
 
 int check_study(const CheckOptions& options) {
     const Study study = read_study(options.file);
-    const std::vector<PlannedRun> plan = plan_study(study, options.overrides);
+    const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     for (const PlannedRun& run : plan) {
         const Settings settings = run.resolve().settings;
         require_programs(settings, needed_programs(settings, find_programs()));
+        fmt::print("  {:>7}  {}\n", rough_time(run.seconds), run.path());
     }
-    fmt::print("{}: {} runs\nvalid\n", study.name, plan.size());
+    fmt::print("{}: {} runs, roughly {}\nvalid\n", study.name, plan.size(),
+               rough_time(predicted_seconds(plan)));
     return static_cast<int>(ExitCode::done);
 }
 
@@ -46,6 +50,7 @@ CommandAction declare_check(CLI::App& app) {
     app.add_option("--set", options->overrides, "key=value, replaces a value of the case")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
+    app.add_flag("--quick", options->quick, "the quick form of a study");
     return [options] { return check(*options); };
 }
 

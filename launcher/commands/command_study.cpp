@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "launcher/case/run_cost.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/report/report_script.hpp"
@@ -25,6 +26,7 @@ struct StudyOptions {
     std::vector<std::string> overrides;
     std::string out;
     bool dry_run = false;
+    bool quick = false;
 };
 
 /// How long the runs of a part take, from those that were played.
@@ -106,17 +108,26 @@ void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
         const char* word = state == RunState::done     ? "done"
                            : state == RunState::failed ? "failed"
                                                        : "missing";
-        fmt::print("{:<8} {}\n", word, run.path());
+        fmt::print("{:<8} {:>7}  {}\n", word, rough_time(run.seconds), run.path());
     }
+}
+
+/// Those of --quick are other runs, and go to another folder.
+fs::path folder_of(const Study& study, const StudyOptions& options) {
+    if (!options.out.empty()) return fs::absolute(options.out);
+    return fs::absolute(study.out.string() + (options.quick ? "-quick" : ""));
 }
 
 int run_study(const StudyOptions& options) {
     const Study study = read_study(options.file);
-    const std::vector<PlannedRun> plan = plan_study(study, options.overrides);
-    const fs::path out = fs::absolute(options.out.empty() ? study.out : fs::path(options.out));
-    const std::size_t missing = missing_runs(plan, out).size();
-    fmt::print("{}: {} runs, {} of them done, folder {}\n", study.name, plan.size(),
-               plan.size() - missing, out.string());
+    const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
+    const fs::path out = folder_of(study, options);
+    const std::vector<const PlannedRun*> missing = missing_runs(plan, out);
+    double seconds = 0.0;
+    for (const PlannedRun* run : missing) seconds += run->seconds;
+    fmt::print("{}: {} runs, {} of them done, folder {}{}\n", study.name, plan.size(),
+               plan.size() - missing.size(), out.string(),
+               missing.empty() ? "" : ", to do: roughly " + rough_time(seconds));
     if (options.dry_run) {
         list(plan, out);
         return static_cast<int>(ExitCode::done);
@@ -146,6 +157,8 @@ CommandAction declare_study(CLI::App& app) {
     app.add_option("--out", options->out, "folder of the run folders; default: the study's `out`")
         ->type_name("DIR");
     app.add_flag("--dry-run", options->dry_run, "list the runs and which of them are done");
+    app.add_flag("--quick", options->quick,
+                 "the keys of `quick` instead of those of `full`; results in <out>-quick");
     return [options] { return run_study(*options); };
 }
 

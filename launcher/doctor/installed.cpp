@@ -54,6 +54,12 @@ Findings installed_software(const LaunchSite& site) {
                          "OpenFOAM- (",
                          "unset WM_PROJECT_DIR"},
                         {"YADE", "yade", {programs.yade(), "--version"}, "Yade version: "},
+                        {"LAMMPS",
+                         "liblammps-dev",
+                         {"sh", "-c",
+                          "dpkg-query --show --showformat='version ${Version}' liblammps-dev || "
+                          "exit 127"},
+                         "version "},
                         {"Open MPI",
                          "openmpi-bin",
                          {"mpirun", "--version"},

@@ -90,7 +90,7 @@ def force_network(networks):
 
 
 def contact_statistics(run):
-    text = ['Left: probability density of normal forces between grains over their mean. Right: of the '
+    text = ['Probability density of normal forces between grains over their mean, and of the '
             'directions of contacts between grains, each counted both ways.']
     _, coordination = run.column('coordination')
     if len(coordination):
@@ -113,7 +113,7 @@ def packing(run):
     """The loosest packing, and the share of sliding contacts at the end."""
     text = []
     _, pores = run.column('pore_volume')
-    if len(pores) and pores[0] > 0.0:
+    if len(pores) and pores[0] > 0.0 and run.is_packed():
         text.append(f'Pores from {pores[0]:.4g} D^2 to {pores[-1]:.4g} D^2 '
                     f'({100 * (pores[-1] / pores[0] - 1):+.3g} %).')
     _, sliding = run.column('sliding_share')
@@ -138,7 +138,7 @@ def solvers(run):
         text.append(f'Largest divergence after step 5, in windows with output: {maxima["final_divergence"]:.2g} '
                     'u_c/D (large, since the grains are not part of the volume balance). Largest Courant number: '
                     f'{maxima["courant"]:.2g}.')
-    for name, column in (('contact sweeps', 'contact_iterations'),
+    for name, column in (('sub-steps' if run.has_springs() else 'contact sweeps', 'contact_iterations'),
                          ('multiplier iterations', 'multiplier_iterations'),
                          ('joint rounds', 'joint_rounds'),
                          ('pressure iterations with rigid grains', 'pressure_iterations')):

@@ -7,7 +7,7 @@ import csv
 import io
 import json
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import matplotlib
@@ -23,6 +23,7 @@ import seeds
 import surface
 from differences import common_span, difference
 from page import write_whole
+from working import Progress
 
 
 class Refusal(Exception):
@@ -33,26 +34,41 @@ class Refusal(Exception):
 class Quantity:
     column: str
     title: str
-    unit: str
+    unit: str        # for the axis of a plot
+    plain_unit: str  # for a table
     logarithmic: bool = False
+    applies: object = lambda run: True  # to a run
 
 
+ITERATIONS = Quantity('contact_iterations', 'Contact solver', 'sweeps', 'sweeps')
 QUANTITIES = [
-    Quantity('mean_velocity_y', 'Mean vertical velocity', r'$\langle u_y \rangle\,/\,u_c$'),
-    Quantity('mean_velocity_norm', 'Norm of the mean velocity', r'$|\langle u \rangle|\,/\,u_c$'),
-    Quantity('mean_position_y', 'Mean vertical position', r'$\langle y \rangle\,/\,D$'),
-    Quantity('front_x', 'Front', r'$\max(x+R)\,/\,D$'),
-    Quantity('kinetic_energy', 'Kinetic energy', r'energy $/\,(\Sigma m\,u_c^2)$'),
-    Quantity('coordination', 'Coordination', 'contacts per grain'),
-    Quantity('fabric_anisotropy', 'Anisotropy of the contacts', 'fabric anisotropy'),
-    Quantity('pore_volume', 'Pores between the grains', r'area $/\,D^2$'),
-    Quantity('max_penetration', 'Deepest overlap', r'overlap $/\,D$'),
-    Quantity('contact_iterations', 'Contact solver', 'sweeps'),
-    Quantity('contact_residual', 'Contact residual', 'scaled natural map', logarithmic=True),
-    Quantity('multiplier_iterations', 'Multiplier solver', 'iterations'),
-    Quantity('joint_rounds', 'Joint scheme', 'rounds'),
-    Quantity('wall_step', 'Wall time of a window', 'seconds'),
+    Quantity('mean_velocity_y', 'Mean vertical velocity', r'$\langle u_y \rangle\,/\,u_c$', 'u_c'),
+    Quantity('mean_velocity_norm', 'Norm of the mean velocity', r'$|\langle u \rangle|\,/\,u_c$', 'u_c'),
+    Quantity('mean_position_y', 'Mean vertical position', r'$\langle y \rangle\,/\,D$', 'D'),
+    Quantity('front_x', 'Front', r'$\max(x+R)\,/\,D$', 'D', applies=run_data.RunData.is_avalanche),
+    Quantity('kinetic_energy', 'Kinetic energy', r'energy $/\,(\Sigma m\,u_c^2)$', 'Σm u_c²'),
+    Quantity('coordination', 'Coordination', 'contacts per grain', '-'),
+    Quantity('fabric_anisotropy', 'Anisotropy of the contacts', 'fabric anisotropy', '-'),
+    Quantity('pore_volume', 'Pores between the grains', r'area $/\,D^2$', 'D^2'),
+    Quantity('max_penetration', 'Deepest overlap', r'overlap $/\,D$', 'D'),
+    ITERATIONS,
+    Quantity('contact_residual', 'Contact residual', 'scaled natural map', '-', logarithmic=True),
+    Quantity('multiplier_iterations', 'Multiplier solver', 'iterations', 'iterations'),
+    Quantity('joint_rounds', 'Joint scheme', 'rounds', 'rounds'),
+    Quantity('grain_balance', 'Momentum of the grains', 'relative defect', '-', logarithmic=True),
+    Quantity('fluid_balance', 'Momentum of the fluid', 'relative defect', '-', logarithmic=True),
+    Quantity('wall_step', 'Wall time of a window', 'seconds', 's'),
 ]
+
+
+def quantities_of(members):
+    """Those that some member has and that apply to one; springs have sub-steps instead of sweeps."""
+    shown = [q for q in QUANTITIES
+             if any(len(m.data.column(q.column)[1]) and q.applies(m.data) for m in members)]
+    springs = [m.data.has_springs() for m in members]
+    words = 'sub-steps' if all(springs) else 'sweeps or sub-steps' if any(springs) else 'sweeps'
+    title = 'Springs' if all(springs) else 'Contact solver or springs' if any(springs) else 'Contact solver'
+    return [replace(q, title=title, unit=words, plain_unit=words) if q is ITERATIONS else q for q in shown]
 
 
 @dataclass
@@ -102,7 +118,7 @@ def check_spans(members):
 # --- measuring ----------------------------------------------------------------------------------------
 
 def measure(members):
-    shown = [q for q in QUANTITIES if any(len(m.data.column(q.column)[1]) for m in members)]
+    shown = quantities_of(members)
     return Comparison(
         members, shown, parameters(members), [wall_seconds(member.data) for member in members],
         {m.name: {q.column: numbers(members[0], m, q.column) for q in shown} for m in members},
@@ -193,8 +209,13 @@ def compare(page_file, folders, each=False):
     """True if everything was written."""
     members = seeds.members(load(folders), each)
     check_spans(members)
+    working = Progress('compare')
+    working('differences')
     comparison = measure(members)
-    return all([write_whole(page_file, compare_page.make_page(comparison).text()),
+    working('figures')
+    page = compare_page.make_page(comparison).text()
+    working.end()
+    return all([write_whole(page_file, page),
                 write_whole(page_file.with_suffix('.csv'), as_csv(comparison.measured)),
                 write_whole(page_file.with_suffix('.json'), as_json(comparison))])
 

@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The page of a comparison: tables and figures of its members (seeds.Member), the first one solid."""
 import matplotlib.pyplot as plt
+import numpy as np
 
 import curves
 import findings
+import member_pictures
+import run_data
 import surface
+from analysis import concentration
+from differences import common_span
 from page import Page
 from seeds import SEED
+
+SVG_DASHES = ('', '10 4', '10 3 2 3', '2 3', '12 3 2 3 2 3', '16 5', '5 5')
 
 
 def number(value):
@@ -29,10 +36,12 @@ def make_page(comparison):
     add_groups(page, members)
     page.table(overview(comparison), header=[''] + [member.name for member in members])
     add_parameters(page, comparison)
+    member_pictures.add(page, members)
     page.heading('Curves')
-    page.figure(draw_curves(comparison), 'curves', curves_caption(members))
+    add_curves(page, comparison)
     add_peaks(page, comparison)
     add_surfaces(page, comparison)
+    add_concentration(page, members)
     add_differences(page, comparison)
     remarks = [f'{member.name}: {remark}' for member in members for remark in member.data.remarks]
     if remarks:
@@ -60,10 +69,13 @@ def overview(comparison):
     rest = [findings.rest_time(member.data) for member in members]
     maxima = lambda name, column: [number(findings.largest(member.data, column, name))
                                    for member in members]
+    wet = lambda name, column: [text if member.data.is_wet() else '' for text, member in
+                                zip(maxima(name, column), members)]
     ratios = lambda values: [number(v / values[0] if v and values[0] else None) for v in values]
     totals, windows = [total for total, _ in wall], [window for _, window in wall]
     return [
         ['status'] + [member.data.record.get('status', 'unknown') for member in members],
+        ['made by'] + [made_by(member.data) for member in members],
         ['last row [t_c]'] + [number(member.data.history['time'][-1]) for member in members],
         ['windows'] + [f'{member.data.history["step"][-1]:.0f}' for member in members],
         ['wall time [s]'] + [number(total) for total in totals],
@@ -73,13 +85,24 @@ def overview(comparison):
         ['at rest from [t_c]'] + ['not at rest' if value is None else number(value) for value in rest],
         ['largest overlap of any window [D]'] + maxima('penetration', 'max_penetration'),
         ['windows beyond contact.tolerance'] + maxima('unconverged_windows', ''),
+        ['largest defect of the grains\' momentum [-]'] + wet('grain_balance', 'grain_balance'),
+        ['largest defect of the fluid\'s momentum [-]'] + wet('fluid_balance', 'fluid_balance'),
+        ['largest Courant number [-]'] + wet('courant', ''),
     ]
+
+
+def made_by(run):
+    version = (run.record.get('versions') or {}).get('turbidite', '?')
+    return f'turbidite {version}, {run.record.get("prepared", "")[:10] or "no date"}'
 
 
 def add_parameters(page, comparison):
     page.heading('Parameters that differ')
     if comparison.parameters:
-        page.table([[key] + values for key, values in comparison.parameters],
+        case = comparison.members[0].runs[0].folder / 'case.yaml'
+        units = run_data.read_units(case) if case.exists() else {}
+        page.table([[f'{key} [{units[key]}]' if key in units else key] + values
+                    for key, values in comparison.parameters],
                    header=['key'] + [member.name for member in comparison.members])
     else:
         page.paragraph('The cases are the same, key by key.')
@@ -88,34 +111,77 @@ def add_parameters(page, comparison):
 # --- curves -------------------------------------------------------------------------------------------
 
 def curves_caption(members):
-    text = f'All against t/t_c. Solid: {members[0].name}, the first.'
+    text = f'All against t/t_c. The right one of two panels is the difference from {members[0].name}, the first.'
     grouped = any(member.is_group() for member in members)
     return text + (' Lines: means over the seeds; bands: smallest to largest.' if grouped else '')
 
 
-def draw_curves(comparison):
-    quantities = comparison.quantities
-    rows = -(-len(quantities) // 2)
-    figure, axes = plt.subplots(rows, 2, squeeze=False, layout='constrained',
-                                figsize=(11.0, 3.2 * rows))
-    for quantity, place in zip(quantities, axes.flat):
-        for i, member in enumerate(comparison.members):
-            draw_member(place, i, member.name, member.data.column(quantity.column),
-                        member.band(quantity.column) if member.is_group() else None)
-        curves.decorate(place, quantity.title, quantity.unit)
-        if quantity.logarithmic:
-            curves.logarithmic(place)
-    for unused in list(axes.flat)[len(quantities):]:
-        unused.set_axis_off()
-    axes.flat[0].legend(fontsize=8)
-    return figure
+def legend_entries(members):
+    return [(member.name, f'#{colour_of(i)}', SVG_DASHES[i % len(SVG_DASHES)], member.is_group())
+            for i, member in enumerate(members)]
 
 
-def draw_member(axes, i, name, line, band):
-    """Line and band (abscissae, low, high) of member `i`."""
-    axes.plot(*line, label=name, color=f'C{i % 10}', linestyle='-' if i == 0 else '--', linewidth=1.4)
+def colour_of(i):
+    return ('1f77b4', 'd95f02', '2c9e4b', 'c2185b', '6a3d9a', '8c564b', 'b8860b', '17a2b8', '555555', '9acd32')[i % 10]
+
+
+def add_curves(page, comparison):
+    page.legend(legend_entries(comparison.members))
+    page.panels((panel for quantity in comparison.quantities for panel in quantity_panels(comparison, quantity)),
+                curves_caption(comparison.members))
+
+
+def curve_panel(comparison, quantity):
+    """(figure, name) of the curves of all members."""
+    members = comparison.members
+    figure, axes = curves.panel(quantity.title, curves.TIME_LABEL, quantity.unit)
+    for i, member in enumerate(members):
+        draw_member(axes, i, member.data.column(quantity.column),
+                    member.band(quantity.column) if member.is_group() else None)
+    if quantity.logarithmic:
+        curves.logarithmic(axes)
+    return figure, f'curves-{quantity.column}'
+
+
+def quantity_panels(comparison, quantity):
+    """The curves of all members, and, unless logarithmic, their differences from the first."""
+    members, shown = comparison.members, [curve_panel(comparison, quantity)]
+    apart = [] if quantity.logarithmic else [
+        (i, difference_curve(members[0].data.column(quantity.column), member.data.column(quantity.column)))
+        for i, member in enumerate(members[1:], 1)]
+    if any(curve is not None for _, curve in apart):
+        other, beside = curves.panel(f'{quantity.title}: difference', curves.TIME_LABEL, quantity.unit)
+        for i, curve in apart:
+            if curve is not None:
+                draw_member(beside, i, curve, None)
+        beside.axhline(0.0, color=f'#{colour_of(0)}', linewidth=1.0)
+        shown.append((other, f'difference-{quantity.column}'))
+    return shown
+
+
+def difference_curve(first, second):
+    """(times, second - first) over their common time, at the times of both; None without one."""
+    span = common_span(first[0], second[0])
+    if span is None:
+        return None
+    times = np.unique(np.concatenate([first[0], second[0], span]))
+    times = times[(times >= span[0]) & (times <= span[1])]
+    return times, np.interp(times, *second) - np.interp(times, *first)
+
+
+def draw_member(axes, i, line, band):
+    """Line and band (abscissae, low, high) of member `i`: its own dashes, colour and, far apart, markers, so that curves
+    that coincide show."""
+    every = max(1, len(line[0]) // 8)
+    axes.plot(*line, color=f'#{colour_of(i)}', linestyle=curves.dash(i), linewidth=1.4,
+              marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=3.5, markevery=(i * every // 3, every))
     if band is not None:
-        axes.fill_between(*band, color=f'C{i % 10}', alpha=0.18, linewidth=0.0)
+        axes.fill_between(*band, color=f'#{colour_of(i)}', alpha=0.18, linewidth=0.0)
+
+
+def draw_curves(comparison):
+    """(figure, name) of the curves alone, for a study."""
+    return (curve_panel(comparison, quantity) for quantity in comparison.quantities)
 
 
 # --- the mean velocity --------------------------------------------------------------------------------
@@ -128,7 +194,7 @@ def add_peaks(page, comparison):
         page.heading('Peak of the mean velocity')
         page.paragraph('Largest |<u>| over u_c and its time over t_c: of the mean curve, and of the '
                        'single runs from the smallest to the largest.')
-        page.table(rows, css='numbers', header=['', 'of the mean', 'at', 'of single runs', 'at'])
+        page.table(rows, css='numbers', header=['', 'of the mean [u_c]', 'at [t_c]', 'of single runs [u_c]', 'at [t_c]'])
     if comparison.pairs:
         page.heading('Differences of the mean velocity')
         page.paragraph('Of |<u>|(t) between every two, over the time both cover, divided by the peak of '
@@ -144,14 +210,28 @@ def add_surfaces(page, comparison):
     if not shown:
         return
     page.heading('Surface at the end')
-    figure, axes = plt.subplots(figsize=(11.0, 4.0), layout='constrained')
+    figure, axes = plt.subplots(figsize=curves.PANEL, layout='constrained')
     for i, name, found in shown:
         x, high, low, height = surface.trimmed(found.x, found.high, found.low, found.height)
-        draw_member(axes, i, f'{name}, t = {found.time:g}', (x, height),
-                    (x, low, high) if found.runs > 1 else None)
-    surface.decorate(axes)
-    page.figure(figure, 'surface', 'Highest point of the grains in each column of one D at the last '
-                                   'output.')
+        draw_member(axes, i, (x, height), (x, low, high) if found.runs > 1 else None)
+    surface.decorate(axes, legend=False)
+    page.panels([(figure, 'surface')], 'Highest point of the grains in each column of one D at the last output: '
+                + ', '.join(f'{name} at t = {found.time:g} t_c' for _, name, found in shown) + '.')
+
+
+def add_concentration(page, members):
+    """Solid share over height at the end, of runs that are no avalanches."""
+    found = [(i, concentration.concentration(member.runs[0])) for i, member in enumerate(members)
+             if not member.data.is_avalanche()]
+    found = [(i, one) for i, one in found if one is not None]
+    if not found:
+        return
+    figure, axes = curves.panel('Concentration over height at the end', 'solid share', r'$y\,/\,D$')
+    for i, one in found:
+        draw_member(axes, i, (one.shares[-1], 0.5 * (one.edges[1:] + one.edges[:-1])), None)
+    page.heading('Concentration over height')
+    page.panels([(figure, 'concentration')], 'Solid share of layers of one D'
+                + (', first seeds.' if any(member.is_group() for member in members) else '.'))
 
 
 # --- differences from the first -----------------------------------------------------------------------
@@ -165,7 +245,7 @@ def add_differences(page, comparison):
 
 
 def difference_rows(comparison):
-    return [[quantity.title, member.name, number(n['rms']), percent(n['rms_relative']),
+    return [[f'{quantity.title} [{quantity.plain_unit}]', member.name, number(n['rms']), percent(n['rms_relative']),
              number(n['max']), percent(n['max_relative']), number(n['end_value'])]
             for quantity in comparison.quantities for member in comparison.members
             for n in [comparison.measured[member.name][quantity.column]]]

@@ -29,6 +29,13 @@ class Plot:
     logarithmic: bool = False
     divide_by_height: bool = False  # lengths in D over the height of the domain
     relaxation: bool = False        # with the fit of relaxation.py
+    of_springs: tuple = ()          # title and unit where springs act in sub-steps instead of a contact solver
+
+    def title_of(self, run):
+        return self.of_springs[0] if self.of_springs and run.has_springs() else self.title
+
+    def unit_of(self, run):
+        return self.of_springs[1] if self.of_springs and run.has_springs() else self.unit
 
 
 # Fig. 3 of Topin et al. 2011.
@@ -79,26 +86,23 @@ SOLVERS = [
     Plot('Momentum checks', 'relative defect',
          [Curve('grain_balance', r'grains: $M\,dU/dt = (M-m_f)g + F_c + F_h$'),
           Curve('fluid_balance', 'fluid: multipliers and boundaries')], logarithmic=True),
-    Plot('Contact solver', 'sweeps', [Curve('contact_iterations', '')]),
+    Plot('Contact solver', 'sweeps', [Curve('contact_iterations', '')],
+         of_springs=('Springs', 'sub-steps of a window')),
     Plot('Multiplier solver', 'iterations', [Curve('multiplier_iterations', 'multipliers'),
                                              Curve('pressure_iterations', 'pressure with rigid grains'),
                                              Curve('joint_rounds', 'joint rounds')]),
 ]
 
 
-def figure(run, plots, columns=2):
-    """The plots for which the history has numbers, as one figure; None if there are none."""
-    shown = [plot for plot in plots if available(plot, run)]
-    if not shown:
-        return None
-    rows = -(-len(shown) // columns)
-    result, axes = plt.subplots(rows, columns, squeeze=False, layout='constrained',
-                                figsize=(11.0, 3.3 * rows))
-    for plot, place in zip(shown, axes.flat):
-        draw(plot, run, place)
-    for unused in list(axes.flat)[len(shown):]:
-        unused.set_axis_off()
-    return result
+def panels(run, plots, section):
+    """(figure, name) of each of the plots for which the history has numbers."""
+    shown = []
+    for plot in plots:
+        if available(plot, run):
+            result, axes = bare_panel()
+            draw(plot, run, axes)
+            shown.append((result, f'{section}-{available(plot, run)[0].column}'))
+    return shown
 
 
 def available(plot, run):
@@ -109,11 +113,11 @@ def available(plot, run):
 def draw(plot, run, axes):
     height = run.size()[1] if plot.divide_by_height and 'domain.size' in run.case else None
     curves = available(plot, run)
-    for curve in curves:
+    for k, curve in enumerate(curves):
         time, values = run.column(curve.column)
-        axes.plot(time, values / height if height else values, label=curve.label, linewidth=1.4,
+        axes.plot(time, values / height if height else values, label=curve.label, linewidth=1.4, linestyle=dash(k),
                   marker='.' if len(values) == 1 else None)
-    decorate(axes, plot.title, plot.unit if height or not plot.divide_by_height else 'height / D')
+    decorate(axes, plot.title_of(run), plot.unit_of(run) if height or not plot.divide_by_height else r'$\langle y \rangle\,/\,D$')
     if plot.logarithmic:
         logarithmic(axes)
     if height:
@@ -124,9 +128,16 @@ def draw(plot, run, axes):
         axes.legend(fontsize=8)
 
 
-def panel(title, x_label, y_label, size=PANEL):
-    """A figure of one plot, and its axes."""
-    result, axes = plt.subplots(figsize=size, layout='constrained')
+def bare_panel(size=PANEL, right=0.97):
+    """A figure of one plot with fixed margins, and its axes: finding the margins takes longer than the drawing."""
+    result, axes = plt.subplots(figsize=size)
+    result.subplots_adjust(left=0.83 / size[0], right=right, bottom=0.55 / size[1], top=1.0 - 0.35 / size[1])
+    return result, axes
+
+
+def panel(title, x_label, y_label, size=PANEL, bar=False):
+    """A figure of one plot, and its axes; with room for a colour bar and its label if asked for."""
+    result, axes = bare_panel(size, 0.9 if bar else 0.97)
     decorate(axes, title, y_label)
     axes.set_xlabel(x_label)
     return result, axes

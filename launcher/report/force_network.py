@@ -17,6 +17,7 @@ THINNEST = 0.08         # of the widest; thinner lines are invisible
 PUSH, PULL = '#b3261e', '#1d5fa8'
 BINS_FORCE, BINS_ANGLE = 30, 36
 LARGEST_FORCE = 6.0     # f/<f> in the distribution
+FEWEST_CONTACTS = 50    # for a distribution
 
 
 @dataclass
@@ -43,6 +44,19 @@ def figure(run, networks):
     return result
 
 
+def panels(run, networks):
+    """(figure, name) of each network, with one scale for all."""
+    scale, found = force_scale(networks), []
+    size = pictures.view(run, [network.grains for network in networks])
+    for k, network in enumerate(networks):
+        result, axes, _ = pictures.panel_axes(run, networks)
+        grain_drawing.draw(axes, network.grains, run.scale('D'), alpha=0.45)
+        axes.add_collection(lines(network, scale))
+        pictures.decorate(run, axes, size, network.grains.time)
+        found.append((result, f'force_network-{k}'))
+    return found
+
+
 def force_scale(networks):
     forces = np.concatenate([np.abs(network.forces) for network in networks])
     return float(np.quantile(forces, LARGEST_PART)) if len(forces) else 1.0
@@ -59,24 +73,25 @@ def lines(network, scale):
 
 
 def statistics(networks):
-    """P(f/<f>) and the directions of contacts between grains, one curve per network."""
-    shown = [network for network in networks if network.between_grains.sum() > 1]
+    """(figure, name) of P(f/<f>) and of the directions of contacts between grains, one curve per network with at least
+    50 of them; empty without any."""
+    shown = [network for network in networks if network.between_grains.sum() >= FEWEST_CONTACTS]
     if not shown:
-        return None
-    result = plt.figure(figsize=(11.0, 4.0), layout='constrained')
-    forces = result.add_subplot(1, 2, 1)
-    polar = result.add_subplot(1, 2, 2, projection='polar')
-    for network in shown:
-        label = rf'$t = {network.time:.3g}\,t_c$'
-        forces.plot(*distribution(network), marker='.', linewidth=1.2, label=label)
-        polar.plot(*directions(network), linewidth=1.2, label=label)
-    curves.decorate(forces, 'Normal forces', r'$P(f\,/\,\langle f \rangle)$')
-    forces.set(xlabel=r'$f\,/\,\langle f \rangle$', yscale='log')
+        return []
+    result, forces = curves.panel('Normal forces', r'$f\,/\,\langle f \rangle$', r'$P(f\,/\,\langle f \rangle)$')
+    other = plt.figure(figsize=curves.PANEL, layout='constrained')
+    polar = other.add_subplot(projection='polar')
+    for k, network in enumerate(shown):
+        style = dict(linewidth=1.2, linestyle=curves.dash(k), color=curves.in_order(k, len(shown)),
+                     label=rf'$t = {network.time:.3g}\,t_c$')
+        forces.plot(*distribution(network), marker='.', **style)
+        polar.plot(*directions(network), **style)
+    forces.set_yscale('log')
     forces.legend(fontsize=8)
     polar.set_title('Directions of contacts', fontsize=10)
     polar.tick_params(labelsize=8)
     polar.set_rlabel_position(80)
-    return result
+    return [(result, 'contact_forces'), (other, 'contact_directions')]
 
 
 def distribution(network):

@@ -31,6 +31,11 @@ def grain_series(run):
     return series(index)
 
 
+def quiet_series(run):
+    """The same without a remark when there is none."""
+    return grain_series(run) if (run.folder / 'grains' / 'grains.pvd').exists() else []
+
+
 def series(index):
     """(time, path) of the first part of every output."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))

@@ -11,6 +11,7 @@ import peaks
 import relaxation
 from analysis import (concentration, deposit, dilatancy, energy, pore_pressure, pores, rheology, shear_band,
                       weight_balance)
+from analysis.once import or_remark
 
 
 @dataclass
@@ -21,7 +22,11 @@ class Measured:
     title: str
     unit: str        # for the axis of a plot
     plain_unit: str  # for a table
-    of: object       # function of RunData
+    measure: object  # function of RunData
+
+    def of(self, run):
+        """None, and a remark of the run, where its files cannot be read."""
+        return or_remark(run, self.title, lambda: self.measure(run))
 
 
 def end_of(column):

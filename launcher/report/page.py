@@ -7,6 +7,8 @@ import sys
 
 import matplotlib.pyplot as plt
 
+from typeset import typeset
+
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em;
        color: #222; }
@@ -16,12 +18,15 @@ th { text-align: left; font-weight: 600; } td:first-child { color: #666; } img {
 table.numbers td + td, table.numbers th + th { text-align: right; font-variant-numeric: tabular-nums; }
 .wide { overflow-x: auto; }
 figure { margin: 0; } figcaption { color: #444; max-width: 75ch; }
-.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 400px), 1fr)); gap: 8px; }
-.panels img { width: 100%; }
+.panels { display: grid; gap: 8px; align-items: start; } .panels img { width: 100%; }
+.legend { position: sticky; top: 0; background: white; padding: .3em 0; margin: 0; }
+.legend span { white-space: nowrap; margin-right: 1.2em; } .legend svg { vertical-align: middle; }
+sub, sup { line-height: 0; }
+@media (max-width: 600px) { body { margin: 1em auto; } td, th { padding-right: .6em; } }
 .bad { color: #a40000; } .remark { color: #7a5c00; }
 details pre { background: #f6f6f4; padding: 1em; overflow-x: auto; font-size: 12px; }
 """
-RESOLUTION = 140  # dots per inch
+RESOLUTION = 120  # dots per inch
 
 
 class Page:
@@ -31,40 +36,54 @@ class Page:
         self.pictures = {}  # name: bytes of a PNG
 
     def heading(self, text):
-        self.parts.append(f'<h2>{html.escape(text)}</h2>')
+        self.parts.append(f'<h2>{typeset(text)}</h2>')
 
     def paragraph(self, text, css=''):
         attribute = f' class="{css}"' if css else ''
-        self.parts.append(f'<p{attribute}>{html.escape(text)}</p>')
+        self.parts.append(f'<p{attribute}>{typeset(text)}</p>')
 
     def figure(self, figure, name, caption):
         """Embeds a figure and closes it; `name` is also that of the PNG file."""
         self.parts.append(f'<figure>{self._image(figure, name)}'
-                          f'<figcaption>{html.escape(caption)}</figcaption></figure>')
+                          f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
-    def panels(self, figures, caption):
-        """Several (figure, name) with one caption: side by side where there is room, below each other where not."""
+    def panels(self, figures, caption, width=400):
+        """Several (figure, name) with one caption: side by side where each has `width` pixels, below each other where
+        not."""
         images = ''.join(self._image(figure, name) for figure, name in figures)
-        self.parts.append(f'<figure><div class="panels">{images}</div>'
-                          f'<figcaption>{html.escape(caption)}</figcaption></figure>')
+        columns = f'grid-template-columns: repeat(auto-fill, minmax(min(100%, {width}px), 1fr))'
+        self.parts.append(f'<figure><div class="panels" style="{columns}">{images}</div>'
+                          f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
-    def _image(self, figure, name):
+    def legend(self, entries):
+        """(name, colour, dashes of SVG, whether a band belongs to it) of the lines in all figures that follow."""
+        self.parts.append('<p class="legend">' + ' '.join(
+            f'<span><svg width="40" height="12"><line x1="0" x2="40" y1="6" y2="6" stroke="{colour}" '
+            f'stroke-width="2" stroke-dasharray="{dashes}"/>'
+            + (f'<rect x="0" y="1" width="40" height="10" fill="{colour}" opacity="0.18"/>' if band else '')
+            + f'</svg> {html.escape(name)}</span>' for name, colour, dashes, band in entries) + '</p>')
+
+    def file_only(self, figure, name):
+        """A PNG beside the page that is not part of it."""
         buffer = io.BytesIO()
-        figure.savefig(buffer, format='png', dpi=RESOLUTION)
+        figure.savefig(buffer, format='png', dpi=RESOLUTION, pil_kwargs={'compress_level': 4})
         plt.close(figure)
         self.pictures[name] = buffer.getvalue()
+
+    def _image(self, figure, name):
+        self.file_only(figure, name)
         data = base64.b64encode(self.pictures[name]).decode()
         return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
 
     def table(self, rows, header=None, css=''):
         line = lambda tag, cells: '<tr>' + ''.join(
-            f'<{tag}>{html.escape(str(cell))}</{tag}>' for cell in cells) + '</tr>'
+            f'<{tag}>{typeset(str(cell))}</{tag}>' for cell in cells) + '</tr>'
         head = line('th', header) if header else ''
         body = ''.join(line('td', row) for row in rows)
         self.parts.append(f'<div class="wide"><table class="{css}">{head}{body}</table></div>')
 
     def bullets(self, items, css=''):
-        lines = ''.join(f'<li>{html.escape(item)}</li>' for item in items)
+        lines = ''.join(f'<li>{typeset(item)}</li>' for item in items)
         self.parts.append(f'<ul class="{css}">{lines}</ul>')
 
     def folded(self, summary, text):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 import findings
 import fluid_fields
@@ -119,6 +120,46 @@ def figure(run, pictures):
                 r'vertical fluid velocity $/\,u_c$' if wet else r'speed of the grains $/\,u_c$',
                 extend='both' if wet else 'max')
     return result
+
+
+def panel_width(run, shown):
+    """Pixels that a single picture needs to be readable: tall ones stand beside each other on a telephone."""
+    width, height = view(run, [one.grains for one in shown])
+    aspect = height / width
+    return 180 if aspect > 1.5 else 280 if aspect > 0.6 else 400
+
+
+def panel_axes(run, shown, bar=False):
+    """(figure, axes, axes of a colour bar or None) for one picture, its text readable at panel_width pixels. Margins are
+    fixed: finding them takes longer than the drawing."""
+    width, height = view(run, [one.grains for one in shown])
+    inches = panel_width(run, shown) / 75.0
+    plot = inches - 0.5, min((inches - 0.5) * height / width, 3.2 * inches)
+    below = 0.85 if bar else 0.3
+    total = plot[1] + below + 0.35
+    result = plt.figure(figsize=(inches, total))
+    axes = result.add_axes((0.35 / inches, below / total, plot[0] / inches, plot[1] / total))
+    return result, axes, result.add_axes((0.35 / inches, 0.42 / total, plot[0] / inches, 0.12 / total)) if bar else None
+
+
+def panels(run, shown):
+    """(figure, name) of each picture, the colour bar below each."""
+    wet, found = run.is_wet(), []
+    limit = colour_limit(run, shown) if wet else speed_limit(run, shown)
+    size = view(run, [picture.grains for picture in shown])
+    for k, picture in enumerate(shown):
+        result, axes, below = panel_axes(run, shown, bar=True)
+        image = _draw(run, picture, limit, size, axes)
+        if image is None:
+            below.set_axis_off()
+        else:
+            bar = result.colorbar(image, cax=below, orientation='horizontal', extend='both' if wet else 'max')
+            bar.set_label(r'fluid, $v\,/\,u_c$' if wet else r'grains, $|u|\,/\,u_c$', fontsize=8)
+            below.tick_params(labelsize=7)
+            bar.locator = MaxNLocator(4)
+            bar.update_ticks()
+        found.append((result, f'sequence-{k}'))
+    return found
 
 
 def frame(run, all_grains, beside=BAR_WIDTH):

@@ -21,6 +21,7 @@ import run_data
 import wall_shares
 from analysis import panels
 from page import Page, write_whole
+from working import Progress
 
 
 def coupling(case):
@@ -33,6 +34,9 @@ def facts(run):
     """(name, value) pairs of the case, with units."""
     record, case = run.record, run.case
     rows = [
+        ('made by', f'turbidite {(record.get("versions") or {}).get("turbidite", "of unknown version")}'
+                    f'{date_of(record)}'),
+        *([('command', run.command())] if run.command() else []),
         ('domain', f'{case.get("domain.size", "unknown")} D; left {case.get("domain.left")}, right '
                    f'{case.get("domain.right")}, bottom {case.get("domain.bottom")}, top '
                    f'{case.get("domain.top")}'),
@@ -49,11 +53,20 @@ def facts(run):
         ('coupling', coupling(case)),
         ('seed', str(record.get('seed', '?'))),
     ]
+    courant = (record.get('maxima') or {}).get('courant')
+    if courant is not None:
+        rows.append(('Courant number', f'at most {courant:.3g}'))
     if 'wall_seconds' in record:
         rows.append(('wall time', f'{record["wall_seconds"]:.1f} s'))
     programs = [f'{r.get("role")} {r.get("rank")}: {r.get("adapter")} ({r.get("host_code")}) on '
                 f'{r.get("host")}' for r in record.get('ranks', [])]
     return rows + [('programs', '; '.join(programs))] if programs else rows
+
+
+def date_of(record):
+    """', 2026-01-31 12:00 +0000', or empty."""
+    prepared = record.get('prepared', '')
+    return f', {prepared[:10]} {prepared[11:16]} {prepared[19:]}' if len(prepared) >= 16 else ''
 
 
 def units(case):
@@ -74,7 +87,8 @@ def add_sequence(page, run):
     if not chosen or 'domain.size' not in run.case:
         return page.paragraph('There is nothing to draw yet.', 'remark')
     loaded = [pictures.load(run, instant) for instant in chosen]
-    page.figure(pictures.figure(run, loaded), 'sequence', captions.sequence(run, loaded))
+    page.file_only(pictures.figure(run, loaded), 'sequence')
+    page.panels(pictures.panels(run, loaded), captions.sequence(run, loaded), pictures.panel_width(run, loaded))
 
 
 def add_curves(page, run):
@@ -89,10 +103,10 @@ def add_curves(page, run):
             ('Speed, energy and contacts', 'motion', curves.MOTION, captions.motion),
             ('Packing', 'packing', curves.NETWORK, captions.packing),
             ('Residuals and iterations', 'solvers', curves.SOLVERS, captions.solvers)):
-        figure = curves.figure(run, plots)
-        if figure is not None:
+        shown = curves.panels(run, plots, name)
+        if shown:
             page.heading(heading)
-            page.figure(figure, name, caption(run))
+            page.panels(shown, caption(run))
 
 
 def add_contacts(page, run):
@@ -100,17 +114,19 @@ def add_contacts(page, run):
     if not shown:
         return
     page.heading('Force network')
-    page.figure(force_network.figure(run, shown), 'force_network', captions.force_network(shown))
+    page.file_only(force_network.figure(run, shown), 'force_network')
+    page.panels(force_network.panels(run, shown), captions.force_network(shown),
+                pictures.panel_width(run, shown))
     told = force_network.statistics(shown)
-    if told is not None:
-        page.figure(told, 'contact_statistics', captions.contact_statistics(run))
+    if told:
+        page.panels(told, captions.contact_statistics(run))
 
 
 def add_wall_time(page, run):
     wall = findings.wall_time(run)
     if wall is not None:
         page.heading('Wall time')
-        page.figure(wall_shares.figure(wall), 'wall_time', captions.wall_time(wall))
+        page.panels([(wall_shares.figure(wall), 'wall_time')], captions.wall_time(wall))
 
 
 def add_remarks(page, run):
@@ -126,12 +142,12 @@ def make_page(run):
     page = Page(str(run.record.get('case') or run.folder.name))
     add_status(page, run)
     page.table(facts(run))
-    add_sequence(page, run)
-    add_contacts(page, run)
-    add_curves(page, run)
-    panels.add_all(page, run)
-    add_wall_time(page, run)
-    add_remarks(page, run)
+    working = Progress('report')
+    for what, add in (('pictures', add_sequence), ('force network', add_contacts), ('curves', add_curves),
+                      ('analysis', panels.add_all), ('wall time', add_wall_time), ('remarks', add_remarks)):
+        working(what)
+        add(page, run)
+    working.end()
     return page
 
 
@@ -141,6 +157,9 @@ def write_pictures(page, folder):
     except OSError as error:
         print(f'cannot write {folder}: {error.strerror}', file=sys.stderr)
         return False
+    for old in folder.glob('*.png'):  # of a report that had other figures
+        if old.stem not in page.pictures:
+            old.unlink()
     return all(write_whole(folder / f'{name}.png', png) for name, png in page.pictures.items())
 
 

@@ -7,6 +7,7 @@ Everything is returned in the units of the run (see run.json: D, u_c, t_c). Miss
 """
 import csv
 import json
+import shlex
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -42,6 +43,23 @@ class RunData:
         _, front = self.column('front_x')
         bare = not len(front) or 'domain.size' not in self.case or front[0] < BARE_FROM * self.size()[0]
         return self.case.get('scales.kind') == 'avalanche' and bare
+
+    def is_packed(self):
+        """The grains are a packing from the start: they stand on a lattice."""
+        return self.case.get('grains.generator') == 'lattice' or self.is_avalanche()
+
+    def has_springs(self):
+        """Contacts are springs in sub-steps of a window, not a problem that is solved."""
+        return self.case.get('grains.adapter', '').endswith('-md')
+
+    def command(self):
+        """The command that made the run; empty for versions that did not record it."""
+        if not self.record.get('case_file'):
+            return ''
+        words = ['turbidite', 'run', self.record['case_file']]
+        words += [word for override in self.record.get('overrides', []) for word in ('--set', override)]
+        words += ['--from', self.record['from']] if self.record.get('from') else []
+        return shlex.join(words)
 
     def column(self, name):
         """The rows of the history that contain a quantity: times [t_c] and values."""
@@ -92,6 +110,19 @@ def read_resolved_case(path):
             name = (group if line.startswith(' ') else '') + key
             case[name] = value.strip().strip('"')
     return case
+
+
+def read_units(path):
+    """Units of the keys that have one, from the comments of a resolved case."""
+    units, group = {}, ''
+    for line in path.read_text().splitlines():
+        text, _, unit = line.partition('  # ')
+        key, _, value = text.strip().partition(':')
+        if text and not text.startswith((' ', '#')) and not value.strip():
+            group = key + '.'
+        elif unit:
+            units[(group if line.startswith(' ') else '') + key] = unit.strip()
+    return units
 
 
 def read_history(path):

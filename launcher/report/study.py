@@ -15,7 +15,6 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 
 import compare
@@ -25,6 +24,10 @@ import run_data
 import seeds
 from measured import DRAWN, MEASURED
 from page import Page, write_whole
+from paper import add as paper
+from working import Progress
+
+FIGURE_SETS = {'paper': paper.add}  # by the study's `figures`
 
 
 @dataclass
@@ -34,14 +37,14 @@ class StudyRun:
 
 
 def load(folder):
-    """Title and runs."""
+    """Title, name of a set of further figures or empty, and runs."""
     record = json.loads((folder / 'study.json').read_text())
     runs = []
     for entry in record['runs']:
         there = entry['status'] != 'missing'
         data = run_data.load_run(folder / entry['folder']) if there else run_data.RunData(folder / entry['folder'])
         runs.append(StudyRun(entry, data))
-    return record['study'], runs
+    return record['study'], record.get('figures', ''), runs
 
 
 def swept_keys(runs):
@@ -74,6 +77,10 @@ def make_page(title, runs):
         page.bullets(failed, 'bad')
     for part in dict.fromkeys(run.entry['part'] for run in runs):
         add_part(page, part, [run for run in runs if run.entry['part'] == part])
+    remarks = [f'{run.entry["folder"]}: {remark}' for run in runs for remark in run.data.remarks]
+    if remarks:
+        page.heading('Remarks')
+        page.bullets(remarks, 'remark')
     return page
 
 
@@ -95,11 +102,15 @@ def add_part(page, part, runs):
     values = {member.name: by_folder[member.runs[0].folder].entry['values'] for member in members}
     add_table(page, members, keys, values)
     comparison = compare.measure(members)
-    page.figure(compare_page.draw_curves(comparison), f'{part}-curves', compare_page.curves_caption(members))
+    page.legend(compare_page.legend_entries(members))
+    page.panels(((figure, f'{part}-{name}') for figure, name in compare_page.draw_curves(comparison)),
+                'All against t/t_c.' + (' Lines: means over the seeds; bands: smallest to largest.'
+                                        if any(member.is_group() for member in members) else ''))
     for key in keys:
-        figure = draw_against(key, members, values)
-        if figure is not None:
-            page.figure(figure, f'{part}-{key}', f'Against {key}; bars from the smallest to the largest of the seeds.')
+        shown = draw_against(key, members, values)
+        if shown:
+            page.panels([(figure, f'{part}-{key}-{name}') for figure, name in shown],
+                        f'Against {key}; bars from the smallest to the largest of the seeds.')
 
 
 def add_table(page, members, keys, values):
@@ -144,24 +155,21 @@ def seeds_word(key):
 
 
 def draw_against(key, members, values):
-    """One panel per measured quantity; None where the key has fewer than two numbers."""
+    """(figure, name) per measured quantity; none where the key has fewer than two numbers."""
     abscissae = numbers_of(key, members, values)
     if abscissae is None or len(set(abscissae)) < 2:
-        return None
-    shown = [m for m in MEASURED if m.name in DRAWN
-             and any(m.of(run) is not None for member in members for run in member.runs)]
-    rows = -(-len(shown) // 2)
-    figure, axes = plt.subplots(rows, 2, squeeze=False, layout='constrained', figsize=(11.0, 3.2 * rows))
-    for measured, place in zip(shown, axes.flat):
+        return []
+    shown = []
+    for measured in (m for m in MEASURED if m.name in DRAWN):
+        if not any(measured.of(run) is not None for member in members for run in member.runs):
+            continue
+        figure, axes = curves.panel(measured.title, key, measured.unit)
         for i, (label, points) in enumerate(lines_of(key, members, values, abscissae).items()):
-            draw_line(place, i, label.strip(), points, measured)
-        curves.decorate(place, measured.title, measured.unit)
-        place.set_xlabel(key)
-    for unused in list(axes.flat)[len(shown):]:
-        unused.set_axis_off()
-    if axes.flat[0].get_legend_handles_labels()[0]:
-        axes.flat[0].legend(fontsize=8)
-    return figure
+            draw_line(axes, i, label.strip(), points, measured)
+        if len(axes.get_legend_handles_labels()[1]) > 0:
+            axes.legend(fontsize=8)
+        shown.append((figure, measured.name))
+    return shown
 
 
 def draw_line(axes, i, label, points, measured):
@@ -174,8 +182,8 @@ def draw_line(axes, i, label, points, measured):
     mean = np.array([np.mean(known) for _, known in found])
     below = mean - [min(known) for _, known in found]
     above = np.array([max(known) for _, known in found]) - mean
-    axes.errorbar(x, mean, yerr=[below, above], marker='o', markersize=4, capsize=3, color=f'C{i % 10}',
-                  label=label or None, linewidth=1.2)
+    axes.errorbar(x, mean, yerr=[below, above], marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=4, capsize=3,
+                  color=f'#{compare_page.colour_of(i)}', linestyle=curves.dash(i), label=label or None, linewidth=1.2)
 
 
 def main(arguments):
@@ -183,11 +191,15 @@ def main(arguments):
         print('usage: study.py FOLDER   (of `turbidite study`)', file=sys.stderr)
         return 2
     folder = Path(arguments[1])
-    title, runs = load(folder)
+    title, figures, runs = load(folder)
+    working = Progress('study')
+    working('tables and figures')
     page = make_page(title, runs)
+    written = [FIGURE_SETS[figures](page, folder, runs)] if figures in FIGURE_SETS else []
+    working.end()
     pictures = folder / 'pictures'
     pictures.mkdir(exist_ok=True)
-    written = [write_whole(pictures / f'{name}.png', content) for name, content in page.pictures.items()]
+    written += [write_whole(pictures / f'{name}.png', content) for name, content in page.pictures.items()]
     written += [write_whole(folder / 'study.csv', as_csv(runs)),
                 write_whole(folder / 'study.html', page.text())]
     return 0 if all(written) else 4

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The free surface of a heap: its highest point in each column of width D."""
-import matplotlib.pyplot as plt
 import numpy as np
 
 import curves
@@ -39,17 +38,6 @@ def top_of_polygon(corners, column):
     return max(tops)
 
 
-def figure(run, instants):
-    """The surfaces of grain_files.Grains at several times."""
-    result, axes = plt.subplots(figsize=(11.0, 3.6), layout='constrained')
-    colours = plt.get_cmap('viridis')(np.linspace(0.0, 0.9, len(instants)))
-    for grains, colour in zip(instants, colours):
-        axes.plot(*trimmed(*surface(run, grains)), color=colour, linewidth=1.3,
-                  label=rf'$t = {grains.time / run.scale("t_c"):.3g}\,t_c$')
-    decorate(axes)
-    return result
-
-
 def trimmed(x, *heights):
     """Removes the empty columns beyond the last one with grains in the first of `heights`."""
     reach = np.flatnonzero(heights[0])
@@ -57,12 +45,13 @@ def trimmed(x, *heights):
     return (x[:end], *(height[:end] for height in heights))
 
 
-def decorate(axes):
+def decorate(axes, legend=True):
     curves.decorate(axes, 'Surface', r'$y\,/\,D$')
     axes.set_xlabel(r'$x\,/\,D$')
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
-    axes.legend(fontsize=8)
+    if legend:
+        axes.legend(fontsize=8)
 
 
 def last_grains(run):

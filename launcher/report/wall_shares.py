@@ -12,7 +12,7 @@ def figure(wall):
     """`wall` is a findings.WallTime."""
     names = list(wall.parts) + [REST]
     seconds = list(wall.parts.values()) + [wall.rest()]
-    result, axes = plt.subplots(figsize=(11.0, 3.4), layout='constrained')
+    result, axes = plt.subplots(figsize=(curves.PANEL[0], curves.PANEL[1] + 0.7), layout='constrained')
     labels = [f'{name}: {_share(wall, part)}' for name, part in zip(names, seconds)]
     colours = [COLOURS.get(name, COLOURS['rest']) for name in names]
     milliseconds = [1e3 * part for part in seconds]
@@ -25,7 +25,7 @@ def figure(wall):
     curves.decorate(axes, 'Wall time of a window', 'milliseconds')
     axes.set_ylim(bottom=0.0)
     handles, texts = axes.get_legend_handles_labels()
-    axes.legend(handles[::-1], texts[::-1], fontsize=9, loc='center left', bbox_to_anchor=(1.0, 0.5),
+    axes.legend(handles[::-1], texts[::-1], fontsize=8, loc='upper center', bbox_to_anchor=(0.5, -0.16), ncols=2,
                 frameon=False)
     return result
 

@@ -15,7 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> part_keys = {"case", "set", "sweep", "variants"};
+const std::vector<std::string> part_keys = {"case", "set", "full", "quick", "sweep", "variants"};
+
+/// Sets of figures, launcher/report/NAME.
+const std::vector<std::string> figure_sets = {"paper"};
 
 /// What is wrong with a study file, collected.
 class Complaints {
@@ -27,9 +30,7 @@ class Complaints {
         problems_.push_back(problem_at(source_, node.Mark().line + 1, fault, allowed, remedy));
     }
 
-    void refuse_if_any() {
-        if (!problems_.empty()) throw CaseRefused(std::move(problems_));
-    }
+    std::vector<CaseProblem> all() const { return problems_; }
 
  private:
     std::string source_;
@@ -126,14 +127,17 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
         complaints.add(node, name + " has no case", "Every part needs a case file.",
                        "Add case: FILE, with a path relative to the study file.");
     } else {
-        part.case_file = folder / file.Scalar();
-        if (!is_file(part.case_file))
-            complaints.add(
-                file, "case: " + file.Scalar() + " does not exist",
-                "It is a case file, its path relative to the study file.",
-                "Looked for " + fs::absolute(part.case_file).lexically_normal().string() + ".");
+        const fs::path path = folder / file.Scalar();
+        if (is_file(path))
+            part.case_file = path;
+        else
+            complaints.add(file, "case: " + file.Scalar() + " does not exist",
+                           "It is a case file, its path relative to the study file.",
+                           "Looked for " + fs::absolute(path).lexically_normal().string() + ".");
     }
     part.overrides = overrides_of(node["set"], "set", complaints);
+    part.full = overrides_of(node["full"], "full", complaints);
+    part.quick = overrides_of(node["quick"], "quick", complaints);
     add_variants(node["variants"], part, complaints);
     const YAML::Node sweep = node["sweep"];
     if (sweep.IsDefined() && sweep.IsMap()) add_swept_keys("", sweep, part, complaints);
@@ -141,6 +145,16 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
         complaints.add(sweep, "sweep contains no keys", "It is a map `key: [values]`.",
                        "Write for example sweep: {random.seed: [1, 2, 3]}.");
     return part;
+}
+
+std::string figures_of(const YAML::Node& node, Complaints& complaints) {
+    if (!node.IsDefined()) return "";
+    const std::string name = node.IsScalar() ? node.Scalar() : "";
+    if (std::find(figure_sets.begin(), figure_sets.end(), name) == figure_sets.end())
+        complaints.add(node, "figures: " + value_text(node) + " is unknown",
+                       fmt::format("It is one of {}.", fmt::join(figure_sets, ", ")),
+                       "Leave it out for the figures of every study.");
+    return name;
 }
 
 YAML::Node document(const fs::path& file) {
@@ -179,12 +193,15 @@ Study read_study(const fs::path& file) {
     study.name = file.stem().string();
     study.out =
         root["out"].IsDefined() ? fs::path(root["out"].Scalar()) : fs::path("runs") / study.name;
+    study.figures = figures_of(root["figures"], complaints);
     const YAML::Node parts = root["parts"];
     if (!parts.IsDefined()) {
-        refuse_unknown_keys(root, {"out", "case", "set", "sweep", "variants"}, complaints);
+        std::vector<std::string> known = part_keys;
+        known.insert(known.end(), {"out", "figures"});
+        refuse_unknown_keys(root, known, complaints);
         study.parts = {read_part(study.name, root, file.parent_path(), complaints)};
     } else {
-        refuse_unknown_keys(root, {"out", "parts"}, complaints);
+        refuse_unknown_keys(root, {"out", "figures", "parts"}, complaints);
         if (!parts.IsMap() || parts.size() == 0)
             complaints.add(parts, "parts contains no names",
                            "It is a map of names, each with a case.",
@@ -196,7 +213,7 @@ Study read_study(const fs::path& file) {
                     read_part(item.first.Scalar(), item.second, file.parent_path(), complaints));
             }
     }
-    complaints.refuse_if_any();
+    study.problems = complaints.all();
     return study;
 }
 

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <set>
 
+#include "launcher/case/run_cost.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -61,13 +63,23 @@ std::vector<PlannedRun> along(const std::vector<PlannedRun>& runs, const SweepAx
     return result;
 }
 
-std::vector<PlannedRun> runs_of(const StudyPart& part) {
+/// The axis, or the one value that `full` or `quick` gives to its key.
+SweepAxis at_level(const SweepAxis& axis, const std::vector<std::string>& level) {
+    for (const std::string& override_ : level)
+        if (override_.rfind(axis.key + "=", 0) == 0)
+            return {axis.key, {{override_.substr(axis.key.size() + 1), {override_}}}};
+    return axis;
+}
+
+std::vector<PlannedRun> runs_of(const StudyPart& part, bool quick) {
     std::vector<PlannedRun> runs = {{.part = part.name,
                                      .name = {},
                                      .case_file = part.case_file,
                                      .overrides = part.overrides,
                                      .values = {}}};
-    for (const SweepAxis& axis : part.axes) runs = along(runs, axis, part);
+    const std::vector<std::string>& level = quick ? part.quick : part.full;
+    runs[0].overrides.insert(runs[0].overrides.end(), level.begin(), level.end());
+    for (const SweepAxis& axis : part.axes) runs = along(runs, at_level(axis, level), part);
     if (part.axes.empty()) runs[0].name = part.case_file.stem().string();
     return runs;
 }
@@ -82,28 +94,42 @@ std::string text_of(const CaseProblem& p) {
     return fmt::format("{} {} {} {} {}", p.line, p.key, p.value, p.fault, p.allowed);
 }
 
-void refuse_equal_names(const std::vector<PlannedRun>& runs) {
+void find_equal_names(const std::vector<PlannedRun>& runs, std::vector<CaseProblem>& problems) {
     std::set<std::string> seen;
     for (const PlannedRun& run : runs)
         if (!seen.insert(run.path()).second)
-            throw CaseRefused({problem_at("study", 0, "has two runs " + run.path(),
+            problems.push_back(problem_at("study", 0, "has two runs " + run.path(),
                                           "Runs differ in a swept value.",
-                                          "Remove the value that is listed twice.")});
+                                          "Remove the value that is listed twice."));
+}
+
+void require_quick(const Study& study, std::vector<CaseProblem>& problems) {
+    const auto has = [](const StudyPart& part) { return !part.quick.empty(); };
+    if (std::any_of(study.parts.begin(), study.parts.end(), has)) return;
+    problems.push_back(problem_at(study.name, 0, "has no quick form",
+                                  "Keys of --quick stand below quick in its parts.",
+                                  "Leave out --quick, or add for example quick: "
+                                  "{fluid.cells_per_diameter: 8}."));
 }
 
 }  // namespace
 
-std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides) {
+std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides,
+                                   bool quick) {
+    std::vector<CaseProblem> problems = study.problems;
+    if (quick) require_quick(study, problems);
     std::vector<PlannedRun> plan;
     for (const StudyPart& part : study.parts)
-        for (PlannedRun& run : runs_of(part)) plan.push_back(std::move(run));
-    refuse_equal_names(plan);
-    std::vector<CaseProblem> problems;
+        if (!part.case_file.empty())
+            for (PlannedRun& run : runs_of(part, quick)) plan.push_back(std::move(run));
+    find_equal_names(plan, problems);
     std::set<std::string> told;
     for (PlannedRun& run : plan) {
         run.overrides.insert(run.overrides.end(), overrides.begin(), overrides.end());
         try {
-            run.hash = run.resolve().settings.text("run.hash");
+            const ResolvedCase resolved = run.resolve();
+            run.hash = resolved.settings.text("run.hash");
+            run.seconds = predicted_seconds(resolved);
         } catch (const CaseRefused& refused) {
             for (const CaseProblem& problem : refused.problems())
                 if (told.insert(text_of(problem)).second) problems.push_back(in_run(problem, run));
@@ -111,6 +137,12 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
     }
     if (!problems.empty()) throw CaseRefused(std::move(problems));
     return plan;
+}
+
+double predicted_seconds(const std::vector<PlannedRun>& plan) {
+    double sum = 0.0;
+    for (const PlannedRun& run : plan) sum += run.seconds;
+    return sum;
 }
 
 }  // namespace turbidite

@@ -20,6 +20,7 @@ struct PlannedRun {
     /// (swept key, value), "variant" among them; in the order of the axes.
     std::vector<std::pair<std::string, std::string>> values;
     std::string hash = {};  ///< of the resolved case
+    double seconds = 0.0;   ///< predicted (case/run_cost.hpp)
 
     /// "column/compacity-0.785-seed-1": below the study's folder, and in messages.
     std::string path() const { return part + "/" + name; }
@@ -27,8 +28,13 @@ struct PlannedRun {
 };
 
 /// In the order of the file; the last axis varies fastest. `overrides` go to every run, after its
-/// own. Resolves every case and throws CaseRefused with the problems of all of them, each told
-/// once.
-std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides);
+/// own. Resolves every case and throws CaseRefused with the problems of the file and of all cases,
+/// each told once. `quick` takes the keys of `quick` instead of those of `full`, and is refused for
+/// a study that has none.
+std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides,
+                                   bool quick = false);
+
+/// Predicted, of all runs one after the other [s].
+double predicted_seconds(const std::vector<PlannedRun>& plan);
 
 }  // namespace turbidite

@@ -16,6 +16,7 @@ EIGEN = r"^(Eigen/.*|unsupported/Eigen/.*)$"
 YAML = r"^yaml-cpp/.*$"
 PYTHON = r"^(Python\.h|pyconfig\.h|boost/python.*|pybind11/.*)$"
 YADE = r"^(yade/.*|core/.*|lib/.*|pkg/.*|granular_adapter/yade/.*)$"
+LAMMPS = r"^(lammps/.*|granular_adapter/lammps/.*)$"
 OPENFOAM = r"^([A-Za-z]*\.H|fluid_adapter/foam_.*)$"
 SICONOS = r"^(siconos/.*|FrictionContactProblem\.h|bench/siconos/siconos_problem\.hpp)$"
 PROJECT = r"^(coupler|fluid_adapter|granular_adapter|launcher|bench/(?!array_code/))/?.*$"
@@ -53,7 +54,11 @@ RULES = [
     ("granular_adapter/contact_keys/*.[hc]pp", [ENGINE, EIGEN, MPI], "names and rules of contact keys need no numerics"),
     ("granular_adapter/grains/*.[hc]pp", [YADE, PYTHON], "the grains of a case are for any host"),
     ("granular_adapter/nscd_adapter/*.[hc]pp", [YADE, PYTHON], "the engine's adapter is for any host"),
-    ("granular_adapter/md/*.[hc]pp", [YADE, PYTHON], "molecular dynamics is for any host"),
+    ("granular_adapter/md/*.[hc]pp", [YADE, LAMMPS, PYTHON, MPI], "molecular dynamics is for any host"),
+    ("granular_adapter/yade/*.[hc]pp", [LAMMPS], "hosts do not know each other"),
+    ("granular_adapter/lammps/*.[hc]pp", [YADE, PYTHON], "hosts do not know each other"),
+    ("coupler/**/*.[hc]pp", [LAMMPS], "the coupler knows no host"),
+    ("launcher/**/*.[hc]pp", [LAMMPS], "LAMMPS stays in its own program"),
     ("launcher/case/**/*.[hc]pp", [ENGINE, FLUID, MPI, PYTHON, BENCH], "the case knows names of laws, solvers and schemes, and no program"),
     ("launcher/commands/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "commands start programs and include none of their code"),
     ("launcher/job/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a job is prepared, started and watched from outside"),

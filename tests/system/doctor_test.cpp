@@ -9,13 +9,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto names = {"OpenFOAM",          "YADE",
-                        "Open MPI",          "numpy",
-                        "matplotlib",        "mpi4py",
-                        "turbidite-coupler", "turbidite-fluid",
-                        "turbidite-grains",  "turbidite_yade.so",
-                        "one libmpi",        "free disk",
-                        "free memory",       "mpirun may run"};
+constexpr auto names = {"OpenFOAM",
+                        "YADE",
+                        "LAMMPS",
+                        "turbidite-lammps",
+                        "Open MPI",
+                        "numpy",
+                        "matplotlib",
+                        "mpi4py",
+                        "turbidite-coupler",
+                        "turbidite-fluid",
+                        "turbidite-grains",
+                        "turbidite_yade.so",
+                        "one libmpi",
+                        "free disk",
+                        "free memory",
+                        "mpirun may run"};
 
 class Doctor : public ShellTest {
  protected:
@@ -33,8 +42,8 @@ class Doctor : public ShellTest {
     fs::path build_without(const std::string& missing) const {
         const fs::path bin = scratch.path() / "bin";
         fs::create_directories(bin);
-        for (const char* name :
-             {"turbidite-coupler", "turbidite-member", "turbidite-fluid", "turbidite-grains"})
+        for (const char* name : {"turbidite-coupler", "turbidite-member", "turbidite-fluid",
+                                 "turbidite-grains", "turbidite-lammps"})
             if (name != missing) fs::create_symlink(build / "bin" / name, bin / name);
         fs::create_directory_symlink(build / "lib", scratch.path() / "lib");
         fs::copy_file(TURBIDITE_PROGRAM, bin / "turbidite");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // `turbidite study`: a sweep that is run, continued and refused.
+#include <algorithm>
+#include <sstream>
+
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
@@ -31,6 +34,24 @@ class StudyRuns : public ShellTest {
                                                 "history.csv");
     }
 
+    /// The cells of a column of study.csv.
+    std::vector<std::string> column(const std::string& name) const {
+        std::istringstream table(text(scratch.path() / "s/study.csv"));
+        std::vector<std::string> cells;
+        std::size_t at = 0;
+        for (std::string line; std::getline(table, line);) {
+            std::vector<std::string> row;
+            std::istringstream words(line + ",");
+            for (std::string word; std::getline(words, word, ',');) row.push_back(word);
+            if (cells.empty())
+                at =
+                    static_cast<std::size_t>(std::find(row.begin(), row.end(), name) - row.begin());
+            cells.push_back(at < row.size() ? row[at] : "");
+        }
+        cells.erase(cells.begin());
+        return cells;
+    }
+
     long lines(const std::string& file) const {
         const std::string content = text(scratch.path() / file);
         return std::count(content.begin(), content.end(), '\n');
@@ -44,9 +65,15 @@ TEST_F(StudyRuns, PlaysWhatIsMissingAndTabulatesAll) {
     EXPECT_SAYS(first.out, "3 of 3 runs done");
     EXPECT_EQ(lines("s/study.csv"), 4);
     EXPECT_SAYS(text(scratch.path() / "s/study.html"), "Against contact.friction");
-    EXPECT_GT(
-        std::filesystem::file_size(scratch.path() / "s/pictures/frictions-contact.friction.png"),
-        1000u);
+    EXPECT_GT(std::filesystem::file_size(scratch.path() /
+                                         "s/pictures/frictions-contact.friction-peak_velocity.png"),
+              1000u);
+
+    // Of a dry column that collapses: its energy is accounted for.
+    for (const std::string& defect : column("energy_defect")) EXPECT_LT(std::stod(defect), 1e-6);
+    EXPECT_NE(column("to_contacts")[0], "");
+    EXPECT_EQ(column("to_fluid")[0], "");
+    EXPECT_EQ(column("bed_height")[0], "") << "an avalanche";
 
     std::filesystem::remove_all(scratch.path() / "s/frictions/friction-0.3");
     const auto before = written("friction-0.6");
@@ -107,7 +134,8 @@ TEST_F(StudyRuns, NothingStartsWhenARunIsWrong) {
 TEST_F(StudyRuns, ADryRunListsTheRuns) {
     const Answer answer = study("--dry-run");
     EXPECT_EQ(answer.code, 0);
-    EXPECT_SAYS(answer.out, "missing  frictions/friction-0.3");
+    EXPECT_SAYS(answer.out, "to do: roughly ");
+    EXPECT_SAYS(answer.out, " s  frictions/friction-0.3");
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "s"));
 }
 

@@ -127,7 +127,8 @@ Ruling command_has_words(const Settings& s) {
 Ruling ranks_are_supported(const Settings& s) {
     const GrainsAdapter& adapter = grains_adapter(s);
     if (s.integer("grains.ranks") <= adapter.most_ranks) return std::nullopt;
-    return Objection{fmt::format("{} runs on one rank in this version.", adapter.name), "Use 1."};
+    return Objection{fmt::format("{} runs on one rank in this version.", adapter.name),
+                     "Use 1, or grains.adapter: lammps-md."};
 }
 
 void notes(const Settings& s, std::vector<std::string>& notes) {
@@ -151,7 +152,8 @@ KeyGroup adapter_keys() {
                   .type = KeyType::integer,
                   .fallback = "1",
                   .range = {.lower = 1.0},
-                  .help = "MPI ranks of the grains program; more than one with external only"},
+                  .help =
+                      "MPI ranks of the grains program; more than one with lammps-md and external"},
                  {.name = "grains.command",
                   .type = KeyType::text,
                   .need = Need::conditional,

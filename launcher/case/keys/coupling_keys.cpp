@@ -60,7 +60,8 @@ KeyGroup coupling_keys() {
             {.name = "coupling.md_hold",
              .type = KeyType::flag,
              .fallback = "true",
-             .help = "yade-md: the hydrodynamic impulse of the last window acts in the sub-steps",
+             .help = "molecular dynamics: the hydrodynamic impulse of the last window acts in the "
+                     "sub-steps",
              .family = "md",
              .idle = without_fluid},
             {.name = "coupling.tolerance",

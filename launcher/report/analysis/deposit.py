@@ -15,6 +15,7 @@ from analysis.once import once_per_run
 
 FITTED = (0.1, 0.9)  # of the height: the part of the surface whose slope is fitted
 FEWEST_COLUMNS = 3
+STRAIGHT = 0.8         # least share of the variance that the line explains: a column that still stands has no slope
 
 
 @dataclass
@@ -50,7 +51,7 @@ def deposit(run):
 
 
 def first_surface(run):
-    series = grain_files.grain_series(run)
+    series = grain_files.quiet_series(run)
     return surface.surface(run, grain_files.read_grains(*series[0])) if series else None
 
 
@@ -63,12 +64,15 @@ def foot_of(x, height):
 
 def fitted_line(x, height):
     """Least-squares (level, rise) of the surface from its highest column to the foot, between a tenth and nine tenths
-    of its height; None for fewer than three columns."""
+    of its height; None for fewer than three columns, or where a line does not describe it."""
     highest, low, high = int(height.argmax()), *(part * height.max() for part in FITTED)
     side = (np.arange(len(x)) >= highest) & (x < foot_of(x, height)) & (height >= low) & (height <= high)
     if side.sum() < FEWEST_COLUMNS:
         return None
     rise, level = np.polyfit(x[side], height[side], 1)
+    rest = height[side] - level - rise * x[side]
+    if (rest**2).sum() > (1.0 - STRAIGHT) * ((height[side] - height[side].mean())**2).sum():
+        return None
     return float(level), float(rise)
 
 

@@ -8,6 +8,7 @@ import grain_files
 import surface
 from analysis import (concentration, deposit, dilatancy, energy, pore_pressure, pores, rheology, shear_band, snapshots,
                       weight_balance)
+from analysis.once import or_remark
 from curves import MARKERS, TIME_LABEL, panel
 
 SURFACES = 5
@@ -20,7 +21,7 @@ def add_all(page, run):
     """In the order of the page. A closed box has neither heap nor slip plane; a suspension has a concentration."""
     for add in (add_deposit, add_shear, add_pores, add_pressure, add_weight, add_energy, add_rheology,
                 add_concentration):
-        add(page, run)
+        or_remark(run, add.__name__.removeprefix('add_').capitalize(), lambda: add(page, run))
 
 
 def add_deposit(page, run):
@@ -45,11 +46,11 @@ def add_shear(page, run):
     found = shear_band.shear_band(run)
     if found is None:
         return
-    figure, axes = panel('Shear rate', r'$x\,/\,D$', r'$y\,/\,D$')
+    figure, axes = panel('Shear rate', r'$x\,/\,D$', r'$y\,/\,D$', bar=True)
     figure.colorbar(shear_band.draw(found, axes), ax=axes, label=r'rate $\times\,t_c$')
     now = shear_band.moment(run)
     grid, change = pores.change_per_cell(run, now)
-    other, beside = panel('Change of the pores', r'$x\,/\,D$', r'$y\,/\,D$')
+    other, beside = panel('Change of the pores', r'$x\,/\,D$', r'$y\,/\,D$', bar=True)
     limit = max(float(np.nanquantile(np.abs(change), 0.98)) if np.isfinite(change).any() else 0.0, 1e-3)
     image = beside.pcolormesh(*grid.edges(), change, cmap='PuOr', vmin=-limit, vmax=limit)
     other.colorbar(image, ax=beside, label=r'$\delta V / V_0$', extend='both')
@@ -115,7 +116,7 @@ def pressure_maps(run):
 
 
 def pressure_map(run, time, values, limit):
-    figure, axes = panel(rf'Pressure at $t = {time:.3g}\,t_c$', r'$x\,/\,D$', r'$y\,/\,D$')
+    figure, axes = panel(rf'Pressure at $t = {time:.3g}\,t_c$', r'$x\,/\,D$', r'$y\,/\,D$', bar=True)
     width, height = run.size()
     image = axes.imshow(values, origin='lower', extent=(0, width, 0, height), cmap='RdBu_r', vmin=-limit, vmax=limit,
                         interpolation='nearest')
@@ -180,7 +181,7 @@ def add_rheology(page, run):
     shown = []
     for value, label, title in (('friction', r'$\mu$', 'Friction'), ('compacity', r'$\phi$', 'Compacity')):
         for name, axis in numbers:
-            figure, axes = panel(title, axis, label)
+            figure, axes = panel(title, axis, label, bar=True)
             abscissa, ordinate = getattr(found, name), getattr(found, value)
             cloud = axes.scatter(abscissa, ordinate, c=found.time, s=3, alpha=0.4, cmap='viridis', linewidths=0)
             axes.plot(*rheology.medians(abscissa, ordinate), color='black', marker='o', markersize=3, linewidth=1.2)
@@ -197,7 +198,7 @@ def add_concentration(page, run):
     found = concentration.concentration(run) if not run.is_avalanche() else None
     if found is None or len(found.time) < 2:
         return
-    figure, axes = panel('Concentration', TIME_LABEL, r'$y\,/\,D$')
+    figure, axes = panel('Concentration', TIME_LABEL, r'$y\,/\,D$', bar=True)
     image = axes.pcolormesh(curves.edges_of(found.time), found.edges, found.shares.T, cmap='viridis', vmin=0.0)
     figure.colorbar(image, ax=axes, label='solid share')
     other, beside = panel('Concentration over height', 'solid share', r'$y\,/\,D$')

@@ -83,7 +83,7 @@ def written_probes(run):
     if not rows:
         return None
     speed = run.scale('u_c')
-    values = np.array([[float(row[f'pressure_{k}']) for k in range(len(places))] for row in rows]) * speed**2 / unit(run)
+    values = np.array([[float(row[f'pressure_{k + 1}']) for k in range(len(places))] for row in rows]) * speed**2 / unit(run)
     names = [f'({x:g}, {y:g}) D' for x, y in places]
     return Probes(names, places, np.array([float(row['time']) for row in rows]), values)
 

@@ -47,7 +47,7 @@ def evenly(count, most=MOST_SNAPSHOTS):
 @once_per_run
 def snapshots(run):
     """At most 41 of the outputs, evenly spaced, the first and the last among them; without the damaged ones."""
-    series = grain_files.grain_series(run)
+    series = grain_files.quiet_series(run)
     index = run.folder / 'grains' / 'contacts.pvd'
     contacts = dict(grain_files.series(index)) if index.exists() else {}
     found = []

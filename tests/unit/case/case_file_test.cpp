@@ -200,11 +200,19 @@ TEST_F(CaseFile, MissingFileAndBadYaml) {
     EXPECT_SAYS(text, "is not YAML");
 }
 
-TEST_F(CaseFile, AdaptersOfLaterVersions) {
-    const std::string text = refusal("", {"grains.adapter=lammps-md"});
-    EXPECT_SAYS(text, "lammps-md is not available in this version.");
-    EXPECT_SAYS(text, "Available: yade-nscd, standalone-nscd, yade-md, external.");
+TEST_F(CaseFile, AMisspeltAdapterGetsTheNearest) {
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-nsdc"}), "Use yade-nscd.");
+    EXPECT_SAYS(refusal("", {"grains.adapter=lamps-md"}), "Use lammps-md.");
+}
+
+TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
+    const std::string text = refusal("", {"grains.ranks=2"});
+    EXPECT_SAYS(text, "yade-nscd runs on one rank in this version.");
+    EXPECT_SAYS(text, "Use 1, or grains.adapter: lammps-md.");
+    const Settings settings = load("", {"grains.ranks=2", "grains.adapter=lammps-md"}).settings;
+    EXPECT_EQ(settings.integer("grains.ranks"), 2);
+    EXPECT_EQ(settings.text("coupling.scheme"), "split");
+    EXPECT_SAYS(refusal("", {"grains.adapter=lammps-md", "grains.shape=triangle"}), "lammps-md");
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {

@@ -4,7 +4,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from made_up_run import RunFolderTest
+from made_up_run import CASE, RunFolderTest
 
 import run_data
 from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, pore_pressure, pores,
@@ -98,6 +98,9 @@ class Heaps(unittest.TestCase):
         found = deposit.Deposit(1.0, self.x, self.x, 10.0, 25.0, 1.0, None, None)
         self.assertEqual(found.run_out, 1.5)
 
+    def test_a_column_that_still_stands_has_no_slope(self):
+        self.assertIsNone(deposit.fitted_line(self.x, np.where(self.x < 20, 9.9 + 0.1 * np.cos(self.x), 0.0)))
+
     def test_a_cliff_has_no_slope(self):
         self.assertIsNone(deposit.fitted_line(self.x, np.where(self.x < 10, 9.0, 0.0)))
 
@@ -173,6 +176,26 @@ class DilatancyAngles(unittest.TestCase):
 
     def test_rest_has_none(self):
         self.assertIsNone(dilatancy.dilatancy(with_snapshots(run(), snapshot(lattice(5, 5)))))
+
+
+class WrittenProbes(RunFolderTest):
+    def test_are_numbered_from_one(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche').replace(
+            'grains:', 'output:\n  probes: [1, 2, 3, 0.5]  # D\ngrains:\n  density_ratio: 1.5'))
+        self.write('probes.csv', 'time,pressure_1,velocity_x_1,velocity_y_1,pressure_2,velocity_x_2,velocity_y_2\n'
+                   '0.5,1,0,0,-2,0,0\n1,3,0,0,4,0,0\n')
+        found = pore_pressure.probes(run_data.load_run(self.folder))
+        np.testing.assert_allclose(found.values, [[2, -4], [6, 8]])  # over (1.5 - 1) g D
+        self.assertEqual(found.places.tolist(), [[1, 2], [3, 0.5]])
+
+    def test_damaged_ones_are_said(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('grains:', 'output:\n  probes: [1, 2]\ngrains:\n  density_ratio: 1.5'))
+        self.write('probes.csv', 'time,other\n0.5,1\n')
+        data = run_data.load_run(self.folder)
+        self.assertIsNone([one for one in MEASURED if one.name == 'pressure_lowest'][0].of(data))
+        self.assertEqual(data.remarks, ["Lowest pressure inside the column cannot be measured: KeyError 'pressure_1'"])
 
 
 class Pressures(unittest.TestCase):

@@ -82,7 +82,7 @@ class Compare(RunFolderTest):
         row, = [r for r in rows if (r['run'], r['quantity']) == ('two', 'mean_velocity_y')]
         self.assertEqual(float(row['max']), velocity['max'])
         page = (self.folder / 'page.html').read_text()
-        self.assertIn('domain.size', page)
+        self.assertIn('domain.size [D]', page)
         self.assertIn('50 %', page)
         self.assertIn('src="data:image/png;base64,', page)
         self.assertNotIn('Remarks', page)

@@ -13,6 +13,7 @@ import contact_files
 import force_network
 import report
 import run_data
+from typeset import typeset
 from grain_files import Grains
 
 
@@ -68,10 +69,11 @@ class ForceNetwork(RunFolderTest):
         picture = force_network.figure(run, shown)
         self.assertEqual(len([axes for axes in picture.axes if axes.collections]), 2)
         plt.close(picture)
-        told = force_network.statistics(shown)
-        self.assertEqual(len(told.axes[0].lines), 2)
-        plt.close(told)
-        self.assertIsNone(force_network.statistics([network([1.0])]))
+        (forces, _), (directions, _) = force_network.statistics([network([1.0, 2.0] * 25), network([3.0] * 50)])
+        self.assertEqual(len(forces.axes[0].lines), 2)
+        self.assertEqual(len(directions.axes[0].lines), 2)
+        plt.close('all')
+        self.assertEqual(force_network.statistics([network([1.0] * 49)]), [])  # too few for a distribution
 
 
 CONTACTS = """<VTKFile><PolyData><Piece><Points>
@@ -81,6 +83,7 @@ CONTACTS = """<VTKFile><PolyData><Piece><Points>
 <DataArray Name="normal_force" format="ascii">3 3 6 6</DataArray></PointData><CellData>
 <DataArray Name="id_a" format="ascii">4 -3</DataArray><DataArray Name="id_b" format="ascii">9 4</DataArray>
 <DataArray Name="normal_force" format="ascii">3 6</DataArray>
+<DataArray Name="force" format="ascii">3 0 0 0 6 0</DataArray>
 <DataArray Name="normal" format="ascii">1 0 0 0 1 0</DataArray></CellData></Piece></PolyData></VTKFile>
 """
 
@@ -106,7 +109,8 @@ class ContactSeries(RunFolderTest):
         self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
         page = (self.folder / 'report.html').read_text()
         self.assertIn('Force network', page)
-        self.assertIn('2 at t = 1 t_c. Largest force: 4 rho_s g D^2', page)
+        self.assertIn(typeset('2 at t = 1 t_c. Largest force: 4 rho_s g D^2'), page)
+        self.assertNotIn('Remarks', page)
         self.assertTrue((self.folder / 'pictures/force_network.png').exists())
 
     def test_a_broken_file_is_said(self):

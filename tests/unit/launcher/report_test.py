@@ -19,8 +19,11 @@ import relaxation
 import report
 import run_data
 import surface
+from typeset import typeset
 
-FIGURES = ['concentration.png', 'concentration_profiles.png', 'motion.png', 'sequence.png', 'settling.png', 'solvers.png', 'wall_time.png']
+FIGURES = ['concentration.png', 'concentration_profiles.png', 'motion-max_penetration.png', 'motion-mean_speed.png',
+           'sequence-0.png', 'sequence-1.png', 'sequence.png', 'settling-mean_position_y.png', 'settling-mean_velocity_y.png',
+           'solvers-contact_residual.png', 'wall_time.png']
 
 
 class Report(RunFolderTest):
@@ -35,7 +38,7 @@ class Report(RunFolderTest):
         self.write_all()
         page = self.make()
         self.assertIn('made-up', page)
-        self.assertEqual(page.count('src="data:image/png;base64,'), len(FIGURES))
+        self.assertEqual(page.count('src="data:image/png;base64,'), len(FIGURES) - 1)  # sequence.png is a file only
         self.assertIn('Status: done, exit code 0', page)
         self.assertNotIn('Remarks', page)
         self.assertNotIn('src="http', page)
@@ -103,8 +106,8 @@ class Report(RunFolderTest):
         page = self.make()
         self.assertIn('history.csv is missing', page)
         self.assertIn('holds no velocity field', page)
-        self.assertEqual(page.count('src="data:image/png;base64,'), 3)  # of grains only
-        self.assertEqual(self.pictures(), ['concentration.png', 'concentration_profiles.png', 'sequence.png'])
+        self.assertEqual(self.pictures(), ['concentration.png', 'concentration_profiles.png', 'sequence-0.png',
+                                           'sequence-1.png', 'sequence.png'])  # of grains only
 
     def test_empty_folder(self):
         page = self.make()
@@ -128,8 +131,8 @@ class Report(RunFolderTest):
     def test_captions_tell_the_numbers(self):
         self.write_all()
         page = self.make()
-        self.assertIn('Fastest mean fall: 0.2 u_c at t = 1 t_c. Mean position from 3 D to 2.9 D.', page)
-        self.assertIn('Not at rest at the end, t = 1 t_c: the mean speed is 100 % of its maximum', page)
+        self.assertIn(typeset('Fastest mean fall: 0.2 u_c at t = 1 t_c. Mean position from 3 D to 2.9 D.'), page)
+        self.assertIn(typeset('Not at rest at the end, t = 1 t_c: the mean speed is 100 % of its maximum'), page)
         # 10 windows of 0.1 s, 0.06 s of them fluid, 0.01 s grains; 0.03 s are left.
         self.assertIn('10 windows took 1 s, 100 ms each: fluid 0.6 s (60 ms per window); grains 0.1 s '
                       '(10 ms per window); rest 0.3 s', page)
@@ -140,7 +143,8 @@ class Report(RunFolderTest):
         self.write('grains/grains.pvd', '<VTKFile><Collection><DataSet timestep="0" part="0" '
                    'file="grains_00000000.vtp"/></Collection></VTKFile>')
         self.assertIn('Status: done', self.make())
-        self.assertEqual(self.pictures(), ['motion.png', 'sequence.png', 'settling.png'])
+        self.assertEqual(self.pictures(), ['motion-mean_speed.png', 'sequence-0.png', 'sequence-1.png', 'sequence.png',
+                                           'settling-mean_velocity_y.png'])
 
     def test_dry_run(self):
         self.write_all()
@@ -172,7 +176,7 @@ class Report(RunFolderTest):
         self.assertEqual(pictures.view(run, [picture.grains for picture in shown]), (4, 6))
         page = self.make()
         self.assertIn('Colour: speed of the grains', page)
-        self.assertIn('Fastest here: 2 u_c', page)
+        self.assertIn(typeset('Fastest here: 2 u_c'), page)
         self.assertEqual(self.pictures(), FIGURES)
 
     def test_captions_of_a_collapse(self):
@@ -182,8 +186,7 @@ class Report(RunFolderTest):
         self.write('history.csv', 'step,time,mean_velocity_norm,front_x,grains\n0,0,0,25,9\n'
                    '10,1,0.5,26,9\n20,2,0.25,29,7\n')
         page = self.make()
-        self.assertIn('Largest |&lt;u&gt;|: 0.5 u_c at t = 1 t_c. Front from 25 D to 29 D. 2 grains left '
-                      'the box', page)
+        self.assertIn(typeset('Largest |<u>|: 0.5 u_c at t = 1 t_c. Front from 25 D to 29 D. 2 grains left the box'), page)
 
     def test_polygons_are_drawn_as_polygons(self):
         # The grains have ids 4 and 9; 4, at (1, 3), is a square that stands on a corner.
@@ -220,9 +223,11 @@ class Report(RunFolderTest):
         self.write_all()
         self.write('history.csv', 'step,time,pore_volume,coordination,sliding_share\n0,0,2,,\n'
                    '10,1,2.5,3.2,0.25\n')
+        self.assertNotIn('Pores from', self.make())  # a suspension has no pores to speak of
+        self.write('case.yaml', CASE.replace('  adapter:', '  generator: lattice\n  adapter:'))
         page = self.make()
-        self.assertIn('Pores from 2 D^2 to 2.5 D^2 (+25 %). Sliding contacts at the end: 25 %.', page)
-        self.assertIn('packing.png', self.pictures())
+        self.assertIn(typeset('Pores from 2 D^2 to 2.5 D^2 (+25 %). Sliding contacts at the end: 25 %.'), page)
+        self.assertIn('packing-coordination.png', self.pictures())
 
     def test_rest_is_when_the_speed_stays_small(self):
         self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.005\n3,3,0.02\n'
@@ -244,8 +249,8 @@ class Report(RunFolderTest):
         self.assertAlmostEqual(found.time, 3.8, places=6)
         self.assertAlmostEqual(found.slope, 0.1, places=6)
         self.assertAlmostEqual(found.spread, 0.0, places=6)
-        self.assertIn('Relaxation time 3.80 t_c', self.make())
-        self.assertIn('collapse.png', self.pictures())
+        self.assertIn(typeset('Relaxation time 3.80 t_c'), self.make())
+        self.assertIn('collapse-mean_velocity_norm.png', self.pictures())
 
     def test_there_is_no_relaxation_time_without_a_slide(self):
         self.write_all()

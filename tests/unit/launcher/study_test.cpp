@@ -120,6 +120,71 @@ parts:
     EXPECT_SAYS(text, "4 errors");
 }
 
+TEST_F(StudyTest, WhatIsWrongWithFileAndCasesIsNamedTogether) {
+    const std::string text = refusal(R"(
+parts:
+  a: {case: nowhere.yaml}
+  b: {case: column.yaml, sweeep: {random.seed: [1]}, sweep: {random.seed: [1, 1]}}
+  c: {case: column.yaml, sweep: {contact.friction: [0.1, 0.2, -1]}}
+)");
+    EXPECT_SAYS(text, "case: nowhere.yaml does not exist");
+    EXPECT_SAYS(text, "sweeep is unknown");
+    EXPECT_SAYS(text, "two runs b/seed-1");
+    EXPECT_SAYS(text, "run c/friction--1");
+    EXPECT_SAYS(text, "4 errors, nothing was started");
+}
+
+TEST_F(StudyTest, QuickTakesItsKeysInPlaceOfTheFullOnes) {
+    const Study both = study(R"(
+case: column.yaml
+set: {time.end: 2, contact.friction: 0.1}
+full: {time.step: 0.001}
+quick: {time.end: 0.2, contact.friction: 0.2}
+sweep: {random.seed: [1, 2]}
+variants: {rough: {contact.friction: 0.5}, plain: {}}
+)");
+    const auto full = plan_study(both, {}), quick = plan_study(both, {}, true);
+    ASSERT_EQ(full.size(), 4u);
+    ASSERT_EQ(quick.size(), 4u);
+    EXPECT_EQ(full[2].path(), quick[2].path());
+    const Settings f = full[2].resolve().settings, q = quick[2].resolve().settings;
+    EXPECT_EQ(f.real("time.end"), 2);
+    EXPECT_EQ(f.real("time.step"), 0.001);
+    EXPECT_EQ(f.real("contact.friction"), 0.1);
+    EXPECT_EQ(q.real("time.end"), 0.2);
+    EXPECT_EQ(q.real("time.step"), 0.01);
+    EXPECT_EQ(q.real("contact.friction"), 0.2);
+    EXPECT_EQ(quick[0].resolve().settings.real("contact.friction"), 0.5) << "of the variant";
+    EXPECT_GT(predicted_seconds(full), predicted_seconds(quick));
+}
+
+TEST_F(StudyTest, AQuickKeyTakesThePlaceOfItsSweep) {
+    const Study both = study(R"(
+case: column.yaml
+quick: {random: {seed: 2}}
+sweep: {random.seed: [1, 2, 3], contact.friction: [0, 0.5]}
+)");
+    EXPECT_EQ(plan_study(both, {}).size(), 6u);
+    const auto quick = plan_study(both, {}, true);
+    ASSERT_EQ(quick.size(), 2u);
+    EXPECT_EQ(quick[1].path(), "study/seed-2-friction-0.5");
+    EXPECT_EQ(quick[1].values[0].second, "2");
+}
+
+TEST_F(StudyTest, FiguresAreKnownSets) {
+    EXPECT_EQ(study("{case: column.yaml, figures: paper}").figures, "paper");
+    EXPECT_SAYS(refusal("{case: column.yaml, figures: papers}"), "figures: papers is unknown");
+}
+
+TEST_F(StudyTest, QuickIsRefusedWhereThereIsNone) {
+    try {
+        plan_study(study("{case: column.yaml}"), {}, true);
+        ADD_FAILURE() << "nothing was refused";
+    } catch (const CaseRefused& refused) {
+        EXPECT_SAYS(std::string(refused.what()), "has no quick form");
+    }
+}
+
 TEST_F(StudyTest, AValueListedTwiceIsRefused) {
     EXPECT_SAYS(refusal("{case: column.yaml, sweep: {random.seed: [1, 2, 1]}}"),
                 "two runs study/seed-1");
@@ -163,6 +228,9 @@ TEST(Shipped, CasesAndStudiesAreValid) {
         EXPECT_NO_THROW(study ? void(plan_study(read_study(entry.path()), {}))
                               : void(load_case(entry.path())))
             << entry.path();
+        if (entry.path().filename() == "paper.yaml") {
+            EXPECT_NO_THROW(plan_study(read_study(entry.path()), {}, true));
+        }
         ++(study ? studies : cases);
     }
     EXPECT_GE(cases, 1);

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "granular_adapter/lammps/lammps_md_host.hpp"
+
+#include <fmt/format.h>
+#include <lammps/library.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/protocol/run_values.hpp"
+#include "granular_adapter/lammps/state_file.hpp"
+
+namespace turbidite::lammps {
+namespace {
+
+// Number of probes for overlaps while two grains collide; the maximum overlap of a damped collision
+// is underestimated by 6 % at most.
+constexpr double probes_per_contact = 4.0;
+
+// Pairs up to this distance are neighbours, over the smallest radius. LAMMPS searches anew when a
+// grain has moved half of it.
+constexpr double neighbour_margin = 0.2;
+
+double smallest_of_all(double mine, MPI_Comm communicator) {
+    double all = mine;
+    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MIN, communicator);
+    return all;
+}
+
+bool any_of_all(bool mine, MPI_Comm communicator) {
+    int one = mine, all = 0;
+    MPI_Allreduce(&one, &all, 1, MPI_INT, MPI_LOR, communicator);
+    return all != 0;
+}
+
+}  // namespace
+
+void LammpsMdHost::join(MPI_Comm communicator) {
+    communicator_ = communicator;
+    MPI_Comm_rank(communicator, &rank_);
+    MPI_Comm_size(communicator, &ranks_);
+    lammps_ = std::make_unique<Library>(communicator);
+    discs_.emplace(*lammps_);
+}
+
+std::string LammpsMdHost::code() const {
+    return "LAMMPS " + std::to_string(lammps_->version());
+}
+
+void LammpsMdHost::create(const Settings& settings, const nscd::Bodies& bodies) {
+    const RunValues run = run_values(settings);
+    gravity_ = run.gravity;
+    width_ = run.size[0], height_ = run.size[1];
+    borders_ = lay_borders(settings);
+    law_.emplace(settings);
+    stride_ = std::max<std::int64_t>(
+        1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
+    classes_.emplace(bodies.mass, communicator_);
+    walls_ = wall_fixes(*classes_, borders_);
+    double radius = width_;
+    for (const double r : bodies.radius) radius = std::min(radius, r);
+    skin_ = neighbour_margin * smallest_of_all(radius, communicator_);
+    declare_box(*lammps_, width_, height_, classes_->masses().size());
+    declare_properties(*lammps_);
+    discs_->create(bodies, *classes_, communicator_);
+    start_engines();
+}
+
+/// Grains may arrive here from other ranks.
+void LammpsMdHost::start_engines() {
+    declare_engines(*lammps_, *law_, *classes_, borders_, skin_);
+    lammps_set_fix_external_callback(lammps_->handle(), loads_fix, on_substep, this);
+    follow_discs();
+}
+
+void LammpsMdHost::read(nscd::Bodies& bodies) const {
+    discs_->read(bodies);
+}
+
+void LammpsMdHost::write(const nscd::Bodies& bodies) {
+    discs_->write(bodies);
+}
+
+// ---- sub-steps -------------------------------------------------------------------------------
+
+void LammpsMdHost::load_discs(const std::vector<Load>& loads) {
+    double** own = lammps_->atoms<double**>("d2_own");
+    discs_->for_each([&](std::size_t place, int i) {
+        own[i][load_x] = loads[place].force[0];
+        own[i][load_y] = loads[place].force[1];
+        own[i][load_turn] = loads[place].torque[2];
+        for (const Own sum : {impulse_x, impulse_y, impulse_turn}) own[i][sum] = 0.0;
+    });
+}
+
+SubstepReport LammpsMdHost::run(const Substeps& substeps, const std::vector<Load>& loads) {
+    load_discs(loads);
+    present_ = {lammps_->step(), lammps_->step() + substeps.count, substeps.step};
+    lammps_->command(fmt::format("timestep {:.17g}", substeps.step));
+    lammps_->command(fmt::format("run {} post no", substeps.count));
+    follow_discs();
+    SubstepReport report;
+    report.contacts = present_.contacts;
+    report.max_penetration = present_.deepest;
+    if (!substeps.detailed) return report;
+    collect_impulses(report);
+    report.touching = touching(*lammps_, *discs_, walls_, width_, height_, law_->friction,
+                               substeps.step * static_cast<double>(substeps.count));
+    return report;
+}
+
+void LammpsMdHost::collect_impulses(SubstepReport& report) const {
+    const auto count = static_cast<std::size_t>(lammps_->local_count());
+    report.impulses.assign(count, Vec3{});
+    report.angular_impulses.assign(count, Vec3{});
+    double** own = lammps_->atoms<double**>("d2_own");
+    discs_->for_each([&](std::size_t place, int i) {
+        report.impulses[place] = {own[i][impulse_x], own[i][impulse_y], 0.0};
+        report.angular_impulses[place] = {0.0, 0.0, own[i][impulse_turn]};
+    });
+}
+
+/// The forces that LAMMPS asks for are added here to its own arrays, with the moments, for which it
+/// does not ask.
+void LammpsMdHost::on_substep(void* host, std::int64_t substep, int count, int*, double**,
+                              double** forces) {
+    for (int i = 0; i < count; ++i) std::fill_n(forces[i], 3, 0.0);
+    static_cast<LammpsMdHost*>(host)->act(substep);
+}
+
+/// Velocity Verlet: the forces at the beginning and at the end act for half a sub-step.
+void LammpsMdHost::act(std::int64_t substep) {
+    const bool begins = substep == present_.first, ends = substep == present_.last;
+    add_loads((begins || ends ? 0.5 : 1.0) * present_.step, begins);
+    if (ends || (!begins && (substep - present_.first) % stride_ == 0)) probe();
+}
+
+void LammpsMdHost::add_loads(double time, bool begins) {
+    double** f = lammps_->atoms<double**>("f");
+    double** torque = lammps_->atoms<double**>("torque");
+    double** omega = lammps_->atoms<double**>("omega");
+    double** own = lammps_->atoms<double**>("d2_own");
+    const double* mass = lammps_->atoms<double*>("rmass");
+    for (int i = 0; i < lammps_->local_count(); ++i) {
+        double* mine = own[i];
+        f[i][0] += mine[load_x];
+        f[i][1] += mine[load_y];
+        torque[i][2] += mine[load_turn];
+        mine[impulse_x] += time * f[i][0];
+        mine[impulse_y] += time * f[i][1];
+        mine[impulse_turn] += time * torque[i][2];
+        f[i][1] -= mass[i] * gravity_;
+        torque[i][2] *= mine[turn_factor];
+        if (!begins) mine[angle] += present_.step * omega[i][2];
+    }
+}
+
+void LammpsMdHost::probe() {
+    const Overlaps found = overlaps(*lammps_, walls_);
+    present_.contacts = found.contacts;
+    present_.deepest = std::max(present_.deepest, found.deepest);
+}
+
+// ---- bodies that come and go -----------------------------------------------------------------
+
+void LammpsMdHost::follow_discs() {
+    if (ranks_ == 1) return;
+    order_ = new_order(discs_->origins(), rank_);
+    const bool arrived = std::any_of(order_.begin(), order_.end(),
+                                     [this](const Origin& o) { return o.rank != rank_; });
+    migrated_ = any_of_all(arrived, communicator_);
+    if (migrated_) discs_->number(order_, rank_);
+}
+
+std::vector<char> LammpsMdHost::migrate(const std::vector<char>& rows, std::size_t row_size) {
+    return fetch_rows(order_, rows, row_size, communicator_);
+}
+
+std::vector<GrainId> LammpsMdHost::from_all_ranks(const std::vector<GrainId>& ids) {
+    return gather_all(ids, communicator_);
+}
+
+void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
+    std::vector<std::int64_t> mine;
+    std::vector<Origin> stays;
+    const int* tag = lammps_->atoms<int*>("id");
+    discs_->for_each([&](std::size_t place, int i) {
+        if (!mask[place]) mine.push_back(tag[i]);
+    });
+    for (std::size_t place = 0; place < mask.size(); ++place)
+        if (mask[place]) stays.push_back({rank_, int(place)});
+    const std::vector<std::int64_t> gone = gather_all(mine, communicator_);
+    if (gone.empty()) return;
+    discs_->remove(gone);
+    discs_->number(stays, rank_);
+}
+
+// ---- state -----------------------------------------------------------------------------------
+
+/// LAMMPS' own restart file, springs included, with the grains of all ranks: the state of the first
+/// rank; others have none. Without `noinit` LAMMPS would move grains between ranks.
+SavedState LammpsMdHost::save() const {
+    const StateFile file(communicator_);
+    lammps_->command("write_restart " + file.name() + " noinit");
+    return rank_ == 0 ? file.read() : SavedState{};
+}
+
+void LammpsMdHost::restore(const SavedState& state) {
+    const StateFile file(communicator_);
+    if (rank_ == 0) file.write(state);
+    lammps_->command("clear");
+    lammps_->command("read_restart " + file.name());
+    declare_properties(*lammps_);
+    start_engines();
+}
+
+}  // namespace turbidite::lammps

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "granular_adapter/lammps/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "granular_adapter/lammps/discs.hpp"
+
+namespace turbidite::lammps {
+
+const char* const loads_fix = "loads";
+
+namespace {
+
+// Ratio of tangential to normal stiffness and damping for which both directions oscillate with the
+// same period: an impulse moves the contact point of a disc three times as far along the contact
+// as across it.
+constexpr double tangential = 1.0 / 3.0;
+
+void run_all(Library& lammps, std::initializer_list<std::string> lines) {
+    for (const std::string& line : lines) lammps.command(line);
+}
+
+/// k = m w^2; LAMMPS multiplies the dashpot's coefficient, 2 zeta w, by the reduced mass.
+std::string contact(const SoftLaw& law, double reduced_mass) {
+    const double stiffness = reduced_mass * law.frequency * law.frequency;
+    return fmt::format(
+        "hooke {:.17g} {:.17g} tangential linear_history {:.17g} {:.17g} {:.17g} damping "
+        "mass_velocity limit_damping",
+        stiffness, 2.0 * law.damping * law.frequency, tangential * stiffness, tangential,
+        law.friction);
+}
+
+void declare_pairs(Library& lammps, const SoftLaw& law, const std::vector<double>& masses) {
+    lammps.command("pair_style granular");
+    for (std::size_t i = 0; i < masses.size(); ++i)
+        for (std::size_t j = i; j < masses.size(); ++j)
+            lammps.command(
+                fmt::format("pair_coeff {} {} {}", i + 1, j + 1,
+                            contact(law, masses[i] * masses[j] / (masses[i] + masses[j]))));
+}
+
+struct Plane {
+    const char* name;
+    std::size_t low, high;  ///< among the borders
+};
+constexpr Plane planes[] = {{"xplane", 0, 1}, {"yplane", 2, 3}};
+
+bool has_wall(const Plane& plane, const std::vector<Border>& borders) {
+    return borders[plane.low].side == BorderKind::wall ||
+           borders[plane.high].side == BorderKind::wall;
+}
+
+std::string fix_name(const Plane& plane, std::size_t type) {
+    return fmt::format("{}{}", plane.name, type);
+}
+
+std::string place(const Border& border, int axis) {
+    return border.side == BorderKind::wall ? fmt::format("{:.17g}", border.plane.point[axis])
+                                           : "NULL";
+}
+
+void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double>& masses,
+                   const std::vector<Border>& borders) {
+    for (std::size_t type = 1; type <= masses.size(); ++type)
+        for (int axis = 0; axis < 2; ++axis) {
+            const Plane& plane = planes[axis];
+            if (!has_wall(plane, borders)) continue;
+            lammps.command(fmt::format("fix {} class{} wall/gran granular {} {} {} {} contacts",
+                                       fix_name(plane, type), type, contact(law, masses[type - 1]),
+                                       plane.name, place(borders[plane.low], axis),
+                                       place(borders[plane.high], axis)));
+        }
+}
+
+}  // namespace
+
+SoftLaw::SoftLaw(const Settings& settings)
+    : frequency(settings.real("run.md_frequency")),
+      damping(settings.real("run.md_damping")),
+      friction(settings.real("contact.friction")) {}
+
+void declare_box(Library& lammps, double width, double height, std::size_t types) {
+    run_all(lammps,
+            {"units si", "dimension 2", "boundary m m p", "atom_style sphere", "processors * 1 1"});
+    const double thick = 0.01 * std::max(width, height);
+    lammps.command(fmt::format("region domain block 0 {:.17g} 0 {:.17g} {:.17g} {:.17g}", width,
+                               height, -thick, thick));
+    lammps.command(fmt::format("create_box {} domain", types));
+}
+
+void declare_properties(Library& lammps) {
+    run_all(lammps, {"comm_modify vel yes", Discs::declaration()});
+}
+
+void declare_engines(Library& lammps, const SoftLaw& law, const MassClasses& classes,
+                     const std::vector<Border>& borders, double skin) {
+    const std::vector<double>& masses = classes.masses();
+    for (std::size_t type = 1; type <= masses.size(); ++type)
+        lammps.command(fmt::format("group class{0} type {0}", type));
+    declare_pairs(lammps, law, masses);
+    lammps.command(fmt::format("neighbor {:.17g} bin", skin));
+    run_all(lammps, {"neigh_modify every 1 delay 0 check yes", "fix motion all nve/sphere disc",
+                     "fix balance all balance 0 1.1 shift x 10 1.05"});
+    declare_walls(lammps, law, masses, borders);
+    // The last one, so that it finds all contact forces.
+    lammps.command(fmt::format("fix {} all external pf/callback 1 1", loads_fix));
+    run_all(lammps, {"compute pairs all pair/local dist fx fy p1 p2 p10 p11 cutoff radius",
+                     "compute names all property/local patom1 patom2 cutoff radius",
+                     "thermo_style custom step", "thermo 1000000000"});
+}
+
+std::vector<std::string> wall_fixes(const MassClasses& classes,
+                                    const std::vector<Border>& borders) {
+    std::vector<std::string> names;
+    for (std::size_t type = 1; type <= classes.masses().size(); ++type)
+        for (const Plane& plane : planes)
+            if (has_wall(plane, borders)) names.push_back(fix_name(plane, type));
+    return names;
+}
+
+}  // namespace turbidite::lammps

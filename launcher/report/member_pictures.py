@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of the members of a comparison side by side at the same times."""
+import grain_files
+import fluid_fields
+import pictures
+from differences import common_span
+
+MOST_MEMBERS = 4
+TIMES = 3  # the end of the common time, and equal parts of it
+
+
+def add(page, members):
+    """Of at most four members, the first seed of each; nothing where runs have no grains or share no time."""
+    runs = [member.runs[0] for member in members[:MOST_MEMBERS]]
+    rows = [row for run, row in zip(runs, map(series_of, runs)) if row and 'domain.size' in run.case]
+    if len(rows) < len(runs):
+        return
+    span = rows[0][0][0], rows[0][-1][0]
+    for row in rows[1:]:
+        span = common_span(span, (row[0][0], row[-1][0]))
+        if span is None:
+            return
+    times = [span[0] + (span[1] - span[0]) * k / TIMES for k in range(1, TIMES + 1)]
+    page.heading('Pictures')
+    whole = [[pictures.load(run, instant_near(run, row, time)) for time in times] for run, row in zip(runs, rows)]
+    figures = [pictures.panels(run, shown) for run, shown in zip(runs, whole)]
+    width = max(pictures.panel_width(run, shown) for run, shown in zip(runs, whole))
+    for k in range(TIMES):
+        page.panels([titled(member, figures[i][k]) for i, member in enumerate(members[:MOST_MEMBERS])], '', width)
+    page.paragraph('One scale of colours per run.' + (' Of groups the first seed.' if any(
+        member.is_group() for member in members) else ''))
+
+
+def titled(member, picture):
+    """(figure, name) with the member's name in title and file."""
+    figure, name = picture
+    axes = figure.axes[0]
+    axes.set_title(f'{member.name}, {axes.get_title()}', fontsize=9)
+    return figure, f'{member.name}-{name}'.replace('/', '_')
+
+
+def series_of(run):
+    """(time [t_c], file of grains) of every output."""
+    return [(time / run.scale('t_c'), path) for time, path in grain_files.quiet_series(run)]
+
+
+def instant_near(run, row, time):
+    """(time, grains, field or None) of the output nearest to `time`, as for pictures.load."""
+    now, grains = min(row, key=lambda output: abs(output[0] - time))
+    own = now * run.scale('t_c')
+    near = [folder for at, folder in fluid_fields.field_times(run) if abs(at - own) <= 1e-6 * max(abs(own), 1.0)]
+    return own, grains, near[0] if near else None
