@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <optional>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/message.hpp"
@@ -14,6 +15,7 @@ namespace turbidite {
 namespace {
 
 constexpr std::size_t most_sentences = 10;
+constexpr double farewell_limit = 10.0;  // [s]
 
 bool same(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
@@ -79,12 +81,20 @@ class Replay {
 
     ReplayReport play() {
         demand_ranks();
-        while (auto frame = recording_.next())
-            if (frame->sent_by_coupler)
-                send(*frame);
-            else
-                compare(frame->peer, unframe(frame->bytes));
-        end_what_was_cut_off();
+        try {
+            while (auto frame = recording_.next())
+                if (frame->sent_by_coupler)
+                    send(*frame);
+                else
+                    compare(frame->peer, unframe(frame->bytes));
+        } catch (const Failure& failure) {
+            dismiss({static_cast<std::int64_t>(failure.code()), failure.what()});
+            throw;
+        }
+        if (std::find(released_.begin(), released_.end(), false) != released_.end()) {
+            report_.complete = false;
+            dismiss({0, "the recording ends here"});
+        }
         while (!channel_.flushed()) Patience().wait();
         return report_;
     }
@@ -107,20 +117,26 @@ class Replay {
         channel_.send(frame.peer, frame.bytes);
     }
 
-    /// The next message of a rank. Throws Failure for one that cannot go on, or is silent.
-    Message receive(int peer) {
+    /// The next message of a rank; nothing if it is silent for too long.
+    std::optional<Message> next(int peer, double limit) {
         auto& queue = arrived_[static_cast<std::size_t>(peer)];
         for (Patience patience; queue.empty(); patience.wait()) {
             if (auto frame = channel_.try_receive())
                 arrived_[static_cast<std::size_t>(frame->peer)].push_back(unframe(frame->bytes));
-            if (patience.seconds() > order_.limit)
-                throw Failure(ExitCode::stalled, "rank " + std::to_string(peer) +
-                                                     " has not answered within limits.stall_hard");
+            if (patience.seconds() > limit) return std::nullopt;
         }
         Message message = std::move(queue.front());
         queue.pop_front();
-        if (message.envelope.kind != Kind::failure) return message;
-        const auto verdict = decode<Verdict>(message.payload);
+        return message;
+    }
+
+    Message receive(int peer) {
+        std::optional<Message> message = next(peer, order_.limit);
+        if (!message)
+            throw Failure(ExitCode::stalled, "rank " + std::to_string(peer) +
+                                                 " has not answered within limits.stall_hard");
+        if (message->envelope.kind != Kind::failure) return std::move(*message);
+        const auto verdict = decode<Verdict>(message->payload);
         throw Failure(static_cast<ExitCode>(verdict.exit_code), verdict.reason);
     }
 
@@ -149,17 +165,19 @@ class Replay {
             report_.first.push_back(place_of(now, peer) + ": " + why);
     }
 
-    /// Ranks that were never released are dismissed where the recording ends.
-    void end_what_was_cut_off() {
-        for (std::size_t peer = 0; peer < released_.size(); ++peer) {
-            if (released_[peer]) continue;
-            report_.complete = false;
-            send_end(peer, Kind::dismiss, encode(Verdict{0, "the recording ends here"}));
-            while (receive(static_cast<int>(peer)).envelope.kind != Kind::farewell) {
-            }
-        }
-        for (std::size_t peer = 0; peer < released_.size(); ++peer)
-            if (!released_[peer]) send_end(peer, Kind::release, {});
+    /// Ends the ranks that were not released by the recording.
+    void dismiss(const Verdict& verdict) {
+        const auto each = [&](auto end) {
+            for (std::size_t peer = 0; peer < released_.size(); ++peer)
+                if (!released_[peer]) end(peer);
+        };
+        each([&](std::size_t peer) { send_end(peer, Kind::dismiss, encode(verdict)); });
+        each([&](std::size_t peer) {
+            for (auto message = next(static_cast<int>(peer), farewell_limit);
+                 message && message->envelope.kind != Kind::farewell;)
+                message = next(static_cast<int>(peer), farewell_limit);
+        });
+        each([&](std::size_t peer) { send_end(peer, Kind::release, {}); });
     }
 
     void send_end(std::size_t peer, Kind kind, Bytes payload) {

@@ -27,7 +27,7 @@ bool is_placeholder(const std::string& part) {
     return !part.empty() && std::isupper(static_cast<unsigned char>(part.front())) != 0;
 }
 
-const char* type_name(KeyType type) {
+const char* json_type(KeyType type) {
     switch (type) {
         case KeyType::real:
             return "number";
@@ -49,9 +49,15 @@ void set_range(Json& schema, const Range& range) {
         schema[range.upper_open ? "exclusiveMaximum" : "maximum"] = range.upper;
 }
 
+/// A choice such as 2 is a number in YAML.
 void set_choices(Json& schema, const KeySpec& key) {
-    for (const Choice& choice : key.choices)
-        if (choice.available) schema["enum"].push_back(choice.name);
+    schema.erase("type");
+    for (const Choice& choice : key.choices) {
+        if (!choice.available) continue;
+        schema["enum"].push_back(choice.name);
+        if (std::isdigit(static_cast<unsigned char>(choice.name.front())) != 0)
+            schema["enum"].push_back(std::stod(choice.name));
+    }
 }
 
 void set_entries(Json& schema, const KeySpec& key) {
@@ -62,7 +68,7 @@ void set_entries(Json& schema, const KeySpec& key) {
 
 Json schema_of(const KeySpec& key) {
     Json schema = {{"description", key.unit.empty() ? key.help : key.help + " [" + key.unit + "]"},
-                   {"type", type_name(key.type)}};
+                   {"type", json_type(key.type)}};
     if (key.type == KeyType::real || key.type == KeyType::integer) set_range(schema, key.range);
     if (key.type == KeyType::choice) set_choices(schema, key);
     if (key.type == KeyType::real_list) set_entries(schema, key);

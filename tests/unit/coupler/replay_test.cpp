@@ -65,14 +65,16 @@ class Replayed : public testing::Test {
 
     template <class Play>
     static ReplayReport joined(std::vector<std::thread>& threads, Play play) {
+        std::optional<ReplayReport> report;
+        std::exception_ptr failure;
         try {
-            const ReplayReport report = play();
-            for (std::thread& thread : threads) thread.join();
-            return report;
+            report = play();
         } catch (...) {
-            for (std::thread& thread : threads) thread.detach();
-            throw;
+            failure = std::current_exception();
         }
+        for (std::thread& thread : threads) thread.join();
+        if (failure) std::rethrow_exception(failure);
+        return *report;
     }
 
     static void live(Session& session) {
