@@ -152,6 +152,11 @@ class Pores(unittest.TestCase):
         self.assertAlmostEqual(pores.change_at(data), 0.1)
         self.assertAlmostEqual(pores.change_at(data, 0.125), 0.2)
 
+    def test_the_extreme_includes_the_end_of_the_span(self):
+        data = with_snapshots(run(time=[0, 1, 2], pore_volume=[10, 10.1, 8], mean_position_x=[5, 5.1, 5.5]))
+        # 0.01 at 0.02, and half-way down to -0.2 at 0.1: 0.01 - 0.21 * 0.03 / 0.08 at 0.05.
+        self.assertAlmostEqual(pores.largest_change(data), 0.01 - 0.21 * 0.375)
+
     def test_column_that_has_not_moved_so_far(self):
         data = with_snapshots(run(time=[0, 1], pore_volume=[10, 9], mean_position_x=[5, 5.1]))
         self.assertIsNone(pores.change_at(data))
