@@ -263,6 +263,16 @@ class Weights(unittest.TestCase):
         self.assertAlmostEqual(float(found.sides[0]), 1 / 3)
         self.assertAlmostEqual(float(found.rest()[0]), 0.0)
 
+    def test_grains_of_their_own_densities(self):
+        # In units of the fluid's density 1.5, 2 and 4: (rho - 1)/1.5 of the area each.
+        np.testing.assert_allclose(
+            snapshots.submerged_weights(run(), np.ones(3), np.array([1.5, 2.0, 4.0])), [1 / 3, 2 / 3, 2.0])
+        np.testing.assert_allclose(
+            snapshots.submerged_weights(run({'fluid.enabled': 'false'}), np.ones(2), np.array([1.5, 3.0])), [1.0, 2.0])
+        one = tower()
+        one.weights = DISC * np.array([1.0, 1.0, 2.0]) / 3.0
+        np.testing.assert_allclose(weight_balance.profile(run(), one).weight, [1.0, 0.75, 0.5])
+
     def test_the_balance_has_to_close_at_rest_only(self):
         data = with_snapshots(run(time=[0, 1], mean_speed=[0, 1e-5]), tower(0.25))
         self.assertAlmostEqual(weight_balance.final_defect(data), 0.0)
