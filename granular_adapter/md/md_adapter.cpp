@@ -134,6 +134,7 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
             ", but molecular dynamics cannot use them: use coupling.scheme split");
     host_.read(bodies_);
     agree([&] { check_inside(bodies_, borders_, in_window(window) + " before contacts"); });
+    advanced_ = true;
     if (broken_) return motion(at_protocol_positions());
     nscd::Bodies sent = at_protocol_positions();
     std::vector<Load> loads;
@@ -153,7 +154,6 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     report_.iterations = substep_count_;
     report_.max_penetration = run.max_penetration;
     report_.wall_seconds = seconds_since(start);
-    advanced_ = true;
     return motion(sent);
 }
 
