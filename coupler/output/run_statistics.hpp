@@ -4,6 +4,7 @@
 // times.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "coupler/output/grain_work.hpp"
@@ -39,6 +40,10 @@ class ContactResiduals {
     double largest() const;
     /// The smallest value that `share` of the windows do not exceed, 0 < share <= 1.
     double quantile(double share) const;
+
+    /// Of all windows, in their order.
+    const std::vector<double>& values() const { return values_; }
+    void replace(std::vector<double> values) { values_ = std::move(values); }
 
  private:
     std::vector<double> values_;
@@ -78,6 +83,9 @@ class RunStatistics {
     explicit RunStatistics(const RunValues& run);
 
     void take_in(const WindowResult& result);
+
+    /// Goes on from those of an earlier part of the run.
+    void resume(const RunStatistics& earlier);
 
     std::int64_t windows_done = 0;
     RunMaxima maxima;

@@ -34,8 +34,10 @@ LaunchSite this_site();
 /// `mpirun` and the options it needs on this site, before the first program.
 std::vector<std::string> mpirun_options(const LaunchSite& site);
 
+/// `checkpoint`: the name of the set from which the run goes on; empty: from the beginning.
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
-                                          const LaunchSite& site);
+                                          const LaunchSite& site,
+                                          const std::string& checkpoint = "");
 
 /// Name of a rank of the world: "coupler", "fluid rank 0", …
 std::vector<std::string> rank_names(const Settings& settings);
