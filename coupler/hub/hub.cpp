@@ -115,8 +115,9 @@ void Hub::play_windows() {
         const bool in_turn = (index + 1) % settings_.run.output_every == 0 || asked.write;
         const Window now = window(index, in_turn || last);
         play(now);
-        finish(now, !in_turn,
-               asked.checkpoint || checkpoints_.due(index + 1) || (last && checkpoints_.by_rule()));
+        const bool save = asked.checkpoint || asked.stop || checkpoints_.due(index + 1) ||
+                          (last && checkpoints_.by_rule());
+        finish(now, !in_turn, save);
         progress_.show(output_.row(), now.write_output);
         if (asked.stop && index + 1 < windows) throw Failure(*asked.stop, stopped_after(index + 1));
     }

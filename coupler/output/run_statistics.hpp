@@ -21,7 +21,8 @@ struct WallTimes {
     double coupling = 0.0;  ///< in the coupler: routing, checks, output
 };
 
-/// Sums over the windows since the last row.
+/// Sums over the windows since the last row. Checkpoints contain them, and the maxima below
+/// (output_state.cpp).
 struct SinceRow {
     std::int64_t windows = 0;
     std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance

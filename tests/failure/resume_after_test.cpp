@@ -128,8 +128,9 @@ TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
 }
 
 TEST_F(ResumeAfter, AProgramIsKilled) {
-    for (const char* program : {"turbidite-fluid", "turbidite-grains", "turbidite-coupler"}) {
-        const pid_t run = start(60, "--force");
+    for (const char* program : {"turbidite-fluid", "turbidite-coupler"}) {
+        fs::remove_all(run_folder());
+        const pid_t run = start(60);
         for (const pid_t process : processes(program)) kill(process, SIGKILL);
         const Answer answer = end_of(run);
         EXPECT_EQ(answer.code, 4) << program << answer.err;
@@ -139,8 +140,9 @@ TEST_F(ResumeAfter, AProgramIsKilled) {
 }
 
 TEST_F(ResumeAfter, SignalsOfABatchSystem) {
-    for (const int signal : {SIGUSR1, SIGTERM, SIGINT}) {
-        const pid_t run = start(30, "--force");
+    for (const int signal : {SIGUSR1, SIGINT}) {
+        fs::remove_all(run_folder());
+        const pid_t run = start(30);
         kill(run, signal);
         const Answer answer = end_of(run);
         EXPECT_EQ(answer.code, signal == SIGINT ? 130 : 143) << answer.err;
@@ -151,7 +153,7 @@ TEST_F(ResumeAfter, SignalsOfABatchSystem) {
 
 // A batch script has the line of --dry-run, and the batch system signals mpirun.
 TEST_F(ResumeAfter, SigUsr1ThroughMpirun) {
-    const Answer line = shell(run_line("--dry-run --force"));
+    const Answer line = shell(run_line("--dry-run"));
     ASSERT_EQ(line.code, 0) << line.err;
     const pid_t job = fork();
     if (job == 0) {
@@ -173,7 +175,7 @@ TEST_F(ResumeAfter, SigUsr1ThroughMpirun) {
 }
 
 TEST_F(ResumeAfter, AFileStops) {
-    const pid_t run = start(30, "--force");
+    const pid_t run = start(30);
     shell("touch run/CHECKPOINT");
     while (fs::exists(run_folder() / "CHECKPOINT")) std::this_thread::sleep_for(Milliseconds(5));
     shell("touch run/WRITE");
