@@ -78,7 +78,7 @@ class Party {
     /// Plays a window; `kick` gives each grain its velocity.
     template <class Kicker>
     void play(std::int64_t n, Kicker kick) {
-        const Window window{n, double(n) * dt, dt, n % 2 == 0, false};
+        const Window window{n, double(n) * dt, dt, n % 2 == 0};
         const Motion sent = adapter_.advance(window, {});
         sent_ = sent.grains;
         std::vector<Kick> kicks;
@@ -223,7 +223,7 @@ TEST(Ranks, AGrainThatTouchesNothingMovesAsUnderTheContactEngine) {
             drag(grain, list);
             kicks = list;
         });
-        const Window window{n, double(n) * dt, dt, false, false};
+        const Window window{n, double(n) * dt, dt, false};
         nscd.advance(window, {});
         const GrainState wanted = nscd.apply_kick(window, kicks).grains[0];
         const GrainState moved = md.now().at(7);
