@@ -190,7 +190,7 @@ Sample run(const Options& options, FluidRanks& ranks) {
     Profile profile;
     std::vector<double> iterations;
     for (int n = 0; n < options.warm_up + options.steps; ++n) {
-        const Window window{n, n * dt, dt, false, false};
+        const Window window{n, n * dt, dt, false};
         const bool timed = n >= options.warm_up;
         const FluidReport report = player.play(window, timed ? clock : warm_up);
         if (!timed) continue;

@@ -64,12 +64,28 @@ static int apply_kick(void* self, const turbidite_window* window, const turbidit
     return answer_with_all(answer);
 }
 
+/* All that a window passes to the next one. */
+static int save(void* self, turbidite_bytes* state) {
+    (void)self;
+    memcpy(turbidite_room(state, count * sizeof *grains), grains, count * sizeof *grains);
+    return 0;
+}
+
+static int restore(void* self, const void* state, size_t size) {
+    (void)self;
+    if (size != count * sizeof *grains) return turbidite_fail("another number of grains", 0), 1;
+    memcpy(grains, state, size);
+    return 0;
+}
+
 int main(int argc, char** argv) {
     const turbidite_adapter falling = {.name = "falling-c",
                                        .version = "1.0",
                                        .host_code = "C",
                                        .initialise = initialise,
                                        .advance = advance,
-                                       .apply_kick = apply_kick};
+                                       .apply_kick = apply_kick,
+                                       .save = save,
+                                       .restore = restore};
     return turbidite_run_grains(&falling, &argc, &argv, argv[argc - 1]);
 }

@@ -4,6 +4,7 @@
 // the same model as springs.py. docs/write-an-adapter.md explains every line.
 #include <turbidite/coupler/participant/participant.hpp>
 #include <turbidite/coupler/protocol/run_values.hpp>
+#include <turbidite/coupler/protocol/wire.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,7 @@ class Springs : public GrainsAdapter {
         hello.adapter = "springs";
         hello.host_code = "C++";
         hello.capabilities.native_substeps = true;
+        hello.capabilities.saves_state = true;
         hello.capabilities.shapes = {"disc"};
         return hello;
     }
@@ -131,8 +133,9 @@ class Springs : public GrainsAdapter {
         return state;
     }
 
-    SavedState save() const override { throw std::runtime_error("springs cannot save its state"); }
-    void restore(const SavedState&) override { save(); }
+    // All that a window passes to the next one.
+    SavedState save() const override { return encode(state); }
+    void restore(const SavedState& saved) override { state = decode<Motion>(saved); }
 };
 
 int main(int argc, char** argv) {

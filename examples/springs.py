@@ -75,5 +75,11 @@ class Springs:
         return turbidite.Motion(self.grains, max_penetration=self.overlap, contacts=int(self.touched.sum()),
                                 iterations=self.substeps)
 
+    def save(self):                                                 # all that a window passes to the next one
+        return self.grains.tobytes()
+
+    def restore(self, state):
+        self.grains = numpy.frombuffer(state, turbidite.GRAIN).copy()
+
 
 turbidite.run_grains(Springs(), sys.argv[-1])

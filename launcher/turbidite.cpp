@@ -21,12 +21,13 @@ constexpr auto description =
 constexpr auto footer =
     "Exit codes: 0 done, 1 a test or benchmark failed, 2 bad usage or case, 3 handshake refused,\n"
     "4 a program of the job failed, 5 stalled, 6 physics refused (NaN, overlap, grain through a "
-    "wall),\n130/143 interrupted.";
+    "wall),\n130/143 interrupted (`turbidite resume` goes on).";
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
         {"run", "run a case: validate, prepare a folder, start the job, write report.html",
          declare_run},
+        {"resume", "go on with a run from its last whole checkpoint", declare_resume},
         {"check", "validate a case or a study, all errors at once", declare_check},
         {"report", "write report.html of a run folder", declare_report},
         {"compare", "compare several runs on one page, with their differences in numbers",

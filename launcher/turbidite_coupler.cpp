@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-coupler RUN: the coupler of a job, world rank 0. RUN is a folder prepared by `turbidite
-// run`.
+// turbidite-coupler RUN [SET]: the coupler of a job, world rank 0. RUN is a folder prepared by
+// `turbidite run`, SET the name of a checkpoint in it from which the run goes on.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -22,6 +22,7 @@ namespace {
 using namespace turbidite;
 
 volatile std::sig_atomic_t ended_from_outside = 0;
+volatile std::sig_atomic_t asked_to_stop = 0;
 
 struct Meeting {
     std::unique_ptr<IntercommChannel> grains, fluid;
@@ -42,8 +43,15 @@ Meeting meet_participants(MPI_Comm local, bool with_fluid, double limit) {
 }
 
 HubFiles hub_files(const RunFolder& folder) {
-    return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(),
-            folder.stop()};
+    return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(), folder.root};
+}
+
+std::optional<Resumption> resumption(const std::string& directory, const std::string& set) {
+    if (set.empty()) return std::nullopt;
+    const CheckpointSets sets(directory);
+    const Bytes bytes = load(std::filesystem::path(directory) / CheckpointSets::folder(set),
+                             sets.manifest(set).coupler);
+    return Resumption{set, decode<CouplerState>(bytes)};
 }
 
 // If the hub has run, it has written its own, more complete record.
@@ -94,7 +102,8 @@ class MaybeRecorded {
     Channel* channel_;
 };
 
-RunStatus couple(const std::string& directory, std::optional<MpiEnvironment>& mpi) {
+RunStatus couple(const std::string& directory, const std::string& set,
+                 std::optional<MpiEnvironment>& mpi) {
     ResolvedCase resolved = load_run_folder(directory);
     const double limit = resolved.settings.real("limits.start");
     const MPI_Comm local = join_world(directory, limit, mpi);
@@ -102,17 +111,21 @@ RunStatus couple(const std::string& directory, std::optional<MpiEnvironment>& mp
     const RunFolder folder{directory};
     MaybeRecorded grains(meeting.grains.get(), resolved, folder, Role::grains);
     MaybeRecorded fluid(meeting.fluid.get(), resolved, folder, Role::fluid);
-    Hub hub({resolved.settings, resolved.shapes, resolved.population}, hub_files(folder),
-            *grains.channel(), fluid.channel(), find_scheme(resolved.settings.text("run.scheme")));
+    Hub hub({resolved.settings, resolved.shapes, resolved.population, resumption(directory, set)},
+            hub_files(folder), *grains.channel(), fluid.channel(),
+            find_scheme(resolved.settings.text("run.scheme")));
     std::signal(SIGTERM, [](int) { ended_from_outside = 1; });
     hub.heed(ended_from_outside);
+    std::signal(SIGUSR1, [](int) { asked_to_stop = 1; });
+    hub.heed_stop(asked_to_stop);
     return hub.run();
 }
 
 // `mpi` belongs to the caller: after a failure the job is aborted, and finalising MPI while the
 // exception is on its way would wait for the others.
-int main_program(const std::string& directory, std::optional<MpiEnvironment>& mpi) try {
-    return static_cast<int>(couple(directory, mpi).code);
+int main_program(const std::string& directory, const std::string& set,
+                 std::optional<MpiEnvironment>& mpi) try {
+    return static_cast<int>(couple(directory, set, mpi).code);
 } catch (const EndedFromOutside&) {
     std::signal(SIGTERM, SIG_DFL);
     std::raise(SIGTERM);
@@ -130,10 +143,10 @@ int main_program(const std::string& directory, std::optional<MpiEnvironment>& mp
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: turbidite-coupler RUN   (started by `turbidite run`)\n");
+    if (argc != 2 && argc != 3) {
+        std::fprintf(stderr, "usage: turbidite-coupler RUN [SET]   (started by `turbidite run`)\n");
         return static_cast<int>(ExitCode::bad_input);
     }
     std::optional<MpiEnvironment> mpi;
-    return main_program(argv[1], mpi);
+    return main_program(argv[1], argc == 3 ? argv[2] : "", mpi);
 }

@@ -89,7 +89,6 @@ void outlive_the_program() {
     action.sa_handler = [](int) { asked_to_end = 1; };
     action.sa_flags = SA_RESTART;
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaction(signal, &action, nullptr);
-    for (const int signal : {SIGUSR1, SIGUSR2}) ::signal(signal, SIG_IGN);
 }
 
 int wait_for(pid_t child) {
@@ -134,6 +133,8 @@ int exit_code(const Member& member, int status, pid_t child, const std::string& 
 }
 
 int play(const Member& member) {
+    // A batch system's, which mpirun passes on: the coupler heeds it, all others go on.
+    for (const int signal : {SIGUSR1, SIGUSR2}) ::signal(signal, SIG_IGN);
     const std::string before = text_of(member.record());
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));

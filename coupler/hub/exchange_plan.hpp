@@ -24,6 +24,9 @@ class ExchangePlan {
     /// only some ranks report contacts.
     Motion gather(const std::vector<Motion>& shares);
 
+    /// The rank that owns each grain, in the order of the last `gather`.
+    const std::vector<int>& owners() const { return owner_; }
+
     /// For every fluid rank, the grains that touch its box.
     std::vector<Motion> by_place(const Motion& motion) const;
 

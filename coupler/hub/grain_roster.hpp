@@ -24,6 +24,9 @@ class GrainRoster {
     void check(const std::vector<Kicks>& shares, const Arrival& arrival) const;
     void check(const std::vector<std::vector<FreeResponse>>& shares, const Arrival& arrival) const;
 
+    /// Those that are in a run that goes on, by the ranks that own them.
+    void resume(const std::vector<Motion>& shares) { remember(shares); }
+
     std::size_t size() const { return present_.size(); }
 
  private:

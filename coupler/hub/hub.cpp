@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 #include "coupler/hub/handshake.hpp"
 #include "coupler/hub/schemes/exchanges.hpp"
@@ -73,9 +72,19 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
       order_(scheme),
       scheme_(scheme.make(case_.settings)),
       ledger_(settings_, [this](const std::string& text) { progress_.say(text); }),
-      output_(files_.history, files_.series, settings_.run, case_.shapes) {}
+      output_(make_output()),
+      requests_(files_.root),
+      checkpoints_(case_.settings, settings_.run, files_.root, links_, watch_,
+                   [this](const std::string& text) { progress_.say(text); }) {}
 
 Hub::~Hub() = default;
+
+RunOutput Hub::make_output() const {
+    if (case_.resumed)
+        return {files_.history, files_.series, settings_.run, case_.shapes,
+                case_.resumed->state.output};
+    return {files_.history, files_.series, settings_.run, case_.shapes};
+}
 
 /// One window, from t^n to t^{n+1}.
 void Hub::play(const Window& window) {
@@ -85,32 +94,58 @@ void Hub::play(const Window& window) {
             kick_rule_.balance(result.kicks.kicks, output_.state(), result.motion, window.step);
     ledger_.check(window, result);
     output_.record(window, std::move(result), watch_.take_waited());
-    if (window.write_output) output_.write();
+}
+
+/// Output and checkpoint of a window. A row out of turn, at the end of this part of the run, is no
+/// longer there in the next one, whose history is to be that of a run in one part: it comes after
+/// the checkpoint.
+void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
+    if (window.write_output && !out_of_turn) output_.write();
+    if (save_it) checkpoints_.write(state());
+    if (window.write_output && out_of_turn) output_.write();
 }
 
 // A run that is asked to stop completes one more window and writes it, so that history, grains and
 // fields end at the same time.
 void Hub::play_windows() {
     const std::int64_t windows = settings_.run.windows;
-    for (std::int64_t index = 0; index < windows; ++index) {
-        const std::optional<ExitCode> stop = requested_stop();
-        const Window now = window(index, stop || index + 1 == windows);
+    for (std::int64_t index = output_.statistics().windows_done; index < windows; ++index) {
+        const Requests asked = requests_.take();
+        const bool last = asked.stop || index + 1 == windows;
+        const bool in_turn = (index + 1) % settings_.run.output_every == 0 || asked.write;
+        const Window now = window(index, in_turn || last);
         play(now);
+        const bool save = asked.checkpoint || asked.stop || checkpoints_.due(index + 1) ||
+                          (last && checkpoints_.by_rule());
+        finish(now, !in_turn, save);
         progress_.show(output_.row(), now.write_output);
-        if (stop && index + 1 < windows)
-            throw Failure(*stop,
-                          fmt::format("stopped on request after window {}; its output is written",
-                                      index + 1));
+        if (asked.stop && index + 1 < windows) throw Failure(*asked.stop, stopped_after(index + 1));
     }
 }
 
-Window Hub::window(std::int64_t index, bool last) const {
+std::string Hub::stopped_after(std::int64_t windows) const {
+    const bool saved = checkpoints_.last() == windows;
+    return fmt::format("stopped on request after window {}; its output{} written", windows,
+                       saved ? " and a checkpoint are" : " is");
+}
+
+Window Hub::window(std::int64_t index, bool written) const {
     Window window;
     window.index = index;
     window.step = settings_.run.step;
     window.time = static_cast<double>(index) * window.step;
-    window.write_output = last || (index + 1) % settings_.run.output_every == 0;
+    window.write_output = written;
     return window;
+}
+
+CouplerState Hub::state() {
+    CouplerState state;
+    state.windows = output_.statistics().windows_done;
+    state.wall_seconds = earlier_seconds_ + since(begin_);
+    state.ledger = ledger_.saved();
+    state.owners.assign(plan_->owners().begin(), plan_->owners().end());
+    state.output = output_.saved();
+    return state;
 }
 
 Cast Hub::cast() {
@@ -118,7 +153,6 @@ Cast Hub::cast() {
 }
 
 RunStatus Hub::run() {
-    const auto begin = Clock::now();
     try {
         start();
         play_windows();
@@ -132,7 +166,8 @@ RunStatus Hub::run() {
         status_.code = ExitCode::participant_failed;
         status_.reason = error.what();
     }
-    status_.wall_seconds = since(begin);
+    status_.wall_seconds = earlier_seconds_ + since(begin_);
+    status_.checkpoints = {checkpoints_.written(), checkpoints_.seconds()};
     status_.statistics = output_.statistics();
     for (const std::string& sentence : unconverged_sentences(status_.statistics, settings_.solves))
         progress_.say("turbidite: " + sentence);
@@ -174,9 +209,31 @@ void Hub::start() {
         for (int rank = 0; rank < fluid_->ranks(); ++rank) arrival.check(rank, boxes[rank]);
     }
     plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
+    checkpoints_.meet_participants();
     Cast everybody = cast();
-    output_.begin(receive_grains(Kind::state, -1, everybody));
+    Motion initial = receive_grains(Kind::state, -1, everybody);
+    if (case_.resumed)
+        go_on_from(*case_.resumed);
+    else
+        begin_output(std::move(initial));
     watch_.take_waited();
+}
+
+void Hub::begin_output(Motion initial) {
+    output_.begin(std::move(initial));
+    if (checkpoints_.by_rule()) checkpoints_.write(state());
+}
+
+void Hub::go_on_from(const Resumption& earlier) {
+    const std::vector<Motion> shares = shares_of(earlier.state, grains_.ranks());
+    checkpoints_.restore(earlier.name);
+    roster_.resume(shares);
+    plan_->gather(shares);
+    ledger_.resume(earlier.state.ledger);
+    earlier_seconds_ = earlier.state.wall_seconds;
+    progress_.begin_at(earlier.state.windows);
+    progress_.say(fmt::format("resumed after window {} from {}", earlier.state.windows,
+                              CheckpointSets::folder(earlier.name)));
 }
 
 void Hub::tell_participants() {
@@ -192,19 +249,6 @@ void Hub::tell_participants() {
         link->send_all(Kind::shapes, case_.shapes);
     }
     grains_.send_each(Kind::population, shares_of(case_.population, grains_.ranks()));
-}
-
-std::optional<ExitCode> Hub::requested_stop() const {
-    int code = static_cast<int>(ExitCode::interrupted);
-    {
-        std::ifstream stop(files_.stop);
-        if (!stop) return std::nullopt;
-        stop >> code;
-    }
-    std::error_code ignored;  // a request applies once: the same command line may be started again
-    std::filesystem::remove(files_.stop, ignored);
-    const bool terminated = code == static_cast<int>(ExitCode::terminated);
-    return terminated ? ExitCode::terminated : ExitCode::interrupted;
 }
 
 void Hub::end(const Verdict& verdict) {

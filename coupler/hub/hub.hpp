@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "coupler/hub/checkpoints.hpp"
 #include "coupler/hub/hub_settings.hpp"
 #include "coupler/hub/ledger.hpp"
+#include "coupler/hub/requests.hpp"
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/output/progress.hpp"
 #include "coupler/output/run_output.hpp"
@@ -16,16 +18,23 @@
 
 namespace turbidite {
 
+/// The checkpoint from which a run goes on.
+struct Resumption {
+    std::string name;  ///< of its folder in `checkpoints`
+    CouplerState state;
+};
+
 /// What the hub needs from a resolved case.
 struct HubCase {
     Settings settings;
     ShapeTable shapes;
     std::vector<GrainState> population;
+    std::optional<Resumption> resumed = {};
 };
 
-/// Where the hub writes; the names are those of the run folder.
+/// Where the hub writes; the names are those of the run folder, `root`.
 struct HubFiles {
-    std::filesystem::path history, series, log, record, stop;
+    std::filesystem::path history, series, log, record, root;
 };
 
 class Hub {
@@ -44,14 +53,23 @@ class Hub {
     /// the job since another program has died, and the table says in which window and phase.
     void heed(const volatile std::sig_atomic_t& signal) { watch_.heed(signal); }
 
+    /// When `signal` is not 0, the next window is the last one, and a checkpoint follows.
+    void heed_stop(const volatile std::sig_atomic_t& signal) { requests_.heed(signal); }
+
     /// Who works and who waits, one line per rank.
     std::string wait_for_table() const { return watch_.wait_for_table(); }
 
  private:
     void start();
+    void begin_output(Motion initial);
+    void go_on_from(const Resumption& earlier);
     void play_windows();
     void play(const Window& window);
-    Window window(std::int64_t index, bool last) const;
+    void finish(const Window& window, bool out_of_turn, bool save);
+    Window window(std::int64_t index, bool written) const;
+    CouplerState state();
+    std::string stopped_after(std::int64_t windows) const;
+    RunOutput make_output() const;
     Cast cast();
 
     void tell_participants();
@@ -59,8 +77,6 @@ class Hub {
     void end(const Verdict& verdict);
     void report_end(const std::string& text);
     void await_all(bool (ParticipantLink::*condition)(), double limit);
-    /// The exit code to end with if files_.stop exists, which is then removed.
-    std::optional<ExitCode> requested_stop() const;
 
     HubCase case_;
     HubSettings settings_;
@@ -77,6 +93,10 @@ class Hub {
     std::unique_ptr<Scheme> scheme_;
     Ledger ledger_;
     RunOutput output_;
+    RequestFiles requests_;
+    Checkpoints checkpoints_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    double earlier_seconds_ = 0.0;  ///< of the parts of the run before this one
     RunStatus status_;
 };
 

@@ -44,6 +44,17 @@ void Ledger::name_programs(std::string grains, std::string fluid) {
     fluid_ = std::move(fluid);
 }
 
+LedgerState Ledger::saved() const {
+    return {divergent_windows_, stopped_windows_, grain_balance_.warned, fluid_balance_.warned};
+}
+
+void Ledger::resume(const LedgerState& state) {
+    divergent_windows_ = state.divergent_windows;
+    stopped_windows_ = state.stopped_windows;
+    grain_balance_.warned = state.warned_of_grains;
+    fluid_balance_.warned = state.warned_of_fluid;
+}
+
 void Ledger::check(const Window& window, const WindowResult& result) {
     check_overlap(result.state);
     check_divergence(result.kicks.report);

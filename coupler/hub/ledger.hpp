@@ -13,6 +13,13 @@
 
 namespace turbidite {
 
+/// What the checks pass from one window to the next.
+struct LedgerState {
+    std::int64_t divergent_windows = 0;  ///< in succession
+    std::int64_t stopped_windows = 0;    ///< in succession, whose multiplier problem stopped
+    bool warned_of_grains = false, warned_of_fluid = false;  ///< of their balances
+};
+
 class Ledger {
  public:
     using Print = std::function<void(const std::string&)>;
@@ -22,6 +29,9 @@ class Ledger {
 
     /// "grains (my-code)", for error messages.
     void name_programs(std::string grains, std::string fluid);
+
+    LedgerState saved() const;
+    void resume(const LedgerState& state);
 
     /// Throws PhysicsRefused.
     void check(const Window& window, const WindowResult& result);
@@ -45,8 +55,9 @@ class Ledger {
     Print warn_;
     std::string grains_ = "grains", fluid_ = "fluid";
     Balance grain_balance_, fluid_balance_;
-    int divergent_windows_ = 0;  ///< in succession
-    int stopped_windows_ = 0;    ///< in succession, whose multiplier problem stopped at its limit
+    std::int64_t divergent_windows_ = 0;  ///< in succession
+    std::int64_t stopped_windows_ =
+        0;  ///< in succession, whose multiplier problem stopped at its limit
 };
 
 }  // namespace turbidite

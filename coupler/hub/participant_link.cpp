@@ -39,6 +39,10 @@ void ParticipantLink::set_window_order(const Order& order) {
     for (Rank& rank : ranks_) rank.order.set_window_order(order);
 }
 
+void ParticipantLink::go_on_after(std::int64_t windows) {
+    for (Rank& rank : ranks_) rank.order.go_on_after(windows);
+}
+
 void ParticipantLink::send(int rank, Kind kind, Bytes payload) {
     const Envelope envelope = ranks_[rank].order.next_sent(kind, from_coupler);
     channel_.send(rank, frame({envelope, std::move(payload)}));

@@ -33,6 +33,9 @@ class ParticipantLink {
     /// Sets the messages of a window; to be called before the start is over.
     void set_window_order(const Order& order);
 
+    /// Between two windows: the run goes on after so many.
+    void go_on_after(std::int64_t windows);
+
     void send(int rank, Kind kind, Bytes payload);
     template <class Record>
     void send_all(Kind kind, const Record& record) {
@@ -66,6 +69,9 @@ class ParticipantLink {
             }
         return records;
     }
+
+    /// Takes messages of no content.
+    void discard(Kind kind) { take_payloads(kind); }
 
     /// "grains rank 0 (host h, pid 12) works towards "motion", window 4, since 3 s".
     std::string state_of(int rank) const;

@@ -6,6 +6,8 @@
 namespace turbidite {
 namespace {
 
+constexpr auto series_name = "contacts.pvd";
+
 double dot(const Vec3& a, const Vec3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -42,11 +44,15 @@ std::vector<Vec3> line_ends(const Motion& state) {
 
 }  // namespace
 
+void ContactSeries::resume(std::int64_t length) {
+    collection_.emplace(folder_ / series_name, length);
+}
+
 void ContactSeries::write(double time, std::int64_t window, double step, const Motion& state) {
     if (!state.contacts) return;
     const std::string name = fmt::format("contacts_{:08d}.vtp", window);
     write_lines(name, step, state);
-    if (!collection_) collection_.emplace(folder_ / "contacts.pvd");
+    if (!collection_) collection_.emplace(folder_ / series_name);
     collection_->add(time, {name});
 }
 

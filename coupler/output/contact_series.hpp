@@ -21,6 +21,12 @@ class ContactSeries {
  public:
     explicit ContactSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
+    /// Goes on with the series of an earlier part of the run.
+    void resume(std::int64_t length);
+
+    /// Null before the first contacts.
+    vtk::Collection* collection() { return collection_ ? &*collection_ : nullptr; }
+
     /// One line per contact point, in run units, with
     ///
     ///     id_a, id_b           id_a = -1 - wall at a wall: 0 left, 1 right, 2 bottom, 3 top, ...

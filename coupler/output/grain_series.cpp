@@ -10,6 +10,8 @@
 namespace turbidite {
 namespace {
 
+constexpr auto series_name = "grains.pvd";
+
 std::filesystem::path made(std::filesystem::path folder) {
     std::filesystem::create_directories(folder);
     return folder;
@@ -31,7 +33,15 @@ Vec3 in_space(const GrainState& grain, const std::array<double, 2>& vertex) {
 }  // namespace
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes)
-    : folder_(made(std::move(folder))), collection_(folder_ / "grains.pvd") {
+    : GrainSeries(folder, shapes, vtk::Collection(made(folder) / series_name)) {}
+
+GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes,
+                         std::int64_t length)
+    : GrainSeries(folder, shapes, vtk::Collection(folder / series_name, length)) {}
+
+GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes,
+                         vtk::Collection series)
+    : folder_(std::move(folder)), collection_(std::move(series)) {
     for (const ShapeRecord& shape : shapes) outlines_.push_back(make_shape(shape)->outline());
 }
 

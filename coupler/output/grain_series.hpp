@@ -20,6 +20,11 @@ class GrainSeries {
  public:
     GrainSeries(std::filesystem::path folder, const ShapeTable& shapes);
 
+    /// Goes on with the series of an earlier part of the run.
+    GrainSeries(std::filesystem::path folder, const ShapeTable& shapes, std::int64_t length);
+
+    vtk::Collection& collection() { return collection_; }
+
     /// Points in run units with id, shape, material, prescribed (0, 1), radius, density,
     /// orientation (quaternion w, x, y, z), velocity, angular_velocity, force, contact_force. The
     /// series file is complete after every call. `time` is in run units, `window` the step over
@@ -29,6 +34,8 @@ class GrainSeries {
 
  private:
     using Outline = std::vector<std::array<double, 2>>;  ///< Shape::outline
+
+    GrainSeries(std::filesystem::path folder, const ShapeTable& shapes, vtk::Collection series);
 
     void write_points(const std::string& name, double window, const Motion& state,
                       const std::vector<Kick>& kicks) const;

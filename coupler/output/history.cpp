@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/output/output_state.hpp"
 #include "coupler/output/pore_volume.hpp"
 #include "coupler/protocol/failure.hpp"
 
@@ -37,6 +38,14 @@ Averages averages(const Motion& state, const ImmersedBodies& bodies) {
 History::History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes)
     : file_(file), out_(file, std::ios::trunc), bodies_(run, shapes), run_(run) {
     out_ << history_header() << std::endl;
+    if (!out_) throw Failure(ExitCode::participant_failed, "cannot write " + file.string());
+}
+
+History::History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes,
+                 std::int64_t length)
+    : file_(file), bodies_(run, shapes), run_(run) {
+    cut_to(file, length);
+    out_.open(file, std::ios::in | std::ios::out | std::ios::ate);
     if (!out_) throw Failure(ExitCode::participant_failed, "cannot write " + file.string());
 }
 

@@ -61,6 +61,13 @@ class History {
     /// Creates the file with its header. Throws Failure when it cannot be written.
     History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes);
 
+    /// Goes on with the file of an earlier part of the run, after its first `length` bytes.
+    History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes,
+            std::int64_t length);
+
+    const std::filesystem::path& file() const { return file_; }
+    std::int64_t length() { return out_.tellp(); }  ///< bytes written so far
+
     /// Throws Failure when the disk is full.
     void append(const Row& row);
 

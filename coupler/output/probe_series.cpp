@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "coupler/output/output_state.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
@@ -13,6 +14,15 @@ void ProbeSeries::begin(std::size_t points) {
     for (std::size_t k = 1; k <= points; ++k)
         out_ << fmt::format(",pressure_{0},velocity_x_{0},velocity_y_{0}", k);
     out_ << std::endl;
+}
+
+void ProbeSeries::resume(std::int64_t length) {
+    cut_to(file_, length);
+    out_.open(file_, std::ios::in | std::ios::out | std::ios::ate);
+}
+
+std::int64_t ProbeSeries::length() {
+    return out_.is_open() ? static_cast<std::int64_t>(out_.tellp()) : -1;
 }
 
 void ProbeSeries::append(double time, const std::vector<double>& values) {

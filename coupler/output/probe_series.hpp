@@ -18,6 +18,14 @@ class ProbeSeries {
     ProbeSeries(std::filesystem::path file, const RunValues& run)
         : file_(std::move(file)), run_(run) {}
 
+    /// Goes on with the file of an earlier part of the run.
+    void resume(std::int64_t length);
+
+    const std::filesystem::path& file() const { return file_; }
+
+    /// Bytes written so far; -1: there is no file.
+    std::int64_t length();
+
     /// `values`: p/rho_f [m2/s2], u, v [m/s] at each point. Throws Failure when the disk is full.
     void append(double time, const std::vector<double>& values);
 

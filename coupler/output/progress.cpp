@@ -35,13 +35,12 @@ std::string fluid_text(const FluidReport& report, const RunValues& run) {
                     report.multiplier_residual / run.velocity,
                     report.multipliers_converged ? "" : not_converged, report.courant);
     if (const auto& splitting = report.splitting)
-        text += fmt::format("  pressure {} its, div {:.0e} u_c/D, viscosity {} its, {:.0e} u_c2/D{}",
-                            splitting->pressure_iterations,
-                            splitting->divergence * run.diameter / run.velocity,
-                            splitting->viscous_iterations,
-                            splitting->viscous_residual * run.diameter /
-                                (run.velocity * run.velocity),
-                            splitting->converged ? "" : not_converged);
+        text += fmt::format(
+            "  pressure {} its, div {:.0e} u_c/D, viscosity {} its, {:.0e} u_c2/D{}",
+            splitting->pressure_iterations, splitting->divergence * run.diameter / run.velocity,
+            splitting->viscous_iterations,
+            splitting->viscous_residual * run.diameter / (run.velocity * run.velocity),
+            splitting->converged ? "" : not_converged);
     if (report.final_divergence > 0.0)  // computed in windows with output
         text += fmt::format("  divergence after step 5 {:.0e} u_c/D",
                             report.final_divergence * run.diameter / run.velocity);
@@ -125,7 +124,8 @@ void Progress::log(const std::string& text) {
 void Progress::show(const Row& row, bool due) {
     if (!due && !(terminal_ && Clock::now() - last_shown_ > refresh)) return;
     last_shown_ = Clock::now();
-    const double per_window = seconds_since(start_) / static_cast<double>(row.step);
+    const double per_window =
+        seconds_since(start_) / static_cast<double>(row.step - windows_before_);
     if (due) log_ << log_line(row, run_, per_window) << std::endl;
     const std::string line = progress_line(row, run_, per_window);
     if (terminal_) {

@@ -25,6 +25,9 @@ class Progress {
     /// The same in the log only.
     void log(const std::string& text);
 
+    /// The run goes on after so many windows, which took no time here.
+    void begin_at(std::int64_t windows) { windows_before_ = windows; }
+
     /// Shows the state of the run after a window. `due`: an output interval ended here.
     void show(const Row& row, bool due);
 
@@ -36,12 +39,14 @@ class Progress {
     bool terminal_;
     bool line_open_ = false;
     RunValues run_;
+    std::int64_t windows_before_ = 0;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_shown_{};
 };
 
 /// "12.5/70 t_c  fall 0.321 u_c  overlap 3e-05 D  2:01:05 left". A window with a solve that
-/// stopped at its limit says NOT CONVERGED in place of the mean fall. `per_window` [s] of wall time.
+/// stopped at its limit says NOT CONVERGED in place of the mean fall. `per_window` [s] of wall
+/// time.
 std::string progress_line(const Row& row, const RunValues& run, double per_window);
 
 /// "1:05", "2:01:05".

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "coupler/protocol/stored_file.hpp"
+
 namespace turbidite {
 
 RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
@@ -14,6 +16,43 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
       contacts_(series),
       probes_(history.parent_path() / "probes.csv", run),
       statistics_(run) {}
+
+RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
+                     const RunValues& run, const ShapeTable& shapes, const OutputState& earlier)
+    : wet_(run.wet),
+      history_(history, run, shapes, earlier.lengths.history),
+      grains_(series, shapes, earlier.lengths.grains),
+      contacts_(series),
+      probes_(history.parent_path() / "probes.csv", run),
+      statistics_(run),
+      since_row_(earlier.since_row) {
+    std::error_code none;  // files that began later begin again
+    if (earlier.lengths.contacts >= 0)
+        contacts_.resume(earlier.lengths.contacts);
+    else
+        std::filesystem::remove(series / "contacts.pvd", none);
+    if (earlier.lengths.probes >= 0)
+        probes_.resume(earlier.lengths.probes);
+    else
+        std::filesystem::remove(probes_.file(), none);
+    statistics_.resume(earlier.statistics);
+    last_.state = earlier.state;
+}
+
+OutputState RunOutput::saved() {
+    OutputState state{last_.state, statistics_, since_row_, {}};
+    state.lengths.history = history_.length();
+    put_on_disk(history_.file());
+    state.lengths.grains = grains_.collection().length();
+    put_on_disk(grains_.collection().file());
+    if (vtk::Collection* contacts = contacts_.collection()) {
+        state.lengths.contacts = contacts->length();
+        put_on_disk(contacts->file());
+    }
+    state.lengths.probes = probes_.length();
+    if (state.lengths.probes >= 0) put_on_disk(probes_.file());
+    return state;
+}
 
 void RunOutput::begin(Motion state) {
     last_.state = std::move(state);

@@ -9,6 +9,7 @@
 #include "coupler/output/contact_series.hpp"
 #include "coupler/output/grain_series.hpp"
 #include "coupler/output/history.hpp"
+#include "coupler/output/output_state.hpp"
 #include "coupler/output/probe_series.hpp"
 
 namespace turbidite {
@@ -19,6 +20,13 @@ class RunOutput {
     /// grains.pvd.
     RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
               const RunValues& run, const ShapeTable& shapes);
+
+    /// The output of a run that goes on: files are cut to the lengths they had.
+    RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
+              const RunValues& run, const ShapeTable& shapes, const OutputState& earlier);
+
+    /// What the next windows depend on, and the lengths of the files, which are on the disk then.
+    OutputState saved();
 
     /// Writes the state at t = 0.
     void begin(Motion state);

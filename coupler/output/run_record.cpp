@@ -69,6 +69,14 @@ nlohmann::ordered_json contact_table(const RunStatistics& statistics) {
             {"residual_max", statistics.contact_residuals.largest()}};
 }
 
+/// The last of the parts of a run, if `turbidite` keeps a list of them.
+void end_part(nlohmann::ordered_json& record, const RunStatus& status) {
+    if (!record.contains("parts") || record["parts"].empty()) return;
+    auto& part = record["parts"].back();
+    part["windows_done"] = status.statistics.windows_done;
+    part["status"] = status_word(status.code);
+}
+
 }  // namespace
 
 bool has_verdict(const std::filesystem::path& file) {
@@ -89,6 +97,9 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["error"] = status.reason;
     record["windows_done"] = status.statistics.windows_done;
     record["wall_seconds"] = status.wall_seconds;
+    record["checkpoints"] = {{"written", status.checkpoints.written},
+                             {"seconds", status.checkpoints.seconds}};
+    end_part(record, status);
     record["maxima"] = maxima_table(status.statistics.maxima);
     if (!status.statistics.contact_residuals.empty())
         record["contact"] = contact_table(status.statistics);

@@ -17,6 +17,10 @@ struct RunStatus {
     ExitCode code = ExitCode::done;
     std::string reason;  ///< the first error, empty when done
     double wall_seconds = 0.0;
+    struct {
+        std::int64_t written = 0;
+        double seconds = 0.0;
+    } checkpoints;  ///< of this part of the run
     RunStatistics statistics;
 };
 

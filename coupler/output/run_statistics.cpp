@@ -42,6 +42,12 @@ RunStatistics::RunStatistics(const RunValues& run)
     if (run.wet) maxima.fluid.emplace();
 }
 
+void RunStatistics::resume(const RunStatistics& earlier) {
+    windows_done = earlier.windows_done;
+    maxima = earlier.maxima;
+    contact_residuals = earlier.contact_residuals;
+}
+
 void RunStatistics::take_in(const WindowResult& result) {
     ++windows_done;
     maxima.penetration =

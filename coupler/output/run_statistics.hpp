@@ -4,6 +4,7 @@
 // times.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "coupler/output/grain_work.hpp"
@@ -20,7 +21,8 @@ struct WallTimes {
     double coupling = 0.0;  ///< in the coupler: routing, checks, output
 };
 
-/// Sums over the windows since the last row.
+/// Sums over the windows since the last row. Checkpoints contain them, and the maxima below
+/// (output_state.cpp).
 struct SinceRow {
     std::int64_t windows = 0;
     std::int64_t unconverged = 0;  ///< whose contact solve did not reach its tolerance
@@ -39,6 +41,10 @@ class ContactResiduals {
     double largest() const;
     /// The smallest value that `share` of the windows do not exceed, 0 < share <= 1.
     double quantile(double share) const;
+
+    /// Of all windows, in their order.
+    const std::vector<double>& values() const { return values_; }
+    void replace(std::vector<double> values) { values_ = std::move(values); }
 
  private:
     std::vector<double> values_;
@@ -78,6 +84,9 @@ class RunStatistics {
     explicit RunStatistics(const RunValues& run);
 
     void take_in(const WindowResult& result);
+
+    /// Goes on from those of an earlier part of the run.
+    void resume(const RunStatistics& earlier);
 
     std::int64_t windows_done = 0;
     RunMaxima maxima;

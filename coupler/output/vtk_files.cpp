@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "coupler/output/output_state.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/whole_file.hpp"
 
@@ -58,13 +59,28 @@ Collection::Collection(std::filesystem::path file) : file_(std::move(file)) {
             "version=\"0.1\">\n<Collection>\n";
 }
 
-// The next entry and its end tags overwrite the present end tags in one write.
+Collection::Collection(std::filesystem::path file, std::int64_t length) : file_(std::move(file)) {
+    cut_to(file_, length);
+    out_.open(file_, std::ios::in | std::ios::out | std::ios::ate);
+    write("");
+}
+
+std::int64_t Collection::length() {
+    out_.flush();
+    return out_.tellp();
+}
+
 void Collection::add(double time, const std::vector<std::string>& parts) {
-    constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
     std::string text;
     for (std::size_t part = 0; part < parts.size(); ++part)
         text += fmt::format("<DataSet timestep=\"{:.9g}\" part=\"{}\" file=\"{}\"/>\n", time, part,
                             parts[part]);
+    write(text);
+}
+
+// The next entry and its end tags overwrite the present end tags in one write.
+void Collection::write(const std::string& text) {
+    constexpr std::string_view end_tags = "</Collection>\n</VTKFile>\n";
     out_ << text << end_tags << std::flush;
     if (!out_) throw full_disk(file_);
     out_.seekp(-static_cast<std::streamoff>(end_tags.size()), std::ios::end);

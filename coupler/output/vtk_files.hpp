@@ -69,11 +69,22 @@ class Collection {
     /// Starts an empty series.
     explicit Collection(std::filesystem::path file);
 
+    /// Goes on with a series after its first `length` bytes (`length`()). Throws Failure if the
+    /// file is shorter.
+    Collection(std::filesystem::path file, std::int64_t length);
+
+    const std::filesystem::path& file() const { return file_; }
+
+    /// Bytes written so far, without the end tags.
+    std::int64_t length();
+
     /// Adds one time with one or more files (parts), named relative to the series file. Throws
     /// Failure when the disk is full.
     void add(double time, const std::vector<std::string>& parts);
 
  private:
+    void write(const std::string& text);
+
     std::filesystem::path file_;
     std::ofstream out_;
 };

@@ -56,7 +56,12 @@ class GrainsAdapter {
     /// final.
     virtual Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) = 0;
 
+    /// Between two windows, for a checkpoint: everything that the next windows depend on and that
+    /// initialise() does not set. Called only if `describe` says saves_state.
     virtual SavedState save() const = 0;
+
+    /// After initialise() of a resumed run, with the same settings: from here on everything must be
+    /// as if the run had never been interrupted. `state` is this rank's own.
     virtual void restore(const SavedState& state) = 0;
 };
 
@@ -95,8 +100,17 @@ class FluidAdapter {
     /// whose centre this rank owns: the velocities found by step 5.
     virtual Kicks impose(const Window& window) = 0;
 
+    /// As of GrainsAdapter; called on all ranks at the same time.
     virtual SavedState save() const = 0;
     virtual void restore(const SavedState& state) = 0;
+
+    /// The states of all ranks of a run that had another number of them.
+    virtual void restore_from(const std::vector<SavedState>& of_ranks) {
+        throw Failure(ExitCode::bad_input,
+                      "this fluid adapter can only go on with the number of ranks that wrote the "
+                      "checkpoint: fluid.ranks = " +
+                          std::to_string(of_ranks.size()));
+    }
 };
 
 }  // namespace turbidite

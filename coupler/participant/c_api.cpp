@@ -19,6 +19,10 @@ struct turbidite_state {
     turbidite_report report{};
 };
 
+struct turbidite_bytes {
+    std::vector<char> bytes;
+};
+
 namespace turbidite {
 namespace {
 
@@ -119,6 +123,8 @@ class CAdapter final : public GrainsAdapter {
         hello.host_code = text(c_.host_code);
         hello.capabilities.native_substeps = c_.native_substeps != 0;
         hello.capabilities.effective_inertia = c_.effective_inertia != 0;
+        hello.capabilities.saves_state = hello.capabilities.serialises_state =
+            c_.save != nullptr && c_.restore != nullptr;
         if (c_.shapes == nullptr) hello.capabilities.shapes = {"disc"};
         for (auto shape = c_.shapes; shape != nullptr && *shape != nullptr; ++shape)
             hello.capabilities.shapes.push_back(*shape);
@@ -129,44 +135,51 @@ class CAdapter final : public GrainsAdapter {
                       const std::vector<GrainState>& grains) override {
         const auto given = c_records(grains);
         const turbidite_settings values{settings};
-        return call("initialise", c_.initialise, &values, given.data(), given.size());
+        return answer_of("initialise", c_.initialise, &values, given.data(), given.size());
     }
 
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override {
         const auto given = c_records(responses);
         const turbidite_window now = c_window(window);
-        return call("advance", c_.advance, &now, given.data(), given.size());
+        return answer_of("advance", c_.advance, &now, given.data(), given.size());
     }
 
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override {
         const auto given = c_records(kicks);
         const turbidite_window now = c_window(window);
-        return call("apply_kick", c_.apply_kick, &now, given.data(), given.size());
+        return answer_of("apply_kick", c_.apply_kick, &now, given.data(), given.size());
     }
 
     SavedState save() const override {
-        throw std::runtime_error("the C interface does not save states yet");
+        turbidite_bytes state;
+        call("save", c_.save, &state);
+        return std::move(state.bytes);
     }
-    void restore(const SavedState&) override {
-        throw std::runtime_error("the C interface does not restore states yet");
+    void restore(const SavedState& state) override {
+        call("restore", c_.restore, state.data(), state.size());
     }
 
  private:
     static std::string text(const char* given) { return given ? given : ""; }
 
     template <class Function, class... Arguments>
-    Motion call(const char* name, Function function, Arguments... arguments) {
+    void call(const char* name, Function function, Arguments... arguments) const {
         if (function == nullptr)
             throw std::logic_error(std::string("turbidite_adapter has no function ") + name);
         failing = {};
-        turbidite_state answer;
-        answer.report = {0, 0, 0, std::nan(""), 0.0, 0.0, 1};
-        const int status = function(c_.self, arguments..., &answer);
+        const int status = function(c_.self, arguments...);
         if (failing.unphysical) throw PhysicsRefused(failing.text);
         if (!failing.text.empty()) throw std::runtime_error(failing.text);
         if (status != 0)
             throw std::runtime_error(std::string(name) + " returned " + std::to_string(status) +
                                      " without turbidite_fail");
+    }
+
+    template <class Function, class... Arguments>
+    Motion answer_of(const char* name, Function function, Arguments... arguments) const {
+        turbidite_state answer;
+        answer.report = {0, 0, 0, std::nan(""), 0.0, 0.0, 1};
+        call(name, function, arguments..., &answer);
         return motion(answer);
     }
 
@@ -212,6 +225,11 @@ const char* turbidite_text(const turbidite_settings* settings, const char* key) 
 turbidite_grain* turbidite_grains(turbidite_state* state, size_t count) {
     state->grains.assign(count, {});
     return state->grains.data();
+}
+
+void* turbidite_room(turbidite_bytes* state, size_t size) {
+    state->bytes.resize(size);
+    return state->bytes.data();
 }
 
 turbidite_report* turbidite_report_of(turbidite_state* state) {

@@ -32,6 +32,9 @@ class Conversation {
     /// Sets the messages of a window; to be called before the start is over.
     void set_window_order(Order order) { order_.set_window_order(std::move(order)); }
 
+    /// The run goes on after so many windows.
+    void go_on_after(std::int64_t windows) { order_.go_on_after(windows); }
+
     /// True until the last message of the present window has passed.
     bool inside_window() const { return order_.inside_window(); }
 

@@ -80,7 +80,7 @@ Channel& Membership::channel() {
 }
 
 Identity Membership::identity() const {
-    return {state_->rank, state_->ranks, state_->log, state_->hash};
+    return {state_->rank, state_->ranks, state_->log, state_->hash, state_->run_folder};
 }
 
 int Membership::leave(const Outcome& outcome) {

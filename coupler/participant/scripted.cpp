@@ -31,6 +31,7 @@ ScriptedGrains::ScriptedGrains(std::string adapter_name, Fault fault)
     hello_.host_code = "script";
     hello_.capabilities.shapes = {"disc"};
     hello_.capabilities.effective_inertia = true;
+    hello_.capabilities.saves_state = true;
     hello_.capabilities.serialises_state = true;
 }
 
@@ -140,6 +141,7 @@ Hello ScriptedFluid::describe() const {
     hello.host_code = "script";
     hello.capabilities.shapes = {"disc"};
     hello.capabilities.effective_inertia = true;
+    hello.capabilities.saves_state = true;
     hello.capabilities.serialises_state = true;
     return hello;
 }

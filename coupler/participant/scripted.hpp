@@ -36,6 +36,9 @@ class ScriptedGrains : public GrainsAdapter {
     /// of the inertia given by the fluid.
     void lay_floor(double height) { floor_ = height; }
 
+    /// Whether it says that it saves its state, as it does at first.
+    void can_save(bool can) { hello_.capabilities.saves_state = can; }
+
     Hello describe() const override;
     Motion initialise(const Settings&, const ShapeTable&, const std::vector<GrainState>&) override;
     Motion advance(const Window&, const std::vector<FreeResponse>&) override;

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -66,6 +67,14 @@ bool Session::start() {
     return guarded([this] { begin(); });
 }
 
+namespace {
+
+bool between_windows(const Message& message) {
+    return message.envelope.kind == Kind::save || message.envelope.kind == Kind::restore;
+}
+
+}  // namespace
+
 bool Session::step() {
     if (phase_ == Phase::made)
         throw std::logic_error("step() was called before start(): call start() once, first");
@@ -74,8 +83,14 @@ bool Session::step() {
             "step() was called after the end of the run: stop when start() or step() returns "
             "false");
     return guarded([this] {
-        do take(talk_->conversation.receive());
-        while (talk_->conversation.inside_window());
+        for (bool within = false; !within || talk_->conversation.inside_window();) {
+            const Message message = talk_->conversation.receive();
+            within = !between_windows(message);
+            if (within)
+                take(message);
+            else
+                checkpoint(message);
+        }
     });
 }
 
@@ -119,6 +134,15 @@ class RoleSession : public Session {
         return settings;
     }
 
+    void checkpoint(const Message& message) override {
+        if (message.envelope.kind == Kind::save)
+            return send(Kind::saved, saved(decode<CheckpointPlace>(message.payload)));
+        const auto order = decode<RestoreOrder>(message.payload);
+        restore(order);
+        talk_->conversation.send(Kind::restored, {});
+        talk_->conversation.go_on_after(order.windows);
+    }
+
     template <class Record>
     Record receive(Kind kind) {
         return decode<Record>(talk_->conversation.receive(kind));
@@ -143,6 +167,44 @@ class RoleSession : public Session {
     Window window_;  ///< the present one
 
  private:
+    std::filesystem::path in_run_folder(const std::string& folder) const {
+        return std::filesystem::path(talk_->identity.run_folder) / folder;
+    }
+
+    std::string file_name() const {
+        return std::string(role_name(role_)) + ".rank" + std::to_string(talk_->identity.rank);
+    }
+
+    /// A state that cannot be saved does not end the run, only this checkpoint.
+    SavedPart saved(const CheckpointPlace& place) const {
+        try {
+            return {store(in_run_folder(place.folder), file_name(), adapter_.save()), ""};
+        } catch (const std::exception& error) {
+            return {{file_name()}, error.what()};
+        } catch (...) {
+            return {{file_name()}, talk_->other_exception()};
+        }
+    }
+
+    void restore(const RestoreOrder& order) {
+        const auto folder = in_run_folder(order.folder);
+        const Identity& own = talk_->identity;
+        if (order.parts.size() == static_cast<std::size_t>(own.ranks))
+            return adapter_.restore(load(folder, order.parts[own.rank]));
+        std::vector<SavedState> states;
+        for (const StoredFile& part : order.parts) states.push_back(load(folder, part));
+        restore_from(adapter_, states);
+    }
+
+    static void restore_from(FluidAdapter& fluid, const std::vector<SavedState>& states) {
+        fluid.restore_from(states);
+    }
+    [[noreturn]] static void restore_from(GrainsAdapter&, const std::vector<SavedState>& states) {
+        throw Failure(ExitCode::bad_input, "the checkpoint was written by " +
+                                               std::to_string(states.size()) +
+                                               " grains ranks; go on with the same grains.ranks");
+    }
+
     Role role_;
 };
 

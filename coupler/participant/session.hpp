@@ -23,6 +23,7 @@ struct Identity {
     int ranks = 1;
     std::string log_file;
     std::string case_hash;
+    std::string run_folder = {};  ///< folders of checkpoints are relative to it
 };
 
 /// How the run ended for this participant.
@@ -40,8 +41,9 @@ class Session {
     /// wrong order throw std::logic_error that names the call that is missing.
     bool start();
 
-    /// One window, after `start`. False when the run is over; `outcome` gives the reason. An
-    /// exception from an adapter ends the run for all participants, with its text.
+    /// One window, after `start`, and a checkpoint before it if one is due. False when the run is
+    /// over; `outcome` gives the reason. An exception from an adapter ends the run for all
+    /// participants, with its text.
     bool step();
 
     /// After `start` or `step` returned false.
@@ -60,6 +62,8 @@ class Session {
     virtual void begin() = 0;
     /// Reacts to a message of a window.
     virtual void take(const Message& message) = 0;
+    /// Writes or reads a checkpoint.
+    virtual void checkpoint(const Message& message) = 0;
     template <class Action>
     bool guarded(Action action);
 

@@ -61,6 +61,7 @@ typedef struct {
 
 typedef struct turbidite_settings turbidite_settings; /* valid during the call that receives it */
 typedef struct turbidite_state turbidite_state;       /* what a call returns to the coupler */
+typedef struct turbidite_bytes turbidite_bytes;       /* a state to be saved */
 
 /* Values of the resolved case (turbidite keys) and run.*; a key that is missing or of another type
  * makes the present call fail, and returns 0. */
@@ -73,6 +74,9 @@ const char* turbidite_text(const turbidite_settings* settings, const char* key);
 /* Room for the grains of the answer, to be filled in. Once per call of the adapter. */
 turbidite_grain* turbidite_grains(turbidite_state* state, size_t count);
 turbidite_report* turbidite_report_of(turbidite_state* state);
+
+/* Room for a saved state, to be filled in. Once per call of `save`. */
+void* turbidite_room(turbidite_bytes* state, size_t size);
 
 /* The functions return 0, or another number after turbidite_fail: the run then ends for all
  * participants, with exit code 4 and the text. */
@@ -89,6 +93,11 @@ typedef struct {
                    size_t count, turbidite_state* answer);
     int (*apply_kick)(void* self, const turbidite_window* window, const turbidite_kick* kicks,
                       size_t count, turbidite_state* answer);
+
+    /* Both or none; with them the run has checkpoints. `save` writes the state, which it gets room
+     * for by turbidite_room; `restore` goes on from it, after initialise. */
+    int (*save)(void* self, turbidite_bytes* state);
+    int (*restore)(void* self, const void* state, size_t size);
 } turbidite_adapter;
 
 /* The text of the failure of the present call. `unphysical`: exit code 6 instead of 4. */

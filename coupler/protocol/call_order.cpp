@@ -12,6 +12,10 @@ constexpr Kind window_kinds[] = {
     Kind::window, Kind::bodies, Kind::response, Kind::contact_input, Kind::motion,
     Kind::accept, Kind::kicks,  Kind::kick,     Kind::constraint,    Kind::state};
 
+/// What the coupler may ask for between two windows, and the answers.
+constexpr std::pair<Kind, Kind> between_windows[] = {{Kind::save, Kind::saved},
+                                                     {Kind::restore, Kind::restored}};
+
 std::string sender_text(bool sent_by_coupler) {
     return std::string(" from the ") + (sent_by_coupler ? "coupler" : "participant");
 }
@@ -113,8 +117,11 @@ std::vector<std::size_t> CallOrder::due_places() const {
 std::vector<Step> CallOrder::due() const {
     if (said_farewell_) return {{Kind::release, from_coupler}};
     if (dismissed_) return {{Kind::farewell, to_coupler}};
+    if (answer_due_) return {{*answer_due_, to_coupler}};
     std::vector<Step> steps;
     for (const std::size_t place : due_places()) steps.push_back(order_[place]);
+    if (started_ && at_ == 0)
+        for (const auto& [asked, answer] : between_windows) steps.push_back({asked, from_coupler});
     return steps;
 }
 
@@ -127,7 +134,8 @@ bool CallOrder::is_due(Kind kind, bool sent_by_coupler) const {
 
 std::string CallOrder::due_text() const {
     std::string text;
-    for (const Step& step : due())
+    const bool between = started_ && at_ == 0 && !answer_due_ && !dismissed_;
+    for (const Step& step : between ? std::vector<Step>{order_.front()} : due())
         text += (text.empty() ? "\"" : " or \"") + kind_name(step.kind) + "\"";
     return text;
 }
@@ -151,6 +159,11 @@ void CallOrder::advance(Kind kind) {
     if (kind == Kind::dismiss) dismissed_ = true;
     if (kind == Kind::farewell) said_farewell_ = true;
     if (dismissed_ || kind == Kind::failure) return;
+    for (const auto& [asked, answer] : between_windows) {
+        if (kind == asked) answer_due_ = answer;
+        if (kind == answer) answer_due_.reset();
+        if (kind == asked || kind == answer) return;
+    }
     for (const std::size_t place : due_places())
         if (order_[place].kind == kind) at_ = place;
     if (kind == Kind::window) ++window_, iteration_ = 0;

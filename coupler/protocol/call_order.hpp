@@ -5,9 +5,12 @@
 // message against it: a call out of order is an error message, never a deadlock. Nothing here
 // depends on a particular scheme. Valid C++17.
 //
-// For all participants, at any time: dismiss → farewell → release, or failure before them.
+// Between two windows the coupler may also have a checkpoint written or read: save → saved, restore
+// → restored. For all participants, at any time: dismiss → farewell → release, or failure before
+// them.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -63,6 +66,9 @@ class CallOrder {
     /// To be called before the start is over. Throws like check_window_order.
     void set_window_order(Order order);
 
+    /// Between two windows, for a run that goes on: so many windows were done before.
+    void go_on_after(std::int64_t windows) { window_ = windows - 1; }
+
     /// The name of the other end in error messages, once more is known of it.
     void set_peer_name(std::string name) { peer_ = std::move(name); }
 
@@ -73,8 +79,8 @@ class CallOrder {
     /// sequence.
     void received(const Envelope& envelope, bool by_coupler);
 
-    /// The messages that may come next: one, or after a round two, from the same sender. The first
-    /// one ends the rounds.
+    /// The messages that may come next: one, or several from the same sender after a round, whose
+    /// first one ends the rounds, and between windows, whose first one is `window`.
     std::vector<Step> due() const;
     bool is_due(Kind kind, bool by_coupler) const;
 
@@ -101,6 +107,7 @@ class CallOrder {
     Order window_order_;
     std::size_t at_ = 0;
     bool started_ = false;
+    std::optional<Kind> answer_due_;  ///< to `save` or `restore`
     bool dismissed_ = false;
     bool said_farewell_ = false;
     std::int64_t window_ = -1;

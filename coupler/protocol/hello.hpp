@@ -13,10 +13,10 @@ namespace turbidite {
 /// Major versions must be equal; the smaller of the two minor versions applies, down to
 /// `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 6;
+inline constexpr std::int32_t protocol_minor = 7;
 
-/// The oldest supported minor version: since then the fluid reports what its splitting left.
-inline constexpr std::int32_t oldest_minor = 6;
+/// The oldest supported minor version: since then checkpoints have messages of their own.
+inline constexpr std::int32_t oldest_minor = 7;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 

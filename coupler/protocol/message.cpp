@@ -26,11 +26,20 @@ const std::vector<std::pair<Kind, const char*>> kinds = {
     {Kind::kicks, "kicks"},
     {Kind::kick, "kick"},
     {Kind::state, "state"},
+    {Kind::save, "save"},
+    {Kind::saved, "saved"},
+    {Kind::restore, "restore"},
+    {Kind::restored, "restored"},
     {Kind::failure, "failure"},
     {Kind::dismiss, "dismiss"},
     {Kind::farewell, "farewell"},
     {Kind::release, "release"},
 };
+
+template <class Code, class File>
+void visit_file(Code& code, File& file) {
+    code(file.name), code(file.bytes), code(file.crc32);
+}
 
 }  // namespace
 
@@ -90,6 +99,60 @@ Verdict decode(const Bytes& in) {
     code(verdict.reason);
     code.finish();
     return verdict;
+}
+
+Bytes encode(const CheckpointPlace& place) {
+    Bytes out;
+    Writer code(out);
+    code(place.folder);
+    return out;
+}
+
+template <>
+CheckpointPlace decode(const Bytes& in) {
+    CheckpointPlace place;
+    Reader code(in);
+    code(place.folder);
+    code.finish();
+    return place;
+}
+
+Bytes encode(const SavedPart& part) {
+    Bytes out;
+    Writer code(out);
+    visit_file(code, part.file);
+    code(part.fault);
+    return out;
+}
+
+template <>
+SavedPart decode(const Bytes& in) {
+    SavedPart part;
+    Reader code(in);
+    visit_file(code, part.file);
+    code(part.fault);
+    code.finish();
+    return part;
+}
+
+Bytes encode(const RestoreOrder& order) {
+    Bytes out;
+    Writer code(out);
+    code(order.folder), code(order.windows);
+    code(static_cast<std::int64_t>(order.parts.size()));
+    for (const StoredFile& part : order.parts) visit_file(code, part);
+    return out;
+}
+
+template <>
+RestoreOrder decode(const Bytes& in) {
+    RestoreOrder order;
+    Reader code(in);
+    code(order.folder), code(order.windows);
+    order.parts.resize(code.length());
+    for (StoredFile& part : order.parts) visit_file(code, part);
+    code.finish();
+    return order;
 }
 
 }  // namespace turbidite

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupler/protocol/hello.hpp"
+#include "coupler/protocol/stored_file.hpp"
 #include "coupler/protocol/wire.hpp"
 
 namespace turbidite {
@@ -32,6 +33,11 @@ enum class Kind : std::int32_t {
     kicks = 15,          // fluid → coupler     Kicks after step 5
     kick = 16,           // coupler → grains    the same, routed by id
     state = 17,          // grains → coupler    Motion at t^{n+1} (and once at t = 0)
+    // between two windows, when the coupler asks for it
+    save = 20,      // coupler → participant    CheckpointPlace: write your state there
+    saved = 21,     // participant → coupler    SavedPart
+    restore = 22,   // coupler → participant    RestoreOrder: go on from there
+    restored = 23,  // participant → coupler    no payload
     // end
     failure = 90,   // participant → coupler    exit code and text: I cannot go on
     dismiss = 91,   // coupler → participant    exit code and reason: the run is over
@@ -68,5 +74,32 @@ struct Verdict {
 Bytes encode(const Verdict&);
 template <>
 Verdict decode(const Bytes&);
+
+/// Payload of `save`: where the parts of a checkpoint go, relative to the run folder.
+struct CheckpointPlace {
+    std::string folder;
+};
+Bytes encode(const CheckpointPlace&);
+template <>
+CheckpointPlace decode(const Bytes&);
+
+/// Payload of `saved`: the file a rank has written there, or why it could not.
+struct SavedPart {
+    StoredFile file;
+    std::string fault;  ///< empty: the file is on the disk
+};
+Bytes encode(const SavedPart&);
+template <>
+SavedPart decode(const Bytes&);
+
+/// Payload of `restore`: the files of all ranks of this role, in the order of the ranks.
+struct RestoreOrder {
+    std::string folder;        ///< relative to the run folder
+    std::int64_t windows = 0;  ///< done; the next window has this index
+    std::vector<StoredFile> parts;
+};
+Bytes encode(const RestoreOrder&);
+template <>
+RestoreOrder decode(const Bytes&);
 
 }  // namespace turbidite

@@ -93,11 +93,10 @@ using ShapeTable = std::vector<ShapeRecord>;
 
 /// The message that opens a window.
 struct Window {
-    std::int64_t index = 0;         ///< 0-based
-    double time = 0.0;              ///< t^n at its start [s]
-    double step = 0.0;              ///< dt [s]
-    bool write_output = false;      ///< fields and series are due at its end
-    bool write_checkpoint = false;  ///< states are due at its end
+    std::int64_t index = 0;     ///< 0-based
+    double time = 0.0;          ///< t^n at its start [s]
+    double step = 0.0;          ///< dt [s]
+    bool write_output = false;  ///< fields and series are due at its end
 };
 
 /// Report of the contact side. Values an adapter does not have stay empty: codes with springs have

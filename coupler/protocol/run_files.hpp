@@ -30,6 +30,11 @@ struct FirstEnd {
 bool write_first_end(const std::filesystem::path& run, const FirstEnd& end);
 std::optional<FirstEnd> read_first_end(const std::filesystem::path& run);
 
+/// Files by which a user asks something of a run (hub/requests.hpp), in its folder.
+inline constexpr const char* stop_file = "STOP";
+inline constexpr const char* write_file = "WRITE";
+inline constexpr const char* checkpoint_file = "CHECKPOINT";
+
 /// Set for a program started by turbidite-member, which has opened its log.
 inline constexpr const char* member_variable = "TURBIDITE_MEMBER";
 

@@ -143,7 +143,7 @@ constexpr auto visit_shapes = [](auto& code, auto& shapes) {
 };
 
 constexpr auto visit_window = [](auto& code, auto& w) {
-    code(w.index), code(w.time), code(w.step), code(w.write_output), code(w.write_checkpoint);
+    code(w.index), code(w.time), code(w.step), code(w.write_output);
 };
 
 constexpr auto visit_box = [](auto& code, auto& b) { array(code, b.lower), array(code, b.upper); };

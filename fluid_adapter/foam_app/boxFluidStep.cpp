@@ -234,4 +234,19 @@ void BoxFluidStep::set_memory(const std::vector<double>& values) {
     second_order_.set_memory(*this, next);
 }
 
+/// As `memory` appends them.
+MemoryRows BoxFluidStep::memory_rows() const {
+    const std::size_t nx = static_cast<std::size_t>(box_.cells[0]);
+    const MemoryRows::Array cells{nx, 0}, single{};
+    const std::vector<MemoryRows::Array> flux{{nx + 1, 0}, {nx, 1}};
+    MemoryRows rows{static_cast<std::size_t>(first_row_),
+                    static_cast<std::size_t>(rows_.size()) / nx, flux};
+    const auto append = [&](const std::vector<MemoryRows::Array>& more) {
+        rows.arrays.insert(rows.arrays.end(), more.begin(), more.end());
+    };
+    if (coupled_) append({cells});
+    if (in_second_order_) append(flux), append({single, cells, cells});
+    return rows;
+}
+
 }  // namespace turbidite

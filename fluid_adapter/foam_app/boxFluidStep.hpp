@@ -37,6 +37,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     std::int64_t kind() const override { return in_second_order_ ? 4 : coupled_ ? 6 : 2; }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
+    MemoryRows memory_rows() const override;
 
  private:
     BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box, bool coupled);

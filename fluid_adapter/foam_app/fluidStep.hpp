@@ -42,6 +42,16 @@ struct TransportMethod {
     bool coupled = false;  ///< pressure and viscosity are corrected together with the grains
 };
 
+/// How `memory` is made of arrays over complete rows of the box, for another number of ranks.
+struct MemoryRows {
+    struct Array {
+        std::size_t width = 0;  ///< values per row; 0: a single value, the same on all ranks
+        std::size_t above = 0;  ///< rows beyond the rank's last one, which the next rank also has
+    };
+    std::size_t first = 0, count = 0;  ///< rows of this rank
+    std::vector<Array> arrays;         ///< one after the other; empty: in no such order
+};
+
 class FluidStep {
  public:
     virtual ~FluidStep() = default;
@@ -90,6 +100,7 @@ class FluidStep {
     virtual std::int64_t kind() const = 0;
     virtual std::vector<double> memory() = 0;
     virtual void set_memory(const std::vector<double>& values) = 0;
+    virtual MemoryRows memory_rows() const { return {}; }
 };
 
 /// The implementation that fits the case. `cells`: the number i + nx j in the grid of each of this

@@ -77,14 +77,21 @@ Kicks FoamAdapter::impose(const Window&) {
 
 SavedState FoamAdapter::save() const {
     window_->put_fields();
-    return save_fields(window_->fields(), window_->step());
+    const std::vector<int> cells = window_->field().cell_numbers();
+    return save_fields({window_->fields(), window_->step(), cells});
 }
 
 void FoamAdapter::restore(const SavedState& state) {
     with_foam_errors("restoring the fluid", [&] {
-        restore_fields(state, window_->fields(), window_->step());
+        const std::vector<int> cells = window_->field().cell_numbers();
+        restore_fields(state, {window_->fields(), window_->step(), cells});
         window_->fields_replaced();
     });
+}
+
+void FoamAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
+    const std::vector<int> cells = window_->field().cell_numbers();
+    restore(part_of(of_ranks, {window_->fields(), window_->step(), cells}));
 }
 
 const FluidTimings& FoamAdapter::timings() const {

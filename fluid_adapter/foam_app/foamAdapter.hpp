@@ -45,6 +45,7 @@ class FoamAdapter final : public FluidAdapter {
     Kicks impose(const Window& window) override;
     SavedState save() const override;
     void restore(const SavedState& state) override;
+    void restore_from(const std::vector<SavedState>& of_ranks) override;
 
     /// Timings of the last window.
     const FluidTimings& timings() const;

@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The restart state of the fluid: time, u, p (the first guess of the next projection) and the
-// steps' state beyond them. phi follows from these, and the multipliers start from zero in every
-// window.
+// The state of one fluid rank as bytes, for restart: u, p, time, and what the steps pass from
+// window to window, bit for bit.
 #pragma once
 
+#include <vector>
+
 #include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
 
-/// The restart state of this rank as bytes.
-SavedState save_fields(FluidFields& fields, FluidStep& step);
+/// A rank of the fluid: its fields, its steps, and the number i + nx j in the grid of each of its
+/// cells.
+struct FluidRank {
+    FluidFields& fields;
+    FluidStep& step;
+    const std::vector<int>& cells;
+};
 
-/// Throws Failure if the bytes belong to another mesh or decomposition.
-void restore_fields(const SavedState& state, FluidFields& fields, FluidStep& step);
+/// `step.put_velocity` and `put_pressure` must have been called. Collective.
+SavedState save_fields(const FluidRank& rank);
+
+/// Throws Failure (bad_input) if the state is that of another mesh, decomposition or step.
+void restore_fields(const SavedState& state, const FluidRank& rank);
+
+/// This rank's part of the states of all ranks of another decomposition. Throws Failure (bad_input)
+/// if they are not complete, or if the steps that wrote them do not work on rows of the box.
+SavedState part_of(const std::vector<SavedState>& of_ranks, const FluidRank& rank);
 
 }  // namespace turbidite

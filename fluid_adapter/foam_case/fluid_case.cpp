@@ -5,9 +5,12 @@
 
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
+#include <regex>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
 #include "fluid_adapter/foam_case/side_motion.hpp"
 
@@ -230,6 +233,29 @@ std::string transport_properties(const RunValues& run) {
 
 }  // namespace
 
+void write_decomposition(const Settings& settings, const std::filesystem::path& directory) {
+    const FluidDomain domain = fluid_domain(settings);
+    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings, domain));
+    if (splits_rows(settings, domain))
+        write(directory, "constant", "cellDecomposition", "labelList",
+              rank_of_cells(domain, settings.integer("fluid.ranks")));
+}
+
+void extend_fluid_case(const Settings& settings, const std::filesystem::path& directory) {
+    const std::filesystem::path file = directory / "system" / "controlDict";
+    std::ifstream in(file);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    static const std::regex entry(R"((^|\n)(\s*endTime\s+)[^;]*;)");
+    std::smatch old;
+    if (!std::regex_search(text, old, entry))
+        throw Failure(ExitCode::bad_input, file.string() + " has no entry endTime");
+    const RunValues run = run_values(settings);
+    const double end = run.step * static_cast<double>(run.windows);
+    write_whole(file, [&](std::ostream& out) {
+        out << old.prefix() << old[1] << old[2] << fmt::format("{:.17g};", end) << old.suffix();
+    });
+}
+
 void write_fluid_case(const Settings& settings, const std::filesystem::path& directory) {
     const FluidDomain domain = fluid_domain(settings);
     const RunValues run = run_values(settings);
@@ -237,11 +263,8 @@ void write_fluid_case(const Settings& settings, const std::filesystem::path& dir
     write(directory, "system", "fvSchemes", "dictionary", schemes(settings, domain));
     write(directory, "system", "fvSolution", "dictionary", solution(settings));
     write(directory, "system", "blockMeshDict", "dictionary", block_mesh(domain));
-    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings, domain));
+    write_decomposition(settings, directory);
     write(directory, "constant", "transportProperties", "dictionary", transport_properties(run));
-    if (splits_rows(settings, domain))
-        write(directory, "constant", "cellDecomposition", "labelList",
-              rank_of_cells(domain, settings.integer("fluid.ranks")));
     write(directory, "0", "U", "volVectorField", initial_velocity(domain, settings));
     write(directory, "0", "p", "volScalarField", initial_pressure(domain));
     // ParaView's reader opens a case by an empty file of this name.

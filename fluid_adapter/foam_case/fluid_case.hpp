@@ -15,6 +15,12 @@ namespace turbidite {
 /// case can express, and for files that cannot be written.
 void write_fluid_case(const Settings& settings, const std::filesystem::path& directory);
 
+/// The part of it that says which rank has which cells.
+void write_decomposition(const Settings& settings, const std::filesystem::path& directory);
+
+/// Sets the end of an existing case; whatever a user has changed in it stays.
+void extend_fluid_case(const Settings& settings, const std::filesystem::path& directory);
+
 /// Runs blockMesh on the case, with its output in `log`. Returns 0; throws Failure with blockMesh's
 /// own message if it is missing or fails.
 int build_fluid_mesh(const std::filesystem::path& directory, const std::filesystem::path& log);

@@ -176,6 +176,10 @@ std::vector<char> LammpsMdHost::migrate(const std::vector<char>& rows, std::size
     return fetch_rows(order_, rows, row_size, communicator_);
 }
 
+bool LammpsMdHost::on_all_ranks(bool here) {
+    return ranks_ == 1 ? here : !any_of_all(!here, communicator_);
+}
+
 std::vector<GrainId> LammpsMdHost::from_all_ranks(const std::vector<GrainId>& ids) {
     return gather_all(ids, communicator_);
 }

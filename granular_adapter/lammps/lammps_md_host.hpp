@@ -41,6 +41,7 @@ class LammpsMdHost final : public MdHost {
     bool shares_bodies() const override { return ranks_ > 1; }
     bool migrated() const override { return migrated_; }
     std::vector<char> migrate(const std::vector<char>& rows, std::size_t row_size) override;
+    bool on_all_ranks(bool here) override;
     std::vector<GrainId> from_all_ranks(const std::vector<GrainId>& ids) override;
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -87,10 +88,13 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     borders_ = lay_borders(settings);
     refuse_cyclic(borders_);
     refuse_other_shapes(shapes);
-    if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
-    add_grains(bodies_, run_, shapes, grains);
-    nscd::move(bodies_, bodies_.twist, -lead(), {});
-    check_inside(bodies_, borders_, "at the start");
+    agree([&] {
+        if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
+        add_grains(bodies_, run_, shapes, grains);
+        nscd::move(bodies_, bodies_.twist, -lead(), {});
+        check_inside(bodies_, borders_, "at the start");
+    });
+    if (broken_) return motion(bodies_);
     held_.assign(bodies_.size(), {});
     host_.create(settings, bodies_);
     follow_migration(nullptr);
@@ -129,14 +133,16 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
             "responses of the fluid were received " + in_window(window) +
             ", but molecular dynamics cannot use them: use coupling.scheme split");
     host_.read(bodies_);
-    check_inside(bodies_, borders_, in_window(window) + " before contacts");
+    agree([&] { check_inside(bodies_, borders_, in_window(window) + " before contacts"); });
+    advanced_ = true;
+    if (broken_) return motion(at_protocol_positions());
     nscd::Bodies sent = at_protocol_positions();
     std::vector<Load> loads;
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
     SubstepReport run = host_.run(substeps(window), loads);
     follow_migration(&sent);
     host_.read(bodies_);
-    check_inside(bodies_, borders_, in_window(window) + " after contacts");
+    agree([&] { check_inside(bodies_, borders_, in_window(window) + " after contacts"); });
     book_contacts(sent.twist, run, window.step);
     contacts_.reset();
     if (window.write_output) contacts_ = std::move(run.touching);
@@ -148,7 +154,6 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     report_.iterations = substep_count_;
     report_.max_penetration = run.max_penetration;
     report_.wall_seconds = seconds_since(start);
-    advanced_ = true;
     return motion(sent);
 }
 
@@ -180,13 +185,30 @@ Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kick
     if (!advanced_)
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
     advanced_ = false;
-    if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
-    check_inside(bodies_, borders_, in_window(window) + " after the kick");
-    remove_leavers();
+    agree([&] {
+        if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
+        check_inside(bodies_, borders_, in_window(window) + " after the kick");
+    });
+    if (!broken_) remove_leavers();
     report_.wall_seconds = seconds_since(start);
     Motion result = motion(at_protocol_positions());
     result.contacts = std::exchange(contacts_, std::nullopt);
     return result;
+}
+
+/// A check that may fail on one rank only: the others learn of it, so that they do not wait for
+/// that rank. They go on as if nothing had happened until the coupler ends the run.
+template <class Check>
+void MdAdapter::agree(Check check) {
+    std::exception_ptr failure;
+    try {
+        check();
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    const bool all_pass = broken_ ? false : host_.on_all_ranks(!failure);
+    if (failure) std::rethrow_exception(failure);
+    broken_ = !all_pass;
 }
 
 void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks) {

@@ -75,6 +75,8 @@ class MdAdapter final : public GrainsAdapter {
     Load load(std::size_t i, double dt) const;
     void book_contacts(const std::vector<nscd::Twist>& before, const SubstepReport& run, double dt);
     void take_kicks(const Window& window, const std::vector<Kick>& kicks);
+    template <class Check>
+    void agree(Check check);
     void remove_leavers();
     void follow_migration(nscd::Bodies* sent);
     nscd::Bodies at_protocol_positions() const;
@@ -92,6 +94,7 @@ class MdAdapter final : public GrainsAdapter {
     std::vector<std::uint8_t> touched_;
     std::optional<std::vector<ContactRecord>> contacts_;  ///< of this window, if it has output
     bool advanced_ = false;
+    bool broken_ = false;   ///< another rank has failed: nothing may be exchanged with it any more
     ContactReport report_;  ///< of this window
 };
 

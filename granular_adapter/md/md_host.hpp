@@ -89,6 +89,9 @@ class MdHost {
         return rows;
     }
 
+    /// Whether something is true on all ranks.
+    virtual bool on_all_ranks(bool here) { return here; }
+
     /// `ids` of all ranks.
     virtual std::vector<GrainId> from_all_ranks(const std::vector<GrainId>& ids) { return ids; }
 };

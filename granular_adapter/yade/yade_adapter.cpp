@@ -147,6 +147,11 @@ std::vector<char> YadeAdapter::contacts() {
     return contact_memory(engine_.engine());
 }
 
+SavedState YadeAdapter::save() const {
+    exchange_.read(engine_.bodies());
+    return engine_.save();
+}
+
 void YadeAdapter::restore(const SavedState& state) {
     engine_.restore(state);
     write_bodies();

@@ -32,7 +32,8 @@ class YadeAdapter final : public GrainsAdapter {
                       const std::vector<GrainState>& grains) override;
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override;
-    SavedState save() const override { return engine_.save(); }
+    /// With what others have changed in YADE since the last window.
+    SavedState save() const override;
     void restore(const SavedState& state) override;
 
     /// Contact memory, for scenes saved by YADE.
@@ -44,7 +45,7 @@ class YadeAdapter final : public GrainsAdapter {
     void erase_leavers(const std::vector<GrainId>& before);
 
     boost::python::object scene_;
-    NscdAdapter engine_;
+    mutable NscdAdapter engine_;  ///< save() reads bodies into it, as the next window would
     BodyExchange exchange_;
     BodyStates sides_;   ///< walls of the box in YADE, for display and recorders
     BodyStates plates_;  ///< walls inside the box in YADE

@@ -151,6 +151,25 @@ Finding repeats_itself(const Candidate& candidate, const std::filesystem::path& 
     return {Grade::met, "two equal runs are equal to the last digit"};
 }
 
+Finding goes_on(const Candidate& candidate, const std::filesystem::path& folder) {
+    const std::string output = "output.interval=0.1";
+    const TrialCase parts{"parts", above_the_floor, {"time.end=0.45", output}};
+    const Trial whole =
+        play_trial(candidate, {"whole", above_the_floor, {"time.end=1", output}}, folder);
+    if (!whole.done()) return failure_of(whole);
+    if (const Trial first = play_trial(candidate, parts, folder); !first.done())
+        return failure_of(first);
+    const std::optional<Trial> second = resume_trial(parts, {"time.end=1"}, folder);
+    if (!second) return {Grade::not_supported, "save and restore are not claimed"};
+    if (!second->done()) return failure_of(*second);
+    for (const char* column : {"mean_velocity_x", "mean_velocity_y", "mean_position_x",
+                               "mean_position_y", "mean_speed", "kinetic_energy"})
+        if (whole.history.at(column) != second->history.at(column))
+            return {Grade::failed,
+                    fmt::format("{} differs from that of a run in one part", column)};
+    return {Grade::met, "a run in two parts is equal to one in one part, to the last digit"};
+}
+
 }  // namespace
 
 const std::vector<Requirement>& requirements() {
@@ -163,6 +182,7 @@ const std::vector<Requirement>& requirements() {
         {"announces grains that leave", loses_grains, true},
         {"ends in order on a stop request", stops_on_request, false},
         {"repeats itself", repeats_itself, false},
+        {"goes on from a checkpoint", goes_on, true},
     };
     return list;
 }

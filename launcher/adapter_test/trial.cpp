@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "launcher/job/job.hpp"
-#include "launcher/job/play_run.hpp"
+#include "launcher/job/resume_run.hpp"
 #include "launcher/job/run_json.hpp"
 
 namespace turbidite {
@@ -65,6 +65,29 @@ double Trial::last(const std::string& column) const {
     return at == history.end() || at->second.empty() ? NAN : at->second.back();
 }
 
+namespace {
+
+/// The launch site with a scripted fluid.
+LaunchSite trial_site() {
+    LaunchSite site = this_site();
+    site.programs.other_fluid = site.programs.partner();
+    return site;
+}
+
+Trial played(const PreparedRun& prepared, const Settings& settings, const std::string& name) {
+    ::setenv("TURBIDITE_PROGRESS", "plain", 1);
+    const JobEnd end = run_job({.arguments = prepared.line,
+                                .error_log = prepared.folder.log("mpirun"),
+                                .output_log = prepared.folder.log("output"),
+                                .request_stop = [](int) { return false; }});
+    if (end.signal != 0)
+        throw Failure(ExitCode::interrupted, "adapter-test was interrupted in \"" + name + "\"");
+    return {settle_outcome(prepared.folder, end, prepared.ranks),
+            read_history(prepared.folder.history()), balance_of(prepared.folder), settings};
+}
+
+}  // namespace
+
 Trial play_trial(const Candidate& candidate, const TrialCase& trial,
                  const std::filesystem::path& folder) {
     const auto root = folder / trial.name;
@@ -72,21 +95,19 @@ Trial play_trial(const Candidate& candidate, const TrialCase& trial,
     write(root / "grains.csv", trial.grains);
     write(root / "trial.yaml", common_case);
     const ResolvedCase resolved = load_case(root / "trial.yaml", overrides_of(candidate, trial));
-    LaunchSite site = this_site();
-    site.programs.other_fluid = site.programs.partner();
-    const PreparedRun prepared = prepare(resolved, {root / "run", true}, site);
+    const PreparedRun prepared = prepare(resolved, {root / "run", true}, trial_site());
     if (trial.stop_at_once) write(prepared.folder.stop(), "143\n");
-    ::setenv("TURBIDITE_PROGRESS", "plain", 1);
-    const JobEnd end = run_job({.arguments = prepared.line,
-                                .error_log = prepared.folder.log("mpirun"),
-                                .output_log = prepared.folder.log("output"),
-                                .request_stop = [](int) { return false; }});
-    if (end.signal != 0)
-        throw Failure(ExitCode::interrupted,
-                      "adapter-test was interrupted in \"" + trial.name + "\"");
-    return {settle_outcome(prepared.folder, end, prepared.ranks),
-            read_history(prepared.folder.history()), balance_of(prepared.folder),
-            resolved.settings};
+    return played(prepared, resolved.settings, trial.name);
+}
+
+std::optional<Trial> resume_trial(const TrialCase& trial, const std::vector<std::string>& changes,
+                                  const std::filesystem::path& folder) {
+    const RunFolder run{folder / trial.name / "run"};
+    if (!std::filesystem::exists(run.checkpoints())) return std::nullopt;
+    const auto silent = [](const std::string&) {};
+    const auto resumed = prepare_resumption(run.root, changes, trial_site(), silent);
+    if (!resumed) throw Failure(ExitCode::participant_failed, "the trial was complete");
+    return played(resumed->run, load_run_folder(run.root).settings, trial.name);
 }
 
 }  // namespace turbidite

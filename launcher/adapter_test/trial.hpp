@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,10 @@ struct Trial {
 /// adapter refuses the case before anything starts.
 Trial play_trial(const Candidate& candidate, const TrialCase& trial,
                  const std::filesystem::path& folder);
+
+/// Goes on with a trial that has been played, as `turbidite resume --set CHANGES`; empty if it has
+/// no checkpoint.
+std::optional<Trial> resume_trial(const TrialCase& trial, const std::vector<std::string>& changes,
+                                  const std::filesystem::path& folder);
 
 }  // namespace turbidite

@@ -519,13 +519,15 @@ ResolvedCase load_case(const std::filesystem::path& file, const std::vector<std:
     return result;
 }
 
-ResolvedCase load_run_folder(const std::filesystem::path& folder) {
+ResolvedCase load_run_folder(const std::filesystem::path& folder,
+                             const std::vector<std::string>& overrides) {
     const RunFolder paths{folder};
-    ResolvedCase result =
-        resolve(read_case_entries(paths.resolved_case(), {}), folder, {paths.initial_grains(), {}});
+    ResolvedCase result = resolve(read_case_entries(paths.resolved_case(), overrides), folder,
+                                  {paths.initial_grains(), {}});
     result.name = std::filesystem::absolute(folder).lexically_normal().filename().string();
     // Every program of the job hashes the file itself, which may have been edited by hand.
-    result.settings.set("run.hash", case_hash(file_text(paths.resolved_case())));
+    if (overrides.empty())
+        result.settings.set("run.hash", case_hash(file_text(paths.resolved_case())));
     return result;
 }
 

@@ -41,7 +41,8 @@ ResolvedCase load_case(const std::filesystem::path& file,
                        const std::string& from = "");
 
 /// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: the folder prepared by `turbidite
-/// run`.
-ResolvedCase load_run_folder(const std::filesystem::path& folder);
+/// run`. With overrides the case is another one, which the folder does not have yet.
+ResolvedCase load_run_folder(const std::filesystem::path& folder,
+                             const std::vector<std::string>& overrides = {});
 
 }  // namespace turbidite

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "coupler/protocol/run_files.hpp"
+
 namespace turbidite {
 
 struct RunFolder {
@@ -28,9 +30,10 @@ struct RunFolder {
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
 
-    /// If this file exists, the coupler completes and writes one more window and ends the run. Its
-    /// text is the exit code, 130 or 143.
-    std::filesystem::path stop() const { return root / "STOP"; }
+    std::filesystem::path checkpoints() const { return root / "checkpoints"; }
+
+    /// Requests of a user (coupler/hub/requests.hpp).
+    std::filesystem::path stop() const { return root / stop_file; }
 };
 
 }  // namespace turbidite

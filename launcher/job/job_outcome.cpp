@@ -184,6 +184,12 @@ void keep_outcome(const RunFolder& folder, nlohmann::ordered_json record, JobOut
     }
 }
 
+std::string how_to_go_on(const RunFolder& folder) {
+    if (!std::filesystem::exists(folder.checkpoints())) return "";
+    return fmt::format("Go on from the last checkpoint: turbidite resume {}\n",
+                       folder.root.string());
+}
+
 }  // namespace
 
 JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
@@ -210,10 +216,10 @@ std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
             std::filesystem::exists(folder.fluid()) ? " and fluid/fluid.foam" : "");
     const bool asked_for =
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
-    return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n",
+    return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n{}",
                        asked_for ? "Interrupted: " : "The run failed: ", outcome.error,
                        asked_for ? "" : last_words(folder, outcome), folder.root.string(),
-                       static_cast<int>(outcome.code));
+                       static_cast<int>(outcome.code), how_to_go_on(folder));
 }
 
 std::string last_words(const RunFolder& folder, const JobOutcome& outcome) {

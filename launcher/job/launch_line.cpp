@@ -117,11 +117,13 @@ std::vector<std::string> mpirun_options(const LaunchSite& site) {
 }
 
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
-                                          const LaunchSite& site) {
+                                          const LaunchSite& site, const std::string& checkpoint) {
     const Programs& programs = site.programs;
     Arguments line = mpirun_options(site);
     Parts parts(site, folder);
-    parts.add("coupler", 1, {programs.coupler(), folder.root});
+    Arguments coupler{programs.coupler(), folder.root};
+    if (!checkpoint.empty()) coupler.push_back(checkpoint);
+    parts.add("coupler", 1, coupler);
     if (settings.flag("fluid.enabled")) parts.add("fluid", settings, programs);
     parts.add("grains", settings, programs);
     append(line, parts.line());

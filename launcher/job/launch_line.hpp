@@ -34,8 +34,10 @@ LaunchSite this_site();
 /// `mpirun` and the options it needs on this site, before the first program.
 std::vector<std::string> mpirun_options(const LaunchSite& site);
 
+/// `checkpoint`: the name of the set from which the run goes on; empty: from the beginning.
 std::vector<std::string> launch_arguments(const Settings& settings, const RunFolder& folder,
-                                          const LaunchSite& site);
+                                          const LaunchSite& site,
+                                          const std::string& checkpoint = "");
 
 /// The same with a recording in the place of the coupler and of the other participant; `role` is
 /// "grains" or "fluid".

@@ -9,16 +9,15 @@
 #include <ctime>
 #include <fstream>
 
+#include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/command_words.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/run_json.hpp"
 
 namespace turbidite {
-namespace {
-
-namespace fs = std::filesystem;
 
 std::string local_time(const char* form) {
     const std::tm now = fmt::localtime(std::time(nullptr));
@@ -26,6 +25,10 @@ std::string local_time(const char* form) {
     std::strftime(text, sizeof text, form, &now);
     return text;
 }
+
+namespace {
+
+namespace fs = std::filesystem;
 
 bool is_plain(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
@@ -58,9 +61,11 @@ bool is_run_folder(const RunFolder& folder) {
 void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
-          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.stop(),
+          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.checkpoints(),
+          folder.stop(), folder.root / write_file, folder.root / checkpoint_file,
           folder.recording("grains").parent_path(), folder.root / "differences"})
         fs::remove_all(part);
+    CheckpointSets(folder.root).remove_unfinished();
 }
 
 Failure folder_refused(const fs::path& out, const std::string& fault, const std::string& remedy) {
@@ -70,11 +75,7 @@ Failure folder_refused(const fs::path& out, const std::string& fault, const std:
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-    std::ofstream output(file, std::ios::binary);
-    output << text;
-    if (!output.flush())
-        throw Failure(ExitCode::participant_failed,
-                      "cannot write " + file.string() + ": is the disk full?");
+    write_whole(file, [&](std::ostream& out) { out << text; });
 }
 
 /// By the shape index of the grains; corners as x, y for unit circumscribed radius.
@@ -83,6 +84,14 @@ nlohmann::ordered_json shape_table(const ShapeTable& shapes) {
     for (const ShapeRecord& shape : shapes)
         table.push_back({{"kind", shape.kind}, {"vertices", shape.vertices}});
     return table;
+}
+
+/// `turbidite resume` adds others.
+nlohmann::ordered_json first_part() {
+    return {{"started", local_time("%Y-%m-%dT%H:%M:%S%z")},
+            {"from_window", 0},
+            {"windows_done", 0},
+            {"status", "prepared"}};
 }
 
 nlohmann::ordered_json first_record(const ResolvedCase& resolved,
@@ -111,7 +120,8 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved,
             {"shapes", shape_table(resolved.shapes)},
             {"windows", resolved.settings.integer("run.windows")},
             {"notes", resolved.notes},
-            {"command", shell_line(command)}};
+            {"command", shell_line(command)},
+            {"parts", {first_part()}}};
 }
 
 }  // namespace
@@ -161,11 +171,12 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
 
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command) {
-    write_text(folder.resolved_case(), resolved.yaml);
     write_text(folder.initial_grains(), resolved.grains_csv);
     if (!resolved.walls_csv.empty()) write_text(folder.walls(), resolved.walls_csv);
     if (resolved.settings.has("grains.script"))
         write_text(folder.root / resolved.settings.text("grains.script"), resolved.script);
+    // After the files that it names: a folder with a case can be read, whenever this program ends.
+    write_text(folder.resolved_case(), resolved.yaml);
     write_run_json(folder.record(), first_record(resolved, command));
     if (!resolved.settings.flag("fluid.enabled")) return;
     write_fluid_case(resolved.settings, folder.fluid());

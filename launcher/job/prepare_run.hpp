@@ -37,6 +37,9 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name);
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command);
 
+/// The present time, as strftime writes it.
+std::string local_time(const char* form);
+
 /// Throws Failure (exit code 2) naming a program of the job that is not built or not installed.
 void require_programs(const Settings& settings, const std::vector<std::filesystem::path>& needed);
 

@@ -22,6 +22,7 @@ import run_data
 import seeds
 import surface
 from differences import common_span, difference
+from measured import MEASURED
 from page import write_whole
 from working import Progress
 
@@ -120,7 +121,7 @@ def check_spans(members):
 def measure(members):
     shown = quantities_of(members)
     return Comparison(
-        members, shown, parameters(members), [wall_seconds(member.data) for member in members],
+        members, shown, parameters(members), [findings.wall_seconds(member.data) for member in members],
         {m.name: {q.column: numbers(members[0], m, q.column) for q in shown} for m in members},
         {m.name: peaks.peaks(m) for m in members}, peaks.pairs(members),
         {m.name: member_surface(m) for m in members})
@@ -131,15 +132,6 @@ def parameters(members):
     keys = dict.fromkeys(key for member in members for key in member.data.case)
     rows = [(key, [member.data.case.get(key, '') for member in members]) for key in keys]
     return [(key, values) for key, values in rows if len(set(values)) > 1]
-
-
-def wall_seconds(run):
-    """Wall time (of the run, mean per window), over the windows covered by the history."""
-    wall = findings.wall_time(run)
-    if wall is None:
-        return None, None
-    total = wall.total(wall.window)
-    return total, total / float(wall.windows.sum())
 
 
 def numbers(first, member, column):
@@ -192,6 +184,7 @@ def described(comparison, member, wall):
             'penetration': findings.largest(member.data, 'max_penetration', 'penetration'),
             'unconverged_windows': findings.largest(member.data, '', 'unconverged_windows'),
             'peak': asdict(peak) if peak else None,
+            'measured': {one.name: [one.of(run) for run in member.runs] for one in MEASURED},
             'surface': {name: getattr(top, name).tolist() for name in ('x', 'height', 'low', 'high')}
             if top else None,
             'quantities': comparison.measured[member.name]}

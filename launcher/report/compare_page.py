@@ -5,6 +5,7 @@ import numpy as np
 
 import curves
 import findings
+import measured
 import member_pictures
 import run_data
 import surface
@@ -42,6 +43,7 @@ def make_page(comparison):
     add_peaks(page, comparison)
     add_surfaces(page, comparison)
     add_concentration(page, members)
+    add_analysis(page, members)
     add_differences(page, comparison)
     remarks = [f'{member.name}: {remark}' for member in members for remark in member.data.remarks]
     if remarks:
@@ -232,6 +234,14 @@ def add_concentration(page, members):
     page.heading('Concentration over height')
     page.panels([(figure, 'concentration')], 'Solid share of layers of one D'
                 + (', first seeds.' if any(member.is_group() for member in members) else '.'))
+
+
+def add_analysis(page, members):
+    """The numbers of docs/analysis.md; of groups mean, smallest and largest."""
+    rows = measured.table(measured.ANALYSIS, members)
+    if rows:
+        page.heading('Analysis')
+        page.table(rows, header=[''] + [member.name for member in members], css='numbers')
 
 
 # --- differences from the first -----------------------------------------------------------------------

@@ -62,3 +62,12 @@ def wall_time(run):
     parts = {name: np.nan_to_num(run.history[column][given]) for column, name in PARTICIPANTS
              if len(run.column(column)[1])}
     return WallTime(run.history['time'][given], windows[given], run.history['wall_step'][given], parts)
+
+
+def wall_seconds(run):
+    """Wall time (of the run, mean per window), over the windows covered by the history."""
+    wall = wall_time(run)
+    if wall is None:
+        return None, None
+    total = wall.total(wall.window)
+    return total, total / float(wall.windows.sum())

@@ -17,6 +17,7 @@ class Grains:
     velocities: np.ndarray = None  # (n, 2)
     outlines: dict = None          # index of a polygon: its corners (k, 2)
     forces: np.ndarray = None      # (n, 2) of the fluid, buoyancy apart
+    densities: np.ndarray = None   # (n,)
 
     def speeds(self):
         return None if self.velocities is None else np.hypot(*self.velocities.T)
@@ -52,6 +53,7 @@ def read_grains(time, path):
         grains.ids = arrays['id'].astype(np.int64)
     if 'velocity' in arrays:
         grains.velocities = in_plane(arrays['velocity'])
+    grains.densities = arrays.get('density')
     if 'force' in arrays:
         grains.forces = in_plane(arrays['force'])
     corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))

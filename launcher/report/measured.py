@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import compare
 import curves
 import findings
 import peaks
@@ -89,10 +88,10 @@ MEASURED = [
              'ρ_f u_c² D', end_norm('fluid_force_x', 'fluid_force_y')),
     Measured('overlap', 'Largest overlap', r'overlap $/\,D$', 'D', maximum('max_penetration', 'penetration')),
     Measured('grain_balance', 'Defect of the grains\' momentum', RELATIVE, RELATIVE,
-             maximum('grain_balance', 'grain_balance')),
+             lambda run: maximum('grain_balance', 'grain_balance')(run) if run.is_wet() else None),
     Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', 'windows',
              maximum('', 'unconverged_windows')),
-    Measured('wall_seconds', 'Wall time', 's', 's', lambda run: compare.wall_seconds(run)[0]),
+    Measured('wall_seconds', 'Wall time', 's', 's', lambda run: findings.wall_seconds(run)[0]),
     Measured('run_out', 'Run-out', r'$(L - L_0)\,/\,L_0$', RELATIVE, of_found(deposit.deposit, 'run_out')),
     Measured('heap_height', 'Height of the heap', r'$H\,/\,D$', 'D', of_found(deposit.deposit, 'top')),
     Measured('heap_slope', 'Slope of the heap', DEGREES, '°', of_found(deposit.deposit, 'slope')),
@@ -124,3 +123,27 @@ MEASURED = [
 ]
 DRAWN = ('peak_velocity', 'peak_time', 'relaxation_time', 'rest_time', 'end_front', 'end_height', 'run_out', 'slip_angle',
          'pore_change', 'wall_seconds')
+ANALYSIS = [one for one in MEASURED if one.name == 'relaxation_time' or MEASURED.index(one) >= [
+    m.name for m in MEASURED].index('run_out')]  # what no other table of a comparison tells
+
+
+def number(value):
+    return '' if value is None else f'{value:.4g}'
+
+
+def spread(values):
+    """`mean (smallest to largest)` of those that are known, and of how many."""
+    known = [value for value in values if value is not None]
+    if not known:
+        return ''
+    mean = number(float(np.mean(known)))
+    if len(known) < len(values):
+        mean += f' of {len(known)}'
+    return mean if min(known) == max(known) else f'{mean} ({number(min(known))} to {number(max(known))})'
+
+
+def table(quantities, members):
+    """A row per quantity that some run of the members has: its title with the unit, then a cell per member."""
+    found = [(one, [[one.of(run) for run in member.runs] for member in members]) for one in quantities]
+    return [[f'{one.title} [{one.plain_unit}]'] + [spread(values) for values in cells]
+            for one, cells in found if any(value is not None for values in cells for value in values)]

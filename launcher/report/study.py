@@ -22,7 +22,7 @@ import compare_page
 import curves
 import run_data
 import seeds
-from measured import DRAWN, MEASURED
+from measured import DRAWN, MEASURED, table
 from page import Page, write_whole
 from paper import add as paper
 from working import Progress
@@ -56,11 +56,11 @@ def swept_keys(runs):
 def as_csv(runs):
     keys = swept_keys(runs)
     text = io.StringIO()
-    table = csv.writer(text, lineterminator='\n')
-    table.writerow(['part', 'run', *keys, 'status', *[m.name for m in MEASURED], 'error'])
+    rows = csv.writer(text, lineterminator='\n')
+    rows.writerow(['part', 'run', *keys, 'status', *[m.name for m in MEASURED], 'error'])
     for run in runs:
         values = [m.of(run.data) if run.data.history is not None else None for m in MEASURED]
-        table.writerow([run.entry['part'], run.entry['name'], *[run.entry['values'].get(key, '') for key in keys],
+        rows.writerow([run.entry['part'], run.entry['name'], *[run.entry['values'].get(key, '') for key in keys],
                         run.entry['status'], *['' if v is None else repr(float(v)) for v in values],
                         run.entry['error']])
     return text.getvalue()
@@ -115,22 +115,11 @@ def add_part(page, part, runs):
 
 def add_table(page, members, keys, values):
     """A row per quantity, a column per member."""
-    shown = [m for m in MEASURED if any(m.of(run) is not None for member in members for run in member.runs)]
-    page.table([[f'{m.title} [{m.plain_unit}]'] + [spread([m.of(run) for run in member.runs]) for member in members]
-                for m in shown], css='numbers',
-               header=['', *[', '.join([*(values[member.name].get(key, '') for key in keys),
+    page.table(table(MEASURED, members), css='numbers',
+               header=['', *[', '.join([*(f'{seeds_word(key)} {values[member.name][key]}'.strip() for key in keys
+                                          if values[member.name].get(key)),
                                         f'{len(member.runs)} runs' if member.is_group() else '']).strip(', ')
                              or member.name for member in members]])
-
-
-def spread(values):
-    known = [value for value in values if value is not None]
-    if not known:
-        return ''
-    mean = compare_page.number(float(np.mean(known)))
-    if len(known) < len(values):
-        mean += f' of {len(known)}'
-    return mean if len(known) == 1 else f'{mean} ({compare_page.span((min(known), max(known)))})'
 
 
 def numbers_of(key, members, values):

@@ -45,6 +45,7 @@ RULES = [
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
     ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
     ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "output does not depend on who computed it"),
+    ("coupler/checkpoint/*.[hc]pp", [MPI, TRANSPORT, HUB, OUTPUT, YAML, LAUNCHER], "a checkpoint is a folder of files"),
     ("coupler/hub/**/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM, LAUNCHER], "the hub sees channels, and no host"),
     # Dependencies between the top folders: launcher -> adapters -> coupler, never the reverse.
     ("coupler/**/*.[hc]pp", [LAUNCHER, BENCH, ADAPTERS, PYTHON, YADE], "the coupler depends neither on adapters nor on the launcher"),

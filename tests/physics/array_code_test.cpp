@@ -63,7 +63,7 @@ TEST(ArrayCode, ComputesOurWindowWithoutGrains) {
     array_code::PlaneFlow theirs(box, start);
 
     for (int n = 0; n < 20; ++n) {
-        const Window window{n, n * setup.step, setup.step, false, false};
+        const Window window{n, n * setup.step, setup.step, false};
         ours.advance(window);
         ours.correct(window, {});
         ours.impose(window);

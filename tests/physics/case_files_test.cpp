@@ -84,7 +84,7 @@ TEST(CaseFiles, AnUnknownSchemeIsAFailureWithTheMessageOfOpenFoam) {
     FoamAdapter adapter(folder.path());
     adapter.initialise(settings, {ShapeRecord{"disc", {}}});
     try {
-        adapter.advance({0, 0.0, 0.01, false, false});
+        adapter.advance({0, 0.0, 0.01, false});
         FAIL();
     } catch (const Failure& failure) {
         EXPECT_NE(std::string(failure.what()).find("nosuchscheme"), std::string::npos)

@@ -138,7 +138,7 @@ ImmersedBody CoupledRun::body() const {
 
 void CoupledRun::advance(bool write_output) {
     const Window window{window_, static_cast<double>(window_) * setup_.step, setup_.step,
-                        write_output, false};
+                        write_output};
     before_ = grains_;
     fluid_.advance(window);
     const Motion motion = contact_.advance(window, {});

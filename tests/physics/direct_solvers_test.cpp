@@ -165,7 +165,7 @@ TEST(DirectSolversByOperators, TakeAFixedValueOtherThanZero) {
     fluid.initialise(settings_of(setup), {ShapeRecord{"disc", {}}});
     for (int n = 0; n < 5; ++n) {
         reference.advance();
-        const Window window{n, n * setup.step, setup.step, false, false};
+        const Window window{n, n * setup.step, setup.step, false};
         fluid.advance(window);
         fluid.correct(window, reference.between());
         fluid.impose(window);

@@ -73,10 +73,10 @@ TEST(SettlingDiscRefusal, NotANumberNamesStepAndWindow) {
     run.advance();
     std::vector<GrainState> bad = run.grains();
     bad[0].velocity[0] = std::nan("");
-    run.fluid().advance({1, setup.step, setup.step, false, false});
+    run.fluid().advance({1, setup.step, setup.step, false});
     try {
-        run.fluid().correct({1, setup.step, setup.step, false, false}, bad);
-        run.fluid().impose({1, setup.step, setup.step, false, false});
+        run.fluid().correct({1, setup.step, setup.step, false}, bad);
+        run.fluid().impose({1, setup.step, setup.step, false});
         FAIL() << "accepted a velocity that is not a number";
     } catch (const PhysicsRefused& refused) {
         EXPECT_NE(std::string(refused.what()).find("step 5"), std::string::npos) << refused.what();
@@ -96,11 +96,11 @@ TEST(SettlingDiscRefusal, AProjectionThatDoesNotConvergeNamesStepAndWindow) {
         << "solvers { p { maxIter 2; } }\n";
     FoamAdapter fluid(folder.path());
     fluid.initialise(settings_of(setup), {ShapeRecord{"disc", {}}});
-    fluid.advance({0, 0.0, setup.step, false, false});  // fluid at rest: nothing to solve
-    fluid.correct({0, 0.0, setup.step, false, false}, {disc_at(setup, 2.0, 2.0, 0.0, -0.1)});
-    fluid.impose({0, 0.0, setup.step, false, false});
+    fluid.advance({0, 0.0, setup.step, false});  // fluid at rest: nothing to solve
+    fluid.correct({0, 0.0, setup.step, false}, {disc_at(setup, 2.0, 2.0, 0.0, -0.1)});
+    fluid.impose({0, 0.0, setup.step, false});
     try {
-        fluid.advance({1, setup.step, setup.step, false, false});
+        fluid.advance({1, setup.step, setup.step, false});
         FAIL() << "went on without a pressure";
     } catch (const PhysicsRefused& refused) {
         EXPECT_NE(std::string(refused.what()).find("step 1 (projection) of window 1"),
@@ -129,7 +129,7 @@ TEST(SettlingDiscState, RestoredFluidGoesOnTheSame) {
     for (int n = 0; n < 5; ++n) run.advance();
     const SavedState saved = run.fluid().save();
     const std::vector<GrainState> grains = run.grains();
-    const Window next{5, 5 * setup.step, setup.step, false, false};
+    const Window next{5, 5 * setup.step, setup.step, false};
 
     run.fluid().advance(next);
     run.fluid().correct(next, grains);
@@ -150,7 +150,7 @@ TEST(SettlingDiscState, RestoredSplittingsGoOnTheSame) {
         CoupledRun run(setup, {disc_at(setup, 2.03, 3.0)});
         const std::vector<GrainState> grains = run.grains();
         const auto play = [&](int n) {
-            const Window window{n, n * setup.step, setup.step, false, false};
+            const Window window{n, n * setup.step, setup.step, false};
             run.fluid().advance(window);
             run.fluid().let_fall(window, grains);
             run.fluid().correct(window, grains);

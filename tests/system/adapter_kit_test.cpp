@@ -48,6 +48,15 @@ class AdapterKit : public ShellTest {
         for (std::size_t i = 0; i < mine.size(); ++i)
             EXPECT_NEAR(mine[i], reference[i], tolerance) << i;
     }
+
+    /// The run that has just been played, in two parts.
+    void expect_goes_on(const std::string& command, const std::string& more = "") const {
+        const std::vector<double> whole = fall("run");
+        ASSERT_EQ(run_external(command, more + " --set time.end=0.73").code, 0);
+        const Answer answer = shell("timeout 60 " TURBIDITE_PROGRAM " resume run --set time.end=2");
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_EQ(fall("run"), whole) << command;
+    }
 };
 
 TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine) {
@@ -59,10 +68,13 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
     ASSERT_EQ(build.code, 0) << build.out << build.err;
     ASSERT_EQ(run("", "reference").code, 0);
     expect_settled(run_external("mine/build/springs"), "springs", 1e-3);
+    expect_goes_on("mine/build/springs");
     expect_settled(run_external("/usr/bin/python3 mine/springs.py"), "springs-py", 1e-3);
+    expect_goes_on("/usr/bin/python3 mine/springs.py");
     // Grains that touch nothing sink into each other: as long as they are apart they fall alike.
     expect_settled(run_external("mine/build/falling", "--set limits.penetration=10"), "falling-c",
                    0.05);
+    expect_goes_on("mine/build/falling", "--set limits.penetration=10");
 }
 
 TEST_F(AdapterKit, CheckSaysWhetherTheProgramIsThere) {

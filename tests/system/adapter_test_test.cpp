@@ -24,7 +24,7 @@ TEST_P(ShippedAdapter, Conforms) {
     for (const char* requirement :
          {"falls freely without a fluid", "settles in a linear drag (split)",
           "lands and comes to rest", "collides and keeps momentum", "announces grains that leave",
-          "ends in order on a stop request", "repeats itself"})
+          "ends in order on a stop request", "repeats itself", "goes on from a checkpoint"})
         EXPECT_SAYS(answer.out, std::string("ok    ") + requirement);
     const bool springs = std::string(GetParam()).ends_with("-md");
     EXPECT_SAYS(answer.out,

@@ -12,6 +12,9 @@
         def advance(self, window, responses): ...             # -> Motion, the contacts (step 4)
         def apply_kick(self, window, kicks): ...              # -> Motion, the state at the end
 
+        def save(self): ...                                   # -> bytes; with restore: checkpoints
+        def restore(self, state): ...                         # goes on from these bytes
+
     turbidite.run_grains(MyCode(), sys.argv[-1])
 
 The calls mean what docs/write-an-adapter.md says, units and fields are those of coupler/protocol/records.hpp.
@@ -25,16 +28,18 @@ import struct
 import sys
 import time
 import traceback
+import zlib
 
 import numpy
 from mpi4py import MPI
 
-PROTOCOL = (1, 6)
+PROTOCOL = (1, 7)
 GRAINS = 2                          # the role
 FIRST_COLOUR, ANNOUNCEMENT_TAG, INTERCOMM_TAG, FRAME_TAG = 1000, 1000, 1010, 7
 MAGIC = 0x7469646962727574          # "turbidit"
 HELLO, SETTINGS, SHAPES, POPULATION, ORDER = 1, 2, 3, 4, 6
 WINDOW, CONTACT_INPUT, MOTION, KICK_MESSAGE, STATE = 10, 12, 13, 16, 17
+SAVE, SAVED, RESTORE, RESTORED = 20, 21, 22, 23
 FAILURE, DISMISS, FAREWELL, RELEASE = 90, 91, 92, 93
 PARTICIPANT_FAILED, STALLED, PHYSICS_REFUSED = 4, 5, 6
 
@@ -57,7 +62,7 @@ KICK = _record('id#', ('velocity', 3), ('angular_velocity', 3), ('multiplier_imp
 RESPONSE = _record('id#', ('velocity', 3), ('angular_velocity', 3), ('inertia', 21), 'mismatch')
 
 Shape = collections.namedtuple('Shape', 'kind vertices')
-Window = collections.namedtuple('Window', 'index time step write_output write_checkpoint')
+Window = collections.namedtuple('Window', 'index time step write_output')
 
 
 class PhysicsRefused(Exception):
@@ -155,6 +160,10 @@ def _encode_motion(motion):
         _integers(motion.removed), struct.pack('<d', motion.wall_seconds),
         _maybe(None), _maybe(None),                     # quad, max
         _integers(0)))                                  # single contacts: not sent
+
+
+def _saves_state(adapter):
+    return hasattr(adapter, 'save') and hasattr(adapter, 'restore')
 
 
 def _case_hash(run_folder):
@@ -258,7 +267,7 @@ class _Run:
             _integers(GRAINS, *PROTOCOL), _text(adapter.name), _text(adapter.version), _text(adapter.host_code),
             _integers(2, local.rank, local.size), _text(socket.gethostname()), _integers(os.getpid()),
             _text(_log_file(self.run_folder, local)), _text(_case_hash(self.run_folder)),
-            _integers(False, False, False, getattr(adapter, 'native_substeps', False),
+            _integers(_saves_state(adapter), False, _saves_state(adapter), getattr(adapter, 'native_substeps', False),
                       getattr(adapter, 'effective_inertia', False)),
             _texts(getattr(adapter, 'shapes', ['disc'])), _texts(getattr(adapter, 'contact_laws', []))))
 
@@ -282,11 +291,46 @@ class _Run:
         self.solved = True
         return self.adapter.advance(self.present, responses)
 
+    def file(self, folder, name):
+        return os.path.join(self.run_folder, folder, name)
+
+    def save(self, reader):
+        """Writes the adapter's state; if it cannot, this checkpoint is given up and the run goes on."""
+        folder, name = reader.text(), f'grains.rank{self.local.rank}'
+        size, checksum, fault = 0, 0, ''
+        try:
+            state = bytes(self.adapter.save())
+            with open(self.file(folder, name), 'wb') as file:
+                file.write(state)
+                file.flush()
+                os.fsync(file.fileno())
+            size, checksum = len(state), zlib.crc32(state)
+        except Exception as error:
+            traceback.print_exc()
+            fault = f'{type(error).__name__}: {error}'
+        self.coupler.send(SAVED, _text(name) + _integers(size, checksum) + _text(fault))
+
+    def restore(self, reader):
+        folder, _ = reader.text(), reader.integer()
+        parts = reader.list(lambda: (reader.text(), reader.integer(), reader.integer()))
+        if len(parts) != self.local.size:
+            raise ValueError(f'the checkpoint was written by {len(parts)} grains ranks; go on with the same grains.ranks')
+        name, size, checksum = parts[self.local.rank]
+        with open(self.file(folder, name), 'rb') as file:
+            state = file.read()
+        if (len(state), zlib.crc32(state)) != (size, checksum):
+            raise ValueError(f'{self.file(folder, name)} is damaged')
+        self.adapter.restore(state)
+        self.coupler.send(RESTORED)
+
     def take(self):
-        kind, reader = self.coupler.receive(WINDOW, CONTACT_INPUT, KICK_MESSAGE)
-        if kind == WINDOW:
-            self.present = Window(reader.integer(), reader.real(), reader.real(), reader.integer() != 0,
-                                  reader.integer() != 0)
+        kind, reader = self.coupler.receive(WINDOW, CONTACT_INPUT, KICK_MESSAGE, SAVE, RESTORE)
+        if kind == SAVE:
+            self.save(reader)
+        elif kind == RESTORE:
+            self.restore(reader)
+        elif kind == WINDOW:
+            self.present = Window(reader.integer(), reader.real(), reader.real(), reader.integer() != 0)
             self.solved = False
             if self.reply.get(WINDOW) == MOTION:
                 self.coupler.send(MOTION, _encode_motion(self.solve(numpy.zeros(0, RESPONSE))))

@@ -62,8 +62,10 @@ def largest_change(run):
     found = pore_curve(run)
     if found is None:
         return None
-    initial = found.change[:int(np.argmax(found.displacement >= AT)) or None]
-    return float(initial[np.abs(initial).argmax()]) if len(initial) else None
+    there = change_at(run)
+    initial = found.change if there is None else np.append(
+        found.change[:int(np.argmax(found.displacement >= AT))], there)
+    return float(initial[np.abs(initial).argmax()])
 
 
 def change_per_cell(run, snapshot):

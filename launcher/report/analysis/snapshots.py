@@ -37,6 +37,7 @@ class Snapshot:
     areas: np.ndarray       # (n,) solid [D^2]
     fluid_force: np.ndarray  # (n, 2) buoyancy apart [rho_s g D^2]; None without a fluid
     contacts: Contacts      # None where the adapter tells none
+    weights: np.ndarray = None  # (n,) submerged [rho_s g D^2], rho_s that of grains.density_ratio
 
 
 def evenly(count, most=MOST_SNAPSHOTS):
@@ -67,9 +68,19 @@ def read_snapshot(run, time, grain_file, contact_file):
     force = None
     if run.is_wet() and grains.forces is not None:
         force = grains.forces / contact_files.unit_force(run)
+    areas = solid_areas(grains, diameter)
     return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, grains.radii / diameter,
-                    grains.velocities / run.scale('u_c'), solid_areas(grains, diameter), force,
-                    read_contacts(run, contact_file) if contact_file else None)
+                    grains.velocities / run.scale('u_c'), areas, force,
+                    read_contacts(run, contact_file) if contact_file else None,
+                    submerged_weights(run, areas, grains.densities))
+
+
+def submerged_weights(run, areas, densities):
+    """(rho - rho_f) A over rho_s D^2, with the densities of the single grains where the file has them; rho_f is 0 in
+    dry runs."""
+    fluid, ratio = float(run.record.get('rho') or 1.0), float(run.case.get('grains.density_ratio', 1.0))
+    own = np.full(len(areas), ratio) if densities is None else densities / fluid
+    return areas * (own - (1.0 if run.is_wet() else 0.0)) / ratio
 
 
 def solid_areas(grains, diameter):

@@ -35,12 +35,16 @@ def submerged_share(run):
     return 1.0 - 1.0 / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 1.0
 
 
+def weights_of(run, snapshot):
+    """Submerged weights of the grains [rho_s g D^2]."""
+    return snapshot.areas * submerged_share(run) if snapshot.weights is None else snapshot.weights
+
+
 def profile(run, snapshot):
     """None without contacts, or for grains that weigh nothing in the fluid."""
-    share = submerged_share(run)
-    if snapshot.contacts is None or len(snapshot.ids) == 0 or share <= 0.0:
+    weights = weights_of(run, snapshot)
+    if snapshot.contacts is None or not weights.sum() > 0.0:
         return None
-    weights = snapshot.areas * share
     level = np.arange(0.0, snapshot.centres[:, 1].max(), LEVELS)
     heights = snapshot.centres[:, 1]
     lift = np.zeros(len(heights)) if snapshot.fluid_force is None else snapshot.fluid_force[:, 1]
@@ -83,9 +87,9 @@ def carriers(run):
     """None without contacts in the outputs."""
     rows = []
     for one in snapshots.snapshots(run):
-        if one.contacts is None or len(one.ids) == 0 or submerged_share(run) <= 0.0:
+        total = weights_of(run, one).sum()
+        if one.contacts is None or not total > 0.0:
             continue
-        total = (one.areas * submerged_share(run)).sum()
         floor = one.contacts.force[one.contacts.first == FLOOR, 1].sum()
         sides = one.contacts.force[(one.contacts.first < 0) & (one.contacts.first != FLOOR), 1].sum()
         lift = 0.0 if one.fluid_force is None else one.fluid_force[:, 1].sum()

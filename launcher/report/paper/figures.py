@@ -116,7 +116,7 @@ def waiting(runs):
                       label=rf'$Re_c = {reynolds}$')
         fit = waiting_line(runs, reynolds)
         if fit is not None:
-            x = np.array([LEAST_WAITING, float(DENSE)])
+            x = np.array([max(LEAST_WAITING, phi.min()), phi.max()])
             axes.plot(x, fit[0] * x + fit[1], color=f'C{k}', linestyle=curves.dash(k), linewidth=1.2)
     if axes.get_legend_handles_labels()[1]:
         axes.legend(fontsize=8)

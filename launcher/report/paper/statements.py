@@ -17,6 +17,7 @@ AT_ONCE = 1.0            # t_c: the loosest column waits no longer
 STRAIGHT = 0.9           # R^2 of a linear dependence
 WEAK = 2.0               # largest ratio of slopes that still is a weak dependence
 SAME_CURVE = 0.1         # largest mean difference of curves that count as similar
+BACK = 0.1               # of the largest mean velocity: the grains of a wave that runs back are faster
 ALIKE = 0.1              # relative spread within which values count as independent of phi
 
 
@@ -87,9 +88,11 @@ def loose_at_once(runs):
 
 
 def dense_waits(runs):
-    found = {phi: runs.numbers(relaxation.relaxation_time, 'immersed', compacity=phi) for phi in COMPACITIES[1:]}
-    if not all(found.values()):
+    found = {phi: [runs.numbers(relaxation.relaxation_time, 'immersed', compacity=phi, reynolds=reynolds)
+                   for reynolds in REYNOLDS] for phi in COMPACITIES[1:]}
+    if not all(all(times) for times in found.values()):
         return None
+    found = {phi: sum(times, []) for phi, times in found.items()}
     text = ', '.join(f'φ = {phi}: {spread(times)}' for phi, times in found.items())
     return f't_relax over all Re: {text} t_c', all(min(times) > 0.0 for times in found.values())
 
@@ -168,7 +171,9 @@ def wave_breaks(runs):
         if not len(arrived):
             return 'the front does not reach the right wall', False
         back = float(velocity[arrived[0]:].min())
-        return (f'front at the right wall at {time[arrived[0]]:.3g} t_c, then ⟨u_x⟩ down to {back:.2g} u_c', back < 0.0)
+        forth = float(velocity.max())
+        return (f'front at the right wall at {time[arrived[0]]:.3g} t_c; ⟨u_x⟩ up to {forth:.2g}, then down to '
+                f'{back:.2g} u_c', back < -BACK * forth)
     return None
 
 

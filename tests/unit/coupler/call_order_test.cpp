@@ -46,6 +46,24 @@ TEST_P(EveryOrder, CountsWindowsOnBothSides) {
     EXPECT_EQ(ends.coupler.due_text(), "\"window\"");
 }
 
+TEST_P(EveryOrder, LetsTheCouplerAskForACheckpointBetweenWindowsOnly) {
+    const Table& table = GetParam();
+    Ends ends(table.role);
+    ends.start(table.role, table.scheme);
+    ends.pass(Kind::restore);
+    EXPECT_EQ(ends.coupler.due_text(), "\"restored\"");
+    EXPECT_THROW(ends.coupler.next_sent(Kind::window, from_coupler), OrderViolation);
+    ends.pass(Kind::restored);
+    for (CallOrder* end : {&ends.coupler, &ends.participant}) end->go_on_after(7);
+    EXPECT_EQ(ends.pass(Kind::window).window, 7);
+    EXPECT_THROW(ends.coupler.next_sent(Kind::save, from_coupler), OrderViolation);
+    for (std::size_t i = 1; i < table.window.size(); ++i) ends.pass(table.window[i]);
+    ends.pass(Kind::save);
+    EXPECT_TRUE(ends.participant.is_due(Kind::saved, to_coupler));
+    ends.pass(Kind::saved);
+    EXPECT_EQ(ends.pass(Kind::window).window, 8);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Schemes, EveryOrder,
     testing::Values(

@@ -48,7 +48,7 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
     joint.effective_inertia = true;
     const auto sentences = mismatches(hello, joint);
     ASSERT_EQ(sentences.size(), 7u);
-    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.6, the case needs 1.x");
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.7, the case needs 1.x");
     EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
     EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
 }
@@ -70,11 +70,11 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
 // A report of the fluid without its mean velocity would be malformed.
 TEST(Handshake, AVersionWithAnotherReportIsRefused) {
     Hello old = fitting();
-    old.protocol_minor = 5;
+    old.protocol_minor = 6;
     const auto sentences = mismatches(old, expected());
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: protocol version is 1.5, the case needs 1.6 or later (rebuild the "
+              "grains rank 0: protocol version is 1.6, the case needs 1.7 or later (rebuild the "
               "adapter)");
 }
 

@@ -70,7 +70,8 @@ TEST(Hub, AFailingAdapterEndsTheRunForAllWithItsOwnMessage) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::physics_refused);
-    EXPECT_EQ(job.status.reason.find("fluid rank 0 (scripted-fluid, host "), 0u) << job.status.reason;
+    EXPECT_EQ(job.status.reason.find("fluid rank 0 (scripted-fluid, host "), 0u)
+        << job.status.reason;
     EXPECT_NE(job.status.reason.find("the disc is on fire"), std::string::npos);
     EXPECT_EQ(job.status.statistics.windows_done, 3);
     for (const Outcome& outcome : job.outcomes) EXPECT_EQ(outcome.code, ExitCode::physics_refused);
@@ -155,8 +156,9 @@ TEST(Hub, AMotionOrAKickThatIsNotFiniteNamesGrainAndWindow) {
     });
     fluid.run(folder);
     EXPECT_EQ(fluid.status.code, ExitCode::physics_refused);
-    EXPECT_NE(fluid.status.reason.find("kick for grain 102: multiplier impulse is not finite: (0, inf, 0), "
-                                       "in \"kicks\" of window 2"),
+    EXPECT_NE(fluid.status.reason.find(
+                  "kick for grain 102: multiplier impulse is not finite: (0, inf, 0), "
+                  "in \"kicks\" of window 2"),
               std::string::npos)
         << fluid.status.reason;
 }
@@ -194,7 +196,7 @@ TEST(Hub, AStopRequestEndsAfterOneMoreWindowWhichIsWritten) {
     job.settings.set("run.output_every", std::int64_t{100});
     job.grains_fault = [&](const std::string& function, std::int64_t window) {
         if (function == "advance" && window == 1)
-            std::ofstream(folder.files().stop) << static_cast<int>(ExitCode::terminated);
+            std::ofstream(folder.path() / "STOP") << static_cast<int>(ExitCode::terminated);
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::terminated);
@@ -212,7 +214,7 @@ TEST(Hub, AStopRequestInTheLastWindowIsARunThatIsDone) {
     const std::int64_t last = job.settings.integer("run.windows") - 1;
     job.grains_fault = [&](const std::string& function, std::int64_t window) {
         if (function == "advance" && window == last - 1)
-            std::ofstream(folder.files().stop) << "130";
+            std::ofstream(folder.path() / "STOP") << "130";
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::done);

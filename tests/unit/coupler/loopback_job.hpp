@@ -34,6 +34,8 @@ struct Job {
     LoopbackChannel::Hook from_fluid, from_grains;
     std::optional<SchemeEntry> scheme;  // instead of run.scheme
     std::filesystem::path recordings;   // folder for grains.frames and fluid.frames
+    std::string resume;                 // a checkpoint to go on from
+    bool grains_save = true;            // the grains can save their state
 
     RunStatus status;
     std::vector<Outcome> outcomes;
@@ -55,14 +57,16 @@ struct Job {
             threads.emplace_back([&, rank, end = grains_ends[rank].get()] {
                 ScriptedGrains adapter_object(adapter, grains_fault);
                 if (floor) adapter_object.lay_floor(*floor);
-                outcomes[rank] = live(*make_session(adapter_object, *end, identity(rank, grains_ranks)));
+                adapter_object.can_save(grains_save);
+                outcomes[rank] =
+                    live(*make_session(adapter_object, *end, identity(folder, rank, grains_ranks)));
             });
         for (int rank = 0; wet && rank < fluid_ranks; ++rank)
             threads.emplace_back([&, rank, end = fluid_ends[rank].get()] {
                 ScriptedFluid adapter_object(drag, rank, fluid_ranks, fluid_fault);
                 adapter_object.misjudge_inertia(inertia_error);
                 outcomes[grains_ranks + rank] =
-                    live(*make_session(adapter_object, *end, identity(rank, fluid_ranks)));
+                    live(*make_session(adapter_object, *end, identity(folder, rank, fluid_ranks)));
             });
         {
             Channel *to_grains_program = grains.get(), *to_fluid_program = fluid.get();
@@ -72,15 +76,24 @@ struct Job {
                     &grains_recorded.emplace(*grains, recordings / "grains.frames");
                 to_fluid_program = &fluid_recorded.emplace(*fluid, recordings / "fluid.frames");
             }
-            Hub hub({settings, {{"disc", {}}}, test_population()}, folder.files(),
-                    *to_grains_program, wet ? to_fluid_program : nullptr, scheme ? *scheme : find_scheme(settings.text("run.scheme")));
+            Hub hub({settings, {{"disc", {}}}, test_population(), resumption(folder)},
+                    folder.files(), *to_grains_program, wet ? to_fluid_program : nullptr,
+                    scheme ? *scheme : find_scheme(settings.text("run.scheme")));
             status = hub.run();
         }
         for (std::thread& thread : threads) thread.join();
     }
 
-   private:
-    Identity identity(int rank, int ranks) const { return {rank, ranks, "a.log", hash}; }
+ private:
+    Identity identity(const TestFolder& folder, int rank, int ranks) const {
+        return {rank, ranks, "a.log", hash, folder.path().string()};
+    }
+    std::optional<Resumption> resumption(const TestFolder& folder) const {
+        if (resume.empty()) return std::nullopt;
+        const StoredFile own = CheckpointSets(folder.path()).manifest(resume).coupler;
+        const auto place = folder.path() / CheckpointSets::folder(resume);
+        return Resumption{resume, decode<CouplerState>(load(place, own))};
+    }
     static Outcome live(Session& session) {
         for (bool going = session.start(); going; going = session.step()) {
         }

@@ -62,7 +62,7 @@ class TestFolder {
     const std::filesystem::path& path() const { return path_; }
     HubFiles files() const {
         return {path_ / "history.csv", path_ / "grains", path_ / "coupler.log", path_ / "run.json",
-                path_ / "STOP"};
+                path_};
     }
 
  private:

@@ -163,10 +163,9 @@ TEST(Wire, FreeResponsesWindowsBoxesShapesComeBack) {
     const FreeResponse back = decode<std::vector<FreeResponse>>(encode(std::vector{response}))[0];
     EXPECT_EQ(back.inertia[upper_entry(5, 5)], awkward);
     EXPECT_EQ(back.mismatch, tiny);
-    const Window window{12, 0.5, 0.01, true, false};
+    const Window window{12, 0.5, 0.01, true};
     EXPECT_EQ(decode<Window>(encode(window)).index, 12);
     EXPECT_TRUE(decode<Window>(encode(window)).write_output);
-    EXPECT_FALSE(decode<Window>(encode(window)).write_checkpoint);
     EXPECT_EQ(decode<Box>(encode(Box{{1, 2, 3}, {4, 5, 6}})).upper, (Vec3{4, 5, 6}));
     const ShapeTable shapes = {{"polygon", {0, 1, awkward}}};
     EXPECT_EQ(decode<ShapeTable>(encode(shapes))[0].vertices, shapes[0].vertices);

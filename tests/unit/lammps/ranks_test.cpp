@@ -78,7 +78,7 @@ class Party {
     /// Plays a window; `kick` gives each grain its velocity.
     template <class Kicker>
     void play(std::int64_t n, Kicker kick) {
-        const Window window{n, double(n) * dt, dt, n % 2 == 0, false};
+        const Window window{n, double(n) * dt, dt, n % 2 == 0};
         const Motion sent = adapter_.advance(window, {});
         sent_ = sent.grains;
         std::vector<Kick> kicks;
@@ -194,6 +194,23 @@ TEST(Ranks, ARestoredRunGoesOn) {
     }
 }
 
+// A grain flies through the left wall: the rank that owns it refuses to go on. The others would
+// wait for it in LAMMPS.
+TEST(Ranks, AFailureOfOneRankDoesNotHoldTheOthers) {
+    std::vector<GrainState> grains = heap();
+    grains[12].velocity[0] = -1000.0;
+    Party together(MPI_COMM_WORLD, box(false), grains);
+    std::int64_t refused = 0;
+    try {
+        for (std::int64_t n = 0; n < 3; ++n) together.play(n, no_fluid);
+    } catch (const PhysicsRefused& error) {
+        refused = 1;
+        EXPECT_NE(std::string(error.what()).find("beyond the left wall"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_EQ(together.total(refused), 1);
+}
+
 // Positions of the protocol are those of the contact engine, also with velocity Verlet.
 TEST(Ranks, AGrainThatTouchesNothingMovesAsUnderTheContactEngine) {
     const std::vector<GrainState> one = {grain_at(7, 5.0, 10.0)};
@@ -206,7 +223,7 @@ TEST(Ranks, AGrainThatTouchesNothingMovesAsUnderTheContactEngine) {
             drag(grain, list);
             kicks = list;
         });
-        const Window window{n, double(n) * dt, dt, false, false};
+        const Window window{n, double(n) * dt, dt, false};
         nscd.advance(window, {});
         const GrainState wanted = nscd.apply_kick(window, kicks).grains[0];
         const GrainState moved = md.now().at(7);

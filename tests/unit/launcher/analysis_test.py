@@ -152,6 +152,11 @@ class Pores(unittest.TestCase):
         self.assertAlmostEqual(pores.change_at(data), 0.1)
         self.assertAlmostEqual(pores.change_at(data, 0.125), 0.2)
 
+    def test_the_extreme_includes_the_end_of_the_span(self):
+        data = with_snapshots(run(time=[0, 1, 2], pore_volume=[10, 10.1, 8], mean_position_x=[5, 5.1, 5.5]))
+        # 0.01 at 0.02, and half-way down to -0.2 at 0.1: 0.01 - 0.21 * 0.03 / 0.08 at 0.05.
+        self.assertAlmostEqual(pores.largest_change(data), 0.01 - 0.21 * 0.375)
+
     def test_column_that_has_not_moved_so_far(self):
         data = with_snapshots(run(time=[0, 1], pore_volume=[10, 9], mean_position_x=[5, 5.1]))
         self.assertIsNone(pores.change_at(data))
@@ -257,6 +262,16 @@ class Weights(unittest.TestCase):
         found = weight_balance.carriers(with_snapshots(run(), one))
         self.assertAlmostEqual(float(found.sides[0]), 1 / 3)
         self.assertAlmostEqual(float(found.rest()[0]), 0.0)
+
+    def test_grains_of_their_own_densities(self):
+        # In units of the fluid's density 1.5, 2 and 4: (rho - 1)/1.5 of the area each.
+        np.testing.assert_allclose(
+            snapshots.submerged_weights(run(), np.ones(3), np.array([1.5, 2.0, 4.0])), [1 / 3, 2 / 3, 2.0])
+        np.testing.assert_allclose(
+            snapshots.submerged_weights(run({'fluid.enabled': 'false'}), np.ones(2), np.array([1.5, 3.0])), [1.0, 2.0])
+        one = tower()
+        one.weights = DISC * np.array([1.0, 1.0, 2.0]) / 3.0
+        np.testing.assert_allclose(weight_balance.profile(run(), one).weight, [1.0, 0.75, 0.5])
 
     def test_the_balance_has_to_close_at_rest_only(self):
         data = with_snapshots(run(time=[0, 1], mean_speed=[0, 1e-5]), tower(0.25))

@@ -28,7 +28,7 @@ Settings md_settings() {
 }
 
 Window window(std::int64_t index, bool output = false) {
-    return {index, static_cast<double>(index) * dt, dt, output, false};
+    return {index, static_cast<double>(index) * dt, dt, output};
 }
 
 Kick kick_of(GrainId id, const Vec3& velocity, double spin, const Vec3& impulse, double moment) {

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/checkpoint/checkpoint_sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto sets_folder = "checkpoints";
+const std::string unfinished = ".checkpoint-";  // begins the names of temporary folders
+
+std::string name_of(std::int64_t windows) {
+    return fmt::format("w{:08d}", windows);
+}
+
+bool is_set(const fs::path& folder) {
+    const std::string name = folder.filename();
+    return name.size() >= 9 && name[0] == 'w' &&
+           name.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+std::string temporary(const std::string& name) {
+    return unfinished + name + ".tmp";
+}
+
+void rename_or_throw(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error)
+        throw Failure(
+            ExitCode::participant_failed,
+            fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), error.message()));
+}
+
+}  // namespace
+
+std::string CheckpointSets::folder(const std::string& name) {
+    return std::string(sets_folder) + "/" + name;
+}
+
+std::string CheckpointSets::begin(std::int64_t windows) const {
+    const std::string name = temporary(name_of(windows));
+    std::error_code error;
+    fs::remove_all(run_ / name, error);
+    if (!error) fs::create_directory(run_ / name, error);
+    if (error)
+        throw Failure(ExitCode::participant_failed,
+                      fmt::format("cannot make {}: {}", (run_ / name).string(), error.message()));
+    return name;
+}
+
+void CheckpointSets::commit(const Manifest& manifest) const {
+    const std::string name = name_of(manifest.windows), text = manifest_text(manifest);
+    const fs::path from = run_ / temporary(name), sets = run_ / sets_folder, to = sets / name;
+    store(from, manifest_name, Bytes(text.begin(), text.end()));
+    put_on_disk(from);
+    std::error_code error;
+    fs::create_directory(sets, error);
+    if (fs::exists(to)) remove(name);  // a damaged one, since this run began before it
+    rename_or_throw(from, to);
+    put_on_disk(sets);
+    put_on_disk(run_);
+}
+
+void CheckpointSets::remove(const std::string& name) const {
+    const fs::path aside = run_ / temporary("old-" + name);
+    rename_or_throw(run_ / folder(name), aside);
+    std::error_code ignored;  // what remains of it is removed at the next start
+    fs::remove_all(aside, ignored);
+}
+
+void CheckpointSets::remove_unfinished() const {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(run_, ignored))
+        if (entry.path().filename().string().rfind(unfinished, 0) == 0)
+            fs::remove_all(entry.path(), ignored);
+}
+
+std::vector<std::string> CheckpointSets::names() const {
+    std::vector<std::string> names;
+    std::error_code none;  // no checkpoint yet
+    for (const auto& entry : fs::directory_iterator(run_ / sets_folder, none))
+        if (is_set(entry.path())) names.push_back(entry.path().filename());
+    const auto newer = [](const std::string& a, const std::string& b) {
+        return a.size() != b.size() ? a.size() > b.size() : a > b;
+    };
+    std::sort(names.begin(), names.end(), newer);
+    return names;
+}
+
+void CheckpointSets::keep_newest(std::size_t count) const {
+    const std::vector<std::string> all = names();
+    for (std::size_t k = count; k < all.size(); ++k) remove(all[k]);
+}
+
+Manifest CheckpointSets::manifest(const std::string& name) const {
+    const fs::path file = run_ / folder(name) / manifest_name;
+    std::ifstream in(file);
+    try {
+        return parse_manifest({std::istreambuf_iterator<char>(in), {}});
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::bad_input, fmt::format("{}: {}", file.string(), error.what()));
+    }
+}
+
+Manifest CheckpointSets::verified(const std::string& name) const {
+    const Manifest result = manifest(name);
+    for (const StoredFile& file : result.files()) load(run_ / folder(name), file);
+    return result;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/hub/checkpoints.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "coupler/protocol/failure.hpp"
+
+namespace turbidite {
+
+Checkpoints::Checkpoints(const Settings& settings, const RunValues& run,
+                         std::filesystem::path run_folder, std::vector<ParticipantLink*> links,
+                         Watch& watch, Print print)
+    : settings_(settings),
+      run_(run),
+      rule_(settings, run),
+      run_folder_(std::move(run_folder)),
+      sets_(run_folder_),
+      links_(std::move(links)),
+      watch_(watch),
+      print_(std::move(print)) {}
+
+void Checkpoints::meet_participants() {
+    for (const ParticipantLink* link : links_)
+        for (int rank = 0; rank < link->ranks(); ++rank) {
+            if (link->hello(rank).capabilities.saves_state) continue;
+            if (rule_.any() && able_)
+                print_(
+                    fmt::format("turbidite: {} cannot save its state; the run has no checkpoints",
+                                link->program()));
+            able_ = false;
+        }
+}
+
+bool Checkpoints::write(const CouplerState& state) {
+    if (!able_) return false;
+    const auto start = CheckpointRule::Clock::now();
+    const std::string fault = attempt(state);
+    if (fault.empty()) {
+        ++written_;
+        last_ = state.windows;
+    } else {
+        sets_.remove_unfinished();
+        print_(fmt::format("turbidite: warning: no checkpoint after window {}: {}. {}",
+                           state.windows, fault, sets_left()));
+    }
+    rule_.written();
+    seconds_ += std::chrono::duration<double>(CheckpointRule::Clock::now() - start).count();
+    return fault.empty();
+}
+
+std::string Checkpoints::sets_left() const {
+    const std::vector<std::string> names = sets_.names();
+    if (names.empty()) return "There is none yet.";
+    return fmt::format("The last one is {}.", CheckpointSets::folder(names.front()));
+}
+
+/// Why an action on files failed; empty if it did not.
+template <class Action>
+std::string Checkpoints::fault_of(Action action) {
+    try {
+        action();
+        return {};
+    } catch (const Failure& failure) {
+        return failure.what();
+    }
+}
+
+/// Why the set could not be written; empty if it is in its place.
+std::string Checkpoints::attempt(const CouplerState& state) {
+    std::string folder;
+    std::string fault = fault_of([&] {
+        sets_.remove_unfinished();
+        folder = sets_.begin(state.windows);
+    });
+    if (!fault.empty()) return fault;
+    Manifest manifest = described(state);
+    for (ParticipantLink* link : links_) link->send_all(Kind::save, CheckpointPlace{folder});
+    for (ParticipantLink* link : links_)
+        (link->role() == Role::fluid ? manifest.fluid : manifest.grains) = collect(*link, fault);
+    if (!fault.empty()) return fault;
+    return fault_of([&] {
+        manifest.coupler = store(run_folder_ / folder, "coupler", encode(state));
+        sets_.commit(manifest);
+        sets_.keep_newest(rule_.keep());
+    });
+}
+
+Manifest Checkpoints::described(const CouplerState& state) const {
+    Manifest manifest;
+    manifest.case_hash = settings_.text("run.hash");
+    manifest.windows = state.windows;
+    manifest.time = static_cast<double>(state.windows) * run_.step / run_.time;
+    manifest.settings = settings_;
+    return manifest;
+}
+
+/// Waits for all ranks; the first fault that one of them tells becomes `fault`.
+std::vector<StoredFile> Checkpoints::collect(ParticipantLink& link, std::string& fault) {
+    watch_.wait_for(link, Kind::saved);
+    std::vector<StoredFile> files;
+    for (const SavedPart& part : link.take<SavedPart>(Kind::saved)) {
+        const int rank = static_cast<int>(files.size());
+        if (!part.fault.empty() && fault.empty()) fault = link.rank_name(rank) + ": " + part.fault;
+        files.push_back(part.file);
+    }
+    return files;
+}
+
+void Checkpoints::restore(const std::string& name) {
+    const Manifest manifest = sets_.manifest(name);
+    const std::string folder = CheckpointSets::folder(name);
+    for (ParticipantLink* link : links_)
+        link->send_all(Kind::restore,
+                       RestoreOrder{folder, manifest.windows, manifest.parts(link->role())});
+    for (ParticipantLink* link : links_) {
+        watch_.wait_for(*link, Kind::restored);
+        link->discard(Kind::restored);
+        link->go_on_after(manifest.windows);
+    }
+    rule_.written();
+}
+
+}  // namespace turbidite

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What the output of a run passes from one window to the next, for checkpoints. Files are not
+// copied into a checkpoint: their lengths are, and a resumed run cuts off what was written later.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "coupler/output/run_statistics.hpp"
+#include "coupler/protocol/wire.hpp"
+
+namespace turbidite {
+
+/// In bytes; -1: the file did not exist.
+struct OutputLengths {
+    std::int64_t history = -1, probes = -1;
+    std::int64_t grains = -1, contacts = -1;  ///< of the series files, without their end tags
+};
+
+struct OutputState {
+    Motion state;  ///< where the last window ended
+    RunStatistics statistics;
+    SinceRow since_row;
+    OutputLengths lengths;
+};
+
+Bytes encode(const OutputState& state);
+/// Throws MalformedPayload.
+template <>
+OutputState decode(const Bytes& bytes);
+
+/// Cuts a file to `length` bytes. Throws Failure (bad input) if it is missing or shorter: it was
+/// changed since the checkpoint, and rows of it are lost.
+void cut_to(const std::filesystem::path& file, std::int64_t length);
+
+}  // namespace turbidite

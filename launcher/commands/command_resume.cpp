@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// turbidite resume DIR: goes on with a run from its last whole checkpoint.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "launcher/commands/command.hpp"
+#include "launcher/job/resume_run.hpp"
+
+namespace turbidite {
+namespace {
+
+struct ResumeOptions {
+    std::string folder;
+    std::vector<std::string> overrides;
+    bool dry_run = false;
+};
+
+int resume(const ResumeOptions& options) {
+    std::FILE* to = options.dry_run ? stderr : stdout;
+    const LaunchSite site = this_site();
+    const auto say = [](const std::string& text) { fmt::print(stderr, "turbidite: {}\n", text); };
+    const auto resumed = prepare_resumption(options.folder, options.overrides, site, say);
+    if (!resumed) {
+        fmt::print(to,
+                   "The run in {} is complete. To go on beyond its end: --set time.end=<t_c>.\n",
+                   options.folder);
+        return static_cast<int>(ExitCode::done);
+    }
+    fmt::print(to, "{} goes on after window {}, {:g} t_c\n", resumed->run.folder.root.string(),
+               resumed->windows, resumed->time);
+    if (!options.dry_run) return static_cast<int>(play(resumed->run, site.programs).code);
+    std::fflush(nullptr);
+    fmt::print("{}\n", shell_line(resumed->run.line));
+    return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+CommandAction declare_resume(CLI::App& app) {
+    const auto options = std::make_shared<ResumeOptions>();
+    app.add_option("DIR", options->folder, "run folder")->required();
+    app.add_option("--set", options->overrides,
+                   "key=value, for the few keys that a run may change, as time.end; may be "
+                   "repeated")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    app.add_flag("--dry-run", options->dry_run,
+                 "prepare everything and print the mpirun line instead of starting it");
+    return [options] { return resume(*options); };
+}
+
+}  // namespace turbidite

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/resume_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "coupler/checkpoint/checkpoint_sets.hpp"
+#include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/whole_file.hpp"
+#include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "launcher/job/run_json.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+using Say = std::function<void(const std::string&)>;
+
+Failure refused(const fs::path& folder, const std::string& fault, const std::string& remedy) {
+    return Failure(ExitCode::bad_input,
+                   fmt::format("{} {}\n  {}\nNothing was started. Exit code 2.", folder.string(),
+                               fault, remedy));
+}
+
+std::shared_ptr<RunLock> lock_of(const RunFolder& folder, const fs::path& as_given) {
+    if (!fs::is_regular_file(folder.resolved_case()))
+        throw refused(as_given, "is not a run folder: it has no case.yaml",
+                      "Give the folder of a run, as `turbidite run` named it.");
+    std::shared_ptr<RunLock> lock = RunLock::take(folder.root);
+    if (!lock)
+        throw refused(as_given, "is in use by a run that has not ended",
+                      "Wait for it, or stop it: create a file STOP in the folder.");
+    return lock;
+}
+
+struct Chosen {
+    std::string name;
+    Manifest manifest;
+};
+
+/// The newest whole checkpoint; newer ones, which are damaged, are removed.
+std::optional<Chosen> choose(const RunFolder& folder, const CheckpointSets& sets, const Say& say) {
+    std::vector<std::string> damaged;
+    for (const std::string& name : sets.names()) try {
+            Chosen chosen{name, sets.verified(name)};
+            for (const std::string& bad : damaged) sets.remove(bad);
+            return chosen;
+        } catch (const Failure& failure) {
+            say(fmt::format("checkpoint {}: {}; the one before it is used", name, failure.what()));
+            damaged.push_back(name);
+        }
+    if (damaged.empty()) return std::nullopt;
+    throw refused(folder.root, fmt::format("has no whole checkpoint: {}", fmt::join(damaged, ", ")),
+                  "Start a new run with the grains of this one: turbidite run CASE --from DIR.");
+}
+
+bool begins_with(const std::string& text, const std::string& part) {
+    return text.rfind(part, 0) == 0;
+}
+
+bool may_change(const std::string& key) {
+    for (const std::string& allowed : keys_that_may_change())
+        if (key == allowed || (allowed.back() == '.' && begins_with(key, allowed))) return true;
+    // What follows from them.
+    for (const char* derived :
+         {"run.hash", "run.windows", "run.slip_tolerance", "run.output_every", "run.fields_every"})
+        if (key == derived) return true;
+    return false;
+}
+
+std::string value_of(const Settings& settings, const std::string& key) {
+    return settings.has(key) ? settings.text(key) : "nothing";
+}
+
+/// "contact.friction is 0.5, in the checkpoint 0.3", one line per key.
+std::string forbidden_changes(const Settings& now, const Settings& then) {
+    std::string lines;
+    const auto compare = [&](const std::string& key) {
+        const std::string line = fmt::format("\n  {} is {}, in the checkpoint {}", key,
+                                             value_of(now, key), value_of(then, key));
+        const bool known = lines.find(line) != std::string::npos;
+        if (value_of(now, key) != value_of(then, key) && !may_change(key) && !known) lines += line;
+    };
+    for (const auto& entry : now.entries()) compare(entry.first);
+    for (const auto& entry : then.entries()) compare(entry.first);
+    return lines;
+}
+
+void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const Chosen& chosen) {
+    const std::string changes = forbidden_changes(resolved.settings, chosen.manifest.settings);
+    if (!changes.empty())
+        throw refused(folder.root, fmt::format("cannot go on as another case:{}", changes),
+                      fmt::format("These keys may change: {}. For all others start a new run, with "
+                                  "--from for its grains.",
+                                  fmt::join(keys_that_may_change(), ", ")));
+    const std::int64_t windows = resolved.settings.integer("run.windows");
+    if (windows < chosen.manifest.windows)
+        throw refused(
+            folder.root,
+            fmt::format("has already done {} windows, time.end = {} t_c is {}",
+                        chosen.manifest.windows, resolved.settings.text("time.end"), windows),
+            fmt::format("Use a later time.end, above {:g}.", chosen.manifest.time));
+}
+
+void remove_requests(const RunFolder& folder) {
+    std::error_code ignored;
+    for (const char* name : {stop_file, write_file, checkpoint_file})
+        fs::remove(folder.root / name, ignored);
+}
+
+/// Logs of the parts so far go into a folder of their own, and with them the word of who ended
+/// first.
+void put_logs_aside(const RunFolder& folder) {
+    int part = 1;
+    while (fs::exists(folder.logs() / fmt::format("part-{}", part))) ++part;
+    const fs::path aside = folder.logs() / fmt::format("part-{}", part);
+    fs::create_directories(aside);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder.logs()))
+        if (!entry.is_directory()) files.push_back(entry.path());
+    for (const fs::path& file : files) fs::rename(file, aside / file.filename());
+}
+
+/// Folders of the fluid that are named after a time later than `time` [s].
+void remove_later_times(const fs::path& fluid_case, double time) {
+    std::error_code none;
+    std::vector<fs::path> later;
+    for (const auto& entry : fs::directory_iterator(fluid_case, none)) {
+        const std::string name = entry.path().filename();
+        char* end = nullptr;
+        const double value = std::strtod(name.c_str(), &end);
+        if (*end == '\0' && end != name.c_str() && value > time * (1.0 + 1e-9))
+            later.push_back(entry.path());
+    }
+    for (const fs::path& folder : later) fs::remove_all(folder);
+}
+
+std::vector<fs::path> processor_folders(const RunFolder& folder) {
+    std::vector<fs::path> found;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder.fluid(), none))
+        if (begins_with(entry.path().filename(), "processor")) found.push_back(entry.path());
+    return found;
+}
+
+/// The mesh for another number of ranks. Fields that the others have written stay in
+/// fluid/until-SET.
+void decompose_again(const Settings& settings, const RunFolder& folder, const Chosen& chosen) {
+    const fs::path aside = folder.fluid() / ("until-" + chosen.name);
+    for (const fs::path& own : processor_folders(folder)) {
+        const fs::path there = aside / own.filename();
+        fs::create_directories(aside);
+        if (fs::exists(there))
+            fs::remove_all(own);  // of an earlier attempt, which has written nothing that stays
+        else
+            fs::rename(own, there);
+    }
+    write_decomposition(settings, folder.fluid());
+    if (settings.integer("fluid.ranks") > 1)
+        decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
+}
+
+void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const Chosen& chosen) {
+    if (!resolved.settings.flag("fluid.enabled")) return;
+    const Settings &now = resolved.settings, &then = chosen.manifest.settings;
+    const RunValues run = run_values(now);
+    const double time = static_cast<double>(chosen.manifest.windows) * run.step;
+    remove_later_times(folder.fluid(), time);
+    for (const fs::path& own : processor_folders(folder)) remove_later_times(own, time);
+    extend_fluid_case(now, folder.fluid());
+    if (now.integer("fluid.ranks") != then.integer("fluid.ranks"))
+        decompose_again(now, folder, chosen);
+}
+
+void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::int64_t windows,
+                  const std::vector<std::string>& line) {
+    auto record = read_run_json(folder.record());
+    record["status"] = "prepared";
+    record["exit_code"] = nullptr;
+    record["error"] = "";
+    record["case_hash"] = resolved.settings.text("run.hash");
+    record["windows"] = resolved.settings.integer("run.windows");
+    record["command"] = shell_line(line);
+    record["parts"].push_back({{"resumed", local_time("%Y-%m-%dT%H:%M:%S%z")},
+                               {"from_window", windows},
+                               {"windows_done", windows},
+                               {"status", "prepared"}});
+    write_run_json(folder.record(), record);
+}
+
+PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& folder,
+                               std::shared_ptr<RunLock> lock, const LaunchSite& site) {
+    const auto line = launch_arguments(resolved.settings, folder, site);
+    fs::remove_all(folder.fluid());
+    prepare_run(resolved, folder, line);
+    return {folder, std::move(lock), line, rank_names(resolved.settings)};
+}
+
+}  // namespace
+
+const std::vector<std::string>& keys_that_may_change() {
+    static const std::vector<std::string> keys = {"time.end",
+                                                  "output.interval",
+                                                  "output.fields_interval",
+                                                  "checkpoint.",
+                                                  "limits.",
+                                                  "fluid.ranks",
+                                                  "contact.iterations",
+                                                  "contact.tolerance",
+                                                  "coupling.iterations",
+                                                  "coupling.tolerance",
+                                                  "fluid.multiplier_iterations",
+                                                  "fluid.multiplier_tolerance",
+                                                  "fluid.splitting_iterations",
+                                                  "fluid.splitting_tolerance"};
+    return keys;
+}
+
+std::optional<Resumed> prepare_resumption(const fs::path& given,
+                                          const std::vector<std::string>& overrides,
+                                          const LaunchSite& site, const Say& say) {
+    const RunFolder folder{fs::path(fs::absolute(given / ".").lexically_normal()).parent_path()};
+    std::shared_ptr<RunLock> lock = lock_of(folder, given);
+    const CheckpointSets sets(folder.root);
+    sets.remove_unfinished();
+    const std::optional<Chosen> chosen = choose(folder, sets, say);
+    const ResolvedCase resolved = load_run_folder(folder.root, overrides);
+    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    if (chosen) check_changes(folder, resolved, *chosen);
+    if (chosen && chosen->manifest.windows == resolved.settings.integer("run.windows"))
+        return std::nullopt;
+    remove_requests(folder);
+    put_logs_aside(folder);
+    if (!chosen) {
+        say("there is no checkpoint yet; the run starts from the beginning");
+        return Resumed{from_the_beginning(resolved, folder, lock, site), 0, 0.0};
+    }
+    if (!overrides.empty())
+        write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resolved.yaml; });
+    prepare_fluid(resolved, folder, *chosen);
+    const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
+    write_record(resolved, folder, chosen->manifest.windows, line);
+    return Resumed{{folder, lock, line, rank_names(resolved.settings)},
+                   chosen->manifest.windows,
+                   chosen->manifest.time};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Whatever ended a run, `turbidite resume` goes on, and the history in the end is that of a run
+// that nothing ended: everything killed at random moments, one program killed, a full disk, signals
+// of a batch system.
+//
+// TURBIDITE_KILLS=100 in the environment kills so many times instead of a few (half an hour):
+//
+//     TURBIDITE_KILLS=100 build/release/bin/failure_tests --gtest_filter=*KilledAtRandomMoments*
+#include <random>
+
+#include "tests/failure/failing_run.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+using Milliseconds = std::chrono::milliseconds;
+
+class ResumeAfter : public FailingRun {
+ protected:
+    void SetUp() override {
+        scratch.write("small.yaml",
+                      "domain: {size: [6, 6]}\n"
+                      "grains: {adapter: standalone-nscd, count: 6}\n"
+                      "fluid: {reynolds: 30, cells_per_diameter: 4}\n"
+                      "time: {step: 0.02, end: 12}\n"
+                      "output: {interval: 0.1}\n"
+                      "checkpoint: {windows: 40}\n");
+        const Answer whole = shell("timeout 60 " TURBIDITE_PROGRAM " run small.yaml --out whole");
+        ASSERT_EQ(whole.code, 0) << whole.err;
+        whole_ = history_of("whole");
+        ASSERT_EQ(whole_.size(), 122u);
+    }
+
+    /// Lines of history.csv without the wall times.
+    std::vector<std::string> history_of(const std::string& run) const {
+        std::istringstream lines(text(scratch.path() / run / "history.csv"));
+        std::vector<std::string> result, names;
+        for (std::string line; std::getline(lines, line);) {
+            std::vector<std::string> cells;
+            std::istringstream row(line);
+            for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+            if (names.empty()) names = cells;
+            std::string kept;
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                if (names.at(i).rfind("wall_", 0) != 0) kept += cells[i] + ",";
+            result.push_back(kept);
+        }
+        return result;
+    }
+
+    Answer resume(const std::string& options = "") const {
+        return shell("timeout 60 " TURBIDITE_PROGRAM " resume run" + options);
+    }
+
+    void expect_resumed_to_the_end() const {
+        const Answer answer = resume();
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, " goes on after window ");
+        EXPECT_EQ(history_of("run"), whole_);
+    }
+
+    /// Starts `words` of turbidite.
+    pid_t begin(const std::string& words) const {
+        const pid_t child = fork();
+        if (child != 0) return child;
+        const std::string line = "cd " + scratch.path().string() +
+                                 " && exec " TURBIDITE_PROGRAM " " + words +
+                                 " >out 2>err </dev/null";
+        execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+        _exit(127);
+    }
+
+    /// Whether it has ended by itself within this time; if not, everything is killed.
+    bool ended_within(pid_t run, Milliseconds time) const {
+        const auto deadline = std::chrono::steady_clock::now() + time;
+        int status = 0;
+        while (std::chrono::steady_clock::now() < deadline) {
+            if (waitpid(run, &status, WNOHANG) == run) {
+                EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+                    << text(scratch.path() / "out") << text(scratch.path() / "err");
+                return true;
+            }
+            std::this_thread::sleep_for(Milliseconds(5));
+        }
+        kill(run, SIGKILL);
+        for (const pid_t process : processes("")) kill(process, SIGKILL);
+        waitpid(run, &status, 0);
+        expect_nothing_left();
+        return false;
+    }
+
+    bool begun() const { return fs::exists(run_folder() / "case.yaml"); }
+
+    static int kills() {
+        const char* given = std::getenv("TURBIDITE_KILLS");
+        return given ? std::atoi(given) : 6;
+    }
+
+    std::vector<std::string> whole_;
+};
+
+TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
+    std::mt19937 random(2011);
+    std::uniform_int_distribution<int> moment(20, 2500);  // [ms]
+    int resumptions = 0, completed = 0;
+    for (int left = kills(); left > 0 && !HasFailure();) {
+        const bool again = begun();
+        resumptions += again ? 1 : 0;
+        const pid_t run = begin(again ? "resume run" : "run small.yaml --force --out run");
+        if (!ended_within(run, Milliseconds(moment(random)))) {
+            --left;
+            continue;
+        }
+        EXPECT_EQ(history_of("run"), whole_);
+        ++completed;
+        fs::remove_all(run_folder());
+    }
+    if (begun()) {
+        const Answer answer = resume();
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_EQ(history_of("run"), whole_);
+    }
+    EXPECT_GT(resumptions, 0);
+    std::printf("%d kills, %d resumptions, %d runs completed in between\n", kills(), resumptions,
+                completed);
+}
+
+TEST_F(ResumeAfter, AProgramIsKilled) {
+    for (const char* program : {"turbidite-fluid", "turbidite-coupler"}) {
+        fs::remove_all(run_folder());
+        const pid_t run = start(60);
+        for (const pid_t process : processes(program)) kill(process, SIGKILL);
+        const Answer answer = end_of(run);
+        EXPECT_EQ(answer.code, 4) << program << answer.err;
+        EXPECT_SAYS(answer.err, "turbidite resume " + run_folder().string());
+        expect_resumed_to_the_end();
+    }
+}
+
+TEST_F(ResumeAfter, SignalsOfABatchSystem) {
+    for (const int signal : {SIGUSR1, SIGINT}) {
+        fs::remove_all(run_folder());
+        const pid_t run = start(30);
+        kill(run, signal);
+        const Answer answer = end_of(run);
+        EXPECT_EQ(answer.code, signal == SIGINT ? 130 : 143) << answer.err;
+        EXPECT_SAYS(answer.err, "its output and a checkpoint are written");
+        expect_resumed_to_the_end();
+    }
+}
+
+// A batch script has the line of --dry-run, and the batch system signals mpirun.
+TEST_F(ResumeAfter, SigUsr1ThroughMpirun) {
+    const Answer line = shell(run_line("--dry-run"));
+    ASSERT_EQ(line.code, 0) << line.err;
+    const pid_t job = fork();
+    if (job == 0) {
+        const std::string words = "cd " + scratch.path().string() + " && exec " +
+                                  line.out.substr(0, line.out.size() - 1) +
+                                  " >out 2>err </dev/null";
+        execl("/bin/sh", "sh", "-c", words.c_str(), nullptr);
+        _exit(127);
+    }
+    for (int i = 0; i < 300 && rows_of_history() < 30; ++i)
+        std::this_thread::sleep_for(Milliseconds(20));
+    kill(job, SIGUSR1);
+    const Answer answer = end_of(job);
+    EXPECT_EQ(answer.code, 143) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "its output and a checkpoint are written");
+    EXPECT_EQ(record().at("exit_code"), 143);
+    expect_nothing_left();
+    expect_resumed_to_the_end();
+}
+
+TEST_F(ResumeAfter, AFileStops) {
+    const pid_t run = start(30);
+    shell("touch run/CHECKPOINT");
+    while (fs::exists(run_folder() / "CHECKPOINT")) std::this_thread::sleep_for(Milliseconds(5));
+    shell("touch run/WRITE");
+    while (fs::exists(run_folder() / "WRITE")) std::this_thread::sleep_for(Milliseconds(5));
+    shell("touch run/STOP");
+    const Answer answer = end_of(run);
+    EXPECT_EQ(answer.code, 130) << answer.err;
+    EXPECT_FALSE(fs::exists(run_folder() / "STOP"));
+    const Answer resumed = resume();
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_GE(history_of("run").size(), whole_.size());  // and the row asked for by WRITE
+    EXPECT_EQ(history_of("run").back(), whole_.back());
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Runs in two parts have the history of runs in one part, digit for digit, with every adapter and
+// every way in which the fluid passes something from window to window.
+
+#include "tests/system/history_columns.hpp"
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Twenty discs that have reached the bottom after 2 t_c, with contacts throughout.
+const char* const wet_case = R"(
+domain: {size: [6, 6]}
+grains: {generator: lattice, region: [6, 4.5], compacity: 0.82, jitter: 0.01, density_ratio: 1.5}
+fluid: {reynolds: 36, cells_per_diameter: 6}
+contact: {friction: 0.3}
+scales: {kind: avalanche}
+time: {step: 0.0125, end: 2}
+output: {interval: 0.25}
+checkpoint: {interval: 0.4}
+)";
+
+const char* const dry_case = R"(
+domain:
+  size: [8, 8]
+  left_motion: shaking
+  walls_file: walls.csv
+  motions:
+    shaking: {kind: harmonic, amplitude: [0.2, 0], period: 0.7}
+grains: {generator: random, count: 20, region: [5, 5]}
+fluid: {enabled: false}
+contact: {friction: 0.3}
+scales: {kind: avalanche}
+time: {step: 0.0125, end: 2}
+output: {interval: 0.25}
+checkpoint: {interval: 0.4}
+)";
+
+class Resume : public ShellTest {
+ protected:
+    Answer turbidite(const std::string& words) const {
+        return shell(std::string("timeout 170 ") + TURBIDITE_PROGRAM + " " + words);
+    }
+
+    /// Lines of history.csv without the wall times.
+    std::vector<std::string> history(const std::string& run) const {
+        std::istringstream lines(text(scratch.path() / run / "history.csv"));
+        std::vector<std::string> result, names;
+        for (std::string line; std::getline(lines, line);) {
+            std::vector<std::string> cells;
+            std::istringstream row(line);
+            for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+            if (names.empty()) names = cells;
+            std::string kept;
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                if (names.at(i).rfind("wall_", 0) != 0) kept += cells[i] + ",";
+            result.push_back(kept);
+        }
+        return result;
+    }
+
+    nlohmann::json record_of(const std::string& run) const {
+        return nlohmann::json::parse(text(scratch.path() / run / "run.json"));
+    }
+
+    void expect_done(const Answer& answer) const {
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    }
+
+    /// The job alone: without the report, which takes longer than these runs.
+    void play(const std::string& words) const {
+        const Answer line = turbidite(words + " --dry-run");
+        ASSERT_EQ(line.code, 0) << line.err;
+        expect_done(shell(line.out.substr(0, line.out.size() - 1)));
+    }
+
+    /// In one part as `whole`, and up to 1.05 t_c, out of turn of the output, then to the end.
+    void play_both(const std::string& changes, const std::string& resumed = "") const {
+        play("run case.yaml --out whole" + changes);
+        play("run case.yaml --out parts" + changes + " --set time.end=1.05");
+        EXPECT_EQ(history("parts").size(), 7u);  // header, t = 0, 0.25 to 1, 1.05
+        play("resume parts --set time.end=2" + resumed);
+    }
+
+    void expect_the_same() const {
+        EXPECT_EQ(history("whole").size(), 10u);
+        EXPECT_EQ(history("parts"), history("whole"));
+        EXPECT_EQ(text(scratch.path() / "parts/grains/grains.pvd"),
+                  text(scratch.path() / "whole/grains/grains.pvd"));
+        EXPECT_EQ(record_of("parts").at("maxima"), record_of("whole").at("maxima"));
+        const auto parts = record_of("parts").at("parts");
+        ASSERT_EQ(parts.size(), 2u);
+        EXPECT_EQ(parts[1].at("from_window"), 84);
+        EXPECT_EQ(parts[1].at("windows_done"), 160);
+    }
+};
+
+struct Variant {
+    const char* name;
+    const char* changes;
+};
+class EveryVariant : public Resume, public testing::WithParamInterface<Variant> {};
+
+TEST_P(EveryVariant, GoesOnDigitForDigit) {
+    scratch.write("case.yaml", wet_case);
+    play_both(GetParam().changes);
+    expect_the_same();
+    EXPECT_GT(columns_of(text(scratch.path() / "whole/history.csv")).at("contacts").back(), 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Variants, EveryVariant,
+    testing::Values(
+        Variant{"YadeJoint", " --set grains.adapter=yade-nscd"},
+        Variant{"YadeSplit", " --set grains.adapter=yade-nscd --set coupling.scheme=split"},
+        Variant{"StandaloneSplit",
+                " --set grains.adapter=standalone-nscd --set coupling.scheme=split"},
+        Variant{"ExplicitMultiplier",
+                " --set grains.adapter=standalone-nscd --set fluid.splitting=explicit-multiplier"},
+        Variant{"ImplicitMultiplier",
+                " --set grains.adapter=standalone-nscd --set fluid.splitting=implicit-multiplier"},
+        Variant{"SecondOrder",
+                " --set grains.adapter=standalone-nscd --set fluid.time_scheme=second-order"},
+        Variant{"OwnSolversOfTheFluid",
+                " --set grains.adapter=standalone-nscd --set fluid.pressure_solver=PCG --set "
+                "fluid.pressure_tolerance=1e-9"},
+        Variant{"TwoFluidRanks", " --set grains.adapter=standalone-nscd --set fluid.ranks=2"},
+        Variant{"ColumnsOfRanks",
+                " --set grains.adapter=standalone-nscd --set fluid.ranks=2 --set "
+                "fluid.decomposition=columns"},
+        Variant{"Bonds",
+                " --set grains.adapter=standalone-nscd --set contact.adhesion=capillary --set "
+                "contact.adhesion_force=0.2 --set contact.adhesion_range=0.05 --set "
+                "contact.adhesion_length=0.05"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST_F(Resume, WallsThatMoveGoOnWhereTheyWere) {
+    scratch.write("case.yaml", dry_case);
+    scratch.write("walls.csv", "id,x1,y1,x2,y2,spin,px,py\n1,6,2,7,2,0.3,6.5,2\n");
+    for (const char* adapter : {"standalone-nscd", "yade-nscd"}) {
+        shell("rm -rf whole parts");
+        play_both(std::string(" --set grains.adapter=") + adapter);
+        expect_the_same();
+    }
+}
+
+/// Largest relative difference of a column, of its largest value.
+double difference(const Columns& one, const Columns& two, const std::string& column) {
+    return largest_difference(one.at(column), two.at(column)) / largest(one.at(column));
+}
+
+// YADE adds up the forces on a grain in the order in which contacts were found, which O.load does
+// not bring back: the last bits differ, and with them columns that consist of nothing else.
+TEST_F(Resume, MolecularDynamicsGoesOnUpToTheOrderOfSums) {
+    scratch.write("case.yaml", wet_case);
+    play_both(" --set grains.adapter=yade-md --set coupling.scheme=split");
+    const Columns one = columns_of(text(scratch.path() / "whole/history.csv"));
+    const Columns two = columns_of(text(scratch.path() / "parts/history.csv"));
+    EXPECT_EQ(one.at("contacts").back(), two.at("contacts").back());
+    EXPECT_GT(one.at("contacts").back(), 10);
+    for (const char* column : {"mean_velocity_x", "mean_velocity_y", "mean_position_x",
+                               "kinetic_energy", "sliding_share", "contact_work", "sigma_xy"})
+        EXPECT_LT(difference(one, two, column), 1e-9) << column;
+}
+
+struct OtherRanks {
+    const char* name;
+    const char* changes;
+    double limit;
+};
+class EveryDecomposition : public Resume, public testing::WithParamInterface<OtherRanks> {};
+
+// Sums over cells are taken in another order.
+TEST_P(EveryDecomposition, GoesOnWithAnotherNumberOfFluidRanks) {
+    scratch.write("case.yaml", wet_case);
+    play_both(std::string(" --set grains.adapter=standalone-nscd --set contact.tolerance=1e-9 "
+                          "--set fluid.multiplier_tolerance=1e-9") +
+                  GetParam().changes,
+              " --set fluid.ranks=2");
+    EXPECT_TRUE(fs::exists(scratch.path() / "parts/fluid/processor1/2/U"));
+    const Columns one = columns_of(text(scratch.path() / "whole/history.csv"));
+    const Columns two = columns_of(text(scratch.path() / "parts/history.csv"));
+    for (const char* column : {"mean_velocity_y", "mean_position_y", "mean_speed"})
+        EXPECT_LT(difference(one, two, column), GetParam().limit) << column;
+    play("resume parts --set time.end=2.1 --set fluid.ranks=1");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ranks, EveryDecomposition,
+    testing::Values(
+        OtherRanks{"Split", " --set coupling.scheme=split", 1e-7},
+        OtherRanks{"SecondOrder",
+                   " --set coupling.scheme=split --set fluid.time_scheme=second-order", 1e-7},
+        OtherRanks{"ExplicitMultiplier", " --set fluid.splitting=explicit-multiplier", 1e-4}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST_F(Resume, ADamagedCheckpointIsPassedOver) {
+    scratch.write("case.yaml", wet_case);
+    const std::string changes = " --set grains.adapter=standalone-nscd";
+    play("run case.yaml --out whole" + changes);
+    play("run case.yaml --out parts" + changes + " --set time.end=1.05");
+    shell("printf x | dd of=parts/checkpoints/w00000084/fluid.rank0 bs=1 seek=1000 conv=notrunc");
+    const Answer answer = turbidite("resume parts --set time.end=2");
+    expect_done(answer);
+    EXPECT_SAYS(answer.err,
+                "fluid.rank0 is damaged: its checksum differs; the one before it is used");
+    EXPECT_SAYS(answer.out, "goes on after window 64, 0.8 t_c");
+    EXPECT_EQ(history("parts"), history("whole"));
+}
+
+TEST_F(Resume, WhatCannotGoOnIsRefusedWithTheReason) {
+    scratch.write("case.yaml", wet_case);
+    expect_done(
+        turbidite("run case.yaml --out run --set grains.adapter=standalone-nscd --set "
+                  "time.end=0.5"));
+    const Answer complete = turbidite("resume run");
+    EXPECT_EQ(complete.code, 0);
+    EXPECT_SAYS(complete.out, "The run in run is complete.");
+    const Answer other = turbidite("resume run --set time.end=1 --set contact.friction=0.5");
+    EXPECT_EQ(other.code, 2);
+    EXPECT_SAYS(other.err, "contact.friction is 0.5, in the checkpoint 0.3");
+    EXPECT_SAYS(other.err, "These keys may change: time.end, ");
+    const Answer shorter = turbidite("resume run --set time.end=0.2");
+    EXPECT_EQ(shorter.code, 2);
+    EXPECT_SAYS(shorter.err, "has already done 40 windows, time.end = 0.2 t_c is 16");
+    const Answer nowhere = turbidite("resume nowhere");
+    EXPECT_EQ(nowhere.code, 2);
+    EXPECT_SAYS(nowhere.err, "is not a run folder: it has no case.yaml");
+    for (const char* set : {"w00000040", "w00000032"})
+        shell(std::string("printf x | dd of=run/checkpoints/") + set +
+              "/coupler bs=1 seek=50 conv=notrunc");
+    const Answer damaged = turbidite("resume run --set time.end=1");
+    EXPECT_EQ(damaged.code, 2);
+    EXPECT_SAYS(damaged.err, "has no whole checkpoint: w00000040, w00000032");
+}
+
+TEST_F(Resume, PrintsTheLineForABatchScript) {
+    scratch.write("case.yaml", dry_case);
+    scratch.write("walls.csv", "id,x1,y1,x2,y2\n1,6,2,7,2\n");
+    const std::string changes = " --set grains.adapter=standalone-nscd";
+    play("run case.yaml --out whole" + changes);
+    play("run case.yaml --out parts" + changes + " --set time.end=1.05");
+    const Answer answer = turbidite("resume parts --set time.end=2 --dry-run");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    ASSERT_EQ(answer.out.rfind("mpirun ", 0), 0u) << answer.out;
+    expect_done(shell(answer.out.substr(0, answer.out.size() - 1)));
+    EXPECT_EQ(history("parts"), history("whole"));
+}
+
+}  // namespace
+}  // namespace turbidite

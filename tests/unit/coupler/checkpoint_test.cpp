@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Checkpoints without MPI: when they are due, what is in their folder, and that a run that goes on
+// from one has the history of a run in one part.
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "tests/unit/coupler/loopback_job.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void overwrite(const fs::path& file, std::size_t at, char value) {
+    std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+    out.seekp(static_cast<std::streamoff>(at));
+    out.put(value);
+}
+
+/// history.csv without its last four columns, the wall times.
+std::vector<std::vector<std::string>> history_of(const TestFolder& folder) {
+    Rows rows = read_csv(folder.files().history);
+    const std::size_t wall = column(rows.at(0), "wall_step");
+    for (auto& row : rows)
+        if (row.size() > wall)
+            row.erase(row.begin() + wall, row.begin() + std::min(wall + 4, row.size()));
+    return rows;
+}
+
+Job job_with_checkpoints(const std::string& scheme) {
+    Job job;
+    job.settings = test_settings(scheme, scheme != "dry");
+    if (scheme == "dry") job.settings.set("run.scheme", scheme);
+    job.settings.set("checkpoint.windows", std::int64_t{2});
+    job.floor = 4.4995;
+    return job;
+}
+
+Names sets_in(const TestFolder& folder) {
+    return CheckpointSets(folder.path()).names();
+}
+
+TEST(CheckpointRule, CountsFromTheBeginningOfTheRun) {
+    Settings settings = test_settings();
+    const RunValues run = run_values(settings);
+    EXPECT_FALSE(CheckpointRule(settings, run).any());
+    settings.set("checkpoint.windows", std::int64_t{3});
+    settings.set("checkpoint.interval", 5.0 * run.step / run.time);
+    const CheckpointRule rule(settings, run);
+    EXPECT_TRUE(rule.any());
+    for (const std::int64_t due : {3, 5, 6, 9, 10}) EXPECT_TRUE(rule.due(due)) << due;
+    for (const std::int64_t not_due : {1, 2, 4, 7, 8}) EXPECT_FALSE(rule.due(not_due)) << not_due;
+}
+
+TEST(CheckpointRule, KnowsWallTime) {
+    Settings settings = test_settings();
+    settings.set("checkpoint.wall_minutes", 2.0);
+    CheckpointRule rule(settings, run_values(settings));
+    const auto now = CheckpointRule::Clock::now();
+    EXPECT_FALSE(rule.due(1, now + std::chrono::seconds(110)));
+    EXPECT_TRUE(rule.due(1, now + std::chrono::seconds(130)));
+    rule.written(now + std::chrono::seconds(130));
+    EXPECT_FALSE(rule.due(1, now + std::chrono::seconds(200)));
+}
+
+TEST(Checkpoint, SetsAreWrittenBeforeTheFirstWindowByRuleAndAtTheEnd) {
+    const TestFolder folder("checkpoint-sets");
+    Job job = job_with_checkpoints("split");
+    job.settings.set("checkpoint.keep", std::int64_t{9});
+    job.fluid_ranks = 2;
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_EQ(sets_in(folder), (Names{"w00000006", "w00000004", "w00000002", "w00000000"}));
+    EXPECT_EQ(job.status.checkpoints.written, 4);
+    const Manifest manifest = CheckpointSets(folder.path()).verified("w00000004");
+    EXPECT_EQ(manifest.windows, 4);
+    EXPECT_EQ(manifest.fluid.size(), 2u);
+    EXPECT_EQ(manifest.settings.text("run.hash"), "0123456789abcdef");
+    EXPECT_GT(manifest.grains.at(0).bytes, 0);
+}
+
+TEST(Checkpoint, TheNewestStay) {
+    const TestFolder folder("checkpoint-keep");
+    Job job = job_with_checkpoints("dry");
+    job.run(folder);
+    EXPECT_EQ(sets_in(folder), (Names{"w00000006", "w00000004"}));
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        EXPECT_EQ(entry.path().filename().string().find(".checkpoint"), std::string::npos);
+}
+
+struct Going {
+    const char* scheme;
+    int grains_ranks, fluid_ranks;
+};
+class GoingOn : public testing::TestWithParam<Going> {
+ protected:
+    Job job() const {
+        Job job = job_with_checkpoints(GetParam().scheme);
+        job.grains_ranks = GetParam().grains_ranks;
+        job.fluid_ranks = GetParam().fluid_ranks;
+        job.settings.set("checkpoint.keep", std::int64_t{9});
+        return job;
+    }
+    std::string name(const char* what) const {
+        return std::string("checkpoint-") + what + GetParam().scheme +
+               std::to_string(10 * GetParam().grains_ranks + GetParam().fluid_ranks);
+    }
+};
+
+TEST_P(GoingOn, GivesTheHistoryOfARunInOnePart) {
+    const TestFolder whole_folder(name("whole-")), folder(name("parts-"));
+    Job whole = job();
+    whole.run(whole_folder);
+    Job first = job();
+    first.grains_fault = [](const std::string& function, std::int64_t window) {
+        if (function == "apply_kick" && window == 4) throw std::runtime_error("lost");
+    };
+    first.run(folder);
+    EXPECT_EQ(first.status.code, ExitCode::participant_failed);
+    ASSERT_EQ(sets_in(folder).front(), "w00000004");
+    Job second = job();
+    second.resume = "w00000002";  // rows and sets after it are there already
+    std::vector<std::int64_t> played;
+    second.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "apply_kick" && GetParam().grains_ranks == 1) played.push_back(window);
+    };
+    second.run(folder);
+    EXPECT_EQ(second.status.code, ExitCode::done) << second.status.reason;
+    if (GetParam().grains_ranks == 1) {
+        EXPECT_EQ(played, (std::vector<std::int64_t>{2, 3, 4, 5}));
+    }
+    EXPECT_EQ(history_of(folder), history_of(whole_folder));
+    for (const char* series : {"grains.pvd", "contacts.pvd", "grains_00000006.vtp"})
+        EXPECT_EQ(text_of(folder.path() / "grains" / series),
+                  text_of(whole_folder.path() / "grains" / series))
+            << series;
+    EXPECT_EQ(second.status.statistics.windows_done, 6);
+    EXPECT_EQ(second.status.statistics.maxima.penetration,
+              whole.status.statistics.maxima.penetration);
+    EXPECT_EQ(sets_in(folder), sets_in(whole_folder));
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, GoingOn,
+                         testing::Values(Going{"split", 1, 1}, Going{"split", 2, 3},
+                                         Going{"joint", 1, 2}, Going{"dry", 1, 1}));
+
+// The row of the stop is out of turn, and no run in one part has it.
+TEST(Checkpoint, AStoppedRunGoesOnAsIfItHadNotBeenStopped) {
+    const TestFolder whole_folder("checkpoint-not-stopped"), folder("checkpoint-stopped");
+    Job whole = job_with_checkpoints("split");
+    whole.run(whole_folder);
+    Job first = job_with_checkpoints("split");
+    first.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 1) std::ofstream(folder.path() / "STOP");
+    };
+    first.run(folder);
+    EXPECT_EQ(first.status.code, ExitCode::interrupted);
+    EXPECT_NE(first.status.reason.find("after window 3; its output and a checkpoint are written"),
+              std::string::npos)
+        << first.status.reason;
+    EXPECT_EQ(read_csv(folder.files().history).back().front(), "3");
+    Job second = job_with_checkpoints("split");
+    second.resume = "w00000003";
+    second.run(folder);
+    EXPECT_EQ(second.status.code, ExitCode::done) << second.status.reason;
+    EXPECT_EQ(history_of(folder), history_of(whole_folder));
+}
+
+TEST(Checkpoint, FilesAskForOutputAndForACheckpointOnce) {
+    const TestFolder folder("checkpoint-asked");
+    Job job;
+    job.settings.set("run.output_every", std::int64_t{100});
+    job.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 1) std::ofstream(folder.path() / "WRITE");
+        if (function == "advance" && window == 3) std::ofstream(folder.path() / "CHECKPOINT");
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    const Rows rows = read_csv(folder.files().history);
+    ASSERT_EQ(rows.size(), 4u);  // header, t = 0, window 3, the end
+    EXPECT_EQ(rows[2].front(), "3");
+    EXPECT_EQ(sets_in(folder), Names{"w00000005"});
+    EXPECT_FALSE(fs::exists(folder.path() / "WRITE"));
+    EXPECT_FALSE(fs::exists(folder.path() / "CHECKPOINT"));
+}
+
+TEST(Checkpoint, AParticipantThatCannotSaveIsNamedAndTheRunGoesOn) {
+    const TestFolder folder("checkpoint-unable");
+    Job job = job_with_checkpoints("split");
+    job.grains_save = false;
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_TRUE(sets_in(folder).empty());
+    EXPECT_NE(text_of(folder.files().log)
+                  .find("grains (scripted) cannot save its state; the run has no checkpoints"),
+              std::string::npos);
+}
+
+TEST(CheckpointSets, ADamagedFileIsNamed) {
+    const TestFolder folder("checkpoint-damaged");
+    Job job = job_with_checkpoints("split");
+    job.run(folder);
+    const CheckpointSets sets(folder.path());
+    const auto fault = [&](const std::string& name) -> std::string {
+        try {
+            sets.verified(name);
+        } catch (const Failure& failure) {
+            return failure.what();
+        }
+        return "";
+    };
+    const fs::path set = folder.path() / "checkpoints" / "w00000006";
+    EXPECT_EQ(fault("w00000006"), "");
+    overwrite(set / "grains.rank0", 100, 'x');
+    EXPECT_NE(fault("w00000006").find("grains.rank0 is damaged: its checksum differs"),
+              std::string::npos)
+        << fault("w00000006");
+    fs::resize_file(set / "grains.rank0", 100);
+    EXPECT_NE(fault("w00000006").find("has 100 bytes instead of"), std::string::npos);
+    fs::remove(set / "grains.rank0");
+    EXPECT_NE(fault("w00000006").find("grains.rank0 is missing"), std::string::npos);
+    overwrite(set / "manifest.json", 3, '}');
+    EXPECT_NE(fault("w00000006").find("not the manifest of a checkpoint"), std::string::npos);
+    EXPECT_EQ(fault("w00000004"), "");
+}
+
+/// No file may grow beyond so many bytes, as on a full disk.
+class SmallFiles {
+ public:
+    explicit SmallFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~SmallFiles() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+ private:
+    void (*handler_)(int);
+    rlimit before_{};
+};
+
+TEST(Checkpoint, AFullDiskLeavesTheLastSetAndTheRunGoesOn) {
+    const TestFolder folder("checkpoint-full");
+    Job job = job_with_checkpoints("split");
+    std::optional<SmallFiles> full;
+    job.grains_fault = [&](const std::string& function, std::int64_t window) {
+        // The state of the three grains has more bytes.
+        if (function == "apply_kick" && window == 3) full.emplace(700);
+        if (function == "advance" && window == 4) full.reset();
+    };
+    job.settings.set("run.output_every", std::int64_t{100});
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_EQ(sets_in(folder), (Names{"w00000006", "w00000002"}));
+    EXPECT_NO_THROW(CheckpointSets(folder.path()).verified("w00000002"));
+    const std::string log = text_of(folder.files().log);
+    EXPECT_NE(log.find("no checkpoint after window 4: grains rank 0: cannot write"),
+              std::string::npos)
+        << log;
+    EXPECT_NE(log.find("The last one is checkpoints/w00000002."), std::string::npos) << log;
+}
+
+}  // namespace
+}  // namespace turbidite
