@@ -28,8 +28,9 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
         static_cast<std::int32_t>(settings.integer(grains ? "grains.ranks" : "fluid.ranks"));
     expected.case_hash = settings.text("run.hash");
     expected.scheme = scheme.name;
-    expected.effective_inertia =
-        has(scheme.order(role), grains ? Kind::contact_input : Kind::response);
+    const bool asked = has(scheme.order(role), grains ? Kind::contact_input : Kind::response);
+    expected.restores_within_window = grains && scheme.repeats;
+    expected.effective_inertia = asked && !expected.restores_within_window;
     for (const ShapeRecord& shape : shapes) expected.shapes.push_back(shape.kind);
     return expected;
 }

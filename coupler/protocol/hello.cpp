@@ -73,6 +73,9 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
     report.demand(!expected.effective_inertia || hello.capabilities.effective_inertia,
                   "support for effective inertia", "absent",
                   "it for coupling.scheme: " + expected.scheme + " (or use split)");
+    report.demand(!expected.restores_within_window || hello.capabilities.restores_within_window,
+                  "repetition of a window", "absent",
+                  "it for coupling.scheme: " + expected.scheme + " (or use split)");
     for (const std::string& shape : expected.shapes)
         report.demand(contains(hello.capabilities.shapes, shape), "list of shapes",
                       joined(hello.capabilities.shapes), shape);

@@ -60,6 +60,7 @@ struct Expectation {
     std::string case_hash;
     std::string scheme;              ///< run.scheme, for messages
     bool effective_inertia = false;  ///< the scheme's order contains a FreeResponse
+    bool restores_within_window = false;  ///< the scheme repeats windows of the grains
     std::vector<std::string> shapes;
 };
 

@@ -72,6 +72,7 @@ Hello MdAdapter::describe() const {
     hello.host_code = host_.code();
     hello.dimension = 2;
     hello.capabilities.saves_state = true;
+    hello.capabilities.restores_within_window = true;
     hello.capabilities.serialises_state = true;
     hello.capabilities.native_substeps = true;
     hello.capabilities.shapes = {"disc"};
@@ -84,6 +85,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     const auto start = Clock::now();
     run_ = run_values(settings);
     hold_ = settings.flag("coupling.md_hold");
+    repeats_ = settings.has("run.repeats_windows") && settings.flag("run.repeats_windows");
     substep_count_ = settings.integer("run.md_substeps");
     borders_ = lay_borders(settings);
     refuse_cyclic(borders_);
@@ -128,10 +130,33 @@ Load MdAdapter::load(std::size_t i, double dt) const {
 
 Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const auto start = Clock::now();
-    if (!responses.empty())
+    if (!responses.empty() && !repeats_)
         throw std::runtime_error(
             "responses of the fluid were received " + in_window(window) +
             ", but molecular dynamics cannot use them: use coupling.scheme split");
+    if (!responses.empty()) repeat(window, responses);
+    if (responses.empty() && repeats_) start_ = save();
+    Motion result = play(window);
+    result.report.wall_seconds = report_.wall_seconds = seconds_since(start);
+    return result;
+}
+
+/// Back to t^n with other impulses to hold.
+void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& targets) {
+    const auto ordered = by_grain(bodies_.id, targets, "response", in_window(window));
+    std::vector<Held> held = held_;
+    for (std::size_t i = 0; i < held.size(); ++i) {
+        const nscd::Twist& found = bodies_.twist[i];
+        held[i].impulse =
+            held[i].impulse + bodies_.mass[i] * (ordered[i]->velocity - found.velocity);
+        held[i].angular_impulse = held[i].angular_impulse +
+                                  bodies_.inertia[i] * (ordered[i]->angular_velocity - found.spin);
+    }
+    restore(start_);
+    held_ = std::move(held);
+}
+
+Motion MdAdapter::play(const Window& window) {
     host_.read(bodies_);
     agree([&] { check_inside(bodies_, borders_, in_window(window) + " before contacts"); });
     advanced_ = true;
@@ -153,7 +178,6 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
     report_.contacts = run.contacts;
     report_.iterations = substep_count_;
     report_.max_penetration = run.max_penetration;
-    report_.wall_seconds = seconds_since(start);
     return motion(sent);
 }
 

@@ -51,9 +51,11 @@ class MdAdapter final : public GrainsAdapter {
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
 
-    /// Once per window. In windows with output the contact impulses are those summed by the host;
-    /// in the others they follow from the change of momentum. Throws std::runtime_error if there
-    /// are responses of the fluid.
+    /// In windows with output the contact impulses are those summed by the host; in the others they
+    /// follow from the change of momentum. With responses, of which only the velocities are used,
+    /// the window is played again from t^n: each grain holds the impulse J_h + cM (U - U^{n+4/5})
+    /// that would take it to the velocity U if its contacts stayed as they were
+    /// (run.repeats_windows). Throws std::runtime_error if there are responses otherwise.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
     /// One kick per grain, or none if the case has no fluid.
@@ -69,6 +71,8 @@ class MdAdapter final : public GrainsAdapter {
         Vec3 angular_impulse{};
     };
 
+    Motion play(const Window& window);
+    void repeat(const Window& window, const std::vector<FreeResponse>& targets);
     double velocity_lag() const;
     double lead() const;
     Substeps substeps(const Window& window) const;
@@ -86,6 +90,8 @@ class MdAdapter final : public GrainsAdapter {
     MdHost& host_;
     RunValues run_;
     bool hold_ = true;
+    bool repeats_ = false;            ///< windows may be played again
+    SavedState start_;                ///< of this window, if they may
     std::int64_t substep_count_ = 1;  ///< k
     std::vector<Border> borders_;
     nscd::Bodies bodies_;  ///< at the host's positions

@@ -419,6 +419,7 @@ void choose_scheme(Settings& settings) {
 void set_scheme(Settings& settings) {
     const SchemeEntry& scheme = find_scheme(scheme_name(settings));
     settings.set("run.scheme", std::string(scheme.name));
+    settings.set("run.repeats_windows", scheme.repeats);
     settings.set("run.slip_tolerance", scheme.slip_tolerance(settings));
 }
 

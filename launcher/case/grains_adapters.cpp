@@ -28,6 +28,7 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
 GrainsAdapter external_program(const char* name, const char* help) {
     GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
     adapter.family = "any";
+    adapter.schemes.push_back("sub-iterated");
     adapter.moved_grains = false;
     adapter.most_ranks = any_number;
     return adapter;

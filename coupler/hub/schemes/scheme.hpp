@@ -44,6 +44,9 @@ struct SchemeEntry {
     /// contacts and fluid comes from the inertia and not from the multiplier solve; 0:
     /// coupling.tolerance is not used.
     double slip_per_mismatch;
+    /// The grains repeat their window with other velocities to come to (restores_within_window),
+    /// instead of taking the fluid's inertia into their contacts.
+    bool repeats = false;
     std::unique_ptr<Scheme> (*make)(const Settings&);
 
     const Order& order(Role role) const { return role == Role::fluid ? fluid : grains; }
@@ -62,6 +65,7 @@ const SchemeEntry& find_scheme(const std::string& name);
 
 SchemeEntry split_scheme();
 SchemeEntry joint_scheme();
+SchemeEntry sub_iterated_scheme();
 SchemeEntry dry_scheme();
 
 }  // namespace turbidite

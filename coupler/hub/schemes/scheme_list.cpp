@@ -10,6 +10,7 @@ const std::vector<SchemeEntry>& scheme_list() {
     static const std::vector<SchemeEntry> schemes = {
         split_scheme(),
         joint_scheme(),
+        sub_iterated_scheme(),
         dry_scheme(),
     };
     return schemes;

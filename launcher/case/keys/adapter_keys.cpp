@@ -35,6 +35,10 @@ Objection unknown_to(const Settings& s, const std::string& what, bool (*can)(con
 Ruling scheme_is_known(const Settings& s) {
     if (!s.flag("fluid.enabled") || has(grains_adapter(s).schemes, s.text("coupling.scheme")))
         return std::nullopt;
+    if (s.text("coupling.scheme") == "sub-iterated")
+        return unknown_to(
+            s, "has no sub-steps to repeat: it takes the fluid's inertia into its contacts",
+            [](const GrainsAdapter& a) { return has(a.schemes, "sub-iterated"); }, "Use joint");
     return unknown_to(
         s,
         "moves grains in sub-steps of its own and solves no contact problem that could include the "
@@ -131,6 +135,15 @@ Ruling ranks_are_supported(const Settings& s) {
                      "Use 1, or grains.adapter: lammps-md."};
 }
 
+/// Grains may have changed their rank by the end of the window that is to be repeated.
+Ruling repeats_on_one_rank(const Settings& s) {
+    if (grains_adapter(s).host == GrainsHost::command || s.integer("grains.ranks") == 1 ||
+        !is(s, "coupling.scheme", "sub-iterated"))
+        return std::nullopt;
+    return Objection{"With several ranks grains cannot repeat a window in this version.",
+                     "Use grains.ranks: 1, or coupling.scheme: split."};
+}
+
 void notes(const Settings& s, std::vector<std::string>& notes) {
     const double wanted = s.real("contact.restitution"), least = restitution_of(1.0);
     if (grains_adapter(s).family == "md" && wanted > 0.0 && wanted < least)
@@ -172,6 +185,7 @@ KeyGroup adapter_keys() {
                   {"grains.script", {}, script_is_python},
                   {"grains.command", {}, command_has_words},
                   {"grains.ranks", {"grains.adapter"}, ranks_are_supported},
+                  {"grains.ranks", {"grains.adapter", "coupling.scheme"}, repeats_on_one_rank},
                   {"contact.law", {"grains.adapter"}, law_is_known},
                   {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},
                   {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known}},

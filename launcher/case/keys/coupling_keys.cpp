@@ -7,22 +7,23 @@
 namespace turbidite {
 namespace {
 
-/// The schemes of hub/schemes with a fluid, one that stands for them, and one planned for later.
+/// The schemes of hub/schemes with a fluid, and one that stands for them.
 std::vector<Choice> scheme_choices() {
     std::vector<Choice> choices = {
         {"auto", "joint where the grains' adapter can, otherwise split"}};
     for (const SchemeEntry& scheme : scheme_list())
         if (!scheme.fluid.empty()) choices.push_back({scheme.name, scheme.help});
-    choices.push_back({"sub-iterated", "both repeated within a window", false});
     return choices;
 }
 
 bool is_joint(const Settings& s) {
     return s.flag("fluid.enabled") && is(s, "coupling.scheme", "joint");
 }
-std::string without_joint(const Settings& s) {
+std::string without_rounds(const Settings& s) {
     if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
-    return is_joint(s) ? "" : "with coupling.scheme: " + s.text("coupling.scheme");
+    return is_joint(s) || is(s, "coupling.scheme", "sub-iterated")
+               ? ""
+               : "with coupling.scheme: " + s.text("coupling.scheme");
 }
 std::string idle_positions(const Settings& s) {
     if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
@@ -69,15 +70,19 @@ KeyGroup coupling_keys() {
              .unit = "u_c",
              .fallback = "0.0001",
              .range = open_unit_interval,
-             .help = "joint: largest difference between contact and fluid velocity of a grain",
-             .idle = without_joint},
+             .help =
+                 "joint, sub-iterated: largest difference between contact and fluid velocity of a "
+                 "grain",
+             .idle = without_rounds},
             {.name = "coupling.iterations",
              .type = KeyType::integer,
              .fallback = "10",
              .range = {.lower = 1.0},
-             .help = "joint: largest number of contact solves per window; windows that need more "
-                     "are counted",
-             .idle = without_joint},
+             .help =
+                 "joint, sub-iterated: largest number of contact solves per window; windows that "
+                 "need more "
+                 "are counted",
+             .idle = without_rounds},
         }};
 }
 
