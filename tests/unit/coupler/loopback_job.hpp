@@ -34,6 +34,7 @@ struct Job {
     LoopbackChannel::Hook from_fluid, from_grains;
     std::optional<SchemeEntry> scheme;  // instead of run.scheme
     std::filesystem::path recordings;   // folder for grains.frames and fluid.frames
+    std::function<std::unique_ptr<GrainsAdapter>()> make_grains;  // instead of ScriptedGrains
     std::string resume;                 // a checkpoint to go on from
     bool grains_save = true;            // the grains can save their state
 
@@ -55,11 +56,9 @@ struct Job {
         std::vector<std::thread> threads;
         for (int rank = 0; rank < grains_ranks; ++rank)
             threads.emplace_back([&, rank, end = grains_ends[rank].get()] {
-                ScriptedGrains adapter_object(adapter, grains_fault);
-                if (floor) adapter_object.lay_floor(*floor);
-                adapter_object.can_save(grains_save);
+                const std::unique_ptr<GrainsAdapter> grains_program = grains_adapter();
                 outcomes[rank] =
-                    live(*make_session(adapter_object, *end, identity(folder, rank, grains_ranks)));
+                    live(*make_session(*grains_program, *end, identity(folder, rank, grains_ranks)));
             });
         for (int rank = 0; wet && rank < fluid_ranks; ++rank)
             threads.emplace_back([&, rank, end = fluid_ends[rank].get()] {
