@@ -84,6 +84,13 @@ struct Job {
     }
 
  private:
+    std::unique_ptr<GrainsAdapter> grains_adapter() const {
+        if (make_grains) return make_grains();
+        auto grains = std::make_unique<ScriptedGrains>(adapter, grains_fault);
+        if (floor) grains->lay_floor(*floor);
+        grains->can_save(grains_save);
+        return grains;
+    }
     Identity identity(const TestFolder& folder, int rank, int ranks) const {
         return {rank, ranks, "a.log", hash, folder.path().string()};
     }
