@@ -212,7 +212,8 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
     const Settings settings = load("", {"grains.ranks=2", "grains.adapter=lammps-md"}).settings;
     EXPECT_EQ(settings.integer("grains.ranks"), 2);
     EXPECT_EQ(settings.text("coupling.scheme"), "split");
-    EXPECT_SAYS(refusal("", {"grains.adapter=lammps-md", "grains.shape=triangle"}), "lammps-md");
+    EXPECT_SAYS(refusal("", {"grains.adapter=lammps-md", "grains.shape=triangle"}),
+                "lammps-md supports discs only.");
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {
