@@ -217,9 +217,20 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {
-    for (const char* set : {"coupling.scheme=sub-iterated", "dimension=3", "grains.shape=sphere"})
+    for (const char* set : {"dimension=3", "grains.shape=sphere"})
         EXPECT_SAYS(refusal("", {set}), "is not available in this version.");
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
+}
+
+TEST_F(CaseFile, WindowsAreRepeatedByCodesWithSubSteps) {
+    const std::string scheme = "coupling.scheme=sub-iterated";
+    const ResolvedCase md = load("", {scheme, "grains.adapter=lammps-md"});
+    EXPECT_TRUE(md.settings.flag("run.repeats_windows"));
+    EXPECT_EQ(md.settings.real("run.slip_tolerance"), 1e-5);
+    EXPECT_FALSE(load("").settings.flag("run.repeats_windows"));
+    EXPECT_SAYS(refusal("", {scheme}), "takes the fluid's inertia into its contacts");
+    EXPECT_SAYS(refusal("", {scheme, "grains.adapter=lammps-md", "grains.ranks=2"}),
+                "With several ranks grains cannot repeat a window");
 }
 
 TEST_F(CaseFile, JointReportsWhichKeysHaveNoEffect) {
