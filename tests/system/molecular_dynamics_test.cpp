@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // grains.adapter: yade-md as seen by the user, compared with yade-nscd where both must agree.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/system/history_columns.hpp"
@@ -66,6 +67,32 @@ TEST_F(MolecularDynamics, ChecksItsKeys) {
                 "grains.adapter: yade-md");
     const Answer other = check(" --set grains.adapter=yade-nscd --set contact.md_stiffness=1e5");
     EXPECT_SAYS(other.out, "contact.md_stiffness has no effect with grains.adapter: yade-nscd");
+}
+
+// A heap of discs: windows are repeated until contacts and fluid agree, which `split` leaves apart.
+TEST_F(MolecularDynamics, RepeatsWindowsUntilContactsAndFluidAgree) {
+    wet("[4, 6]", "1,1,0.6\n2,2.1,0.6\n3,1.6,1.6\n4,2.9,1.7\n5,2.2,2.7\n", "3");
+    for (const std::string adapter : {"lammps-md", "yade-md"}) {
+        const std::string host = " --set grains.adapter=" + adapter;
+        const Columns split = play(adapter + "-split", host);
+        const Columns run = play(adapter, host + " --set coupling.scheme=sub-iterated");
+        EXPECT_LT(maxima.at("grain_balance").get<double>(), 1e-10) << adapter;
+        double rounds = 0.0, contacts = 0.0, apart = 0.0;
+        std::vector<double> mismatch;
+        for (std::size_t k = 1; k < run.at("time").size(); ++k) {
+            rounds = std::max(rounds, run.at("joint_rounds")[k]);
+            contacts = std::max(contacts, run.at("contacts")[k]);
+            mismatch.push_back(run.at("joint_mismatch")[k]);
+            apart = std::max(
+                apart, std::abs(run.at("mean_velocity_y")[k] - split.at("mean_velocity_y")[k]));
+        }
+        std::sort(mismatch.begin(), mismatch.end());
+        EXPECT_GE(contacts, 3.0) << adapter;
+        EXPECT_GT(rounds, 2.0) << adapter;
+        EXPECT_LT(mismatch[mismatch.size() * 9 / 10], 1e-4) << adapter;  // coupling.tolerance
+        EXPECT_GT(apart, 1e-4) << adapter;
+        EXPECT_LT(apart, 0.05) << adapter;
+    }
 }
 
 // k = S m g/D: the contact time of two grains is pi sqrt(D/(2 S g)) = 0.00702 t_c for S = 1e5, so a
