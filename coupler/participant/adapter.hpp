@@ -47,6 +47,11 @@ class GrainsAdapter {
     /// U^{n+4/5}. With one response per grain (`joint`) free velocities and inertia are those given
     /// by the fluid. If it is called again before the kick, always with responses, it starts from
     /// t^n again.
+    ///
+    /// An adapter that repeats windows instead (`sub-iterated`: restores_within_window) is called
+    /// without responses first. Of later responses only the velocities count: it starts from t^n
+    /// again and holds the impulse J_h + cM (U - U^{n+4/5}), U the velocity of the response and
+    /// U^{n+4/5} the one it found with J_h, which it reports as announced_impulse.
     virtual Motion advance(const Window& window, const std::vector<FreeResponse>& responses) = 0;
 
     /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. U are the corrected

@@ -11,6 +11,7 @@ import findings
 import fluid_fields
 import grain_drawing
 import grain_files
+import plates
 
 MOST_PICTURES = 6
 # Grains and fluid are matched if their times differ by less than this fraction of an output interval.
@@ -210,6 +211,7 @@ def _draw(run, picture, limit, size, axes):
 
 
 def decorate(run, axes, size, time):
+    plates.draw(axes, run, time / run.scale('t_c'))
     axes.set(xlim=(0, size[0]), ylim=(0, size[1]), aspect='equal')
     axes.set_title(rf'$t = {time / run.scale("t_c"):.3g}\,t_c$', fontsize=10)
     axes.tick_params(labelsize=7)

@@ -222,6 +222,13 @@ TEST_F(CaseFile, VariantsOfLaterVersions) {
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
 }
 
+/// Longer than any file system takes.
+TEST_F(CaseFile, AFileWithAnImpossibleNameIsNotThere) {
+    const std::string name(5000, 'x');
+    for (const std::string key : {"grains.file", "domain.walls_file", "grains.script"})
+        EXPECT_SAYS(refusal("", {key + "=" + name + ".py"}), "There is no file");
+}
+
 TEST_F(CaseFile, WindowsAreRepeatedByCodesWithSubSteps) {
     const std::string scheme = "coupling.scheme=sub-iterated";
     const ResolvedCase md = load("", {scheme, "grains.adapter=lammps-md"});
