@@ -73,9 +73,10 @@ def history(folder):
 
 
 def differences(before, after):
-    """Sentences on the differences between two run folders; empty if they are equal."""
+    """Sentences on the differences between two run folders; empty if they are equal. New columns are appended from
+    version to version; they have nothing to be compared with."""
     (old, old_rows), (new, new_rows) = history(before), history(after)
-    found = [f'only one side has the column {name}' for name in sorted(set(old) ^ set(new))]
+    found = [f'the column {name} is gone' for name in sorted(set(old) - set(new))]
     if old_rows != new_rows:
         found.append(f'{old_rows} rows before, {new_rows} after')
     for name in [name for name in old if name in new]:
