@@ -210,9 +210,8 @@ JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
     if (outcome.code == ExitCode::done)
         return fmt::format(
-            "Done. Results in {}: report.html, history.csv; for ParaView "
-            "grains/grains.pvd{}.\n",
-            folder.root.string(),
+            "Done. Results in {}: {}history.csv; for ParaView grains/grains.pvd{}.\n",
+            folder.root.string(), std::filesystem::exists(folder.report()) ? "report.html, " : "",
             std::filesystem::exists(folder.fluid()) ? " and fluid/fluid.foam" : "");
     const bool asked_for =
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;

@@ -28,6 +28,12 @@ bool request_stop(const RunFolder& folder, int signal) {
     return true;
 }
 
+/// TURBIDITE_REPORT=off leaves it to `turbidite report`.
+bool report_wanted() {
+    const char* wish = std::getenv("TURBIDITE_REPORT");
+    return wish == nullptr || std::string(wish) != "off";
+}
+
 /// Something to report on: a row of the history.
 bool has_output(const RunFolder& folder) {
     std::ifstream history(folder.history());
@@ -56,7 +62,8 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     std::fflush(stdout);
     const bool done = outcome.code == ExitCode::done;
     if (!done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
-    const bool reported = !has_output(folder) || write_report(folder, programs);
+    const bool due = report_wanted() && has_output(folder);
+    const bool reported = !due || write_report(folder, programs);
     if (done) fmt::print("{}", outcome_text(folder, outcome));
     if (!reported) fmt::print(stderr, "report.html could not be written; see above.\n");
     return outcome;

@@ -135,6 +135,7 @@ TEST_F(CommandLine, DryRunOfTheQuickstartPreparesItsFluid) {
 }
 
 TEST_F(CommandLine, RunLeavesAWholeFolder) {
+    with_reports();
     const Answer answer =
         turbidite("run " + quickstart + quick + " --set time.end=1 --set output.interval=0.25" +
                   into_run_folder());
@@ -290,6 +291,8 @@ TEST_F(CommandLine, CompareRefusesWhatItCannotCompare) {
 /// A run of 160,000 windows, too long to end within a test, stopped by a signal.
 class Interrupted : public CommandLine {
  protected:
+    Interrupted() { with_reports(); }
+
     int stop_by(int signal, const std::string& options) const {
         const pid_t child = fork();
         if (child == 0) {

@@ -74,6 +74,8 @@ TEST_F(FluidRanks, RowsAndColumnsAndAnyNumberGiveTheHistoryOfOneRank) {
          {"fluid.ranks=2", "fluid.ranks=4", "fluid.ranks=3 --set fluid.decomposition=columns"})
         expect_the_same(one, places(several), several);
     EXPECT_TRUE(fs::exists(run_folder() / "fluid/processor2/2.5/U"));
+    EXPECT_FALSE(fs::exists(run_folder() / "report.html"));
+    shell(std::string(TURBIDITE_PROGRAM) + " report " + run_folder().string());
     EXPECT_SAYS(text(run_folder() / "report.html"), "Colour: vertical velocity of the fluid");
 }
 

@@ -30,6 +30,10 @@ struct Answer {
 
 class ShellTest : public ::testing::Test {
  protected:
+    /// Runs write no report, which takes longer than most of them, unless a test asks for it.
+    ShellTest() { ::setenv("TURBIDITE_REPORT", "off", 1); }
+    static void with_reports() { ::unsetenv("TURBIDITE_REPORT"); }
+
     ScratchFolder scratch;
 
     std::string text(const std::filesystem::path& file) const {

@@ -128,7 +128,9 @@ TEST_F(Outcome, FailureShowsTheLogs) {
 }
 
 TEST_F(Outcome, SuccessSaysWhereThingsAre) {
-    EXPECT_SAYS(outcome_text(folder, {}), "report.html");
+    EXPECT_SAYS(outcome_text(folder, {}), ": history.csv;");
+    scratch.write("report.html", "<html>");
+    EXPECT_SAYS(outcome_text(folder, {}), ": report.html, history.csv;");
 }
 
 }  // namespace
