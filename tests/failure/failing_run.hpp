@@ -18,6 +18,8 @@ namespace turbidite {
 
 class FailingRun : public ShellTest {
  protected:
+    FailingRun() { with_reports(); }
+
     static constexpr auto small_case =
         "domain: {size: [6, 6]}\n"
         "grains: {adapter: standalone-nscd, count: 6}\n"
