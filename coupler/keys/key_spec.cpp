@@ -33,16 +33,6 @@ std::string choice_names(const KeySpec& key) {
     return text;
 }
 
-std::vector<std::string> parts_of(const std::string& name) {
-    std::vector<std::string> parts(1);
-    for (const char c : name)
-        if (c == '.')
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 bool is_word(const std::string& text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_';
@@ -65,6 +55,16 @@ bool means(const KeySpec& key, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> parts_of(const std::string& name) {
+    std::vector<std::string> parts(1);
+    for (const char c : name)
+        if (c == '.')
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
 
 bool Range::contains(double value) const {
     const bool above = lower_open ? value > lower : value >= lower;

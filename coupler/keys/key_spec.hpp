@@ -60,6 +60,9 @@ using KeyTable = std::vector<KeySpec>;
 /// The key with this name, nullptr if there is none.
 const KeySpec* find_key(const KeyTable& table, const std::string& name);
 
+/// "contact", "friction".
+std::vector<std::string> parts_of(const std::string& name);
+
 /// True if its name has parts in capitals.
 bool has_words(const KeySpec& key);
 

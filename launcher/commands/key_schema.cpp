@@ -12,16 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> parts_of(const std::string& name) {
-    std::vector<std::string> parts(1);
-    for (const char c : name)
-        if (c == '.')
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 /// A part in capitals stands for any word.
 bool is_placeholder(const std::string& part) {
     return !part.empty() && std::isupper(static_cast<unsigned char>(part.front())) != 0;

@@ -76,6 +76,19 @@ std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast) {
     return responses;
 }
 
+std::vector<FreeResponse> play_contact_round(const Window& window,
+                                             const std::vector<std::vector<FreeResponse>>& inputs,
+                                             Cast& cast, WindowResult& result) {
+    cast.grains.send_each(Kind::contact_input, inputs);
+    const ContactReport so_far = result.motion.report;
+    result.motion = receive_motion(window, cast);
+    result.motion.report.iterations += so_far.iterations;
+    result.motion.report.wall_seconds += so_far.wall_seconds;
+    cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
+    ++result.joint->rounds;
+    return receive_responses(window, cast);
+}
+
 void send_accept(Cast& cast) {
     for (int rank = 0; rank < cast.fluid->ranks(); ++rank) cast.fluid->send(rank, Kind::accept, {});
 }

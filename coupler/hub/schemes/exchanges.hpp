@@ -17,6 +17,13 @@ Motion receive_motion(const Window& window, Cast& cast);
 /// Waits for the responses of all grains to contact impulses.
 std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast);
 
+/// One round of a scheme that repeats its contact solves: `inputs` to the grains, by rank, their
+/// motion to the fluid. Fills the motion of `result`, whose iterations and times add up, and counts
+/// the round in its `joint`; returns the responses.
+std::vector<FreeResponse> play_contact_round(const Window& window,
+                                             const std::vector<std::vector<FreeResponse>>& inputs,
+                                             Cast& cast, WindowResult& result);
+
 /// The last constraint is final: the fluid ends its window.
 void send_accept(Cast& cast);
 

@@ -53,16 +53,9 @@ class Joint final : public Scheme {
     /// One contact solve and the fluid's response.
     Responses play_round(const Window& window, const Responses& responses, Cast& cast,
                          WindowResult& result) const {
-        cast.grains.send_each(Kind::contact_input, cast.plan.by_owner(responses));
-        const ContactReport so_far = result.motion.report;
-        result.motion = receive_motion(window, cast);
-        result.motion.report.iterations += so_far.iterations;
-        result.motion.report.wall_seconds += so_far.wall_seconds;
-
-        cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
-        Responses corrected = receive_responses(window, cast);
+        Responses corrected =
+            play_contact_round(window, cast.plan.by_owner(responses), cast, result);
         JointReport& report = *result.joint;
-        ++report.rounds;
         report.mismatch = largest_mismatch(corrected);
         report.converged = report.mismatch <= tolerance_;
         return corrected;

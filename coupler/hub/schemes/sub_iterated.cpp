@@ -110,15 +110,8 @@ class SubIterated final : public Scheme {
     /// Sub-steps of the grains, and the fluid's answer to their contact impulses.
     Responses play_round(const Window& window, const std::vector<Responses>& inputs, Cast& cast,
                          WindowResult& result) const {
-        cast.grains.send_each(Kind::contact_input, inputs);
-        const ContactReport so_far = result.motion.report;
-        result.motion = receive_motion(window, cast);
-        result.motion.report.iterations += so_far.iterations;
-        result.motion.report.wall_seconds += so_far.wall_seconds;
-        cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
-        Responses corrected = receive_responses(window, cast);
+        Responses corrected = play_contact_round(window, inputs, cast, result);
         JointReport& report = *result.joint;
-        ++report.rounds;
         report.mismatch = largest_of(disagreement(result.motion, corrected));
         report.converged = report.mismatch <= tolerance_;
         return corrected;
