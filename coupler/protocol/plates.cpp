@@ -11,7 +11,6 @@
 namespace turbidite {
 namespace {
 
-constexpr std::int32_t first_key = 4;  // after the sides of the box
 constexpr std::size_t numbers_per_plate = 12;
 using Numbers = std::array<double, numbers_per_plate>;
 
@@ -75,11 +74,11 @@ std::vector<Plate> plates_of(const Settings& settings) {
     std::vector<Plate> plates;
     if (!settings.has("run.walls")) return plates;
     std::istringstream list(settings.text("run.walls"));
-    std::int32_t key = first_key;
+    std::int32_t key = first_plate;
     for (std::string text; std::getline(list, text, ';');)
         plates.push_back(plate_of(numbers_of(text), key++));
     for (const Moved& moved : motions_of(settings, "run.wall_motions"))
-        if (const auto at = moved.what - first_key;
+        if (const auto at = moved.what - first_plate;
             at >= 0 && at < static_cast<std::int64_t>(plates.size()))
             plates[at].motion = moved.motion;
     return plates;

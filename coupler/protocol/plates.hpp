@@ -17,6 +17,9 @@
 
 namespace turbidite {
 
+/// Key of the first plate; those before it are the sides of the box.
+inline constexpr std::int32_t first_plate = 4;
+
 /// All that is nearer to a segment than half the thickness, at t = 0, and its motion.
 struct Plate {
     std::int32_t key = 0;  ///< of the wall, after those of the sides of the box

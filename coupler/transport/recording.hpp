@@ -12,7 +12,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
+#include <optional>
 
 #include "coupler/transport/channel.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/protocol/plates.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains_adapters.hpp"
 
@@ -17,7 +17,6 @@ namespace {
 
 constexpr const char* prefix = "domain.motions.";
 constexpr const char* sides[] = {"left", "right", "bottom", "top"};  // keys 0 to 3 of the walls
-constexpr std::int32_t first_inner_wall = 4;
 
 std::string key_of(const std::string& name, const char* part) {
     return prefix + name + "." + part;
@@ -209,7 +208,7 @@ void append(std::string& text, std::int64_t what, const Settings& s, const std::
 /// The motions of those sides that are inflows, or of those that are not.
 std::string side_motions(const Settings& settings, const Scales& scales, bool inflows) {
     std::string text;
-    for (std::int32_t i = 0; i < first_inner_wall; ++i)
+    for (std::int32_t i = 0; i < first_plate; ++i)
         if (const std::string key = std::string("domain.") + sides[i] + "_motion";
             settings.has(key) && is_inflow(settings, sides[i]) == inflows)
             append(text, i, settings, settings.text(key), scales);
@@ -317,7 +316,7 @@ std::string motions_setting(const Settings& settings, const std::vector<InnerWal
     std::string text = side_motions(settings, scales, false);
     for (std::size_t i = 0; i < walls.size(); ++i)
         if (!walls[i].motion.empty())
-            append(text, first_inner_wall + static_cast<std::int32_t>(i), settings, walls[i].motion,
+            append(text, first_plate + static_cast<std::int32_t>(i), settings, walls[i].motion,
                    scales);
     return text;
 }

@@ -29,25 +29,8 @@ class ResumeAfter : public FailingRun {
                       "checkpoint: {windows: 40}\n");
         const Answer whole = shell("timeout 60 " TURBIDITE_PROGRAM " run small.yaml --out whole");
         ASSERT_EQ(whole.code, 0) << whole.err;
-        whole_ = history_of("whole");
+        whole_ = lines_of_history("whole");
         ASSERT_EQ(whole_.size(), 122u);
-    }
-
-    /// Lines of history.csv without the wall times.
-    std::vector<std::string> history_of(const std::string& run) const {
-        std::istringstream lines(text(scratch.path() / run / "history.csv"));
-        std::vector<std::string> result, names;
-        for (std::string line; std::getline(lines, line);) {
-            std::vector<std::string> cells;
-            std::istringstream row(line);
-            for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-            if (names.empty()) names = cells;
-            std::string kept;
-            for (std::size_t i = 0; i < cells.size(); ++i)
-                if (names.at(i).rfind("wall_", 0) != 0) kept += cells[i] + ",";
-            result.push_back(kept);
-        }
-        return result;
     }
 
     Answer resume(const std::string& options = "") const {
@@ -58,7 +41,7 @@ class ResumeAfter : public FailingRun {
         const Answer answer = resume();
         EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
         EXPECT_SAYS(answer.out, " goes on after window ");
-        EXPECT_EQ(history_of("run"), whole_);
+        EXPECT_EQ(lines_of_history("run"), whole_);
     }
 
     /// Starts `words` of turbidite.
@@ -113,14 +96,14 @@ TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
             --left;
             continue;
         }
-        EXPECT_EQ(history_of("run"), whole_);
+        EXPECT_EQ(lines_of_history("run"), whole_);
         ++completed;
         fs::remove_all(run_folder());
     }
     if (begun()) {
         const Answer answer = resume();
         EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
-        EXPECT_EQ(history_of("run"), whole_);
+        EXPECT_EQ(lines_of_history("run"), whole_);
     }
     EXPECT_GT(resumptions, 0);
     std::printf("%d kills, %d resumptions, %d runs completed in between\n", kills(), resumptions,
@@ -186,8 +169,8 @@ TEST_F(ResumeAfter, AFileStops) {
     EXPECT_FALSE(fs::exists(run_folder() / "STOP"));
     const Answer resumed = resume();
     EXPECT_EQ(resumed.code, 0) << resumed.err;
-    EXPECT_GE(history_of("run").size(), whole_.size());  // and the row asked for by WRITE
-    EXPECT_EQ(history_of("run").back(), whole_.back());
+    EXPECT_GE(lines_of_history("run").size(), whole_.size());  // and the row asked for by WRITE
+    EXPECT_EQ(lines_of_history("run").back(), whole_.back());
 }
 
 }  // namespace

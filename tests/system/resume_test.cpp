@@ -45,23 +45,6 @@ class Resume : public ShellTest {
         return shell(std::string("timeout 170 ") + TURBIDITE_PROGRAM + " " + words);
     }
 
-    /// Lines of history.csv without the wall times.
-    std::vector<std::string> history(const std::string& run) const {
-        std::istringstream lines(text(scratch.path() / run / "history.csv"));
-        std::vector<std::string> result, names;
-        for (std::string line; std::getline(lines, line);) {
-            std::vector<std::string> cells;
-            std::istringstream row(line);
-            for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-            if (names.empty()) names = cells;
-            std::string kept;
-            for (std::size_t i = 0; i < cells.size(); ++i)
-                if (names.at(i).rfind("wall_", 0) != 0) kept += cells[i] + ",";
-            result.push_back(kept);
-        }
-        return result;
-    }
-
     nlohmann::json record_of(const std::string& run) const {
         return nlohmann::json::parse(text(scratch.path() / run / "run.json"));
     }
@@ -81,13 +64,13 @@ class Resume : public ShellTest {
     void play_both(const std::string& changes, const std::string& resumed = "") const {
         play("run case.yaml --out whole" + changes);
         play("run case.yaml --out parts" + changes + " --set time.end=1.05");
-        EXPECT_EQ(history("parts").size(), 7u);  // header, t = 0, 0.25 to 1, 1.05
+        EXPECT_EQ(lines_of_history("parts").size(), 7u);  // header, t = 0, 0.25 to 1, 1.05
         play("resume parts --set time.end=2" + resumed);
     }
 
     void expect_the_same() const {
-        EXPECT_EQ(history("whole").size(), 10u);
-        EXPECT_EQ(history("parts"), history("whole"));
+        EXPECT_EQ(lines_of_history("whole").size(), 10u);
+        EXPECT_EQ(lines_of_history("parts"), lines_of_history("whole"));
         EXPECT_EQ(text(scratch.path() / "parts/grains/grains.pvd"),
                   text(scratch.path() / "whole/grains/grains.pvd"));
         EXPECT_EQ(record_of("parts").at("maxima"), record_of("whole").at("maxima"));
@@ -208,7 +191,7 @@ TEST_F(Resume, ADamagedCheckpointIsPassedOver) {
     EXPECT_SAYS(answer.err,
                 "fluid.rank0 is damaged: its checksum differs; the one before it is used");
     EXPECT_SAYS(answer.out, "goes on after window 64, 0.8 t_c");
-    EXPECT_EQ(history("parts"), history("whole"));
+    EXPECT_EQ(lines_of_history("parts"), lines_of_history("whole"));
 }
 
 TEST_F(Resume, WhatCannotGoOnIsRefusedWithTheReason) {
@@ -247,7 +230,7 @@ TEST_F(Resume, PrintsTheLineForABatchScript) {
     ASSERT_EQ(answer.code, 0) << answer.err;
     ASSERT_EQ(answer.out.rfind("mpirun ", 0), 0u) << answer.out;
     expect_done(shell(answer.out.substr(0, answer.out.size() - 1)));
-    EXPECT_EQ(history("parts"), history("whole"));
+    EXPECT_EQ(lines_of_history("parts"), lines_of_history("whole"));
 }
 
 }  // namespace

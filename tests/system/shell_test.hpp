@@ -52,6 +52,23 @@ class ShellTest : public ::testing::Test {
     std::filesystem::path run_folder() const { return scratch.path() / "run"; }
     std::string into_run_folder() const { return " --out " + run_folder().string(); }
 
+    /// Lines of history.csv of a run in the scratch folder, without the wall times.
+    std::vector<std::string> lines_of_history(const std::string& run) const {
+        std::istringstream lines(text(scratch.path() / run / "history.csv"));
+        std::vector<std::string> result, names;
+        for (std::string line; std::getline(lines, line);) {
+            std::vector<std::string> cells;
+            std::istringstream row(line);
+            for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+            if (names.empty()) names = cells;
+            std::string kept;
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                if (names.at(i).rfind("wall_", 0) != 0) kept += cells[i] + ",";
+            result.push_back(kept);
+        }
+        return result;
+    }
+
     nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }
 
     /// x, y, z of every grain's centre at a step given by eight digits, from the `Points` of the

@@ -95,11 +95,13 @@ class SubIterated final : public Scheme {
         QuasiNewton iteration;
         std::vector<Responses> inputs(static_cast<std::size_t>(cast.grains.ranks()));
         for (;;) {
-            const Responses corrected = play_round(window, inputs, cast, result);
+            const Responses corrected = play_contact_round(window, inputs, cast, result);
+            const Eigen::VectorXd off = disagreement(result.motion, corrected);
             JointReport& report = *result.joint;
+            report.mismatch = largest_of(off);
+            report.converged = report.mismatch <= tolerance_;
             if (report.converged || report.rounds >= most_rounds_) break;
-            const auto change = iteration.step(disagreement(result.motion, corrected));
-            inputs = cast.plan.by_owner(targets(result.motion, change));
+            inputs = cast.plan.by_owner(targets(result.motion, iteration.step(off)));
         }
         send_accept(cast);
         finish_window(window, before, cast, result);
@@ -107,16 +109,6 @@ class SubIterated final : public Scheme {
     }
 
  private:
-    /// Sub-steps of the grains, and the fluid's answer to their contact impulses.
-    Responses play_round(const Window& window, const std::vector<Responses>& inputs, Cast& cast,
-                         WindowResult& result) const {
-        Responses corrected = play_contact_round(window, inputs, cast, result);
-        JointReport& report = *result.joint;
-        report.mismatch = largest_of(disagreement(result.motion, corrected));
-        report.converged = report.mismatch <= tolerance_;
-        return corrected;
-    }
-
     /// The first response of a window has no mismatch, so it is measured here.
     static double largest_of(const Eigen::VectorXd& off) {
         double result = 0.0;
