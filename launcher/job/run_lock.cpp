@@ -3,21 +3,54 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <thread>
 #include <utility>
 
 namespace turbidite {
+namespace {
 
-std::shared_ptr<RunLock> RunLock::take(const std::filesystem::path& folder) {
-    std::filesystem::path path = folder / file;
+/// Whether the file of this name is still the one that was opened: its owner removes it when it
+/// ends.
+bool is_current(int descriptor, const std::filesystem::path& path) {
+    struct stat opened, named;
+    return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+enum class Try { taken, busy, without_locks };
+
+struct Attempt {
+    Try result;
+    int descriptor;
+};
+
+Attempt attempt(const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT, 0644);
-    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        ::close(descriptor);
-        return nullptr;
-    }
-    return std::shared_ptr<RunLock>(new RunLock(std::move(path), descriptor));
+    if (descriptor < 0) return {Try::without_locks, descriptor};
+    const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (!locked && errno != EWOULDBLOCK) return {Try::without_locks, descriptor};
+    if (locked && is_current(descriptor, path)) return {Try::taken, descriptor};
+    ::close(descriptor);
+    return {Try::busy, -1};
+}
+
+}  // namespace
+
+// A process that was killed holds its files a little longer than its name in the process table: a
+// `resume` that follows at once has to wait for them.
+std::shared_ptr<RunLock> RunLock::take(const std::filesystem::path& folder) {
+    using Clock = std::chrono::steady_clock;
+    std::filesystem::path path = folder / file;
+    const auto deadline = Clock::now() + patience;
+    Attempt got = attempt(path);
+    for (; got.result == Try::busy && Clock::now() < deadline; got = attempt(path))
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (got.result == Try::busy) return nullptr;
+    return std::shared_ptr<RunLock>(new RunLock(std::move(path), got.descriptor));
 }
 
 RunLock::~RunLock() {

@@ -4,6 +4,7 @@
 // lives, whatever ends them.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 
@@ -11,9 +12,12 @@ namespace turbidite {
 
 class RunLock {
  public:
-    /// Null if another process has the folder, which must exist. Where the file system knows no
-    /// locks, the folder counts as free.
+    /// Null if another process has the folder, which must exist, and keeps it for all of
+    /// `patience`. Where the file system knows no locks, the folder counts as free.
     static std::shared_ptr<RunLock> take(const std::filesystem::path& folder);
+
+    /// How long to wait for a job that was killed to be gone [s].
+    static constexpr std::chrono::seconds patience{3};
 
     /// Name of the file in a run folder.
     static constexpr const char* file = "lock";
