@@ -12,6 +12,7 @@
 #include "launcher/case/run_cost.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
+#include "launcher/job/resume_run.hpp"
 #include "launcher/report/report_script.hpp"
 #include "launcher/study/study_record.hpp"
 
@@ -77,6 +78,21 @@ bool asked_to_stop(ExitCode code) {
     return code == ExitCode::interrupted || code == ExitCode::terminated;
 }
 
+/// A run that was cut off goes on from its last whole checkpoint; any other starts afresh.
+PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const LaunchSite& site) {
+    const fs::path folder = out / run.path();
+    const auto say = [](const std::string& text) { fmt::print(stderr, "turbidite: {}\n", text); };
+    if (state_of(run, out) == RunState::begun) try {
+            if (auto resumed = prepare_resumption(folder, {}, site, say)) {
+                fmt::print("goes on after window {}, {:g} t_c\n", resumed->windows, resumed->time);
+                return std::move(resumed->run);
+            }
+        } catch (const Failure& failure) {
+            say(fmt::format("{}: it starts afresh: {}", run.path(), failure.what()));
+        }
+    return prepare(run.resolve(), {.out = folder, .force = true}, site);
+}
+
 /// Plays them one after the other; a run that fails does not keep the others from being played.
 /// The code of the first that failed, or of the signal that stopped the study.
 ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan,
@@ -91,8 +107,7 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan,
         fmt::print("[{}/{}] {}{}\n", plan.size() - to_come.size() + 1, plan.size(), run.path(),
                    left ? "  (study: " + duration(*left) + " left)" : "");
         const auto start = Clock::now();
-        const JobOutcome outcome = play(
-            prepare(run.resolve(), {.out = out / run.path(), .force = true}, site), site.programs);
+        const JobOutcome outcome = play(prepare_to_play(run, out, site), site.programs);
         write_study_record(study, plan, out);
         if (asked_to_stop(outcome.code)) return outcome.code;
         if (result == ExitCode::done) result = outcome.code;
@@ -102,13 +117,24 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan,
     return result;
 }
 
+const char* word_of(RunState state) {
+    switch (state) {
+        case RunState::missing:
+            return "missing";
+        case RunState::begun:
+            return "begun";
+        case RunState::done:
+            return "done";
+        case RunState::failed:
+            return "failed";
+    }
+    return "";
+}
+
 void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
     for (const PlannedRun& run : plan) {
-        const RunState state = state_of(run, out);
-        const char* word = state == RunState::done     ? "done"
-                           : state == RunState::failed ? "failed"
-                                                       : "missing";
-        fmt::print("{:<8} {:>7}  {}\n", word, rough_time(run.seconds), run.path());
+        fmt::print("{:<8} {:>7}  {}\n", word_of(state_of(run, out)), rough_time(run.seconds),
+                   run.path());
     }
 }
 
@@ -139,8 +165,9 @@ int run_study(const StudyOptions& options) {
     if (!write_study_results(out, find_programs()))
         return static_cast<int>(ExitCode::participant_failed);
     const std::size_t left = missing_runs(plan, out).size();
-    fmt::print("{} of {} runs done. Results in {}: study.html, study.csv.{}\n", plan.size() - left,
-               plan.size(), out.string(),
+    fmt::print("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
+               plan.size() - left, plan.size(), out.string(),
+               study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
                left > 0 ? " The same line again runs what is missing." : "");
     return static_cast<int>(code);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/study/study_record.hpp"
 
+#include "coupler/checkpoint/checkpoint_sets.hpp"
+#include "coupler/protocol/failure.hpp"
 #include "launcher/case/run_folder.hpp"
 #include "launcher/job/run_json.hpp"
 
@@ -21,13 +23,24 @@ nlohmann::ordered_json run_entry(const PlannedRun& run, const std::filesystem::p
             {"error", state == RunState::failed ? record.value("error", "") : ""}};
 }
 
+/// Not ended by a word of its own: it has no exit code, or that of a request to stop.
+bool was_cut_off(const nlohmann::ordered_json& record) {
+    const auto code = record.find("exit_code");
+    if (code == record.end() || !code->is_number_integer()) return true;
+    const int value = code->get<int>();
+    return value == static_cast<int>(ExitCode::interrupted) ||
+           value == static_cast<int>(ExitCode::terminated);
+}
+
 }  // namespace
 
 RunState state_of(const PlannedRun& run, const std::filesystem::path& out) {
-    const nlohmann::ordered_json record = read_run_json(RunFolder{out / run.path()}.record());
+    const std::filesystem::path folder = out / run.path();
+    const nlohmann::ordered_json record = read_run_json(RunFolder{folder}.record());
     if (record.value("case_hash", "") != run.hash) return RunState::missing;
     const std::string status = record.value("status", "");
     if (status == "done") return RunState::done;
+    if (was_cut_off(record) && !CheckpointSets(folder).names().empty()) return RunState::begun;
     return status == "prepared" ? RunState::missing : RunState::failed;
 }
 

@@ -11,9 +11,10 @@
 
 namespace turbidite {
 
-enum class RunState { missing, done, failed };
+enum class RunState { missing, begun, done, failed };
 
-/// By the run folder alone: `done` when run.json says so and the case is the planned one, `failed`
+/// By the run folder alone. Where its case is the planned one: `done` when run.json says so,
+/// `begun` when it was killed or stopped on request and has a checkpoint to go on from, `failed`
 /// when it ended otherwise.
 RunState state_of(const PlannedRun& run, const std::filesystem::path& out);
 

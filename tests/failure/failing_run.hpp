@@ -4,13 +4,6 @@
 // per window, and a row of history.csv for every window.
 #pragma once
 
-#include <signal.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <thread>
-#include <vector>
-
 #include "coupler/protocol/failure.hpp"
 #include "tests/system/shell_test.hpp"
 
@@ -38,45 +31,18 @@ class FailingRun : public ShellTest {
     /// Starts the run and returns its process when it has written `rows` rows of history.
     pid_t start(long rows, const std::string& options = "",
                 const std::string& program = TURBIDITE_PROGRAM) const {
-        const pid_t child = fork();
-        if (child == 0) {
-            const std::string line = "cd " + scratch.path().string() + " && exec " + program +
-                                     " run small.yaml" + into_run_folder() + " " + options +
-                                     " >out 2>err </dev/null";
-            execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-            _exit(127);
-        }
+        const pid_t child = begin(program + " run small.yaml" + into_run_folder() + " " + options);
         for (int i = 0; i < 300 && rows_of_history() < rows; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
         EXPECT_GE(rows_of_history(), rows) << "the run did not get going";
         return child;
     }
 
-    Answer end_of(pid_t child) const {
-        int status = 0;
-        waitpid(child, &status, 0);
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                text(scratch.path() / "out"), text(scratch.path() / "err")};
-    }
-
     /// Processes with the run folder and `what` on their command line.
     std::vector<pid_t> processes(const std::string& what) const {
-        std::vector<pid_t> found;
-        for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-            const std::string name = entry.path().filename();
-            if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-            const std::string line = text(entry.path() / "cmdline");
-            const bool ours = line.find(run_folder().string()) != std::string::npos;
-            if (ours && line.find(what) < line.find('\0')) found.push_back(std::stoi(name));
-        }
-        return found;
+        return ShellTest::processes(run_folder(), what);
     }
-
-    void expect_nothing_left() const {
-        for (int i = 0; i < 30 && !processes("").empty(); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        EXPECT_TRUE(processes("").empty());
-    }
+    void expect_nothing_left() const { ShellTest::expect_nothing_left(run_folder()); }
 
     void expect_good_output_is_kept(ExitCode code) const {
         EXPECT_EQ(record().at("exit_code"), static_cast<int>(code));

@@ -44,17 +44,6 @@ class ResumeAfter : public FailingRun {
         EXPECT_EQ(lines_of_history("run"), whole_);
     }
 
-    /// Starts `words` of turbidite.
-    pid_t begin(const std::string& words) const {
-        const pid_t child = fork();
-        if (child != 0) return child;
-        const std::string line = "cd " + scratch.path().string() +
-                                 " && exec " TURBIDITE_PROGRAM " " + words +
-                                 " >out 2>err </dev/null";
-        execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-        _exit(127);
-    }
-
     /// Whether it has ended by itself within this time; if not, everything is killed.
     bool ended_within(pid_t run, Milliseconds time) const {
         const auto deadline = std::chrono::steady_clock::now() + time;
@@ -67,10 +56,7 @@ class ResumeAfter : public FailingRun {
             }
             std::this_thread::sleep_for(Milliseconds(5));
         }
-        kill(run, SIGKILL);
-        for (const pid_t process : processes("")) kill(process, SIGKILL);
-        waitpid(run, &status, 0);
-        expect_nothing_left();
+        kill_all(run, run_folder());
         return false;
     }
 
@@ -91,7 +77,8 @@ TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
     for (int left = kills(); left > 0 && !HasFailure();) {
         const bool again = begun();
         resumptions += again ? 1 : 0;
-        const pid_t run = begin(again ? "resume run" : "run small.yaml --force --out run");
+        const pid_t run = begin(std::string(TURBIDITE_PROGRAM) +
+                                (again ? " resume run" : " run small.yaml --force --out run"));
         if (!ended_within(run, Milliseconds(moment(random)))) {
             --left;
             continue;
@@ -138,14 +125,7 @@ TEST_F(ResumeAfter, SignalsOfABatchSystem) {
 TEST_F(ResumeAfter, SigUsr1ThroughMpirun) {
     const Answer line = shell(run_line("--dry-run"));
     ASSERT_EQ(line.code, 0) << line.err;
-    const pid_t job = fork();
-    if (job == 0) {
-        const std::string words = "cd " + scratch.path().string() + " && exec " +
-                                  line.out.substr(0, line.out.size() - 1) +
-                                  " >out 2>err </dev/null";
-        execl("/bin/sh", "sh", "-c", words.c_str(), nullptr);
-        _exit(127);
-    }
+    const pid_t job = begin(line.out.substr(0, line.out.size() - 1));
     for (int i = 0; i < 300 && rows_of_history() < 30; ++i)
         std::this_thread::sleep_for(Milliseconds(20));
     kill(job, SIGUSR1);

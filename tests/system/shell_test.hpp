@@ -5,9 +5,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +18,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/unit/case/scratch_folder.hpp"
@@ -49,12 +53,58 @@ class ShellTest : public ::testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
     }
 
+    /// Starts a program with its arguments, in the scratch folder, and does not wait for it.
+    pid_t begin(const std::string& line) const {
+        const pid_t child = fork();
+        if (child != 0) return child;
+        const std::string words =
+            "cd " + scratch.path().string() + " && exec " + line + " >out 2>err </dev/null";
+        execl("/bin/sh", "sh", "-c", words.c_str(), nullptr);
+        _exit(127);
+    }
+
+    Answer end_of(pid_t child) const {
+        int status = 0;
+        waitpid(child, &status, 0);
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                text(scratch.path() / "out"), text(scratch.path() / "err")};
+    }
+
+    /// Processes with `folder` and `what` on their command line.
+    std::vector<pid_t> processes(const std::filesystem::path& folder,
+                                 const std::string& what = "") const {
+        std::vector<pid_t> found;
+        for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+            const std::string name = entry.path().filename();
+            if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+            const std::string line = text(entry.path() / "cmdline");
+            const bool ours = line.find(folder.string()) != std::string::npos;
+            if (ours && line.find(what) < line.find('\0')) found.push_back(std::stoi(name));
+        }
+        return found;
+    }
+
+    /// `run` first, which would notice the end of the others.
+    Answer kill_all(pid_t run, const std::filesystem::path& folder) const {
+        kill(run, SIGKILL);
+        for (const pid_t process : processes(folder)) kill(process, SIGKILL);
+        const Answer answer = end_of(run);
+        expect_nothing_left(folder);
+        return answer;
+    }
+
+    void expect_nothing_left(const std::filesystem::path& folder) const {
+        for (int i = 0; i < 30 && !processes(folder).empty(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        EXPECT_TRUE(processes(folder).empty());
+    }
+
     std::filesystem::path run_folder() const { return scratch.path() / "run"; }
     std::string into_run_folder() const { return " --out " + run_folder().string(); }
 
-    /// Lines of history.csv of a run in the scratch folder, without the wall times.
-    std::vector<std::string> lines_of_history(const std::string& run) const {
-        std::istringstream lines(text(scratch.path() / run / "history.csv"));
+    /// Lines of a CSV table, without the columns of wall times.
+    static std::vector<std::string> lines_without_wall_times(const std::string& table) {
+        std::istringstream lines(table);
         std::vector<std::string> result, names;
         for (std::string line; std::getline(lines, line);) {
             std::vector<std::string> cells;
@@ -67,6 +117,11 @@ class ShellTest : public ::testing::Test {
             result.push_back(kept);
         }
         return result;
+    }
+
+    /// Those of history.csv of a run in the scratch folder.
+    std::vector<std::string> lines_of_history(const std::string& run) const {
+        return lines_without_wall_times(text(scratch.path() / run / "history.csv"));
     }
 
     nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }

@@ -9,6 +9,8 @@
 namespace turbidite {
 namespace {
 
+namespace fs = std::filesystem;
+
 const char* const a_column = R"(
 domain: {size: [8, 8]}
 grains: {adapter: standalone-nscd, generator: lattice, region: [4, 4]}
@@ -118,6 +120,38 @@ TEST_F(StudyRuns, IsContinuedAfterAnInterruption) {
     EXPECT_EQ(rest.code, 0) << rest.err;
     EXPECT_SAYS(rest.out, "3 runs, 1 of them done");
     EXPECT_SAYS(rest.out, "3 of 3 runs done");
+}
+
+// Killed with SIGKILL, the job with it, in three different runs; the table is that of a study that
+// nothing ended, and no run that had got to a checkpoint starts afresh.
+TEST_F(StudyRuns, KilledThreeTimesItGivesTheSameTable) {
+    scratch.write(
+        "frictions.yaml",
+        "{case: column.yaml, sweep: {contact.friction: [0, 0.3, 0.6]}, set: {time.end: 4, "
+        "time.step: 0.002, checkpoint.windows: 50}}");
+    const std::string line = std::string(TURBIDITE_PROGRAM) + " study frictions.yaml --out ";
+    ASSERT_EQ(shell("timeout 100 " + line + "whole").code, 0);
+    std::string said;
+    for (const char* moment : {"friction-0/checkpoints/w00000100",
+                               "friction-0.3/checkpoints/w00000450", "friction-0.6/history.csv"}) {
+        const pid_t run = begin(line + "s");
+        for (int i = 0; i < 6000 && !fs::exists(scratch.path() / "s/frictions" / moment); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        const Answer killed = kill_all(run, scratch.path() / "s");
+        EXPECT_EQ(killed.code, 128 + SIGKILL) << killed.out << killed.err;
+        said += killed.out;
+    }
+    const Answer rest = study("");
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    said += rest.out;
+    EXPECT_SAYS(said, "goes on after window 100,");
+    EXPECT_SAYS(said, "goes on after window 450,");
+    EXPECT_SAYS(rest.out, "3 of 3 runs done");
+    const auto table = [&](const char* folder) {
+        return lines_without_wall_times(text(scratch.path() / folder / "study.csv"));
+    };
+    EXPECT_EQ(table("s"), table("whole"));
+    EXPECT_EQ(table("s").size(), 4u);
 }
 
 TEST_F(StudyRuns, NothingStartsWhenARunIsWrong) {

@@ -213,6 +213,26 @@ TEST_F(StudyTest, ARunIsDoneWhenItsCaseIsThePlannedOne) {
     EXPECT_EQ(record["runs"][2]["values"]["random.seed"], "3");
 }
 
+// Killed, stopped on request, refused: only the first two go on, and only from a checkpoint.
+TEST_F(StudyTest, ARunThatWasCutOffHasBegun) {
+    const auto run = plan("{case: column.yaml, sweep: {random.seed: [1]}}").at(0);
+    const std::filesystem::path folder = scratch.path() / run.path();
+    const auto state = [&](const nlohmann::json& code) {
+        const bool killed = code.is_null();
+        std::ofstream(folder / "run.json") << nlohmann::json{
+            {"case_hash", run.hash}, {"status", killed ? "prepared" : "x"}, {"exit_code", code}};
+        return state_of(run, scratch.path());
+    };
+    std::filesystem::create_directories(folder);
+    EXPECT_EQ(state(nullptr), RunState::missing);
+    EXPECT_EQ(state(130), RunState::failed);
+    std::filesystem::create_directories(folder / "checkpoints/w00000040");
+    for (const nlohmann::json& code :
+         {nlohmann::json(nullptr), nlohmann::json(130), nlohmann::json(143)})
+        EXPECT_EQ(state(code), RunState::begun) << code;
+    EXPECT_EQ(state(6), RunState::failed);
+}
+
 TEST_F(StudyTest, IsToldFromACase) {
     scratch.write("study.yaml", "{case: column.yaml}");
     EXPECT_TRUE(is_study(scratch.path() / "study.yaml"));
