@@ -37,7 +37,7 @@ Bytes encode(const CouplerState& state) {
 }
 
 template <>
-CouplerState decode(const Bytes& bytes) {
+CouplerState decode(View bytes) {
     CouplerState state;
     Reader code(bytes);
     code(state.windows), code(state.wall_seconds);

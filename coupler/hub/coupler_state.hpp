@@ -22,7 +22,7 @@ struct CouplerState {
 Bytes encode(const CouplerState& state);
 /// Throws MalformedPayload.
 template <>
-CouplerState decode(const Bytes& bytes);
+CouplerState decode(View bytes);
 
 /// The grains of `state` by the ranks that own them.
 std::vector<Motion> shares_of(const CouplerState& state, int ranks);

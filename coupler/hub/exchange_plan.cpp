@@ -70,25 +70,41 @@ std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>
     return all;
 }
 
+/// The first share takes in the others, so that a single one is not copied.
+Motion joined(std::vector<Motion>& shares) {
+    auto contacts = all_contacts(shares);
+    std::size_t grains = 0;
+    for (const Motion& share : shares) grains += share.grains.size();
+    Motion all = std::move(shares.front());
+    all.grains.reserve(grains);
+    for (auto share = shares.begin() + 1; share != shares.end(); ++share) {
+        all.grains.insert(all.grains.end(), share->grains.begin(), share->grains.end());
+        add(all.report, share->report);
+    }
+    all.contacts = std::move(contacts);
+    return all;
+}
+
 }  // namespace
 
 ExchangePlan::ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period)
     : boxes_(std::move(fluid_boxes)), margin_(margin), period_(period) {}
 
-Motion ExchangePlan::gather(const std::vector<Motion>& shares) {
-    Motion all;
-    owner_.clear();
-    owners_ = shares.size();
-    for (std::size_t rank = 0; rank < shares.size(); ++rank) {
-        all.grains.insert(all.grains.end(), shares[rank].grains.begin(), shares[rank].grains.end());
-        owner_.resize(all.grains.size(), static_cast<int>(rank));
-        add(all.report, shares[rank].report);
-    }
+Motion ExchangePlan::gather(std::vector<Motion> shares) {
+    remember_owners(shares);
+    Motion all = joined(shares);
     if (const auto twice = index_.follow(all.grains))
         throw PhysicsRefused("grain " + std::to_string(*twice) + " was sent twice");
-    all.contacts = all_contacts(shares);
     if (all.contacts) demand_owned(*all.contacts);
     return all;
+}
+
+void ExchangePlan::remember_owners(const std::vector<Motion>& shares) {
+    owner_.clear();
+    owners_ = shares.size();
+    std::size_t grains = 0;
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+        owner_.resize(grains += shares[rank].grains.size(), static_cast<int>(rank));
 }
 
 void ExchangePlan::demand_owned(const std::vector<ContactRecord>& contacts) const {
@@ -98,14 +114,12 @@ void ExchangePlan::demand_owned(const std::vector<ContactRecord>& contacts) cons
                 throw PhysicsRefused(name_of(contact) + " names an unknown grain");
 }
 
-std::vector<Motion> ExchangePlan::by_place(const Motion& motion) const {
-    std::vector<Motion> routed(boxes_.size());
-    for (std::size_t rank = 0; rank < boxes_.size(); ++rank) {
-        routed[rank].report = motion.report;
-        for (const GrainState& grain : motion.grains)
-            if (touches(grain, boxes_[rank], margin_, period_))
-                routed[rank].grains.push_back(grain);
-    }
+std::vector<MotionShare> ExchangePlan::by_place(const Motion& motion) const {
+    std::vector<MotionShare> routed(boxes_.size(), MotionShare{&motion, {}});
+    for (std::size_t at = 0; at < motion.grains.size(); ++at)
+        for (std::size_t rank = 0; rank < boxes_.size(); ++rank)
+            if (touches(motion.grains[at], boxes_[rank], margin_, period_))
+                routed[rank].places.push_back(static_cast<std::uint32_t>(at));
     return routed;
 }
 
@@ -122,8 +136,9 @@ template <class Record>
 std::vector<std::vector<Record>> ExchangePlan::by_owner(const std::vector<Record>& records) const {
     std::vector<std::vector<Record>> routed(owners_);
     std::vector<bool> answered(index_.size(), false);
+    std::size_t at = GrainIndex::nowhere;
     for (const Record& record : records) {
-        const std::size_t at = index_.place(record.id);
+        at = index_.place(record.id, at + 1);
         if (at == GrainIndex::nowhere || answered[at])
             throw PhysicsRefused(
                 "the fluid answered for grain " + std::to_string(record.id) +

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupler/protocol/grain_index.hpp"
+#include "coupler/protocol/wire.hpp"
 
 namespace turbidite {
 
@@ -22,13 +23,13 @@ class ExchangePlan {
     /// Contacts are in the order of contact_before, whatever the number of ranks. Throws
     /// PhysicsRefused when an id or a contact occurs twice, a contact names an unknown grain, or
     /// only some ranks report contacts.
-    Motion gather(const std::vector<Motion>& shares);
+    Motion gather(std::vector<Motion> shares);
 
     /// The rank that owns each grain, in the order of the last `gather`.
     const std::vector<int>& owners() const { return owner_; }
 
-    /// For every fluid rank, the grains that touch its box.
-    std::vector<Motion> by_place(const Motion& motion) const;
+    /// For every fluid rank, the grains that touch its box. The shares refer to `motion`.
+    std::vector<MotionShare> by_place(const Motion& motion) const;
 
     /// For every grains rank, the records of its grains (as of the last `gather`). Throws
     /// PhysicsRefused unless every grain gets exactly one record.
@@ -36,6 +37,7 @@ class ExchangePlan {
     std::vector<std::vector<Record>> by_owner(const std::vector<Record>& records) const;
 
  private:
+    void remember_owners(const std::vector<Motion>& shares);
     void demand_owned(const std::vector<ContactRecord>& contacts) const;
     [[noreturn]] void refuse_missing(const std::vector<bool>& answered) const;
 

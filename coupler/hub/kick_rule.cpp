@@ -52,8 +52,9 @@ KickRule::KickRule(const RunValues& run, const ShapeTable& shapes)
 
 void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) {
     before_.follow(before.grains);
+    std::size_t at = GrainIndex::nowhere;
     for (Kick& kick : kicks) {
-        const std::size_t at = before_.place(kick.id);
+        at = before_.place(kick.id, at + 1);
         if (at == GrainIndex::nowhere)
             throw PhysicsRefused("the fluid sent a kick for grain " + std::to_string(kick.id) +
                                  ", which is unknown");
@@ -77,10 +78,13 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
     before_.follow(before.grains);
     contact_.follow(contact.grains);
     Balance linear, angular;
+    std::size_t at = GrainIndex::nowhere, at_contact = at;
     for (const Kick& kick : kicks) {
-        const GrainState& grain = before.grains.at(before_.place(kick.id));
+        at = before_.place(kick.id, at + 1);
+        at_contact = contact_.place(kick.id, at_contact + 1);
+        const GrainState& grain = before.grains.at(at);
         if (grain.prescribed) continue;  // what holds it takes the rest
-        const GrainState& with_contact = contact.grains.at(contact_.place(kick.id));
+        const GrainState& with_contact = contact.grains.at(at_contact);
         const ImmersedBody immersed = bodies_(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =

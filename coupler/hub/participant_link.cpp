@@ -43,15 +43,22 @@ void ParticipantLink::go_on_after(std::int64_t windows) {
     for (Rank& rank : ranks_) rank.order.go_on_after(windows);
 }
 
-void ParticipantLink::send(int rank, Kind kind, Bytes payload) {
-    const Envelope envelope = ranks_[rank].order.next_sent(kind, from_coupler);
-    channel_.send(rank, frame({envelope, std::move(payload)}));
+Envelope ParticipantLink::next_sent(int rank, Kind kind) {
+    return ranks_[rank].order.next_sent(kind, from_coupler);
+}
+
+void ParticipantLink::post(int rank, Bytes frame) {
+    channel_.send(rank, std::move(frame));
     ranks_[rank].since = Clock::now();
 }
 
-Message ParticipantLink::unpack(const Channel::Frame& frame) const {
+void ParticipantLink::send(int rank, Kind kind) {
+    post(rank, frame({next_sent(rank, kind), {}}));
+}
+
+FramedMessage ParticipantLink::unpack(Channel::Frame frame) const {
     try {
-        return unframe(frame.bytes);
+        return FramedMessage(std::move(frame.bytes));
     } catch (const MalformedPayload& fault) {
         throw Failure(ExitCode::participant_failed,
                       fmt::format("{} sent what is no frame of the protocol: {}", who(frame.peer),
@@ -62,17 +69,18 @@ Message ParticipantLink::unpack(const Channel::Frame& frame) const {
 bool ParticipantLink::pump() {
     bool any = false;
     while (auto frame = channel_.try_receive()) {
-        take_in(frame->peer, unpack(*frame));
+        const int peer = frame->peer;
+        take_in(peer, unpack(std::move(*frame)));
         any = true;
     }
     return any;
 }
 
-void ParticipantLink::take_in(int rank, Message message) {
+void ParticipantLink::take_in(int rank, FramedMessage message) {
     Rank& from = ranks_.at(rank);
     from.order.received(message.envelope, to_coupler);
     from.since = Clock::now();
-    if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload));
+    if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload()));
     from.inbox.push_back(std::move(message));
 }
 
@@ -97,16 +105,16 @@ bool ParticipantLink::ready(Kind kind) const {
     });
 }
 
-std::vector<Bytes> ParticipantLink::take_payloads(Kind kind) {
-    std::vector<Bytes> payloads;
+std::vector<FramedMessage> ParticipantLink::take_messages(Kind kind) {
+    std::vector<FramedMessage> messages;
     for (Rank& rank : ranks_) {
         if (rank.inbox.empty() || rank.inbox.front().envelope.kind != kind)
             throw OrderViolation(std::string(role_name(role_)) + " has not delivered \"" +
                                  kind_name(kind) + "\" yet");
-        payloads.push_back(std::move(rank.inbox.front().payload));
+        messages.push_back(std::move(rank.inbox.front()));
         rank.inbox.pop_front();
     }
-    return payloads;
+    return messages;
 }
 
 std::string ParticipantLink::state_of(int rank) const {
@@ -122,15 +130,16 @@ std::string ParticipantLink::state_of(int rank) const {
 }
 
 void ParticipantLink::dismiss(const Verdict& verdict) {
-    for (int rank = 0; rank < ranks(); ++rank) send(rank, Kind::dismiss, encode(verdict));
+    for (int rank = 0; rank < ranks(); ++rank) send(rank, Kind::dismiss, verdict);
 }
 
 bool ParticipantLink::gone() {
     while (auto frame = channel_.try_receive()) {
         try {
-            const Envelope envelope = unframe(frame->bytes).envelope;
+            const int peer = frame->peer;
+            const Envelope envelope = FramedMessage(std::move(frame->bytes)).envelope;
             if (envelope.kind == Kind::farewell)
-                ranks_.at(frame->peer).order.received(envelope, to_coupler);
+                ranks_.at(peer).order.received(envelope, to_coupler);
         } catch (const MalformedPayload&) {  // discarded like all that is not a farewell
         }
     }
@@ -140,7 +149,7 @@ bool ParticipantLink::gone() {
 }
 
 void ParticipantLink::release() {
-    for (int rank = 0; rank < ranks(); ++rank) send(rank, Kind::release, {});
+    for (int rank = 0; rank < ranks(); ++rank) send(rank, Kind::release);
 }
 
 }  // namespace turbidite

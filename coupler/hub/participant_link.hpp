@@ -36,19 +36,27 @@ class ParticipantLink {
     /// Between two windows: the run goes on after so many.
     void go_on_after(std::int64_t windows);
 
-    void send(int rank, Kind kind, Bytes payload);
+    /// A message without content.
+    void send(int rank, Kind kind);
+    template <class Record>
+    void send(int rank, Kind kind, const Record& record) {
+        post(rank, framed(next_sent(rank, kind), record));
+    }
     template <class Record>
     void send_all(Kind kind, const Record& record) {
-        for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, encode(record));
+        for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, record);
     }
     template <class Record>
     void send_each(Kind kind, const std::vector<Record>& records) {
-        for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, encode(records[rank]));
+        for (int rank = 0; rank < ranks(); ++rank) send(rank, kind, records[rank]);
     }
 
     /// Accepts the messages that have arrived, checked against the call order. Throws Failure when
     /// a rank reports one. Returns whether anything arrived.
     bool pump();
+
+    /// A long frame is on its way, see Channel.
+    bool in_transit() const { return channel_.in_transit(); }
 
     /// Rounds begun in the present window, as the coupler's order counts them.
     std::int64_t iteration() const { return ranks_.front().order.iteration(); }
@@ -61,9 +69,9 @@ class ParticipantLink {
     template <class Record>
     std::vector<Record> take(Kind kind) {
         std::vector<Record> records;
-        const std::vector<Bytes> payloads = take_payloads(kind);
+        const std::vector<FramedMessage> messages = take_messages(kind);
         for (int rank = 0; rank < ranks(); ++rank) try {
-                records.push_back(decode<Record>(payloads[rank]));
+                records.push_back(decode<Record>(messages[rank].payload()));
             } catch (const MalformedPayload& fault) {
                 refuse_payload(rank, kind, fault.what());
             }
@@ -71,7 +79,7 @@ class ParticipantLink {
     }
 
     /// Takes messages of no content.
-    void discard(Kind kind) { take_payloads(kind); }
+    void discard(Kind kind) { take_messages(kind); }
 
     /// "grains rank 0 (host h, pid 12) works towards "motion", window 4, since 3 s".
     std::string state_of(int rank) const;
@@ -88,13 +96,15 @@ class ParticipantLink {
     struct Rank {
         CallOrder order;
         Hello hello;
-        std::deque<Message> inbox;
+        std::deque<FramedMessage> inbox;
         Clock::time_point since = Clock::now();
     };
 
-    Message unpack(const Channel::Frame& frame) const;
-    void take_in(int rank, Message message);
-    std::vector<Bytes> take_payloads(Kind kind);
+    Envelope next_sent(int rank, Kind kind);
+    void post(int rank, Bytes frame);
+    FramedMessage unpack(Channel::Frame frame) const;
+    void take_in(int rank, FramedMessage message);
+    std::vector<FramedMessage> take_messages(Kind kind);
     [[noreturn]] void raise(int rank, const Verdict& verdict) const;
     [[noreturn]] void refuse_payload(int rank, Kind kind, const std::string& fault) const;
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
@@ -16,7 +17,7 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     double next_notice = soft_;
     double& usual = usual_wait_[{kind, link.iteration()}];
     Patience patience(usual);
-    for (;; patience.wait()) {
+    for (;; patience.wait(any_in_transit())) {
         if (signal_ && *signal_) throw EndedFromOutside{};
         for (ParticipantLink* other : links_) other->pump();
         if (link.ready(kind)) break;
@@ -34,6 +35,11 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     }
     usual = patience.seconds();
     waited_ += usual;
+}
+
+bool Watch::any_in_transit() const {
+    return std::any_of(links_.begin(), links_.end(),
+                       [](const ParticipantLink* link) { return link->in_transit(); });
 }
 
 std::string Watch::wait_for_table() const {

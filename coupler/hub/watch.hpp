@@ -40,6 +40,8 @@ class Watch {
     double take_waited();
 
  private:
+    bool any_in_transit() const;
+
     std::vector<ParticipantLink*> links_;
     double soft_, hard_;
     Print print_;

@@ -29,8 +29,9 @@ GrainWork& GrainWork::operator+=(const GrainWork& other) {
 GrainWork WorkOnGrains::operator()(const Motion& before, const WindowResult& result, double step) {
     before_.follow(before.grains);
     after_.follow(result.state.grains);
+    std::size_t start = GrainIndex::nowhere, end = start;
     const auto motion_of = [&](GrainId id) -> MeanMotion {
-        const std::size_t start = before_.place(id), end = after_.place(id);
+        start = before_.place(id, start + 1), end = after_.place(id, end + 1);
         if (start == GrainIndex::nowhere || end == GrainIndex::nowhere) return {};
         const GrainState &from = before.grains[start], &to = result.state.grains[end];
         return {mean(from.velocity, to.velocity), mean(from.angular_velocity, to.angular_velocity),

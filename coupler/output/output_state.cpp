@@ -81,7 +81,7 @@ Bytes encode(const OutputState& state) {
 }
 
 template <>
-OutputState decode(const Bytes& bytes) {
+OutputState decode(View bytes) {
     OutputState state;
     Reader code(bytes);
     std::string motion;

@@ -28,7 +28,7 @@ struct OutputState {
 Bytes encode(const OutputState& state);
 /// Throws MalformedPayload.
 template <>
-OutputState decode(const Bytes& bytes);
+OutputState decode(View bytes);
 
 /// Cuts a file to `length` bytes. Throws Failure (bad input) if it is missing or shorter: it was
 /// changed since the checkpoint, and rows of it are lost.

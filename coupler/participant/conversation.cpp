@@ -8,12 +8,12 @@ namespace turbidite {
 Conversation::Conversation(Role role, Channel& channel)
     : channel_(channel), order_(role, "coupler") {}
 
-Message Conversation::next() {
+FramedMessage Conversation::next() {
     double& usual = usual_wait_[{order_.due().front().kind, order_.iteration()}];
-    for (Patience patience(usual);; patience.wait()) {
+    for (Patience patience(usual);; patience.wait(channel_.in_transit())) {
         if (auto frame = channel_.try_receive()) {
             usual = patience.seconds();
-            return unframe(frame->bytes);
+            return FramedMessage(std::move(frame->bytes));
         }
         if (patience.seconds() > limit_)
             throw CouplerSilent("the coupler has been silent for " +
@@ -22,37 +22,37 @@ Message Conversation::next() {
     }
 }
 
-void Conversation::send(Kind kind, Bytes payload) {
-    channel_.send(0, frame({order_.next_sent(kind, to_coupler), std::move(payload)}));
+void Conversation::send(Kind kind) {
+    channel_.send(0, frame({order_.next_sent(kind, to_coupler), {}}));
 }
 
-Message Conversation::receive() {
-    Message message = next();
+FramedMessage Conversation::receive() {
+    FramedMessage message = next();
     order_.received(message.envelope, from_coupler);
-    if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload)};
+    if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload())};
     return message;
 }
 
-Bytes Conversation::receive(Kind kind) {
-    Message message = receive();
+FramedMessage Conversation::receive(Kind kind) {
+    FramedMessage message = receive();
     if (message.envelope.kind != kind)
         throw OrderViolation("the adapter waits for \"" + kind_name(kind) +
                              "\", the coupler sent \"" + kind_name(message.envelope.kind) + "\"");
-    return std::move(message.payload);
+    return message;
 }
 
 Verdict Conversation::fail(const Verdict& verdict) {
-    send(Kind::failure, encode(verdict));
+    send(Kind::failure, verdict);
     for (;;) {  // frames still in flight are no longer needed
-        const Message message = next();
+        const FramedMessage message = next();
         if (message.envelope.kind != Kind::dismiss) continue;
         order_.received(message.envelope, from_coupler);
-        return decode<Verdict>(message.payload);
+        return decode<Verdict>(message.payload());
     }
 }
 
 void Conversation::say_farewell() {
-    send(Kind::farewell, {});
+    send(Kind::farewell);
     order_.received(next().envelope, from_coupler);
 }
 

@@ -44,14 +44,19 @@ class Conversation {
     /// Longest wait for the coupler [s]; then CouplerSilent is thrown.
     void set_limit(double seconds) { limit_ = seconds; }
 
-    void send(Kind kind, Bytes payload);
+    /// A message without content.
+    void send(Kind kind);
+    template <class Record>
+    void send(Kind kind, const Record& record) {
+        channel_.send(0, framed(order_.next_sent(kind, to_coupler), record));
+    }
 
     /// Waits for the message that is due; after a round the coupler decides which of two it is.
     /// Throws Dismissed, OrderViolation, MalformedPayload, CouplerSilent.
-    Message receive();
+    FramedMessage receive();
 
     /// The same where only this kind is possible.
-    Bytes receive(Kind kind);
+    FramedMessage receive(Kind kind);
 
     /// Reports to the coupler that this side cannot continue, and waits for its decision on the
     /// run.
@@ -63,7 +68,7 @@ class Conversation {
     void say_farewell();
 
  private:
-    Message next();
+    FramedMessage next();
 
     Channel& channel_;
     CallOrder order_;

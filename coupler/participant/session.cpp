@@ -69,7 +69,7 @@ bool Session::start() {
 
 namespace {
 
-bool between_windows(const Message& message) {
+bool between_windows(const FramedMessage& message) {
     return message.envelope.kind == Kind::save || message.envelope.kind == Kind::restore;
 }
 
@@ -84,7 +84,7 @@ bool Session::step() {
             "false");
     return guarded([this] {
         for (bool within = false; !within || talk_->conversation.inside_window();) {
-            const Message message = talk_->conversation.receive();
+            const FramedMessage message = talk_->conversation.receive();
             within = !between_windows(message);
             if (within)
                 take(message);
@@ -127,30 +127,30 @@ class RoleSession : public Session {
 
     Settings shake_hands() {
         Conversation& talk = talk_->conversation;
-        talk.send(Kind::hello, encode(complete(adapter_.describe(), role_, talk_->identity)));
-        Settings settings = decode<Settings>(talk.receive(Kind::settings));
-        talk.set_window_order(decode<Order>(talk.receive(Kind::order)));
+        talk.send(Kind::hello, complete(adapter_.describe(), role_, talk_->identity));
+        Settings settings = decode<Settings>(talk.receive(Kind::settings).payload());
+        talk.set_window_order(decode<Order>(talk.receive(Kind::order).payload()));
         talk.set_limit(margin_over_coupler * settings.real("limits.stall_hard"));
         return settings;
     }
 
-    void checkpoint(const Message& message) override {
+    void checkpoint(const FramedMessage& message) override {
         if (message.envelope.kind == Kind::save)
-            return send(Kind::saved, saved(decode<CheckpointPlace>(message.payload)));
-        const auto order = decode<RestoreOrder>(message.payload);
+            return send(Kind::saved, saved(decode<CheckpointPlace>(message.payload())));
+        const auto order = decode<RestoreOrder>(message.payload());
         restore(order);
-        talk_->conversation.send(Kind::restored, {});
+        talk_->conversation.send(Kind::restored);
         talk_->conversation.go_on_after(order.windows);
     }
 
     template <class Record>
     Record receive(Kind kind) {
-        return decode<Record>(talk_->conversation.receive(kind));
+        return decode<Record>(talk_->conversation.receive(kind).payload());
     }
 
     template <class Record>
     void send(Kind kind, const Record& record) {
-        talk_->conversation.send(kind, encode(record));
+        talk_->conversation.send(kind, record);
     }
 
     bool due(Kind kind) const { return talk_->conversation.due_from_here(kind); }
@@ -223,17 +223,17 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         send(Kind::state, adapter_.initialise(settings, shapes, share.grains));
     }
 
-    void take(const Message& message) override {
+    void take(const FramedMessage& message) override {
         switch (message.envelope.kind) {
             case Kind::window:
-                window_ = decode<Window>(message.payload);
+                window_ = decode<Window>(message.payload());
                 solved_ = false;
                 if (due(Kind::motion)) send(Kind::motion, solve({}));
                 return;
             case Kind::contact_input:
-                return send(Kind::motion, solve(decode<Responses>(message.payload)));
+                return send(Kind::motion, solve(decode<Responses>(message.payload())));
             case Kind::kick:
-                return send(Kind::state, move(decode<Kicks>(message.payload)));
+                return send(Kind::state, move(decode<Kicks>(message.payload())));
             default:
                 refuse(message.envelope.kind);
         }
@@ -267,16 +267,16 @@ class FluidSession final : public RoleSession<FluidAdapter> {
         send(Kind::domain, adapter_.initialise(settings, shapes));
     }
 
-    void take(const Message& message) override {
+    void take(const FramedMessage& message) override {
         switch (message.envelope.kind) {
             case Kind::window:
-                window_ = decode<Window>(message.payload);
+                window_ = decode<Window>(message.payload());
                 return adapter_.advance(window_);
             case Kind::bodies:
-                adapter_.let_fall(window_, decode<Motion>(message.payload).grains);
+                adapter_.let_fall(window_, decode<Motion>(message.payload()).grains);
                 return respond_if_due();
             case Kind::constraint:
-                adapter_.correct(window_, decode<Motion>(message.payload).grains);
+                adapter_.correct(window_, decode<Motion>(message.payload()).grains);
                 return respond_if_due();
             case Kind::accept:
                 return send(Kind::kicks, adapter_.impose(window_));

@@ -15,7 +15,7 @@
 namespace turbidite {
 
 class Channel;
-struct Message;
+class FramedMessage;
 
 /// Who this rank is; fills the fields of Hello that the adapter cannot know.
 struct Identity {
@@ -61,9 +61,9 @@ class Session {
  private:
     virtual void begin() = 0;
     /// Reacts to a message of a window.
-    virtual void take(const Message& message) = 0;
+    virtual void take(const FramedMessage& message) = 0;
     /// Writes or reads a checkpoint.
-    virtual void checkpoint(const Message& message) = 0;
+    virtual void checkpoint(const FramedMessage& message) = 0;
     template <class Action>
     bool guarded(Action action);
 

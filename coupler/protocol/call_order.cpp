@@ -42,7 +42,7 @@ Bytes encode(const Order& order) {
 }
 
 template <>
-Order decode(const Bytes& in) {
+Order decode(View in) {
     Reader code(in);
     Order order(code.length());
     for (Step& step : order) {

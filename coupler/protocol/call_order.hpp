@@ -42,7 +42,7 @@ inline constexpr bool to_coupler = false;
 
 Bytes encode(const Order&);
 template <>
-Order decode(const Bytes&);
+Order decode(View);
 
 /// The messages before the first window.
 Order start_order(Role role);

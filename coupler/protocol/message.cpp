@@ -9,6 +9,8 @@ namespace {
 // "turbidit" read as a number: distinguishes our frames from others on the same communicator.
 constexpr std::int64_t magic = 0x7469646962727574;
 
+constexpr std::size_t header_bytes = 6 * sizeof(std::int64_t);
+
 const std::vector<std::pair<Kind, const char*>> kinds = {
     {Kind::hello, "hello"},
     {Kind::settings, "settings"},
@@ -49,38 +51,54 @@ std::string kind_name(Kind kind) {
     return "kind " + std::to_string(static_cast<std::int32_t>(kind));
 }
 
-Bytes frame(const Message& message) {
+Bytes begin_frame(const Envelope& envelope) {
     Bytes out;
-    out.reserve(message.payload.size() + 6 * sizeof(std::int64_t));
     Writer code(out);
     code(magic);
-    code(static_cast<std::int32_t>(message.envelope.kind));
-    code(message.envelope.window);
-    code(message.envelope.iteration);
-    code(message.envelope.sequence);
-    code(static_cast<std::int64_t>(message.payload.size()));
-    out.insert(out.end(), message.payload.begin(), message.payload.end());
+    code(static_cast<std::int32_t>(envelope.kind));
+    code(envelope.window);
+    code(envelope.iteration);
+    code(envelope.sequence);
+    code(std::int64_t{0});  // length of the payload
     return out;
 }
 
-Message unframe(const Bytes& bytes) {
-    Reader code(bytes);
+void end_frame(Bytes& frame) {
+    const auto payload = static_cast<std::int64_t>(frame.size() - header_bytes);
+    std::memcpy(frame.data() + header_bytes - sizeof payload, &payload, sizeof payload);
+}
+
+Bytes frame(const Message& message) {
+    Bytes out = begin_frame(message.envelope);
+    out.insert(out.end(), message.payload.begin(), message.payload.end());
+    end_frame(out);
+    return out;
+}
+
+FramedMessage::FramedMessage(Bytes frame) : frame_(std::move(frame)) {
+    Reader code(frame_);
     std::int64_t tag = 0;
     std::int32_t kind = 0;
-    Message message;
     code(tag);
     if (tag != magic) throw MalformedPayload("not a frame of this protocol");
     code(kind);
-    message.envelope.kind = static_cast<Kind>(kind);
-    code(message.envelope.window);
-    code(message.envelope.iteration);
-    code(message.envelope.sequence);
+    envelope.kind = static_cast<Kind>(kind);
+    code(envelope.window);
+    code(envelope.iteration);
+    code(envelope.sequence);
     const std::size_t size = code.length();
-    message.payload.assign(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
-    if (bytes.size() != size + 6 * sizeof(std::int64_t))
-        throw MalformedPayload("frame of " + std::to_string(bytes.size()) + " bytes announces " +
+    if (frame_.size() != size + header_bytes)
+        throw MalformedPayload("frame of " + std::to_string(frame_.size()) + " bytes announces " +
                                std::to_string(size));
-    return message;
+}
+
+View FramedMessage::payload() const {
+    return {frame_.data() + header_bytes, frame_.size() - header_bytes};
+}
+
+Message unframe(const Bytes& bytes) {
+    const FramedMessage message(bytes);
+    return {message.envelope, Bytes(bytes.begin() + header_bytes, bytes.end())};
 }
 
 Bytes encode(const Verdict& verdict) {
@@ -92,7 +110,7 @@ Bytes encode(const Verdict& verdict) {
 }
 
 template <>
-Verdict decode(const Bytes& in) {
+Verdict decode(View in) {
     Verdict verdict;
     Reader code(in);
     code(verdict.exit_code);
@@ -109,7 +127,7 @@ Bytes encode(const CheckpointPlace& place) {
 }
 
 template <>
-CheckpointPlace decode(const Bytes& in) {
+CheckpointPlace decode(View in) {
     CheckpointPlace place;
     Reader code(in);
     code(place.folder);
@@ -126,7 +144,7 @@ Bytes encode(const SavedPart& part) {
 }
 
 template <>
-SavedPart decode(const Bytes& in) {
+SavedPart decode(View in) {
     SavedPart part;
     Reader code(in);
     visit_file(code, part.file);
@@ -145,7 +163,7 @@ Bytes encode(const RestoreOrder& order) {
 }
 
 template <>
-RestoreOrder decode(const Bytes& in) {
+RestoreOrder decode(View in) {
     RestoreOrder order;
     Reader code(in);
     code(order.folder), code(order.windows);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/protocol/hello.hpp"
@@ -61,10 +62,37 @@ struct Message {
     Bytes payload;
 };
 
+/// A message inside the frame in which it came.
+class FramedMessage {
+ public:
+    /// Throws MalformedPayload when the frame is not one of this protocol.
+    explicit FramedMessage(Bytes frame);
+
+    Envelope envelope;
+
+    View payload() const;
+
+ private:
+    Bytes frame_;
+};
+
 /// A whole message as one frame of bytes, and back. `unframe` throws MalformedPayload when the
 /// frame is not one of this protocol.
 Bytes frame(const Message& message);
 Message unframe(const Bytes& bytes);
+
+/// A frame whose payload is still missing, and its end.
+Bytes begin_frame(const Envelope& envelope);
+void end_frame(Bytes& frame);
+
+/// frame({envelope, encode(record)}) without a copy of the payload.
+template <class Record>
+Bytes framed(const Envelope& envelope, const Record& record) {
+    Bytes out = begin_frame(envelope);
+    append(out, record);
+    end_frame(out);
+    return out;
+}
 
 /// Payload of `failure` and `dismiss`.
 struct Verdict {
@@ -73,7 +101,7 @@ struct Verdict {
 };
 Bytes encode(const Verdict&);
 template <>
-Verdict decode(const Bytes&);
+Verdict decode(View);
 
 /// Payload of `save`: where the parts of a checkpoint go, relative to the run folder.
 struct CheckpointPlace {
@@ -81,7 +109,7 @@ struct CheckpointPlace {
 };
 Bytes encode(const CheckpointPlace&);
 template <>
-CheckpointPlace decode(const Bytes&);
+CheckpointPlace decode(View);
 
 /// Payload of `saved`: the file a rank has written there, or why it could not.
 struct SavedPart {
@@ -90,7 +118,7 @@ struct SavedPart {
 };
 Bytes encode(const SavedPart&);
 template <>
-SavedPart decode(const Bytes&);
+SavedPart decode(View);
 
 /// Payload of `restore`: the files of all ranks of this role, in the order of the ranks.
 struct RestoreOrder {
@@ -100,6 +128,6 @@ struct RestoreOrder {
 };
 Bytes encode(const RestoreOrder&);
 template <>
-RestoreOrder decode(const Bytes&);
+RestoreOrder decode(View);
 
 }  // namespace turbidite

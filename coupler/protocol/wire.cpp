@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/protocol/wire.hpp"
 
+#include <algorithm>
+
 namespace turbidite {
 
 void Writer::operator()(const std::string& text) {
@@ -17,25 +19,24 @@ void Reader::operator()(std::string& text) {
 std::size_t Reader::length() {
     std::int64_t size = 0;
     (*this)(size);
-    if (size < 0 || static_cast<std::size_t>(size) > in_.size() - at_)
+    if (size < 0 || static_cast<std::size_t>(size) > in_.size - at_)
         throw MalformedPayload("a list announces " + std::to_string(size) + " entries in " +
-                               std::to_string(in_.size() - at_) + " bytes");
+                               std::to_string(in_.size - at_) + " bytes");
     return static_cast<std::size_t>(size);
 }
 
 const char* Reader::take(std::size_t size) {
-    if (size > in_.size() - at_)
-        throw MalformedPayload("payload ends after " + std::to_string(in_.size()) + " bytes, " +
+    if (size > in_.size - at_)
+        throw MalformedPayload("payload ends after " + std::to_string(in_.size) + " bytes, " +
                                std::to_string(at_ + size) + " needed");
-    const char* from = in_.data() + at_;
+    const char* from = in_.data + at_;
     at_ += size;
     return from;
 }
 
 void Reader::finish() const {
-    if (at_ != in_.size())
-        throw MalformedPayload("payload has " + std::to_string(in_.size() - at_) +
-                               " bytes too many");
+    if (at_ != in_.size)
+        throw MalformedPayload("payload has " + std::to_string(in_.size - at_) + " bytes too many");
 }
 
 namespace {
@@ -74,6 +75,88 @@ void maybe(Reader& code, std::optional<Value>& value, Visit visit) {
     if (given) visit(code, value.emplace());
 }
 
+// Records of a fixed number of numbers, of which there may be millions: one check of the length,
+// then each record in one go.
+
+class NumberCount {
+ public:
+    template <class Number>
+    void operator()(const Number&) {
+        ++numbers;
+    }
+    std::size_t numbers = 0;
+};
+
+class BlockWriter {
+ public:
+    explicit BlockWriter(char* to) : to_(to) {}
+    template <class Number>
+    void operator()(const Number& value) {
+        using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
+        const Wide wide = static_cast<Wide>(value);
+        std::memcpy(to_, &wide, sizeof wide);
+        to_ += sizeof wide;
+    }
+
+ private:
+    char* to_;
+};
+
+class BlockReader {
+ public:
+    explicit BlockReader(const char* from) : from_(from) {}
+    template <class Number>
+    void operator()(Number& value) {
+        using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
+        Wide wide;
+        std::memcpy(&wide, from_, sizeof wide);
+        value = static_cast<Number>(wide);
+        from_ += sizeof wide;
+    }
+
+ private:
+    const char* from_;
+};
+
+template <class Record, class Visit>
+std::size_t bytes_per(Visit visit) {
+    NumberCount count;
+    const Record record;
+    visit(count, record);
+    return count.numbers * sizeof(double);
+}
+
+/// `record_at(i)` for i below `count`. Goes through a block that stays in the cache.
+template <class Record, class Visit, class RecordAt>
+void table(Writer& code, std::size_t count, Visit visit, RecordAt record_at) {
+    constexpr std::size_t at_once = 32;
+    const std::size_t each = bytes_per<Record>(visit);
+    code(static_cast<std::int64_t>(count));
+    code.expect(count * each);
+    std::vector<char> block(at_once * each);
+    for (std::size_t first = 0; first < count; first += at_once) {
+        const std::size_t now = std::min(at_once, count - first);
+        BlockWriter to(block.data());
+        for (std::size_t i = first; i < first + now; ++i) visit(to, record_at(i));
+        code.append(block.data(), now * each);
+    }
+}
+
+template <class Record, class Visit>
+void table(Writer& code, const std::vector<Record>& records, Visit visit) {
+    table<Record>(code, records.size(), visit,
+                  [&](std::size_t i) -> const Record& { return records[i]; });
+}
+
+template <class Record, class Visit>
+void table(Reader& code, std::vector<Record>& records, Visit visit) {
+    const std::size_t count = code.length(), each = bytes_per<Record>(visit);
+    BlockReader from(code.take(count * each));  // no overflow: `count` bytes are there
+    records.clear();
+    records.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) visit(from, records.emplace_back());
+}
+
 constexpr auto plain = [](auto& code, auto& value) { code(value); };
 
 constexpr auto visit_grain = [](auto& code, auto& g) {
@@ -99,11 +182,11 @@ constexpr auto visit_contact = [](auto& code, auto& c) {
 };
 
 constexpr auto visit_contacts = [](auto& code, auto& contacts) {
-    list(code, contacts, visit_contact);
+    table(code, contacts, visit_contact);
 };
 
 constexpr auto visit_motion = [](auto& code, auto& motion) {
-    list(code, motion.grains, visit_grain);
+    table(code, motion.grains, visit_grain);
     visit_contact_report(code, motion.report);
     maybe(code, motion.contacts, visit_contacts);
 };
@@ -120,7 +203,7 @@ constexpr auto visit_splitting = [](auto& code, auto& s) {
 };
 
 constexpr auto visit_kicks = [](auto& code, auto& kicks) {
-    list(code, kicks.kicks, visit_kick);
+    table(code, kicks.kicks, visit_kick);
     auto& r = kicks.report;
     code(r.multiplier_iterations), code(r.multiplier_residual), code(r.multipliers_converged);
     code(r.divergence), code(r.final_divergence), code(r.momentum_defect);
@@ -135,7 +218,7 @@ constexpr auto visit_response = [](auto& code, auto& r) {
 };
 
 constexpr auto visit_responses = [](auto& code, auto& responses) {
-    list(code, responses, visit_response);
+    table(code, responses, visit_response);
 };
 
 constexpr auto visit_shapes = [](auto& code, auto& shapes) {
@@ -163,15 +246,27 @@ constexpr auto visit_hello = [](auto& code, auto& h) {
 };
 
 template <class Record, class Visit>
-Bytes encoded(const Record& record, Visit visit) {
-    Bytes out;
+void append_visited(Bytes& out, const Record& record, Visit visit) {
     Writer code(out);
     visit(code, record);
+}
+
+template <class Record, class Visit>
+Bytes encoded(const Record& record, Visit visit) {
+    Bytes out;
+    append_visited(out, record, visit);
+    return out;
+}
+
+template <class Record>
+Bytes appended(const Record& record) {
+    Bytes out;
+    append(out, record);
     return out;
 }
 
 template <class Record, class Visit>
-Record decoded(const Bytes& in, Visit visit) {
+Record decoded(View in, Visit visit) {
     Record record;
     Reader code(in);
     visit(code, record);
@@ -181,14 +276,35 @@ Record decoded(const Bytes& in, Visit visit) {
 
 }  // namespace
 
+void append(Bytes& out, const Motion& m) {
+    append_visited(out, m, visit_motion);
+}
+void append(Bytes& out, const Kicks& k) {
+    append_visited(out, k, visit_kicks);
+}
+void append(Bytes& out, const std::vector<FreeResponse>& r) {
+    append_visited(out, r, visit_responses);
+}
+void append(Bytes& out, const MotionShare& share) {
+    Writer code(out);
+    table<GrainState>(
+        code, share.places.size(), visit_grain,
+        [&](std::size_t i) -> const GrainState& { return share.of->grains[share.places[i]]; });
+    visit_contact_report(code, share.of->report);
+    maybe(code, std::optional<std::vector<ContactRecord>>{}, visit_contacts);
+}
+
 Bytes encode(const Motion& m) {
-    return encoded(m, visit_motion);
+    return appended(m);
+}
+Bytes encode(const MotionShare& share) {
+    return appended(share);
 }
 Bytes encode(const Kicks& k) {
-    return encoded(k, visit_kicks);
+    return appended(k);
 }
 Bytes encode(const std::vector<FreeResponse>& r) {
-    return encoded(r, visit_responses);
+    return appended(r);
 }
 Bytes encode(const ShapeTable& s) {
     return encoded(s, visit_shapes);
@@ -220,36 +336,36 @@ Bytes encode(const Settings& settings) {
 }
 
 template <>
-Motion decode(const Bytes& in) {
+Motion decode(View in) {
     return decoded<Motion>(in, visit_motion);
 }
 template <>
-Kicks decode(const Bytes& in) {
+Kicks decode(View in) {
     return decoded<Kicks>(in, visit_kicks);
 }
 template <>
-std::vector<FreeResponse> decode(const Bytes& in) {
+std::vector<FreeResponse> decode(View in) {
     return decoded<std::vector<FreeResponse>>(in, visit_responses);
 }
 template <>
-ShapeTable decode(const Bytes& in) {
+ShapeTable decode(View in) {
     return decoded<ShapeTable>(in, visit_shapes);
 }
 template <>
-Window decode(const Bytes& in) {
+Window decode(View in) {
     return decoded<Window>(in, visit_window);
 }
 template <>
-Box decode(const Bytes& in) {
+Box decode(View in) {
     return decoded<Box>(in, visit_box);
 }
 template <>
-std::string decode(const Bytes& in) {
+std::string decode(View in) {
     return decoded<std::string>(in, plain);
 }
 
 template <>
-Hello decode(const Bytes& in) {
+Hello decode(View in) {
     Hello hello;
     Reader code(in);
     std::int32_t role = 0;
@@ -261,7 +377,7 @@ Hello decode(const Bytes& in) {
 }
 
 template <>
-Settings decode(const Bytes& in) {
+Settings decode(View in) {
     std::vector<Settings::Entry> entries;
     Reader code(in);
     list(code, entries, [](Reader& c, Settings::Entry& entry) { c(entry.first), c(entry.second); });

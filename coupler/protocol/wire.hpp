@@ -19,6 +19,15 @@ namespace turbidite {
 
 using Bytes = std::vector<char>;
 
+/// Bytes that belong to somebody else: the payload inside a frame.
+struct View {
+    View(const char* first, std::size_t length) : data(first), size(length) {}
+    View(const Bytes& bytes) : View(bytes.data(), bytes.size()) {}
+
+    const char* data;
+    std::size_t size;
+};
+
 /// A payload that is shorter or longer than, or different from, what its message kind requires.
 class MalformedPayload : public std::runtime_error {
  public:
@@ -39,13 +48,18 @@ class Writer {
     }
     void operator()(const std::string& text);
 
+    /// Bytes as they are.
+    void append(const char* from, std::size_t size) { out_.insert(out_.end(), from, from + size); }
+    /// Room for so many more bytes.
+    void expect(std::size_t more) { out_.reserve(out_.size() + more); }
+
  private:
     Bytes& out_;
 };
 
 class Reader {
  public:
-    explicit Reader(const Bytes& in) : in_(in) {}
+    explicit Reader(View in) : in_(in) {}
 
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
     void operator()(Number& value) {
@@ -59,13 +73,21 @@ class Reader {
     /// Length of a list, refused if the payload cannot hold that many entries.
     std::size_t length();
 
+    /// The next `size` bytes. Throws MalformedPayload if there are fewer.
+    const char* take(std::size_t size);
+
     /// Throws MalformedPayload unless the whole payload was read.
     void finish() const;
 
  private:
-    const char* take(std::size_t size);
-    const Bytes& in_;
+    View in_;
     std::size_t at_ = 0;
+};
+
+/// Some grains of a motion, by their places in it: encoded as a Motion without contacts.
+struct MotionShare {
+    const Motion* of = nullptr;
+    std::vector<std::uint32_t> places;
 };
 
 Bytes encode(const Hello&);
@@ -73,6 +95,7 @@ Bytes encode(const Settings&);
 Bytes encode(const ShapeTable&);
 Bytes encode(const Window&);
 Bytes encode(const Motion&);
+Bytes encode(const MotionShare&);
 Bytes encode(const Kicks&);
 Bytes encode(const std::vector<FreeResponse>&);
 Bytes encode(const Box&);
@@ -80,6 +103,17 @@ Bytes encode(const std::string&);
 
 /// Throws MalformedPayload.
 template <class Record>
-Record decode(const Bytes&);
+Record decode(View);
+
+// The same behind what is already there, for the records that are long.
+void append(Bytes& out, const Motion&);
+void append(Bytes& out, const MotionShare&);
+void append(Bytes& out, const Kicks&);
+void append(Bytes& out, const std::vector<FreeResponse>&);
+template <class Record>
+void append(Bytes& out, const Record& record) {
+    const Bytes bytes = encode(record);
+    out.insert(out.end(), bytes.begin(), bytes.end());
+}
 
 }  // namespace turbidite

@@ -31,11 +31,16 @@ class Channel {
 
     /// True if every frame has been sent.
     virtual bool flushed() = 0;
+
+    /// True while a long frame moves and needs both ends to attend to it: sleeping would hold it
+    /// up. False again when it takes longer than its length explains, since the other end is busy.
+    virtual bool in_transit() const { return false; }
 };
 
 /// Waiting without continuous polling: polls for 50 us, then sleeps for times that grow to 400 us,
 /// so that a waiting process leaves its core to one that computes. Near the expected arrival (the
-/// duration of the last wait at the same point) the sleeps are short again.
+/// duration of the last wait at the same point) the sleeps are short again, and there are none
+/// while a frame moves.
 class Patience {
  public:
     using Clock = std::chrono::steady_clock;
@@ -44,7 +49,7 @@ class Patience {
     explicit Patience(double expected = 0.0);
 
     /// One poll or sleep.
-    void wait();
+    void wait(bool in_transit = false);
 
     double seconds() const;
 

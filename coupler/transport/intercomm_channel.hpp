@@ -20,14 +20,19 @@ class IntercommChannel final : public Channel {
     void send(int peer, Bytes bytes) override;
     std::optional<Frame> try_receive() override;
     bool flushed() override;
+    bool in_transit() const override;
 
  private:
+    using Clock = std::chrono::steady_clock;
+
     struct Pending {
         Bytes bytes;
+        Clock::time_point attended_until;
         MPI_Request request = MPI_REQUEST_NULL;
     };
     struct Incoming {
         Frame frame;
+        Clock::time_point attended_until;
         MPI_Request request = MPI_REQUEST_NULL;
     };
     void begin_receiving();

@@ -21,7 +21,8 @@ double Patience::seconds() const {
     return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-void Patience::wait() {
+void Patience::wait(bool in_transit) {
+    if (in_transit) return std::this_thread::yield();  // the other end may need this core
     const double waited = seconds();
     if (waited < hot) return;
     int sleep = std::min(shortest_sleep << std::min(sleeps_++, 5), longest_sleep);

@@ -29,6 +29,7 @@ class RecordingChannel final : public Channel {
     void send(int peer, Bytes bytes) override;
     std::optional<Frame> try_receive() override;
     bool flushed() override { return channel_.flushed(); }
+    bool in_transit() const override { return channel_.in_transit(); }
 
  private:
     void record(bool sent, int peer, const Bytes& bytes);

@@ -2,6 +2,7 @@
 #include "coupler/hub/schemes/exchanges.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "coupler/hub/arrival.hpp"
 #include "coupler/protocol/largest.hpp"
@@ -58,9 +59,9 @@ Kicks merged(const std::vector<Kicks>& shares) {
 
 Motion receive_grains(Kind kind, std::int64_t window, Cast& cast) {
     const Arrival arrival(cast.grains, kind, window);
-    const auto shares = receive<Motion>(cast.grains, arrival, cast);
+    auto shares = receive<Motion>(cast.grains, arrival, cast);
     cast.roster.check(shares, arrival);
-    return cast.plan.gather(shares);
+    return cast.plan.gather(std::move(shares));
 }
 
 Motion receive_motion(const Window& window, Cast& cast) {
@@ -90,7 +91,7 @@ std::vector<FreeResponse> play_contact_round(const Window& window,
 }
 
 void send_accept(Cast& cast) {
-    for (int rank = 0; rank < cast.fluid->ranks(); ++rank) cast.fluid->send(rank, Kind::accept, {});
+    for (int rank = 0; rank < cast.fluid->ranks(); ++rank) cast.fluid->send(rank, Kind::accept);
 }
 
 void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {

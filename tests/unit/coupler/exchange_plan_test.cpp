@@ -27,17 +27,17 @@ Kick kick(GrainId id) {
 // 0.2 only the left one (4.2 + 0.7 < 5).
 TEST(ExchangePlan, AGrainGoesToEveryFluidRankItTouches) {
     const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.2, {});
-    const auto routed = plan.by_place({{grain(1, 4.8), grain(2, 4.2), grain(3, 9.0)}, {}});
-    ASSERT_EQ(routed[0].grains.size(), 2u);
-    ASSERT_EQ(routed[1].grains.size(), 2u);
-    EXPECT_EQ(routed[1].grains[0].id, 1);
-    EXPECT_EQ(routed[1].grains[1].id, 3);
+    const Motion motion{{grain(1, 4.8), grain(2, 4.2), grain(3, 9.0)}, {}};
+    const auto routed = plan.by_place(motion);
+    EXPECT_EQ(routed[0].places, (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(routed[1].places, (std::vector<std::uint32_t>{0, 2}));
 }
 
 // Period 10: the grain at 9.8 also touches the left rank, as its image at -0.2.
 TEST(ExchangePlan, PeriodicImagesAreRouted) {
     const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.0, {10, 0, 0});
-    EXPECT_EQ(plan.by_place({{grain(1, 9.8)}, {}})[0].grains.size(), 1u);
+    const Motion motion{{grain(1, 9.8)}, {}};
+    EXPECT_EQ(plan.by_place(motion)[0].places.size(), 1u);
 }
 
 TEST(ExchangePlan, KicksReturnToTheOwnersForAnyIds) {
