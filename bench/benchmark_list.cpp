@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "bench/contact_figures.hpp"
+#include "bench/coupling_figures.hpp"
 #include "bench/figure.hpp"
 #include "bench/fluid_figures.hpp"
 #include "bench/splitting_figures.hpp"
@@ -41,6 +42,9 @@ const std::vector<Benchmark>& benchmark_list() {
         {"contact",
          "contact-iterations per second, growth with size, comparison with other solvers",
          contact_figures()},
+        {"coupling",
+         "what the coupler adds to a window, what waiting costs, growth with grains and ranks",
+         coupling_figures()},
     };
     return list;
 }

@@ -54,7 +54,7 @@ std::vector<GrainState> FluidRanks::here(const std::vector<GrainState>& grains) 
     if (!plan_) return grains;
     Motion motion;
     motion.grains = grains;
-    return plan_->by_place(motion).front().grains;
+    return plan_->by_place(motion).front().grains();
 }
 
 std::vector<Kick> FluidRanks::all(const std::vector<Kick>& kicks) const {

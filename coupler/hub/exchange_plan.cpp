@@ -73,14 +73,17 @@ std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>
 /// The first share takes in the others, so that a single one is not copied.
 Motion joined(std::vector<Motion>& shares) {
     auto contacts = all_contacts(shares);
+    ContactReport report;
     std::size_t grains = 0;
-    for (const Motion& share : shares) grains += share.grains.size();
+    for (const Motion& share : shares) {
+        add(report, share.report);
+        grains += share.grains.size();
+    }
     Motion all = std::move(shares.front());
     all.grains.reserve(grains);
-    for (auto share = shares.begin() + 1; share != shares.end(); ++share) {
+    for (auto share = shares.begin() + 1; share != shares.end(); ++share)
         all.grains.insert(all.grains.end(), share->grains.begin(), share->grains.end());
-        add(all.report, share->report);
-    }
+    all.report = report;
     all.contacts = std::move(contacts);
     return all;
 }

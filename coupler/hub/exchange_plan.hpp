@@ -25,6 +25,9 @@ class ExchangePlan {
     /// only some ranks report contacts.
     Motion gather(std::vector<Motion> shares);
 
+    /// How often `gather` had to find the places of the grains anew.
+    std::int64_t builds() const { return index_.builds(); }
+
     /// The rank that owns each grain, in the order of the last `gather`.
     const std::vector<int>& owners() const { return owner_; }
 

@@ -100,9 +100,14 @@ void Hub::play(const Window& window) {
 /// longer there in the next one, whose history is to be that of a run in one part: it comes after
 /// the checkpoint.
 void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
-    if (window.write_output && !out_of_turn) output_.write();
+    if (window.write_output && !out_of_turn) write_output(window);
     if (save_it) checkpoints_.write(state());
-    if (window.write_output && out_of_turn) output_.write();
+    if (window.write_output && out_of_turn) write_output(window);
+}
+
+void Hub::write_output(const Window& window) {
+    enter(timeline_ ? &*timeline_ : nullptr, Timeline::Part::compute, "output", window.index);
+    output_.write();
 }
 
 // A run that is asked to stop completes one more window and writes it, so that history, grains and
@@ -198,6 +203,8 @@ void Hub::end_and_record() {
 }
 
 void Hub::start() {
+    if (case_.settings.has("output.timeline") && case_.settings.flag("output.timeline"))
+        watch_.set_timeline(&timeline_.emplace(files_.root, Role::coupler, 0));
     shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
     ledger_.name_programs(grains_.program(), fluid_ ? fluid_->program() : "");
     tell_participants();

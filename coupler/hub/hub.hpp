@@ -66,6 +66,7 @@ class Hub {
     void play_windows();
     void play(const Window& window);
     void finish(const Window& window, bool out_of_turn, bool save);
+    void write_output(const Window& window);
     Window window(std::int64_t index, bool written) const;
     CouplerState state();
     std::string stopped_after(std::int64_t windows) const;
@@ -84,6 +85,7 @@ class Hub {
     Progress progress_;
     ParticipantLink grains_;
     std::optional<ParticipantLink> fluid_;
+    std::optional<Timeline> timeline_;
     std::vector<ParticipantLink*> links_;
     Watch watch_;
     std::optional<ExchangePlan> plan_;

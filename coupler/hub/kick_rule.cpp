@@ -50,6 +50,16 @@ struct Balance {
 KickRule::KickRule(const RunValues& run, const ShapeTable& shapes)
     : bodies_(run, shapes), gravity_(run.gravity) {}
 
+const ImmersedBody& KickRule::body_of(const GrainState& grain) {
+    const bool same = last_body_ && grain.shape == last_.shape && grain.radius == last_.radius &&
+                      grain.density == last_.density;
+    if (!same) {
+        last_body_ = bodies_(grain);
+        last_ = grain;
+    }
+    return *last_body_;
+}
+
 void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double step) {
     before_.follow(before.grains);
     std::size_t at = GrainIndex::nowhere;
@@ -59,7 +69,7 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
             throw PhysicsRefused("the fluid sent a kick for grain " + std::to_string(kick.id) +
                                  ", which is unknown");
         const GrainState& grain = before.grains[at];
-        const ImmersedBody immersed = bodies_(grain);
+        const ImmersedBody& immersed = body_of(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);
@@ -85,7 +95,7 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         const GrainState& grain = before.grains.at(at);
         if (grain.prescribed) continue;  // what holds it takes the rest
         const GrainState& with_contact = contact.grains.at(at_contact);
-        const ImmersedBody immersed = bodies_(grain);
+        const ImmersedBody& immersed = body_of(grain);
         const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
         const Eigen::Vector3d spin_change =
             vector(kick.angular_velocity) - vector(grain.angular_velocity);

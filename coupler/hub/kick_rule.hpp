@@ -11,6 +11,8 @@
 // to round-off, where F_c = J_c/Δt; `balance` measures it.
 #pragma once
 
+#include <optional>
+
 #include "coupler/output/window_result.hpp"
 #include "coupler/protocol/grain_index.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
@@ -31,7 +33,12 @@ class KickRule {
                          const Motion& contact, double step);
 
  private:
+    /// Valid until the next call. Grains that follow each other are often of one kind.
+    const ImmersedBody& body_of(const GrainState& grain);
+
     ImmersedBodies bodies_;
+    GrainState last_;  ///< of the last call
+    std::optional<ImmersedBody> last_body_;
     double gravity_;
     GrainIndex before_, contact_;
 };

@@ -15,6 +15,9 @@ Watch::Watch(std::vector<ParticipantLink*> links, double soft, double hard, Prin
 
 void Watch::wait_for(ParticipantLink& link, Kind kind) {
     double next_notice = soft_;
+    const bool fluid = link.role() == Role::fluid;
+    enter(timeline_, Timeline::Part::wait, fluid ? "wait for the fluid" : "wait for the grains",
+          link.window());
     double& usual = usual_wait_[{kind, link.iteration()}];
     Patience patience(usual);
     for (;; patience.wait(any_in_transit())) {
@@ -35,6 +38,7 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     }
     usual = patience.seconds();
     waited_ += usual;
+    enter(timeline_, Timeline::Part::compute, "check and route", link.window());
 }
 
 bool Watch::any_in_transit() const {

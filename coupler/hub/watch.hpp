@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "coupler/hub/participant_link.hpp"
+#include "coupler/protocol/timeline.hpp"
 
 namespace turbidite {
 
@@ -30,6 +31,9 @@ class Watch {
     /// participant, or `stalled`, which names the silent ranks.
     void wait_for(ParticipantLink& link, Kind kind);
 
+    /// Notes waits, and work between them, there.
+    void set_timeline(Timeline* timeline) { timeline_ = timeline; }
+
     /// From now on `wait_for` throws EndedFromOutside when `signal` is not 0.
     void heed(const volatile std::sig_atomic_t& signal) { signal_ = &signal; }
 
@@ -46,6 +50,7 @@ class Watch {
     double soft_, hard_;
     Print print_;
     const volatile std::sig_atomic_t* signal_ = nullptr;
+    Timeline* timeline_ = nullptr;
     double waited_ = 0.0;
     /// Duration of the last wait [s], by kind and round.
     std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;

@@ -9,6 +9,7 @@
 
 #include "coupler/protocol/call_order.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/timeline.hpp"
 #include "coupler/transport/channel.hpp"
 
 namespace turbidite {
@@ -41,6 +42,12 @@ class Conversation {
     /// True if this side is to send this kind next.
     bool due_from_here(Kind kind) const { return order_.is_due(kind, to_coupler); }
 
+    /// Notes waits there.
+    void set_timeline(Timeline* timeline) { timeline_ = timeline; }
+
+    /// The present window; -1 before the first.
+    std::int64_t window() const { return order_.window(); }
+
     /// Longest wait for the coupler [s]; then CouplerSilent is thrown.
     void set_limit(double seconds) { limit_ = seconds; }
 
@@ -72,6 +79,7 @@ class Conversation {
 
     Channel& channel_;
     CallOrder order_;
+    Timeline* timeline_ = nullptr;
     double limit_ = 600.0;
     /// Duration of the last wait [s], by kind and round.
     std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +18,7 @@ struct Session::Talk {
 
     Conversation conversation;
     Identity identity;
+    std::optional<Timeline> timeline;
     Outcome outcome;
     std::function<std::string()> other_exception = [] { return "an exception of unknown type"; };
 };
@@ -131,6 +133,9 @@ class RoleSession : public Session {
         Settings settings = decode<Settings>(talk.receive(Kind::settings).payload());
         talk.set_window_order(decode<Order>(talk.receive(Kind::order).payload()));
         talk.set_limit(margin_over_coupler * settings.real("limits.stall_hard"));
+        if (settings.has("output.timeline") && settings.flag("output.timeline"))
+            talk.set_timeline(
+                &talk_->timeline.emplace(talk_->identity.run_folder, role_, talk_->identity.rank));
         return settings;
     }
 
@@ -151,6 +156,20 @@ class RoleSession : public Session {
     template <class Record>
     void send(Kind kind, const Record& record) {
         talk_->conversation.send(kind, record);
+    }
+
+    /// A call of the adapter, noted in the timeline.
+    template <class Call>
+    auto compute(const char* what, Call call) {
+        const std::int64_t window = talk_->conversation.window();
+        Timeline* timeline = talk_->timeline ? &*talk_->timeline : nullptr;
+        enter(timeline, Timeline::Part::compute, what, window);
+        struct AtEnd {
+            Timeline* timeline;
+            std::int64_t window;
+            ~AtEnd() { enter(timeline, Timeline::Part::transfer, "send", window); }
+        } at_end{timeline, window};
+        return call();
     }
 
     bool due(Kind kind) const { return talk_->conversation.due_from_here(kind); }
@@ -220,7 +239,9 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         const Settings settings = shake_hands();
         const auto shapes = receive<ShapeTable>(Kind::shapes);
         const auto share = receive<Motion>(Kind::population);
-        send(Kind::state, adapter_.initialise(settings, shapes, share.grains));
+        send(Kind::state, compute("initialise", [&] {
+                 return adapter_.initialise(settings, shapes, share.grains);
+             }));
     }
 
     void take(const FramedMessage& message) override {
@@ -241,13 +262,14 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
 
     Motion solve(const Responses& responses) {
         solved_ = true;
-        return adapter_.advance(window_, responses);
+        return compute("advance", [&] { return adapter_.advance(window_, responses); });
     }
 
     /// If the order requests no motion (`dry`), the state is the only report of the window.
     Motion move(const Kicks& kicks) {
         const double unreported = solved_ ? 0.0 : solve({}).report.wall_seconds;
-        Motion state = adapter_.apply_kick(window_, kicks.kicks);
+        Motion state =
+            compute("apply_kick", [&] { return adapter_.apply_kick(window_, kicks.kicks); });
         state.report.wall_seconds += unreported;
         return state;
     }
@@ -264,29 +286,36 @@ class FluidSession final : public RoleSession<FluidAdapter> {
     void begin() override {
         const Settings settings = shake_hands();
         const auto shapes = receive<ShapeTable>(Kind::shapes);
-        send(Kind::domain, adapter_.initialise(settings, shapes));
+        send(Kind::domain,
+             compute("initialise", [&] { return adapter_.initialise(settings, shapes); }));
     }
 
     void take(const FramedMessage& message) override {
         switch (message.envelope.kind) {
             case Kind::window:
                 window_ = decode<Window>(message.payload());
-                return adapter_.advance(window_);
-            case Kind::bodies:
-                adapter_.let_fall(window_, decode<Motion>(message.payload()).grains);
+                return compute("advance", [&] { adapter_.advance(window_); });
+            case Kind::bodies: {
+                const Motion bodies = decode<Motion>(message.payload());
+                compute("let_fall", [&] { adapter_.let_fall(window_, bodies.grains); });
                 return respond_if_due();
-            case Kind::constraint:
-                adapter_.correct(window_, decode<Motion>(message.payload()).grains);
+            }
+            case Kind::constraint: {
+                const Motion solved = decode<Motion>(message.payload());
+                compute("correct", [&] { adapter_.correct(window_, solved.grains); });
                 return respond_if_due();
+            }
             case Kind::accept:
-                return send(Kind::kicks, adapter_.impose(window_));
+                return send(Kind::kicks,
+                            compute("impose", [&] { return adapter_.impose(window_); }));
             default:
                 refuse(message.envelope.kind);
         }
     }
 
     void respond_if_due() {
-        if (due(Kind::response)) send(Kind::response, adapter_.respond());
+        if (due(Kind::response))
+            send(Kind::response, compute("respond", [&] { return adapter_.respond(); }));
     }
 };
 

@@ -22,6 +22,7 @@ class GrainIndex {
     /// Returns the first id that occurs twice, if any; the index is then invalid.
     std::optional<GrainId> follow(const std::vector<GrainState>& grains) {
         if (fits(grains)) return std::nullopt;
+        ++builds_;
         ids_.clear();
         places_.clear();
         places_.reserve(grains.size());
@@ -31,6 +32,9 @@ class GrainIndex {
         }
         return std::nullopt;
     }
+
+    /// How often it was built anew: whenever the ids or their order changed.
+    std::int64_t builds() const { return builds_; }
 
     std::size_t size() const { return ids_.size(); }
     GrainId id(std::size_t place) const { return ids_[place]; }
@@ -52,6 +56,7 @@ class GrainIndex {
                           [](GrainId id, const GrainState& grain) { return id == grain.id; });
     }
 
+    std::int64_t builds_ = 0;
     std::vector<GrainId> ids_;
     std::unordered_map<GrainId, std::size_t> places_;
 };

@@ -5,6 +5,12 @@
 
 namespace turbidite {
 
+std::vector<GrainState> MotionShare::grains() const {
+    std::vector<GrainState> copies;
+    for (const std::uint32_t place : places) copies.push_back(of->grains[place]);
+    return copies;
+}
+
 void Writer::operator()(const std::string& text) {
     (*this)(static_cast<std::int64_t>(text.size()));
     out_.insert(out_.end(), text.begin(), text.end());

@@ -88,6 +88,8 @@ class Reader {
 struct MotionShare {
     const Motion* of = nullptr;
     std::vector<std::uint32_t> places;
+
+    std::vector<GrainState> grains() const;
 };
 
 Bytes encode(const Hello&);

@@ -10,8 +10,8 @@ namespace {
 constexpr double hot = 50e-6;       // [s] of polling first: most answers on an idle machine
 constexpr int shortest_sleep = 20;  // [us] near the expected arrival
 constexpr int longest_sleep = 400;  // [us] limits the delay that sleeping adds to a window
-constexpr double alert_from = 0.8;  // of the expected wait: from here on sleeps are short
-constexpr double alert_until = 1.5;
+constexpr double alert_from = 0.9;  // of the expected wait: from here on sleeps are short
+constexpr double alert_until = 1.2;
 
 }  // namespace
 

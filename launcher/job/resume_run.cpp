@@ -206,6 +206,7 @@ const std::vector<std::string>& keys_that_may_change() {
     static const std::vector<std::string> keys = {"time.end",
                                                   "output.interval",
                                                   "output.fields_interval",
+                                                  "output.timeline",
                                                   "checkpoint.",
                                                   "limits.",
                                                   "fluid.ranks",

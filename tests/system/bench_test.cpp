@@ -48,12 +48,25 @@ TEST_F(Bench, QuickGivesEveryFigureOfTheContactSolver) {
     }
 }
 
+TEST_F(Bench, QuickGivesEveryFigureOfTheCoupling) {
+    const Answer answer = bench("coupling --quick --json figures.json");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
+    for (const char* name : {"added_microseconds_1400", "coupling_share_d16", "over_plain_mpi_1e6",
+                             "waiting_cpu_percent", "hub_growth_32_ranks"}) {
+        ASSERT_TRUE(figures.contains(name)) << answer.err;
+        ASSERT_TRUE(figures.at(name).at("value").is_number()) << figures.at(name) << answer.err;
+        EXPECT_GT(figures.at(name).at("value").get<double>(), 0.0);
+    }
+}
+
 TEST_F(Bench, ListNamesAllAndMeasuresNothing) {
     const Answer answer = bench("--list");
     EXPECT_EQ(answer.code, 0) << answer.err;
-    for (const char* name : {"fluid:", "icofoam_over_ours_2d", "ours_over_array_code",
-                             "cell_cost_growth", "speedup_2_ranks", "bytes_per_cell",
-                             "contact:", "contact_rate_1397", "contact_cost_growth"})
+    for (const char* name :
+         {"fluid:", "icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth",
+          "speedup_2_ranks", "bytes_per_cell", "contact:", "contact_rate_1397",
+          "contact_cost_growth", "coupling:", "over_plain_mpi_1e6"})
         EXPECT_SAYS(answer.out, name);
 }
 

@@ -119,6 +119,11 @@ KeyGroup time_keys() {
                      .allowed = "A list of numbers, two for each point.",
                      .entries = 0,
                      .idle = without_fluid},
+                    {.name = "output.timeline",
+                     .type = KeyType::flag,
+                     .fallback = "false",
+                     .help = "when each rank computes, waits and transfers, in timeline/ as a "
+                             "trace for ui.perfetto.dev; at most 64 MB per host"},
                     {.name = "checkpoint.interval",
                      .type = KeyType::real,
                      .unit = "t_c",

@@ -40,6 +40,22 @@ TEST(ExchangePlan, PeriodicImagesAreRouted) {
     EXPECT_EQ(plan.by_place(motion)[0].places.size(), 1u);
 }
 
+TEST(ExchangePlan, PlacesAreFoundAnewOnlyWhenGrainsMigrateAppearOrVanish) {
+    ExchangePlan plan({}, 0.0, {});
+    const Motion one{{grain(1, 0)}, {}}, two{{grain(2, 1)}, {}}, none{},
+        both{{grain(1, 0), grain(2, 1)}, {}};
+    for (int window = 0; window < 3; ++window) plan.gather({one, two});
+    EXPECT_EQ(plan.builds(), 1);
+    plan.gather({both, none});  // 2 migrates: another owner at the same place
+    EXPECT_EQ(plan.builds(), 1);
+    EXPECT_EQ(plan.by_owner(std::vector{kick(1), kick(2)})[0].size(), 2u);
+    plan.gather({two, one});
+    EXPECT_EQ(plan.builds(), 2);
+    EXPECT_EQ(plan.by_owner(std::vector{kick(1), kick(2)})[1].at(0).id, 1);
+    plan.gather({two, none});
+    EXPECT_EQ(plan.builds(), 3);
+}
+
 TEST(ExchangePlan, KicksReturnToTheOwnersForAnyIds) {
     ExchangePlan plan({}, 0.0, {});
     const GrainId huge = GrainId{1} << 60;  // ids are identifiers, not array indices

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/unit/coupler/loopback_job.hpp"
@@ -105,6 +107,35 @@ TEST(Hub, AllMismatchesOfTheHandshakeAreReportedTogether) {
         EXPECT_NE(job.status.reason.find(part), std::string::npos) << job.status.reason;
     for (const Outcome& outcome : job.outcomes)
         EXPECT_EQ(outcome.code, ExitCode::handshake_refused);
+}
+
+// Grains at x = 2, 4.5 and 7 with R = 0.5; the fluid ranks own [0, 5] and [5, 10] and need grains
+// within 7 cells of D/8: the middle one goes to both.
+TEST(Hub, NoRankButTheCouplersHoldsAllGrains) {
+    for (const char* scheme : {"split", "joint"}) {
+        const TestFolder folder(std::string("hub-shares-") + scheme);
+        Job job;
+        job.settings = test_settings(scheme);
+        job.grains_ranks = 3;
+        job.fluid_ranks = 2;
+        std::map<Kind, std::set<std::size_t>> counts;  // of the grains in the frames of a kind
+        const auto count = [&](Bytes& bytes) {
+            const Message message = unframe(bytes);
+            const Kind kind = message.envelope.kind;
+            const bool kick = kind == Kind::kick;
+            if (kick) counts[kind].insert(decode<Kicks>(message.payload).kicks.size());
+            if (kind == Kind::population || kind == Kind::bodies || kind == Kind::constraint)
+                counts[kind].insert(decode<Motion>(message.payload).grains.size());
+            return true;
+        };
+        job.to_grains = count;
+        job.to_fluid = count;
+        job.run(folder);
+        ASSERT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+        EXPECT_EQ(counts[Kind::population], std::set<std::size_t>{1});
+        EXPECT_EQ(counts[Kind::kick], std::set<std::size_t>{1});
+        EXPECT_EQ(counts[Kind::constraint], std::set<std::size_t>{2});
+    }
 }
 
 TEST(Hub, NaNIsRefusedBeforeItTravels) {
