@@ -46,7 +46,8 @@ void GrainRoster::remember(const std::vector<Motion>& shares) {
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const GrainState& grain : shares[rank].grains) {
             places_.emplace(grain.id, present_.size());
-            present_.push_back({grain.id, grain.shape, static_cast<int>(rank)});
+            present_.push_back(
+                {grain.id, grain.shape, grain.radius, grain.density, static_cast<int>(rank)});
         }
 }
 
@@ -80,15 +81,18 @@ GrainRoster::Seen GrainRoster::tally(const Shares& shares, const Arrival& arriva
     return seen;
 }
 
-void GrainRoster::check_shapes(const std::vector<Motion>& shares, const Arrival& arrival) const {
+void GrainRoster::check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const {
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const GrainState& grain : shares[rank].grains) {
-            const std::int32_t known = present_[places_.at(grain.id)].shape;
-            if (grain.shape != known)
-                arrival.refuse(static_cast<int>(rank),
-                               fmt::format("grain {} has shape {}, in the population {}", grain.id,
-                                           grain.shape, known),
-                               "A grain keeps its shape.");
+            const Entry& known = present_[places_.at(grain.id)];
+            if (known.is_the_same_body(grain)) continue;
+            arrival.refuse(
+                static_cast<int>(rank),
+                fmt::format("grain {} has shape {}, radius {:.10g} and density {:.10g}, in the "
+                            "population {}, {:.10g} and {:.10g}",
+                            grain.id, grain.shape, grain.radius, grain.density, known.shape,
+                            known.radius, known.density),
+                "A grain keeps its shape, radius and density.");
         }
 }
 
@@ -113,7 +117,7 @@ void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& sha
 void GrainRoster::check(const std::vector<Motion>& shares, const Arrival& arrival) {
     if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) return;
     const Seen seen = tally(shares, arrival);
-    check_shapes(shares, arrival);
+    check_bodies(shares, arrival);
     check_missing(seen, shares, arrival);
     remember(shares);
 }

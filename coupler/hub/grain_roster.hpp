@@ -4,6 +4,7 @@
 // announced as removed. Every message must speak of each of them exactly once.
 #pragma once
 
+#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -17,7 +18,7 @@ class GrainRoster {
 
     /// Checks the grains of `motion` or `state`; those that a `state` reports as removed leave the
     /// run. Throws PhysicsRefused naming the sender and the first grain that is unknown, sent
-    /// twice, of another shape or missing.
+    /// twice, missing, or of another shape, radius or density than in the population.
     void check(const std::vector<Motion>& shares, const Arrival& arrival);
 
     /// Checks the fluid's answers, one for every grain. Throws like the other.
@@ -30,12 +31,22 @@ class GrainRoster {
     std::size_t size() const { return present_.size(); }
 
  private:
+    /// To the round-off of a host that keeps masses, or diameters.
+    static bool keeps(double known, double now) { return std::abs(now - known) <= 1e-9 * known; }
+
     struct Entry {
         GrainId id = 0;
         std::int32_t shape = 0;
+        double radius = 0.0, density = 0.0;
         int rank = 0;  ///< the grains rank that sent it when the order last changed
 
-        bool fits(const GrainState& grain) const { return grain.id == id && grain.shape == shape; }
+        bool is_the_same_body(const GrainState& grain) const {
+            return grain.shape == shape && keeps(radius, grain.radius) &&
+                   keeps(density, grain.density);
+        }
+        bool fits(const GrainState& grain) const {
+            return grain.id == id && is_the_same_body(grain);
+        }
         template <class Answer>
         bool fits(const Answer& answer) const {
             return answer.id == id;
@@ -48,7 +59,7 @@ class GrainRoster {
     bool unchanged(const Shares& shares) const;
     template <class Shares>
     Seen tally(const Shares& shares, const Arrival& arrival) const;
-    void check_shapes(const std::vector<Motion>& shares, const Arrival& arrival) const;
+    void check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const;
     void check_missing(const Seen& seen, const std::vector<Motion>& shares,
                        const Arrival& arrival) const;
     void remember(const std::vector<Motion>& shares);

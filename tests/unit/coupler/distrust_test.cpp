@@ -135,7 +135,22 @@ TEST_F(Distrust, AGrainThatReturns) {
 
 TEST_F(Distrust, AnotherShape) {
     grains_send(Kind::motion, [](Motion& m) { grain_100(m).shape = 3; });
-    expect_end(ExitCode::physics_refused, {"grain 100 has shape 3, in the population 0"});
+    expect_end(
+        ExitCode::physics_refused,
+        {"grains rank 0 (scripted", "grain 100 has shape 3, radius", "in the population 0, "});
+}
+
+// Balances would not notice: they believe the density that comes with the velocity.
+TEST_F(Distrust, AnotherDensity) {
+    grains_send(Kind::motion, [](Motion& m) { grain_100(m).density *= 2.0; });
+    expect_end(ExitCode::physics_refused, {"grain 100 has shape 0, radius", "and density",
+                                           "A grain keeps its shape, radius and density"});
+}
+
+TEST_F(Distrust, AnotherRadius) {
+    grains_send(Kind::state, [](Motion& m) { grain_100(m).radius *= 1.0 + 1e-6; });
+    expect_end(ExitCode::physics_refused,
+               {"grain 100 has shape 0, radius", "\"state\" of window 3"});
 }
 
 struct Spoilt {
