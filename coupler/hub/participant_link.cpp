@@ -99,10 +99,23 @@ void ParticipantLink::refuse_payload(int rank, Kind kind, const std::string& fau
                     who(rank), kind_name(kind), when, fault, protocol_major, protocol_minor));
 }
 
+bool ParticipantLink::has_delivered(const Rank& rank, Kind kind) {
+    return !rank.inbox.empty() && rank.inbox.front().envelope.kind == kind;
+}
+
 bool ParticipantLink::ready(Kind kind) const {
-    return std::all_of(ranks_.begin(), ranks_.end(), [kind](const Rank& rank) {
-        return !rank.inbox.empty() && rank.inbox.front().envelope.kind == kind;
-    });
+    return std::all_of(ranks_.begin(), ranks_.end(),
+                       [kind](const Rank& rank) { return has_delivered(rank, kind); });
+}
+
+std::string ParticipantLink::silent(Kind kind) const {
+    std::vector<int> silent;
+    for (int rank = 0; rank < ranks(); ++rank)
+        if (!has_delivered(ranks_[rank], kind)) silent.push_back(rank);
+    if (silent.empty()) return role_name(role_);
+    const std::string others =
+        silent.size() > 1 ? fmt::format(" and {} other ranks", silent.size() - 1) : "";
+    return who(silent.front()) + others;
 }
 
 std::vector<FramedMessage> ParticipantLink::take_messages(Kind kind) {

@@ -67,6 +67,9 @@ class ParticipantLink {
     /// True when every rank has delivered a message of this kind.
     bool ready(Kind kind) const;
 
+    /// The first rank that has not, as `who` names it, and how many others there are.
+    std::string silent(Kind kind) const;
+
     /// The payloads that `ready` announced, one per rank. Throws Failure naming the rank whose
     /// payload does not have the form of this kind.
     template <class Record>
@@ -103,6 +106,7 @@ class ParticipantLink {
         Clock::time_point since = Clock::now();
     };
 
+    static bool has_delivered(const Rank& rank, Kind kind);
     Envelope next_sent(int rank, Kind kind);
     void post(int rank, Bytes frame);
     FramedMessage unpack(Channel::Frame frame) const;

@@ -25,10 +25,9 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
         for (ParticipantLink* other : links_) other->pump();
         if (link.ready(kind)) break;
         if (patience.seconds() > hard_)
-            throw Failure(
-                ExitCode::stalled,
-                fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}", kind_name(kind),
-                            role_name(link.role()), hard_, wait_for_table()));
+            throw Failure(ExitCode::stalled,
+                          fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}",
+                                      kind_name(kind), link.silent(kind), hard_, wait_for_table()));
         if (patience.seconds() > next_notice) {
             print_(fmt::format("still waiting for \"{}\" from {} after {:.0f} s\n{}",
                                kind_name(kind), role_name(link.role()), patience.seconds(),

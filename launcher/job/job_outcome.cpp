@@ -110,10 +110,14 @@ std::string last_word(const std::filesystem::path& log) {
     return word;
 }
 
-/// The rank of the job whose name begins the text; empty if there is none.
-std::string rank_at_front(const std::string& text, const std::vector<std::string>& ranks) {
+/// The rank of the job that a message is about: its name begins the text, or follows after "from"
+/// in the first line; empty if there is none.
+std::string rank_of(const std::string& text, const std::vector<std::string>& ranks) {
+    const std::string first = text.substr(0, text.find('\n'));
     for (const std::string& rank : ranks)
-        if (text.rfind(rank + " ", 0) == 0 || text.rfind(rank + ":", 0) == 0) return rank;
+        if (first.rfind(rank + " ", 0) == 0 || first.rfind(rank + ":", 0) == 0 ||
+            first.find(" from " + rank + " ") != std::string::npos)
+            return rank;
     return "";
 }
 
@@ -170,7 +174,7 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
 
 JobOutcome of_record(const RunFolder& folder, ExitCode code, const std::string& error,
                      const std::vector<std::string>& ranks) {
-    const std::string rank = rank_at_front(error, ranks);
+    const std::string rank = rank_of(error, ranks);
     return {code, error, log_of(folder, rank.empty() ? "coupler" : rank)};
 }
 
