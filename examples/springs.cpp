@@ -38,6 +38,8 @@ class Springs : public GrainsAdapter {
         for (const char* side : {"left", "right", "bottom", "top"})
             if (s.text(std::string("domain.") + side) != "wall")
                 throw std::runtime_error("springs supports four walls only");
+        if (s.integer("grains.ranks") > 1)  // contacts with grains of other ranks are not found
+            throw std::runtime_error("springs runs on one rank only: grains.ranks");
         run = run_values(s);
         omega = s.real("run.md_frequency"), damping = s.real("run.md_damping");
         substeps = s.integer("run.md_substeps");
