@@ -136,7 +136,8 @@ class Replay {
                                                  " has not answered within limits.stall_hard");
         if (message->envelope.kind != Kind::failure) return std::move(*message);
         const auto verdict = decode<Verdict>(message->payload);
-        throw Failure(static_cast<ExitCode>(verdict.exit_code), verdict.reason);
+        throw Failure(static_cast<ExitCode>(verdict.exit_code),
+                      "rank " + std::to_string(peer) + " ended the run: " + verdict.reason);
     }
 
     void compare(int peer, const Message& then) {

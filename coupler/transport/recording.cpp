@@ -21,36 +21,38 @@ std::optional<std::int64_t> read_number(std::ifstream& in) {
 
 }  // namespace
 
-RecordingChannel::RecordingChannel(Channel& channel, std::filesystem::path file)
-    : channel_(channel), file_(std::move(file)) {
+RecordingWriter::RecordingWriter(std::filesystem::path file, int peers) : file_(std::move(file)) {
     std::filesystem::create_directories(file_.parent_path());
     out_.open(file_, std::ios::binary);
-    for (const std::int64_t number : {magic, version, std::int64_t{channel_.peers()}})
+    for (const std::int64_t number : {magic, version, std::int64_t{peers}})
         write_number(out_, number);
     if (!out_.flush())
         throw Failure(ExitCode::participant_failed, "cannot write " + file_.string());
 }
 
-void RecordingChannel::send(int peer, Bytes bytes) {
-    record(true, peer, bytes);
-    channel_.send(peer, std::move(bytes));
-}
-
-std::optional<Channel::Frame> RecordingChannel::try_receive() {
-    auto frame = channel_.try_receive();
-    if (frame) record(false, frame->peer, frame->bytes);
-    return frame;
-}
-
-void RecordingChannel::record(bool sent, int peer, const Bytes& bytes) {
-    for (const std::int64_t number :
-         {std::int64_t{sent}, std::int64_t{peer}, static_cast<std::int64_t>(bytes.size())})
+void RecordingWriter::write(bool sent_by_coupler, int peer, const Bytes& bytes) {
+    for (const std::int64_t number : {std::int64_t{sent_by_coupler}, std::int64_t{peer},
+                                      static_cast<std::int64_t>(bytes.size())})
         write_number(out_, number);
     out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!out_)
         throw Failure(ExitCode::participant_failed,
                       "cannot write " + file_.string() +
                           ": is the disk full? Without coupling.recording nothing is kept");
+}
+
+RecordingChannel::RecordingChannel(Channel& channel, std::filesystem::path file)
+    : channel_(channel), writer_(std::move(file), channel.peers()) {}
+
+void RecordingChannel::send(int peer, Bytes bytes) {
+    writer_.write(true, peer, bytes);
+    channel_.send(peer, std::move(bytes));
+}
+
+std::optional<Channel::Frame> RecordingChannel::try_receive() {
+    auto frame = channel_.try_receive();
+    if (frame) writer_.write(false, frame->peer, frame->bytes);
+    return frame;
 }
 
 Recording::Recording(const std::filesystem::path& file) : in_(file, std::ios::binary) {

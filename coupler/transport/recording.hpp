@@ -18,11 +18,27 @@
 
 namespace turbidite {
 
+struct RecordedFrame {
+    bool sent_by_coupler = false;
+    int peer = 0;
+    Bytes bytes;
+};
+
+/// Writes such a file. Throws Failure (participant failed) naming it when it cannot be written.
+class RecordingWriter {
+ public:
+    RecordingWriter(std::filesystem::path file, int peers);
+    void write(bool sent_by_coupler, int peer, const Bytes& bytes);
+
+ private:
+    std::filesystem::path file_;
+    std::ofstream out_;
+};
+
 /// A channel that records what passes through another one.
 class RecordingChannel final : public Channel {
  public:
-    /// Throws Failure (participant failed) naming the file when it cannot be written, here and
-    /// later.
+    /// Throws as RecordingWriter, here and later.
     RecordingChannel(Channel& channel, std::filesystem::path file);
 
     int peers() const override { return channel_.peers(); }
@@ -32,17 +48,8 @@ class RecordingChannel final : public Channel {
     bool in_transit() const override { return channel_.in_transit(); }
 
  private:
-    void record(bool sent, int peer, const Bytes& bytes);
-
     Channel& channel_;
-    std::filesystem::path file_;
-    std::ofstream out_;
-};
-
-struct RecordedFrame {
-    bool sent_by_coupler = false;
-    int peer = 0;
-    Bytes bytes;
+    RecordingWriter writer_;
 };
 
 class Recording {

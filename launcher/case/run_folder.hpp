@@ -25,8 +25,10 @@ struct RunFolder {
     std::filesystem::path log(const std::string& role) const { return logs() / (role + ".log"); }
     /// Messages of "grains" or "fluid", if coupling.recording says so.
     std::filesystem::path recording(const std::string& role) const {
-        return root / "recording" / (role + ".frames");
+        return recordings() / (role + ".frames");
     }
+    /// With the checkpoint from which the recorded part of the run began, if it was resumed.
+    std::filesystem::path recordings() const { return root / "recording"; }
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
 

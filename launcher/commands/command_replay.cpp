@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
+#include "coupler/protocol/message.hpp"
+#include "coupler/transport/recording.hpp"
 #include "launcher/case/file_names.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
@@ -14,6 +17,7 @@ namespace {
 
 struct ReplayOptions {
     std::string run, side;
+    int part = 0;  ///< of a resumed run; 0: the last one
     RunOrder order;
     bool dry_run = false;
 };
@@ -22,11 +26,24 @@ Failure refused(const std::string& text) {
     return Failure(ExitCode::bad_input, text + " Exit code 2.");
 }
 
+/// The folder of the recordings of the part that is to be played.
+std::filesystem::path recordings_of(const ReplayOptions& options, const RunFolder& recorded) {
+    if (options.part == 0) return recorded.recordings();
+    const auto part = recorded.recordings() / fmt::format("part-{}", options.part);
+    if (!is_there(part))
+        throw refused(
+            fmt::format("{} has no recording/part-{}.\n  Earlier parts of a resumed run are "
+                        "numbered from 1; without --part the last one is played.",
+                        options.run, options.part));
+    return part;
+}
+
 /// --side, or the one that was recorded.
-std::string side_of(const ReplayOptions& options, const RunFolder& recorded) {
+std::string side_of(const ReplayOptions& options, const std::filesystem::path& recordings) {
+    const auto file = [&](const std::string& role) { return recordings / (role + ".frames"); };
     std::vector<std::string> there;
     for (const char* role : {"grains", "fluid"})
-        if (is_there(recorded.recording(role))) there.emplace_back(role);
+        if (is_there(file(role))) there.emplace_back(role);
     if (there.empty())
         throw refused(
             fmt::format("{} has no recording.\n  Play the case again with --set "
@@ -38,7 +55,7 @@ std::string side_of(const ReplayOptions& options, const RunFolder& recorded) {
             fmt::format("{} has recordings of grains and fluid.\n  Say which program is "
                         "to run: --side grains or --side fluid.",
                         options.run));
-    if (!is_there(recorded.recording(options.side)))
+    if (!is_there(file(options.side)))
         throw refused(
             fmt::format("{} has no recording of the {}.\n  Play the case again with "
                         "--set coupling.recording=both.",
@@ -46,18 +63,50 @@ std::string side_of(const ReplayOptions& options, const RunFolder& recorded) {
     return options.side;
 }
 
+/// The checkpoint with which a recording begins, if the run had been resumed: relative to the run
+/// folder.
+std::optional<std::string> first_checkpoint(const std::filesystem::path& file) {
+    Recording recording(file);
+    while (const auto frame = recording.next()) {
+        const Message message = unframe(frame->bytes);
+        if (message.envelope.kind == Kind::restore)
+            return decode<RestoreOrder>(message.payload).folder;
+        if (message.envelope.kind == Kind::window) break;
+    }
+    return std::nullopt;
+}
+
+/// Where that checkpoint was kept. Throws Failure (bad input) if it is not there.
+std::filesystem::path kept_checkpoint(const std::filesystem::path& recordings,
+                                      const std::string& set) {
+    if (is_there(recordings / set)) return recordings / set;
+    throw refused(
+        fmt::format("The recording begins with a checkpoint that is not there: {}.\n  It belongs "
+                    "to the part of a run after `turbidite resume`, which keeps the checkpoint "
+                    "beside the recording.",
+                    (recordings / set).string()));
+}
+
 int replay(const ReplayOptions& options) {
     const RunFolder recorded{std::filesystem::absolute(options.run).lexically_normal()};
     if (!is_there(recorded.resolved_case()))
         throw refused(fmt::format("{} is not a run folder: it has no case.yaml.", options.run));
-    const std::string side = side_of(options, recorded);
+    const auto recordings = recordings_of(options, recorded);
+    const std::string side = side_of(options, recordings);
+    const auto recording = recordings / (side + ".frames");
+    const std::optional<std::string> checkpoint = first_checkpoint(recording);
+    const std::filesystem::path kept =
+        checkpoint ? kept_checkpoint(recordings, *checkpoint) : std::filesystem::path();
     const ResolvedCase resolved = load_run_folder(recorded.root);
     const LaunchSite site = this_site();
     require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
     const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
-    const auto line =
-        replay_arguments(resolved.settings, folder, site, side, recorded.recording(side));
+    const auto line = replay_arguments(resolved.settings, folder, site, side, recording);
     prepare_run(resolved, folder, line);
+    if (checkpoint) {
+        std::filesystem::create_directories((folder.root / *checkpoint).parent_path());
+        std::filesystem::copy(kept, folder.root / *checkpoint);
+    }
     fmt::print(options.dry_run ? stderr : stdout, "The {} of {} again, alone.  folder: {}\n", side,
                options.run, folder.root.string());
     std::fflush(nullptr);
@@ -86,6 +135,10 @@ CommandAction declare_replay(CLI::App& app) {
     app.add_option("--side", options->side, "the program that runs; the other one is the recording")
         ->check(CLI::IsMember({"grains", "fluid"}))
         ->type_name("grains|fluid");
+    app.add_option("--part", options->part,
+                   "an earlier part of a resumed run, from 1; default: the last one")
+        ->check(CLI::PositiveNumber)
+        ->type_name("N");
     app.add_option("--out", options->order.out,
                    "folder of the replay, new or empty; default runs/<run>-replay-<date>-<time>")
         ->type_name("DIR");

@@ -112,17 +112,29 @@ void remove_requests(const RunFolder& folder) {
         fs::remove(folder.root / name, ignored);
 }
 
-/// Logs of the parts so far go into a folder of their own, and with them the word of who ended
-/// first.
-void put_logs_aside(const RunFolder& folder) {
-    int part = 1;
-    while (fs::exists(folder.logs() / fmt::format("part-{}", part))) ++part;
-    const fs::path aside = folder.logs() / fmt::format("part-{}", part);
+bool is_part(const fs::path& folder) {
+    return begins_with(folder.filename(), "part-");
+}
+
+/// What the parts so far have left in a folder goes into one of its own there.
+void put_aside(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+    const auto parts = std::count_if(entries.begin(), entries.end(), is_part);
+    const fs::path aside = folder / fmt::format("part-{}", parts + 1);
     fs::create_directories(aside);
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder.logs()))
-        if (!entry.is_directory()) files.push_back(entry.path());
-    for (const fs::path& file : files) fs::rename(file, aside / file.filename());
+    for (const fs::path& entry : entries)
+        if (!is_part(entry)) fs::rename(entry, aside / entry.filename());
+}
+
+/// A recording of the part that begins is played with this checkpoint, which the run itself will
+/// have replaced by newer ones.
+void keep_for_recording(const ResolvedCase& resolved, const RunFolder& folder,
+                        const Chosen& chosen) {
+    if (resolved.settings.text("coupling.recording") == "none") return;
+    const fs::path set = CheckpointSets::folder(chosen.name);
+    fs::create_directories((folder.recordings() / set).parent_path());
+    fs::copy(folder.root / set, folder.recordings() / set, fs::copy_options::recursive);
 }
 
 /// Folders of the fluid that are named after a time later than `time` [s].
@@ -235,7 +247,8 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     if (chosen && chosen->manifest.windows == resolved.settings.integer("run.windows"))
         return std::nullopt;
     remove_requests(folder);
-    put_logs_aside(folder);
+    put_aside(folder.logs());
+    if (fs::exists(folder.recordings())) put_aside(folder.recordings());
     if (!chosen) {
         say("there is no checkpoint yet; the run starts from the beginning");
         return Resumed{from_the_beginning(resolved, folder, lock, site), 0, 0.0};
@@ -243,6 +256,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     if (!overrides.empty())
         write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resolved.yaml; });
     prepare_fluid(resolved, folder, *chosen);
+    keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
     write_record(resolved, folder, chosen->manifest.windows, line);
     return Resumed{{folder, lock, line, rank_names(resolved.settings)},

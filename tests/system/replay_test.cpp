@@ -35,5 +35,33 @@ TEST_F(Replay, EachSideRepeatsItselfToTheBit) {
     EXPECT_NE(none.err.find("coupling.recording"), std::string::npos) << none.err;
 }
 
+TEST_F(Replay, OfAResumedRunBeginsWithItsCheckpoint) {
+    const std::string run = "run " TURBIDITE_SOURCE_DIR
+                            "/configs/quickstart.yaml --set time.end=0.3 --set "
+                            "coupling.recording=both --set checkpoint.keep=1 --out run";
+    ASSERT_EQ(turbidite(run).code, 0);
+    const Answer resumed = turbidite("resume run --set time.end=0.5");
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    // The run itself has only a newer one.
+    EXPECT_FALSE(std::filesystem::exists(run_folder() / "checkpoints/w00000024"));
+    for (const std::string side : {"grains", "fluid"}) {
+        const Answer second = turbidite("replay run --side " + side + " --out second-" + side);
+        EXPECT_EQ(second.code, 0) << second.out << second.err;
+        EXPECT_SAYS(second.out, "16 windows");
+        EXPECT_SAYS(second.out, "of the " + side + " compared: identical");
+        const Answer first = turbidite("replay run --part 1 --side " + side + " --out " + side);
+        EXPECT_EQ(first.code, 0) << first.out << first.err;
+        EXPECT_SAYS(first.out, "24 windows");
+        EXPECT_SAYS(first.out, "of the " + side + " compared: identical");
+    }
+    EXPECT_SAYS(turbidite("replay run --part 2 --side grains").err, "has no recording/part-2");
+
+    std::filesystem::remove_all(run_folder() / "recording/checkpoints");
+    const Answer without = turbidite("replay run --side grains --out without");
+    EXPECT_EQ(without.code, 2);
+    EXPECT_SAYS(without.err, "begins with a checkpoint that is not there");
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "without"));
+}
+
 }  // namespace
 }  // namespace turbidite
