@@ -62,6 +62,32 @@ std::string command_line(const Settings& settings) {
                        program.empty() ? "not found" : program.string());
 }
 
+/// "every 10 t_c or 15 min", empty if all rules are off.
+std::string checkpoint_rules(const Settings& settings) {
+    std::string text;
+    const auto add = [&](double every, const char* unit) {
+        if (every > 0.0)
+            text += fmt::format("{}{:g} {}", text.empty() ? "every " : " or ", every, unit);
+    };
+    add(settings.real("checkpoint.interval"), "t_c");
+    add(static_cast<double>(settings.integer("checkpoint.windows")), "windows");
+    add(settings.real("checkpoint.wall_minutes"), "min");
+    return text;
+}
+
+std::string checkpoint_line(const Settings& settings) {
+    const std::string rules = checkpoint_rules(settings);
+    if (rules.empty())
+        return "  checkpoints: only when asked for; without one an interrupted run starts again\n";
+    std::string text = fmt::format("  checkpoints: {}, the newest {} are kept\n", rules,
+                                   settings.integer("checkpoint.keep"));
+    if (settings.text("grains.adapter") == "external")
+        text +=
+            "    if the grains program saves and restores its state (turbidite adapter-test says "
+            "whether it does);\n    if not, there are none, and an interrupted run starts again\n";
+    return text;
+}
+
 }  // namespace
 
 std::string case_summary(const ResolvedCase& resolved) {
@@ -75,6 +101,7 @@ std::string case_summary(const ResolvedCase& resolved) {
                         settings.integer("run.windows"), settings.text("time.step"),
                         resolved.scales.time, resolved.scales.velocity);
     text += md_line(settings);
+    text += checkpoint_line(settings);
     for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
     return text;
 }
