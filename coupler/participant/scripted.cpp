@@ -91,10 +91,10 @@ Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeRespo
             grain.velocity = response.velocity;
             grain.angular_velocity = response.angular_velocity;
             mass = response.inertia[upper_entry(1, 1)];
-        } else {
+        } else if (!grain.prescribed) {
             grain.velocity[1] -= body.submerged_mass / mass * gravity_ * window.step;
         }
-        touch_floor(grain, mass, window.step);
+        if (!grain.prescribed) touch_floor(grain, mass, window.step);
         contact_velocities_.push_back(grain.velocity);
     }
     return motion_;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "launcher/case/command_words.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/run_json.hpp"
@@ -13,12 +14,23 @@
 namespace turbidite {
 namespace {
 
-// The mesh belongs to the fluid that is not there, and is as small as the case allows.
-constexpr auto common_case =
+constexpr auto case_of_grains =
     "domain: {size: [16, 10]}\n"
     "grains: {file: grains.csv, density_ratio: 1.5}\n"
     "contact: {friction: 0}\n"
+    // The mesh belongs to the fluid that is not there, and is as small as the case allows.
     "fluid: {reynolds: 10, cells_per_diameter: 4, hydrodynamic_radius: 1}\n"
+    "coupling: {scheme: split}\n"
+    "time: {step: 0.01, end: 0.2}\n"
+    "output: {interval: 0.01}\n"
+    "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
+
+// The grains of the partner touch nothing, so that they must stay apart.
+constexpr auto case_of_fluid =
+    "domain: {size: [8, 8]}\n"
+    "grains: {file: grains.csv, density_ratio: 1.5}\n"
+    "contact: {friction: 0}\n"
+    "fluid: {reynolds: 36, cells_per_diameter: 8, hydrodynamic_radius: 1}\n"
     "coupling: {scheme: split}\n"
     "time: {step: 0.01, end: 0.2}\n"
     "output: {interval: 0.01}\n"
@@ -30,9 +42,16 @@ void write(const std::filesystem::path& file, const std::string& text) {
     if (!out.flush()) throw Failure(ExitCode::participant_failed, "cannot write " + file.string());
 }
 
+/// The program that plays the other side.
 std::vector<std::string> overrides_of(const Candidate& candidate, const TrialCase& trial) {
-    std::vector<std::string> all{"grains.adapter=" + candidate.adapter};
-    if (!candidate.command.empty()) all.push_back("grains.command=" + candidate.command);
+    std::vector<std::string> all;
+    if (candidate.side == Role::fluid)
+        all = {"grains.adapter=external",
+               "grains.command=" + command_text({find_programs().partner(), "grains"})};
+    else
+        all = {"grains.adapter=" + candidate.adapter};
+    if (candidate.side == Role::grains && !candidate.words.empty())
+        all.push_back("grains.command=" + command_text(candidate.words));
     all.insert(all.end(), trial.overrides.begin(), trial.overrides.end());
     return all;
 }
@@ -52,10 +71,41 @@ std::map<std::string, std::vector<double>> read_history(const std::filesystem::p
     return columns;
 }
 
-double balance_of(const RunFolder& folder) {
+std::map<std::string, double> maxima_of(const RunFolder& folder) {
+    std::map<std::string, double> maxima;
     const auto record = read_run_json(folder.record());
-    const auto maxima = record.find("maxima");
-    return maxima == record.end() ? NAN : maxima->value("grain_balance", NAN);
+    if (const auto of = record.find("maxima"); of != record.end())
+        for (const auto& [name, value] : of->items())
+            if (value.is_number()) maxima[name] = value;
+    return maxima;
+}
+
+LaunchSite site_for(const Candidate& candidate) {
+    LaunchSite site = this_site();
+    if (candidate.side == Role::grains)
+        site.programs.other_fluid = {site.programs.partner()};
+    else
+        site.programs.other_fluid = candidate.words;
+    return site;
+}
+
+JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
+             const std::string& name) {
+    ::setenv("TURBIDITE_PROGRESS", "plain", 1);
+    const JobEnd end = run_job({.arguments = line,
+                                .error_log = folder.log("mpirun"),
+                                .output_log = folder.log("output"),
+                                .request_stop = [](int) { return false; }});
+    if (end.signal != 0)
+        throw Failure(ExitCode::interrupted, "adapter-test was interrupted in \"" + name + "\"");
+    return end;
+}
+
+Trial played(const PreparedRun& prepared, const Settings& settings, const std::string& name) {
+    const JobEnd end = start(prepared.line, prepared.folder, name);
+    const JobOutcome outcome = settle_outcome(prepared.folder, end, prepared.ranks);
+    return {outcome, read_history(prepared.folder.history()), maxima_of(prepared.folder), settings,
+            prepared.folder.root};
 }
 
 }  // namespace
@@ -65,49 +115,44 @@ double Trial::last(const std::string& column) const {
     return at == history.end() || at->second.empty() ? NAN : at->second.back();
 }
 
-namespace {
-
-/// The launch site with a scripted fluid.
-LaunchSite trial_site() {
-    LaunchSite site = this_site();
-    site.programs.other_fluid = site.programs.partner();
-    return site;
+double Trial::maximum(const std::string& of) const {
+    const auto at = maxima.find(of);
+    return at == maxima.end() ? NAN : at->second;
 }
-
-Trial played(const PreparedRun& prepared, const Settings& settings, const std::string& name) {
-    ::setenv("TURBIDITE_PROGRESS", "plain", 1);
-    const JobEnd end = run_job({.arguments = prepared.line,
-                                .error_log = prepared.folder.log("mpirun"),
-                                .output_log = prepared.folder.log("output"),
-                                .request_stop = [](int) { return false; }});
-    if (end.signal != 0)
-        throw Failure(ExitCode::interrupted, "adapter-test was interrupted in \"" + name + "\"");
-    return {settle_outcome(prepared.folder, end, prepared.ranks),
-            read_history(prepared.folder.history()), balance_of(prepared.folder), settings};
-}
-
-}  // namespace
 
 Trial play_trial(const Candidate& candidate, const TrialCase& trial,
                  const std::filesystem::path& folder) {
     const auto root = folder / trial.name;
     std::filesystem::create_directories(root);
     write(root / "grains.csv", trial.grains);
-    write(root / "trial.yaml", common_case);
+    write(root / "trial.yaml", candidate.side == Role::fluid ? case_of_fluid : case_of_grains);
     const ResolvedCase resolved = load_case(root / "trial.yaml", overrides_of(candidate, trial));
-    const PreparedRun prepared = prepare(resolved, {root / "run", true}, trial_site());
+    const PreparedRun prepared = prepare(resolved, {root / "run", true}, site_for(candidate));
     if (trial.stop_at_once) write(prepared.folder.stop(), "143\n");
     return played(prepared, resolved.settings, trial.name);
 }
 
-std::optional<Trial> resume_trial(const TrialCase& trial, const std::vector<std::string>& changes,
+std::optional<Trial> resume_trial(const Candidate& candidate, const TrialCase& trial,
+                                  const std::vector<std::string>& changes,
                                   const std::filesystem::path& folder) {
     const RunFolder run{folder / trial.name / "run"};
     if (!std::filesystem::exists(run.checkpoints())) return std::nullopt;
     const auto silent = [](const std::string&) {};
-    const auto resumed = prepare_resumption(run.root, changes, trial_site(), silent);
+    const auto resumed = prepare_resumption(run.root, changes, site_for(candidate), silent);
     if (!resumed) throw Failure(ExitCode::participant_failed, "the trial was complete");
     return played(resumed->run, load_run_folder(run.root).settings, trial.name);
+}
+
+JobOutcome replay_trial(const Candidate& candidate, const TrialCase& trial, const std::string& as,
+                        const std::filesystem::path& recording,
+                        const std::filesystem::path& folder) {
+    const ResolvedCase resolved = load_run_folder(folder / trial.name / "run");
+    const auto [run, lock] = own_run_folder({folder / trial.name / as, true}, resolved.name);
+    const std::string role = role_name(candidate.side);
+    const auto line =
+        replay_arguments(resolved.settings, run, site_for(candidate), role, recording);
+    prepare_run(resolved, run, line);
+    return settle_outcome(run, start(line, run, trial.name), {"replay", role + " rank 0"});
 }
 
 }  // namespace turbidite

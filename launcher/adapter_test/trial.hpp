@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// A short run of a grains adapter against a scripted fluid (coupler/participant/scripted.hpp),
-// whose motion is known in closed form.
+// A short run of one program against a scripted partner (launcher/turbidite_partner.cpp), whose
+// motion is known in closed form.
 #pragma once
 
 #include <map>
@@ -9,18 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/settings.hpp"
 #include "launcher/job/job_outcome.hpp"
 
 namespace turbidite {
 
-/// The adapter under test: one of the shipped ones by its name, or a command.
+/// The program under test: a shipped one, or a command.
 struct Candidate {
-    std::string adapter = "external";
-    std::string command;
+    Role side = Role::grains;
+    std::string adapter = "external";     ///< of the grains; a shipped one by its name
+    std::vector<std::string> words = {};  ///< program and arguments; empty: the shipped one
 };
 
-/// Grains and changes of the case that all trials share: discs of ratio 1.5 in a box of 16 x 10 D.
+/// Grains and changes of the case that all trials of a side share (trial.cpp): discs of ratio 1.5.
 struct TrialCase {
     std::string name;                    ///< of its folder
     std::string grains;                  ///< CSV: id,x,y[,vx…]
@@ -31,21 +33,29 @@ struct TrialCase {
 struct Trial {
     JobOutcome outcome;
     std::map<std::string, std::vector<double>> history;  ///< by column; empty cells are NaN
-    double grain_balance = 0.0;                          ///< largest
+    std::map<std::string, double> maxima;                ///< of run.json
     Settings settings;
+    std::filesystem::path root;  ///< its run folder
 
     bool done() const { return outcome.code == ExitCode::done; }
     double last(const std::string& column) const;
+    double maximum(const std::string& of) const;
 };
 
 /// Plays it in `folder`/NAME; all output goes to files there. Throws Failure (bad input) when the
-/// adapter refuses the case before anything starts.
+/// case does not suit the adapter, before anything starts.
 Trial play_trial(const Candidate& candidate, const TrialCase& trial,
                  const std::filesystem::path& folder);
 
 /// Goes on with a trial that has been played, as `turbidite resume --set CHANGES`; empty if it has
 /// no checkpoint.
-std::optional<Trial> resume_trial(const TrialCase& trial, const std::vector<std::string>& changes,
+std::optional<Trial> resume_trial(const Candidate& candidate, const TrialCase& trial,
+                                  const std::vector<std::string>& changes,
                                   const std::filesystem::path& folder);
+
+/// Plays a recording of it to the candidate, as `turbidite replay` does, in `folder`/NAME/AS.
+JobOutcome replay_trial(const Candidate& candidate, const TrialCase& trial, const std::string& as,
+                        const std::filesystem::path& recording,
+                        const std::filesystem::path& folder);
 
 }  // namespace turbidite

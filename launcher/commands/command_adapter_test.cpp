@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite adapter-test -- COMMAND: plays a scripted partner against a grains adapter and says
-// which requirements it meets.
+// turbidite adapter-test -- COMMAND: plays a scripted partner against a grains adapter, or with
+// --side fluid against a fluid, and says which requirements it meets.
 #include <fmt/format.h>
 
 #include <memory>
@@ -20,6 +20,7 @@ namespace {
 struct AdapterTestOptions {
     Candidate candidate;
     std::filesystem::path keep;
+    std::string side = "grains", only;
     std::vector<std::string> words;
 };
 
@@ -51,21 +52,49 @@ const char* word(Grade grade) {
     return grade == Grade::met ? "ok" : grade == Grade::failed ? "FAILS" : "-";
 }
 
-int test_adapter(AdapterTestOptions options) {
-    if (!options.words.empty())
-        options.candidate.command =
-            command_text(with_absolute_files(options.words, std::filesystem::current_path()));
-    if (options.candidate.command.empty() && options.candidate.adapter == "external")
-        throw Failure(ExitCode::bad_input,
-                      "adapter-test needs a program: turbidite adapter-test -- my-code, or "
-                      "--adapter NAME for a shipped one. Exit code 2.");
-    check_name(options.candidate.adapter);
-    const bool keep = !options.keep.empty();
+Failure refused(const std::string& text) {
+    return Failure(ExitCode::bad_input, "adapter-test " + text + " Exit code 2.");
+}
+
+/// Which program is meant. Throws Failure (bad input).
+Candidate candidate_of(const AdapterTestOptions& options) {
+    Candidate candidate = options.candidate;
+    candidate.side = options.side == "fluid" ? Role::fluid : Role::grains;
+    candidate.words = with_absolute_files(options.words, std::filesystem::current_path());
+    if (candidate.side == Role::grains && candidate.words.empty() &&
+        candidate.adapter == "external")
+        throw refused(
+            "needs a program: turbidite adapter-test -- my-code, or --adapter NAME for a shipped "
+            "one, or --side fluid for the shipped fluid.");
+    if (candidate.side == Role::fluid && !candidate.words.empty() &&
+        find_program_file(candidate.words.front()).empty())
+        throw refused("finds no executable program " + candidate.words.front() + ".");
+    if (candidate.side == Role::grains) check_name(candidate.adapter);
+    return candidate;
+}
+
+/// Those whose name contains `only`. Throws Failure (bad input) if there is none.
+std::vector<Requirement> chosen(const Candidate& candidate, const std::string& only) {
+    std::vector<Requirement> all =
+        candidate.side == Role::fluid ? fluid_requirements() : grains_requirements();
+    std::string names;
+    for (const Requirement& requirement : all) names += std::string("\n  ") + requirement.name;
+    std::erase_if(all, [&](const Requirement& requirement) {
+        return std::string(requirement.name).find(only) == std::string::npos;
+    });
+    if (all.empty()) throw refused("has no requirement \"" + only + "\"; there are" + names);
+    return all;
+}
+
+int test_adapter(const AdapterTestOptions& options) {
+    const Candidate candidate = candidate_of(options);
+    const std::vector<Requirement> requirements = chosen(candidate, options.only);
     std::optional<TemporaryFolder> scratch;
-    const auto folder = keep ? options.keep : scratch.emplace("adapter-test").path();
+    const auto folder =
+        !options.keep.empty() ? options.keep : scratch.emplace("adapter-test").path();
     int failed = 0;
-    for (const Requirement& requirement : requirements()) {
-        const Finding finding = judge(requirement, options.candidate, folder);
+    for (const Requirement& requirement : requirements) {
+        const Finding finding = judge(requirement, candidate, folder);
         failed += finding.grade == Grade::failed;
         fmt::print("{:<6}{:<36}{}\n", word(finding.grade), requirement.name, finding.text);
         std::fflush(stdout);
@@ -79,11 +108,19 @@ int test_adapter(AdapterTestOptions options) {
 
 CommandAction declare_adapter_test(CLI::App& app) {
     const auto options = std::make_shared<AdapterTestOptions>();
+    app.add_option("--side", options->side, "the program under test; the partner is scripted")
+        ->check(CLI::IsMember({"grains", "fluid"}))
+        ->type_name("grains|fluid");
     app.add_option("--adapter", options->candidate.adapter,
-                   "a shipped adapter instead of a command")
+                   "a shipped grains adapter instead of a command")
         ->type_name("NAME");
+    app.add_option("--only", options->only, "the requirements whose name contains this")
+        ->type_name("TEXT");
     app.add_option("--keep", options->keep, "keep the runs in this folder")->type_name("DIR");
-    app.add_option("COMMAND", options->words, "program and arguments, after --")->type_name("");
+    app.add_option("COMMAND", options->words,
+                   "program and arguments, after --; the run folder is appended, for a fluid "
+                   "-case RUN/fluid [-parallel]")
+        ->type_name("");
     return [options] { return test_adapter(*options); };
 }
 

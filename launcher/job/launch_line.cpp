@@ -46,7 +46,10 @@ std::string python_path(const LaunchSite& site) {
 }
 
 Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
-    Arguments part{programs.fluid(), "-case", folder.fluid()};
+    Arguments part{programs.fluid()};
+    for (std::size_t i = 1; i < programs.other_fluid.size(); ++i)
+        part.push_back(programs.other_fluid[i]);
+    append(part, {"-case", folder.fluid()});
     if (ranks > 1) part.push_back("-parallel");
     return part;
 }

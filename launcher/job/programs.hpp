@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace turbidite {
 
@@ -12,15 +14,16 @@ struct Programs {
     std::filesystem::path folder;   ///< BUILD/bin, absolute
     std::filesystem::path library;  ///< BUILD/lib
     std::filesystem::path source;   ///< top of the source tree
-    /// In the place of turbidite-fluid; empty: that one.
-    std::filesystem::path other_fluid = {};
+    /// Program and arguments in the place of turbidite-fluid; empty: that one.
+    std::vector<std::string> other_fluid = {};
 
     std::filesystem::path build() const { return folder.parent_path(); }
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
     /// Starts every program of a job and notices when one ends too early.
     std::filesystem::path member() const { return folder / "turbidite-member"; }
     std::filesystem::path fluid() const {
-        return other_fluid.empty() ? folder / "turbidite-fluid" : other_fluid;
+        return other_fluid.empty() ? folder / "turbidite-fluid"
+                                   : std::filesystem::path(other_fluid.front());
     }
     /// A recording in the place of coupler and partner.
     std::filesystem::path replay() const { return folder / "turbidite-replay"; }

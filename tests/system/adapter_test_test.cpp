@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite adapter-test: the shipped adapters conform, and one that does not is told what it
-// lacks.
+// turbidite adapter-test: the shipped programs conform, and of every requirement there is a program
+// that does not meet it and is told so.
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
@@ -10,7 +10,7 @@ namespace {
 class AdapterTest : public ShellTest {
  protected:
     Answer judge(const std::string& candidate) const {
-        return shell(std::string("timeout 150 ") + TURBIDITE_PROGRAM + " adapter-test " +
+        return shell(std::string("timeout 170 ") + TURBIDITE_PROGRAM + " adapter-test " +
                      candidate);
     }
 };
@@ -18,17 +18,23 @@ class AdapterTest : public ShellTest {
 class ShippedAdapter : public AdapterTest, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(ShippedAdapter, Conforms) {
-    const Answer answer = judge(std::string("--adapter ") + GetParam());
+    const std::string name = GetParam();
+    const Answer answer = judge("--adapter " + name);
     EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, "\nconforms\n");
     for (const char* requirement :
          {"falls freely without a fluid", "settles in a linear drag (split)",
           "lands and comes to rest", "collides and keeps momentum", "announces grains that leave",
-          "ends in order on a stop request", "repeats itself", "goes on from a checkpoint"})
+          "refuses messages out of order", "ends in order on a stop request", "repeats itself",
+          "goes on from a checkpoint"})
         EXPECT_SAYS(answer.out, std::string("ok    ") + requirement);
-    const bool springs = std::string(GetParam()).ends_with("-md");
-    EXPECT_SAYS(answer.out,
-                std::string(springs ? "-     " : "ok    ") + "uses the fluid's inertia");
+    const bool springs = name.ends_with("-md"), ranks = name == "lammps-md";
+    const auto grade = [](bool can) { return std::string(can ? "ok    " : "-     "); };
+    EXPECT_SAYS(answer.out, grade(!springs) + "uses the fluid's inertia");
+    EXPECT_SAYS(answer.out, grade(springs) + "repeats a window");
+    EXPECT_SAYS(answer.out, grade(ranks) + "moves the same on two ranks");
+    if (!ranks) return;
+    EXPECT_SAYS(answer.out, ", 2 grains changed their rank");
 }
 
 INSTANTIATE_TEST_SUITE_P(Adapters, ShippedAdapter,
@@ -39,23 +45,95 @@ INSTANTIATE_TEST_SUITE_P(Adapters, ShippedAdapter,
                              return name;
                          });
 
-// Grains without contacts: turbidite-falling-grains, under its own name.
-TEST_F(AdapterTest, SaysWhatAnAdapterLacks) {
-    const Answer answer = judge("-- " FALLING_GRAINS);
-    EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
-    EXPECT_SAYS(answer.out, "ok    falls freely without a fluid");
-    EXPECT_SAYS(answer.out, "ok    uses the fluid's inertia");
-    EXPECT_SAYS(answer.out, "FAILS lands and comes to rest             grains sink into the floor");
-    EXPECT_SAYS(answer.out, "FAILS collides and keeps momentum         two grains that met");
-    EXPECT_SAYS(answer.out, "FAILS announces grains that leave         3 grains at the end");
-    EXPECT_SAYS(answer.out, "3 requirements are not met");
+TEST_F(AdapterTest, TheShippedFluidConforms) {
+    const Answer answer = judge("--side fluid");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "\nconforms\n");
+    EXPECT_EQ(answer.out.find("-     "), std::string::npos) << answer.out;
 }
+
+/// Grains or a fluid with one fault, and the requirement that it does not meet.
+struct BrokenProgram {
+    const char* name;
+    const char* command;
+    const char* requirement;
+    const char* says;
+};
+void PrintTo(const BrokenProgram& program, std::ostream* out) {
+    *out << program.name;
+}
+
+class Broken : public AdapterTest, public ::testing::WithParamInterface<BrokenProgram> {};
+
+TEST_P(Broken, IsTold) {
+    const BrokenProgram& program = GetParam();
+    const std::string side =
+        std::string(program.command).find("fluid") != std::string::npos ? "--side fluid " : "";
+    const Answer answer =
+        judge(side + "--only '" + program.requirement + "' -- " BROKEN_PROGRAMS + program.command);
+    EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, std::string("FAILS ") + program.requirement);
+    EXPECT_SAYS(answer.out, program.says);
+    EXPECT_SAYS(answer.out, "1 requirements are not met");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Grains, Broken,
+    ::testing::Values(
+        BrokenProgram{"Heavy", "broken-grains heavy", "falls freely", "velocity differs"},
+        BrokenProgram{"Deaf", "broken-grains deaf", "settles in a linear drag", "velocity differs"},
+        BrokenProgram{"OwnInertia", "broken-grains 'own inertia'", "uses the",
+                      "the responses are not taken"},
+        BrokenProgram{"NeverGoesBack", "broken-grains 'never goes back'", "repeats a window",
+                      "does not go back to t^n"},
+        BrokenProgram{"NoFloor", "careless grains", "lands and comes", "sink into the floor"},
+        BrokenProgram{"NoContacts", "broken-grains none", "collides", "two grains that met"},
+        BrokenProgram{"KeepsAll", "broken-grains none", "announces grains", "3 grains at the end"},
+        BrokenProgram{"DeafRank", "broken-grains 'second rank is deaf'", "moves the same",
+                      "the motion on two ranks differs"},
+        BrokenProgram{"Careless", "careless grains", "refuses messages",
+                      "\"kick\" was left out and the program did not mind"},
+        BrokenProgram{"FailsAtTheEnd", "broken-grains 'fails at the end'", "ends in order",
+                      "no more windows"},
+        BrokenProgram{"Noisy", "broken-grains noisy", "repeats itself", "differs between two"},
+        BrokenProgram{"ForgetsDigits", "broken-grains 'forgets digits'", "goes on from",
+                      "mean_position_x differs from that of a run in one part"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Fluids, Broken,
+    ::testing::Values(
+        BrokenProgram{"NoAddedMass", "broken-fluid none", "starts like", "potential flow"},
+        BrokenProgram{"Wind", "broken-fluid wind", "keeps the symmetry",
+                      "velocity across the axis of symmetry differs"},
+        BrokenProgram{"WrongImpulse", "broken-fluid 'wrong impulse'", "balances momentum",
+                      "grain_balance"},
+        BrokenProgram{"MovesAll", "broken-fluid 'moves all'", "respects a given",
+                      "a grain that is driven with 0.5 u_c"},
+        BrokenProgram{"WrongResponse", "broken-fluid 'wrong response'", "answers with",
+                      "the motion under joint and split differs"},
+        BrokenProgram{"WantsAllGrains", "broken-fluid 'wants all grains'", "lets grains",
+                      "a grain is gone"},
+        BrokenProgram{"WindyRank", "broken-fluid 'second rank is windy'", "moves the same",
+                      "the motion on two ranks differs"},
+        BrokenProgram{"Careless", "careless fluid", "refuses messages",
+                      "\"constraint\" was left out and the program did not mind"},
+        BrokenProgram{"FailsAtTheEnd", "broken-fluid 'fails at the end'", "ends in order",
+                      "no more windows"},
+        BrokenProgram{"Noisy", "broken-fluid noisy", "repeats itself", "differs between two"},
+        BrokenProgram{"Forgets", "broken-fluid forgets", "goes on from", "in one part"}),
+    [](const auto& info) { return info.param.name; });
 
 TEST_F(AdapterTest, NeedsAProgramThatIsThere) {
     EXPECT_EQ(judge("").code, 2);
     EXPECT_SAYS(judge("-- no-such-program").err, "no executable program no-such-program");
+    EXPECT_SAYS(judge("--side fluid -- no-such-program").err,
+                "no executable program no-such-program");
     EXPECT_SAYS(judge("--adapter nonsense").err, "nonsense");
     EXPECT_EQ(judge("--adapter nonsense").code, 2);
+    const Answer none = judge("--adapter standalone-nscd --only flies");
+    EXPECT_EQ(none.code, 2);
+    EXPECT_SAYS(none.err, "has no requirement \"flies\"; there are\n  falls freely");
 }
 
 }  // namespace

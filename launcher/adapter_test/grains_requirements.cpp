@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Grains against a scripted fluid: a linear drag with a solution in closed form.
 #include "launcher/adapter_test/requirements.hpp"
 
 #include <fmt/format.h>
@@ -7,12 +9,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "launcher/adapter_test/altered_recording.hpp"
 #include "launcher/adapter_test/partner.hpp"
+#include "launcher/case/run_folder.hpp"
 
 namespace turbidite {
 namespace {
 
-constexpr double round_off = 1e-9;
 constexpr double deepest_overlap = 0.05;  // [D]
 constexpr double at_rest = 0.02;          // [u_c]
 
@@ -21,26 +24,10 @@ const std::string apart =
     "id,x,y\n1000000007,2,8\n5,4.5,8\n3,7,8\n42,9.5,8\n41,12,8\n9000000000000,14,8\n";
 const std::string above_the_floor = "id,x,y\n7,3,0.6\n8,6,0.7\n9,9,0.8\n";
 const std::string two_in_a_row = "id,x,y,vx\n1,6,5,1\n2,7.05,5,-1\n";
+const std::string across_the_middle =
+    "id,x,y,vx\n1,5.5,9,6\n2,10.5,7.5,-6\n3,7.2,6,2\n4,8.8,6,-2\n5,2,8,0\n6,14,8,0\n";
+const std::string one_alone = "id,x,y,vx\n4,6.5,8,6\n";
 const std::string near_a_side = "id,x,y,vx\n1,15,5,5\n2,4,8,0\n3,8,8,0\n";
-
-Finding failure_of(const Trial& trial) {
-    return {Grade::failed, fmt::format("ended with code {}: {}",
-                                       static_cast<int>(trial.outcome.code), trial.outcome.error)};
-}
-
-double worst(const std::vector<double>& column, const std::vector<double>& expected) {
-    if (column.size() != expected.size()) return INFINITY;
-    double error = 0.0;
-    for (std::size_t i = 0; i < column.size(); ++i)
-        error =
-            std::max(error, std::isnan(column[i]) ? INFINITY : std::abs(column[i] - expected[i]));
-    return error;
-}
-
-Finding within(double error, double limit, const std::string& what) {
-    return {error <= limit ? Grade::met : Grade::failed,
-            fmt::format("{} differs by {:.1e}, allowed {:.0e}", what, error, limit)};
-}
 
 /// Velocity after each window. Free fall with the weight (M - m_f) g on the inertia cM has the
 /// acceleration g; the scripted fluid then divides by 1 + gamma dt/cM, cM = (rho_r - 1) pi/4.
@@ -57,7 +44,7 @@ std::vector<double> expected_velocity(const Trial& trial) {
 }
 
 Finding judge_fall(const Trial& trial) {
-    if (!trial.done()) return failure_of(trial);
+    if (!trial.done()) return failure_of(trial.outcome);
     const auto expected = expected_velocity(trial);
     const Finding velocity =
         within(worst(trial.history.at("mean_velocity_y"), expected), round_off, "velocity");
@@ -79,31 +66,43 @@ Finding settles_in_a_drag(const Candidate& candidate, const std::filesystem::pat
     return judge_fall(play_trial(candidate, {"drag", apart, {}}, folder));
 }
 
+/// The fall, and that contacts and fluid came to the same velocities in every window.
+Finding judge_agreement(const Trial& trial, const std::string& fault) {
+    const Finding fall = judge_fall(trial);
+    const double apart = trial.maximum("unconverged_joint_windows");
+    if (fall.grade == Grade::failed || apart == 0.0) return fall;
+    return {
+        Grade::failed,
+        fmt::format("velocities are up to {:.2g} u_c from the fluid's after {} rounds in {} "
+                    "windows: {}",
+                    trial.maximum("joint_mismatch"), trial.maximum("joint_rounds"), apart, fault)};
+}
+
 Finding uses_responses(const Candidate& candidate, const std::filesystem::path& folder) {
     const Trial trial = play_trial(candidate, {"joint", apart, {"coupling.scheme=joint"}}, folder);
     if (trial.outcome.code == ExitCode::handshake_refused)
         return {Grade::not_supported, "effective_inertia is not claimed"};
-    return judge_fall(trial);
+    return judge_agreement(trial, "the velocities of the responses are not taken");
 }
 
 Finding lands(const Candidate& candidate, const std::filesystem::path& folder) {
     const Trial trial = play_trial(
         candidate, {"landing", above_the_floor, {"time.end=3", "output.interval=0.1"}}, folder);
-    if (!trial.done()) return failure_of(trial);
+    if (!trial.done()) return failure_of(trial.outcome);
     const double speed = trial.last("mean_speed"), height = trial.last("mean_position_y");
     if (height < 0.5 - deepest_overlap)
         return {Grade::failed,
                 fmt::format("grains sink into the floor: mean height {:.3g} D", height)};
     if (!(speed < at_rest))
         return {Grade::failed, fmt::format("grains are not at rest: mean speed {:.2g} u_c", speed)};
-    return {Grade::met,
-            fmt::format("at rest at {:.4g} D, grain_balance {:.0e}", height, trial.grain_balance)};
+    return {Grade::met, fmt::format("at rest at {:.4g} D, grain_balance {:.0e}", height,
+                                    trial.maximum("grain_balance"))};
 }
 
 Finding collides(const Candidate& candidate, const std::filesystem::path& folder) {
     const Trial trial = play_trial(
         candidate, {"collision", two_in_a_row, {"time.end=0.5", "fluid.enabled=false"}}, folder);
-    if (!trial.done()) return failure_of(trial);
+    if (!trial.done()) return failure_of(trial.outcome);
     const double overlap = *std::max_element(trial.history.at("max_penetration").begin(),
                                              trial.history.at("max_penetration").end());
     if (!(overlap <= deepest_overlap))
@@ -124,62 +123,90 @@ Finding loses_grains(const Candidate& candidate, const std::filesystem::path& fo
         folder);
     if (trial.outcome.code == ExitCode::participant_failed && trial.history.empty())
         return {Grade::not_supported, "refuses free sides: " + trial.outcome.error};
-    if (!trial.done()) return failure_of(trial);
+    if (!trial.done()) return failure_of(trial.outcome);
     const double left = trial.last("grains");
     if (left != 2.0)
         return {Grade::failed,
-                fmt::format("{} grains at the end, 2 expected: one crosses a free side", left)};
+                fmt::format("{} grains at the end, 2 expected: one crosses a free side. A program "
+                            "that cannot lose grains refuses free sides in initialise",
+                            left)};
     return {Grade::met, "one grain left and was counted"};
 }
 
 Finding stops_on_request(const Candidate& candidate, const std::filesystem::path& folder) {
-    const Trial trial = play_trial(candidate, {"stop", apart, {"time.end=100"}, true}, folder);
-    if (trial.outcome.code != ExitCode::terminated) return failure_of(trial);
-    return {Grade::met, "left in order after one window"};
+    return ends_on_request(candidate, {"", apart, {}}, folder);
 }
 
+const TrialCase landing{"", above_the_floor, {"time.end=1", "output.interval=0.1"}};
+
 Finding repeats_itself(const Candidate& candidate, const std::filesystem::path& folder) {
-    std::vector<Trial> trials;
-    for (const char* name : {"first", "second"})
-        trials.push_back(play_trial(
-            candidate, {name, above_the_floor, {"time.end=1", "output.interval=0.1"}}, folder));
-    for (const Trial& trial : trials)
-        if (!trial.done()) return failure_of(trial);
-    for (const char* column : {"mean_velocity_x", "mean_velocity_y", "mean_position_y"})
-        if (trials[0].history.at(column) != trials[1].history.at(column))
-            return {Grade::failed, fmt::format("{} differs between two equal runs", column)};
-    return {Grade::met, "two equal runs are equal to the last digit"};
+    return runs_alike(candidate, landing, folder);
 }
 
 Finding goes_on(const Candidate& candidate, const std::filesystem::path& folder) {
-    const std::string output = "output.interval=0.1";
-    const TrialCase parts{"parts", above_the_floor, {"time.end=0.45", output}};
-    const Trial whole =
-        play_trial(candidate, {"whole", above_the_floor, {"time.end=1", output}}, folder);
-    if (!whole.done()) return failure_of(whole);
-    if (const Trial first = play_trial(candidate, parts, folder); !first.done())
-        return failure_of(first);
-    const std::optional<Trial> second = resume_trial(parts, {"time.end=1"}, folder);
-    if (!second) return {Grade::not_supported, "save and restore are not claimed"};
-    if (!second->done()) return failure_of(*second);
-    for (const char* column : {"mean_velocity_x", "mean_velocity_y", "mean_position_x",
-                               "mean_position_y", "mean_speed", "kinetic_energy"})
-        if (whole.history.at(column) != second->history.at(column))
-            return {Grade::failed,
-                    fmt::format("{} differs from that of a run in one part", column)};
-    return {Grade::met, "a run in two parts is equal to one in one part, to the last digit"};
+    return goes_on_alike(candidate, {"", above_the_floor, {"output.interval=0.1"}}, folder);
+}
+
+Finding keeps_order(const Candidate& candidate, const std::filesystem::path& folder) {
+    return refuses_disorder(candidate, {"", apart, {}}, Kind::kick, folder);
+}
+
+/// Repeats every window until grains and fluid agree: what the drag does, to coupling.tolerance.
+Finding repeats_windows(const Candidate& candidate, const std::filesystem::path& folder) {
+    const Trial trial = play_trial(
+        candidate,
+        {"repeated", apart, {"coupling.scheme=sub-iterated", "coupling.tolerance=1e-10"}}, folder);
+    if (trial.outcome.code == ExitCode::handshake_refused)
+        return {Grade::not_supported, "restores_within_window is not claimed"};
+    return judge_agreement(trial, "advance does not go back to t^n, or the impulse is not held");
+}
+
+/// The run on one rank and on two; the second with a recording of the grains.
+Finding same_on_two_ranks(const Candidate& candidate, const std::string& name,
+                          const std::string& grains, const std::filesystem::path& folder) {
+    const TrialCase one{name + "-1-rank", grains, {"time.end=0.6"}};
+    TrialCase two = one;
+    two.name = name + "-2-ranks";
+    two.overrides.insert(two.overrides.end(), {"grains.ranks=2", "coupling.recording=grains"});
+    const Trial alone = play_trial(candidate, one, folder);
+    if (!alone.done()) return failure_of(alone.outcome);
+    const Trial shared = play_trial(candidate, two, folder);
+    if (shared.outcome.code == ExitCode::participant_failed && shared.history.empty())
+        return {Grade::not_supported, "refuses two ranks: " + shared.outcome.error};
+    if (!shared.done()) return failure_of(shared.outcome);
+    const double error = worst(
+        alone, shared,
+        {"mean_velocity_x", "mean_velocity_y", "mean_position_x", "mean_position_y", "mean_speed"});
+    Finding finding = within(error, round_off, "the motion on two ranks");
+    if (finding.grade == Grade::failed)
+        finding.text += ". A program for one rank refuses grains.ranks = 2 in initialise";
+    const auto moved = grains_that_moved(RunFolder{shared.root}.recording("grains"));
+    finding.text += fmt::format(", {} grains changed their rank", moved.size());
+    return finding;
+}
+
+/// Two grains cross the middle, where codes that divide the domain pass them on, two meet there;
+/// and then one grain alone, so that a rank has none until it comes.
+Finding migrates(const Candidate& candidate, const std::filesystem::path& folder) {
+    const Finding many = same_on_two_ranks(candidate, "crossing", across_the_middle, folder);
+    if (many.grade != Grade::met) return many;
+    const Finding alone = same_on_two_ranks(candidate, "alone", one_alone, folder);
+    return alone.grade == Grade::met ? many : alone;
 }
 
 }  // namespace
 
-const std::vector<Requirement>& requirements() {
+const std::vector<Requirement>& grains_requirements() {
     static const std::vector<Requirement> list = {
         {"falls freely without a fluid", falls_without_a_fluid, false},
         {"settles in a linear drag (split)", settles_in_a_drag, false},
         {"uses the fluid's inertia (joint)", uses_responses, true},
+        {"repeats a window (sub-iterated)", repeats_windows, true},
         {"lands and comes to rest", lands, false},
         {"collides and keeps momentum", collides, false},
         {"announces grains that leave", loses_grains, true},
+        {"moves the same on two ranks", migrates, true},
+        {"refuses messages out of order", keeps_order, false},
         {"ends in order on a stop request", stops_on_request, false},
         {"repeats itself", repeats_itself, false},
         {"goes on from a checkpoint", goes_on, true},

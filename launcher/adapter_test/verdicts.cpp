@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/adapter_test/verdicts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "launcher/adapter_test/altered_recording.hpp"
+#include "launcher/case/run_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr std::int64_t altered_window = 3;
+
+const std::vector<const char*> all_motion = {"mean_velocity_x", "mean_velocity_y",
+                                             "mean_position_x", "mean_position_y",
+                                             "mean_speed",      "kinetic_energy"};
+
+/// Without the line break and what follows it.
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+/// The first of these columns in which two trials differ; empty if there is none.
+std::string different_column(const Trial& a, const Trial& b) {
+    for (const char* column : all_motion)
+        if (worst(a, b, {column}) != 0.0) return column;
+    return "";
+}
+
+}  // namespace
+
+Finding failure_of(const JobOutcome& outcome) {
+    return {Grade::failed,
+            fmt::format("ended with code {}: {}", static_cast<int>(outcome.code), outcome.error)};
+}
+
+Finding within(double error, double limit, const std::string& what) {
+    return {error <= limit ? Grade::met : Grade::failed,
+            fmt::format("{} differs by {:.1e}, allowed {:.0e}", what, error, limit)};
+}
+
+double worst(const std::vector<double>& column, const std::vector<double>& expected) {
+    if (column.size() != expected.size()) return INFINITY;
+    double error = 0.0;
+    for (std::size_t i = 0; i < column.size(); ++i)
+        error =
+            std::max(error, std::isnan(column[i]) ? INFINITY : std::abs(column[i] - expected[i]));
+    return error;
+}
+
+double worst(const Trial& a, const Trial& b, const std::vector<const char*>& columns) {
+    double error = 0.0;
+    for (const char* column : columns)
+        error = std::max(error, worst(a.history.at(column), b.history.at(column)));
+    return error;
+}
+
+Finding ends_on_request(const Candidate& candidate, TrialCase trial,
+                        const std::filesystem::path& folder) {
+    trial.name = "stop";
+    trial.overrides.push_back("time.end=100");
+    trial.stop_at_once = true;
+    const Trial stopped = play_trial(candidate, trial, folder);
+    if (stopped.outcome.code != ExitCode::terminated) return failure_of(stopped.outcome);
+    return {Grade::met, "left in order after one window"};
+}
+
+Finding runs_alike(const Candidate& candidate, TrialCase trial,
+                   const std::filesystem::path& folder) {
+    std::vector<Trial> trials;
+    for (const char* name : {"first", "second"}) {
+        trial.name = name;
+        trials.push_back(play_trial(candidate, trial, folder));
+        if (!trials.back().done()) return failure_of(trials.back().outcome);
+    }
+    const std::string column = different_column(trials[0], trials[1]);
+    if (!column.empty())
+        return {Grade::failed, fmt::format("{} differs between two equal runs", column)};
+    return {Grade::met, "two equal runs are equal to the last digit"};
+}
+
+Finding goes_on_alike(const Candidate& candidate, TrialCase trial,
+                      const std::filesystem::path& folder) {
+    TrialCase parts = trial;
+    trial.name = "whole", parts.name = "parts";
+    trial.overrides.push_back("time.end=1"), parts.overrides.push_back("time.end=0.45");
+    const Trial whole = play_trial(candidate, trial, folder);
+    if (!whole.done()) return failure_of(whole.outcome);
+    if (const Trial first = play_trial(candidate, parts, folder); !first.done())
+        return failure_of(first.outcome);
+    const std::optional<Trial> second = resume_trial(candidate, parts, {"time.end=1"}, folder);
+    if (!second) return {Grade::not_supported, "save and restore are not claimed"};
+    if (!second->done()) return failure_of(second->outcome);
+    const std::string column = different_column(whole, *second);
+    if (!column.empty())
+        return {Grade::failed, fmt::format("{} differs from that of a run in one part", column)};
+    return {Grade::met, "a run in two parts is equal to one in one part, to the last digit"};
+}
+
+Finding refuses_disorder(const Candidate& candidate, TrialCase trial, Kind kind,
+                         const std::filesystem::path& folder) {
+    const std::string role = role_name(candidate.side);
+    trial.name = "disorder";
+    trial.overrides.push_back("coupling.recording=" + role);
+    const Trial recorded = play_trial(candidate, trial, folder);
+    if (!recorded.done()) return failure_of(recorded.outcome);
+    std::string said;
+    for (const Alteration alteration : {Alteration::left_out, Alteration::repeated}) {
+        const bool out = alteration == Alteration::left_out;
+        const std::string name = out ? "left-out" : "repeated";
+        const auto altered = folder / trial.name / (name + ".frames");
+        alter_recording(RunFolder{recorded.root}.recording(role), altered, kind, altered_window,
+                        alteration);
+        const JobOutcome outcome = replay_trial(candidate, trial, name, altered, folder);
+        // What the program itself says begins with this (coupler/replay).
+        if (outcome.error.find("ended the run: ") == std::string::npos)
+            return {Grade::failed,
+                    fmt::format("\"{}\" was {} and the program did not mind: {}", kind_name(kind),
+                                out ? "left out" : "repeated",
+                                outcome.error.empty() ? "it went on" : first_line(outcome.error))};
+        if (said.empty()) said = first_line(outcome.error);
+    }
+    return {Grade::met, said};
+}
+
+}  // namespace turbidite
