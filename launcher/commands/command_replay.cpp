@@ -6,8 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "coupler/protocol/message.hpp"
-#include "coupler/transport/recording.hpp"
+#include "coupler/replay/recorded_start.hpp"
 #include "launcher/case/file_names.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
@@ -61,19 +60,6 @@ std::string side_of(const ReplayOptions& options, const std::filesystem::path& r
                         "--set coupling.recording=both.",
                         options.run, options.side));
     return options.side;
-}
-
-/// The checkpoint with which a recording begins, if the run had been resumed: relative to the run
-/// folder.
-std::optional<std::string> first_checkpoint(const std::filesystem::path& file) {
-    Recording recording(file);
-    while (const auto frame = recording.next()) {
-        const Message message = unframe(frame->bytes);
-        if (message.envelope.kind == Kind::restore)
-            return decode<RestoreOrder>(message.payload).folder;
-        if (message.envelope.kind == Kind::window) break;
-    }
-    return std::nullopt;
 }
 
 /// Where that checkpoint was kept. Throws Failure (bad input) if it is not there.
