@@ -42,6 +42,9 @@ WINDOW, CONTACT_INPUT, MOTION, KICK_MESSAGE, STATE = 10, 12, 13, 16, 17
 SAVE, SAVED, RESTORE, RESTORED = 20, 21, 22, 23
 FAILURE, DISMISS, FAREWELL, RELEASE = 90, 91, 92, 93
 PARTICIPANT_FAILED, STALLED, PHYSICS_REFUSED = 4, 5, 6
+NAMES = {SETTINGS: 'settings', ORDER: 'order', SHAPES: 'shapes', POPULATION: 'population', WINDOW: 'window',
+         CONTACT_INPUT: 'contact_input', KICK_MESSAGE: 'kick', SAVE: 'save', RESTORE: 'restore', DISMISS: 'dismiss',
+         RELEASE: 'release'}            # of what the coupler sends
 
 
 def _record(*fields):
@@ -177,6 +180,10 @@ def _case_hash(run_folder):
 
 # ---- the conversation with the coupler --------------------------------------------------------------------------
 
+def _name(kind):
+    return NAMES.get(kind, f'kind {kind}')
+
+
 class _Dismissed(Exception):
     def __init__(self, code, reason):
         super().__init__(reason)
@@ -219,7 +226,8 @@ class _Coupler:
         self.window, self.iteration = window, iteration     # answers belong to the same place
         self.received, expected = sequence + 1, self.received
         if kind != DISMISS and sequence != expected:
-            raise ProtocolError(f'message number {sequence}, expected number {expected}')
+            raise ProtocolError(f'received "{_name(kind)}" of window {window} as number {sequence} of the coupler\'s '
+                                f'messages, expected number {expected}: one is missing, or came twice')
         return kind, reader
 
     def give_up(self, reason):
@@ -237,7 +245,8 @@ class _Coupler:
         if kind == DISMISS:
             raise _Dismissed(reader.integer(), reader.text())
         if kind not in kinds:
-            raise ProtocolError(f'received a message of kind {kind}, expected {kinds}')
+            due = ' or '.join(f'"{_name(each)}"' for each in kinds)
+            raise ProtocolError(f'received "{_name(kind)}" in window {self.window}, but {due} is due')
         return kind, reader
 
     def fail(self, code, text):
