@@ -10,7 +10,7 @@ namespace {
 class AdapterTest : public ShellTest {
  protected:
     Answer judge(const std::string& candidate) const {
-        return shell(std::string("timeout 170 ") + TURBIDITE_PROGRAM + " adapter-test " +
+        return shell(std::string("timeout 390 ") + TURBIDITE_PROGRAM + " adapter-test " +
                      candidate);
     }
 };
