@@ -5,8 +5,26 @@
 #include <fvcFlux.H>
 #include <fvcSurfaceIntegrate.H>
 
+#include <array>
+#include <cmath>
+
 namespace turbidite {
 namespace {
+
+/// Of the components of u by cell.
+template <class X, class Y>
+FluidMomentum momentum_of(const FluidFields& fields, X x, Y y) {
+    const Foam::scalarField& volume = fields.mesh.V().field();
+    std::array<double, 3> sum{};
+    forAll(volume, c) {
+        sum[0] += volume[c] * x(c);
+        sum[1] += volume[c] * y(c);
+        sum[2] += volume[c] * (std::abs(x(c)) + std::abs(y(c)));
+    }
+    fields.ranks.sum(sum.data(), static_cast<int>(sum.size()));
+    const Foam::scalar density = fields.rho / fields.thickness;
+    return {density * Foam::vector(sum[0], sum[1], 0.0), density * sum[2]};
+}
 
 Foam::fileName parent_of(const std::filesystem::path& directory) {
     return Foam::fileName(
@@ -75,23 +93,15 @@ Foam::scalar FluidFields::courant() const {
     return 0.5 * time.deltaTValue() * Foam::gMax((sum().primitiveField() / mesh.V().field())());
 }
 
-Foam::vector FluidFields::momentum() const {
-    const Foam::scalarField& volume = mesh.V().field();
-    Foam::vector sum = Foam::Zero;
-    forAll(volume, c) sum += volume[c] * U[c];
-    ranks.sum(sum.v_, Foam::vector::nComponents);
-    return rho / thickness * sum;
+FluidMomentum FluidFields::momentum() const {
+    return momentum_of(
+        *this, [this](Foam::label c) { return U[c].x(); },
+        [this](Foam::label c) { return U[c].y(); });
 }
 
-Foam::vector FluidFields::momentum(const double* x, const double* y) const {
-    const Foam::scalarField& volume = mesh.V().field();
-    Foam::vector sum = Foam::Zero;
-    forAll(volume, c) {
-        sum.x() += volume[c] * x[c];
-        sum.y() += volume[c] * y[c];
-    }
-    ranks.sum(sum.v_, Foam::vector::nComponents);
-    return rho / thickness * sum;
+FluidMomentum FluidFields::momentum(const double* x, const double* y) const {
+    return momentum_of(
+        *this, [x](Foam::label c) { return x[c]; }, [y](Foam::label c) { return y[c]; });
 }
 
 }  // namespace turbidite

@@ -19,6 +19,11 @@
 
 namespace turbidite {
 
+struct FluidMomentum {
+    Foam::vector sum;         ///< [N s/m]
+    Foam::scalar magnitudes;  ///< of the cells' components, without their signs [N s/m]
+};
+
 struct FluidFields {
     /// Reads the case, on several ranks this rank's processor folder. Throws Foam::error.
     FluidFields(const std::filesystem::path& directory, const RankGroup& ranks);
@@ -52,8 +57,8 @@ struct FluidFields {
     Foam::scalar courant() const;
 
     /// Momentum of all fluid [N s/m], of U or of these components by cell.
-    Foam::vector momentum() const;
-    Foam::vector momentum(const double* x, const double* y) const;
+    FluidMomentum momentum() const;
+    FluidMomentum momentum(const double* x, const double* y) const;
 };
 
 }  // namespace turbidite

@@ -135,7 +135,7 @@ void FoamFluidField::accelerate(const std::array<double, 2>& change) {
         for (int cell = 0; cell < owned_; ++cell) velocity_[axis][cell] += change[axis];
 }
 
-Foam::vector FoamFluidField::momentum() const {
+FluidMomentum FoamFluidField::momentum() const {
     if (copies_used_) return fields_.momentum();
     return fields_.momentum(velocity_[0], velocity_[1]);
 }

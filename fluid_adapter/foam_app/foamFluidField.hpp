@@ -48,8 +48,8 @@ class FoamFluidField final : public FluidField {
     /// Adds a velocity to u in every cell [m/s].
     void accelerate(const std::array<double, 2>& change);
 
-    /// Momentum of all fluid [N s/m].
-    Foam::vector momentum() const;
+    /// Momentum of all fluid.
+    FluidMomentum momentum() const;
 
     /// From U, cells of these points and those that other ranks know; no other is read.
     void load(const CollocationPoints& points);

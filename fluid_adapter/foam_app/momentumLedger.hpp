@@ -43,7 +43,8 @@ class MomentumLedger {
     const Foam::vector& momentum() const { return *current_; }
 
     /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the
-    /// largest of the terms; zero if all of them are zero.
+    /// largest of the terms, or over what their rounding could be if that is larger; zero if all
+    /// of them are zero.
     double close(const Foam::vector& to_grains);
 
  private:

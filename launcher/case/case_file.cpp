@@ -194,6 +194,33 @@ void check_equal_rows(const Population& population, const Settings& settings,
                  "Use a larger fluid.stretch_from, or fluid.allow_coarse: true.", entries);
 }
 
+/// Cyclic sides are as far apart as the two largest grains are wide together: nearer, two grains
+/// could touch on both sides.
+void check_periods(const Population& population, const Settings& settings, CaseEntries& entries) {
+    double first = 0.0, second = 0.0;  // largest radii
+    for (const PlacedGrain& grain : population.grains) {
+        second = std::max(second, std::min(first, grain.radius));
+        first = std::max(first, grain.radius);
+    }
+    const double least = 2.0 * (first + second);
+    const PackingBox box = packing_box(settings);
+    const double period =
+        std::min(box.periodic_x ? box.width : least, box.periodic_y ? box.height : least);
+    if (period >= least) return;
+    const CaseEntry* entry = entries.find("domain.size");
+    entries.problems.push_back(
+        {.source = entry ? entry->source : entries.entries.front().source,
+         .line = entry ? entry->line : 0,
+         .key = "domain.size",
+         .value = settings.text("domain.size"),
+         .fault = {},
+         .allowed =
+             fmt::format("Between cyclic sides lie at least the two largest grains, {:.4g} D: "
+                         "with less, two grains could touch on both sides.",
+                         least),
+         .remedy = "Make the box larger, or use wall or free sides."});
+}
+
 /// Properties of a grain that the fluid or the adapter does not support; the first of each kind is
 /// named.
 void check_abilities(const Population& population, const Settings& settings,
@@ -316,6 +343,7 @@ Population make_population(Settings& settings, const GrainForms& forms, CaseEntr
             : generated_grains(settings, forms, entries);
     check_grains(population, settings, forms, entries);
     check_abilities(population, settings, forms, entries);
+    check_periods(population, settings, entries);
     if (settings.has("grains.file")) settings.set("grains.file", std::string(copied_grains));
     return population;
 }

@@ -18,6 +18,7 @@ STRAIGHT = 0.9           # R^2 of a linear dependence
 WEAK = 2.0               # largest ratio of slopes that still is a weak dependence
 SAME_CURVE = 0.1         # largest mean difference of curves that count as similar
 BACK = 0.1               # of the largest mean velocity: the grains of a wave that runs back are faster
+NEVER = float('inf')     # t_relax of a column that has not slid
 ALIKE = 0.1              # relative spread within which values count as independent of phi
 
 
@@ -78,40 +79,65 @@ def dry_does_not_depend_on_compacity(runs):
     return f'peaks {text} u_c', bool(np.ptp(means) / means.mean() < ALIKE)
 
 
+def waits(runs, reynolds, compacity):
+    """t_relax of these columns [t_c], NEVER for one that has not slid by its end."""
+    times = [relaxation.relaxation_time(run) for run in runs.of('immersed', compacity=compacity, reynolds=reynolds)]
+    return [NEVER if time is None else time for time in times]
+
+
+def told(times):
+    slid = [time for time in times if time < NEVER]
+    if len(slid) == len(times):
+        return spread(slid)
+    return f'{spread(slid)}, {len(times) - len(slid)} of {len(times)} not by the end' if slid else 'not by the end'
+
+
 def loose_at_once(runs):
-    found = {reynolds: runs.numbers(relaxation.relaxation_time, 'immersed', compacity=LOOSE, reynolds=reynolds)
-             for reynolds in REYNOLDS}
+    found = {reynolds: waits(runs, reynolds, LOOSE) for reynolds in REYNOLDS}
     if not all(found.values()):
         return None
-    text = ', '.join(f'Re = {reynolds}: {spread(times)}' for reynolds, times in found.items())
+    text = ', '.join(f'Re = {reynolds}: {told(times)}' for reynolds, times in found.items())
     return f't_relax {text} t_c', all(max(times) < AT_ONCE for times in found.values())
 
 
 def dense_waits(runs):
-    found = {phi: [runs.numbers(relaxation.relaxation_time, 'immersed', compacity=phi, reynolds=reynolds)
-                   for reynolds in REYNOLDS] for phi in COMPACITIES[1:]}
+    found = {phi: [waits(runs, reynolds, phi) for reynolds in REYNOLDS] for phi in COMPACITIES[1:]}
     if not all(all(times) for times in found.values()):
         return None
     found = {phi: sum(times, []) for phi, times in found.items()}
-    text = ', '.join(f'φ = {phi}: {spread(times)}' for phi, times in found.items())
+    text = ', '.join(f'φ = {phi}: {told(times)}' for phi, times in found.items())
     return f't_relax over all Re: {text} t_c', all(min(times) > 0.0 for times in found.values())
 
 
+def waiting_lines(runs):
+    """figures.waiting_line by Re, None where fewer than three columns have slid; None if any was not played."""
+    played = all(waits(runs, reynolds, phi) for reynolds in REYNOLDS for phi in COMPACITIES[1:])
+    return {reynolds: waiting_line(runs, reynolds) for reynolds in REYNOLDS} if played else None
+
+
+def told_of_lines(fits, of_fit):
+    return ', '.join(f'Re = {reynolds}: {of_fit(fit) if fit else "fewer than three have slid"}'
+                     for reynolds, fit in fits.items())
+
+
 def waits_linearly(runs):
-    fits = {reynolds: waiting_line(runs, reynolds) for reynolds in REYNOLDS}
-    if any(fit is None for fit in fits.values()):
+    fits = waiting_lines(runs)
+    if fits is None:
         return None
-    text = ', '.join(f'Re = {reynolds}: R² = {fit[2]:.2f}' for reynolds, fit in fits.items())
-    return text, all(fit[2] >= STRAIGHT for fit in fits.values())
+    known = [fit for fit in fits.values() if fit]
+    return (told_of_lines(fits, lambda fit: f'R² = {fit[2]:.2f}'),
+            all(fit[2] >= STRAIGHT for fit in known) if known else None)
 
 
 def slopes_are_alike(runs):
-    fits = {reynolds: waiting_line(runs, reynolds) for reynolds in REYNOLDS}
-    if any(fit is None for fit in fits.values()):
+    """Slopes that differ are enough to disagree; to agree, all have to be known."""
+    fits = waiting_lines(runs)
+    if fits is None:
         return None
-    slopes = [fit[0] for fit in fits.values()]
-    text = ', '.join(f'Re = {reynolds}: {fit[0]:.3g} t_c' for reynolds, fit in fits.items())
-    return f'slopes {text} per unit of φ', min(slopes) > 0.0 and max(slopes) / min(slopes) < WEAK
+    slopes = [fit[0] for fit in fits.values() if fit]
+    text = told_of_lines(fits, lambda fit: f'{fit[0]:.3g} t_c')
+    alike = not slopes or (min(slopes) > 0.0 and max(slopes) / min(slopes) < WEAK)
+    return f'slopes per unit of φ {text}', (True if len(slopes) == len(fits) else None) if alike else False
 
 
 def peaks_of(runs, reynolds):

@@ -275,6 +275,22 @@ TEST_F(CaseFile, CyclicSidesComeInPairs) {
     EXPECT_EQ(refusal("", {"domain.left=cyclic", "domain.right=cyclic"}), "");
 }
 
+// Two grains of 1 D could touch on both sides of a box that repeats after 1.5 D; one grain could
+// not.
+TEST_F(CaseFile, GrainsTouchOnOneSideOnly) {
+    folder.write("two.csv", "id,x,y\n1,0.75,1\n2,0.75,3\n");
+    folder.write("one.csv", "id,x,y\n1,0.75,1\n");
+    const auto with = [&](const char* file, const char* size) {
+        return refusal("", {std::string("grains.file=") + file, std::string("domain.size=") + size,
+                            "domain.left=cyclic", "domain.right=cyclic"});
+    };
+    const std::string text = with("two.csv", "[1.5, 8]");
+    EXPECT_SAYS(text, "domain.size = [1.5, 8]");
+    EXPECT_SAYS(text, "at least the two largest grains, 2 D");
+    EXPECT_EQ(with("two.csv", "[2, 8]"), "");
+    EXPECT_EQ(with("one.csv", "[1.5, 8]"), "");
+}
+
 // The transport of a window is divided into up to 1000 sub-steps of 2/3 of a cell for jets of 8
 // u_c: at 16 cells per diameter up to 1000 2/3 / (8 16) = 5.21 t_c.
 TEST_F(CaseFile, ExplicitTransportLimitsTheStep) {

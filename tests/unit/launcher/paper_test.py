@@ -72,6 +72,20 @@ class Statements(unittest.TestCase):
         for name in ('loose_at_once', 'slopes_are_alike', 'peak_falls_with_compacity', 'peak_and_viscosity'):
             self.assertFalse(result(name, runs), name)
 
+    def test_of_columns_that_do_not_slide(self):
+        """At the smallest Re only the loosest moves: known to differ where two slopes do, unknown where they do not."""
+        def runs(steeper):
+            waits = lambda re, phi: 0.0 if phi < 0.8 else (1.0 if re == '89' else steeper) * 40.0 * (phi - 0.8)
+            slopes = lambda re, phi: 0.3 if re != '0.89' or phi < 0.8 else 0.001
+            return PaperRuns(immersed(waits, slopes))
+        self.assertIn('φ = 0.85: 2 (2 to 2), 1 of 3 not by the end', statements.dense_waits(runs(1.0))[0])
+        self.assertTrue(result('dense_waits', runs(1.0)))
+        self.assertTrue(result('waits_linearly', runs(1.0)))
+        self.assertIn('Re = 0.89: fewer than three have slid', statements.slopes_are_alike(runs(1.0))[0])
+        self.assertIsNone(result('slopes_are_alike', runs(1.0)))
+        self.assertFalse(result('slopes_are_alike', runs(3.0)))
+        self.assertIsNotNone(statements.slopes_are_alike(runs(1.0)))
+
     def test_of_sedimentation(self):
         rest = lambda t: np.where(ROWS < t, 1.0, 0.0)
         box = {'scales.kind': 'sedimentation'}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Every case that is shipped plays its first windows, within all limits.
+#include <iomanip>
+#include <regex>
+
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Cases, that is files with a time step, in configs and configs/validation.
+std::vector<fs::path> shipped_cases() {
+    std::vector<fs::path> found;
+    for (const char* folder : {"configs", "configs/validation"})
+        for (const auto& entry : fs::directory_iterator(fs::path(TURBIDITE_SOURCE_DIR) / folder))
+            if (entry.path().extension() == ".yaml") found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+class ShippedCases : public ShellTest {};
+
+TEST_F(ShippedCases, PlayTheirFirstWindows) {
+    static const std::regex time_step("\n  step: +([0-9.e-]+)");
+    int cases = 0;
+    for (const fs::path& file : shipped_cases()) {
+        const std::string yaml = text(file);
+        std::smatch match;
+        if (!std::regex_search(yaml, match, time_step)) continue;  // a study
+        const std::string step = match[1].str();
+        std::ostringstream line;
+        line << "timeout 100 " TURBIDITE_PROGRAM " run " << file.string() << " --force --out run"
+             << std::setprecision(12) << " --set time.end=" << 3.0 * std::stod(step)
+             << " --set output.interval=" << step;
+        const Answer answer = shell(line.str());
+        EXPECT_EQ(answer.code, 0) << file << "\n" << answer.out << answer.err;
+        EXPECT_EQ(rows_of_history(), 4) << file;
+        ++cases;
+    }
+    EXPECT_GE(cases, 20);
+}
+
+}  // namespace
+}  // namespace turbidite
