@@ -8,10 +8,12 @@ import curves
 import pictures
 import relaxation
 from analysis import pores
+from paper import darcy
 from paper.selection import COMPACITIES, DENSE, LOOSE, REYNOLDS
 
 SEDIMENTATION = (('discs-nscd', 'discs, NSCD'), ('discs-md', 'discs, MD'), ('triangles-nscd', 'triangles, NSCD'),
                  ('triangles-md', 'triangles, MD'))
+DENSITY_RATIO = 1.5
 LEAST_WAITING = 0.829  # the dense behaviour: phi from here on (section 3.3)
 
 
@@ -28,7 +30,8 @@ def all_figures(runs):
              sequence(runs.of('run-out', compacity=DENSE))),
             (7, 'The loosest column in a small closed box.', sequence(runs.of('closed'))),
             (8, 'Norm of the mean velocity: (a) dry, (b) to (d) in a liquid; bands: seeds.', velocities(runs)),
-            (9, 'Relaxation time against compacity; bars: fits over 0.5 to 2 t_c; lines: fits from φ = 0.829.',
+            (9, 'Relaxation time against compacity; bars: fits over 0.5 to 2 t_c; lines: fits from φ = 0.829; '
+             'dotted: time of the liquid to flow into a dilating layer (darcy.py), without fitted numbers.',
              waiting(runs)),
             (10, 'Pore volume against the displacement of the centre of gravity, Re = 89.', pore_volume(runs))]
     return [(number, caption, figure) for number, caption, figure in made if figure is not None]
@@ -118,11 +121,17 @@ def waiting(runs):
         if fit is not None:
             x = np.array([max(LEAST_WAITING, phi.min()), phi.max()])
             axes.plot(x, fit[0] * x + fit[1], color=f'C{k}', linestyle=curves.dash(k), linewidth=1.2)
-    if axes.get_legend_handles_labels()[1]:
-        axes.legend(fontsize=8)
-        return figure
-    plt.close(figure)
-    return None
+    if not axes.get_legend_handles_labels()[1]:
+        plt.close(figure)
+        return None
+    top = axes.get_ylim()[1]
+    for k, reynolds in enumerate(REYNOLDS):
+        phi = np.linspace(float(LOOSE), float(DENSE), 100)
+        axes.plot(phi, darcy.time_to_dilate(phi, float(reynolds), DENSITY_RATIO), color=f'C{k}', linestyle=':',
+                  linewidth=1.0, label=rf'Darcy, $Re_c = {reynolds}$')
+    axes.set_ylim(top=top)
+    axes.legend(fontsize=8)
+    return figure
 
 
 def pore_volume(runs):

@@ -14,7 +14,7 @@ import numpy as np
 import run_data
 import study
 from page import Page
-from paper import add, figures, statements
+from paper import add, darcy, figures, statements
 from paper.selection import COMPACITIES, REYNOLDS, PaperRuns, spread
 
 ROWS = np.arange(81) * 0.25  # t_c
@@ -85,6 +85,12 @@ class Statements(unittest.TestCase):
         self.assertIsNone(result('slopes_are_alike', runs(1.0)))
         self.assertFalse(result('slopes_are_alike', runs(3.0)))
         self.assertIsNotNone(statements.slopes_are_alike(runs(1.0)))
+
+    def test_darcy(self):
+        """A layer of one grain at 0.9069: 0.1547 D of liquid at Re k (rho_r - 1) phi = 89 1.03e-3 0.5 0.9069 per t_c."""
+        self.assertAlmostEqual(darcy.time_to_dilate(0.9069, 89.0, 1.5), 3.72, places=2)
+        self.assertAlmostEqual(darcy.time_to_dilate(0.9069, 8.9, 1.5), 37.2, places=1)
+        self.assertAlmostEqual(darcy.time_to_dilate(np.pi / 4, 89.0, 1.5), 0.0)
 
     def test_of_sedimentation(self):
         rest = lambda t: np.where(ROWS < t, 1.0, 0.0)
