@@ -50,11 +50,11 @@ def relaxation(run):
 
 
 def steepest(time, velocity, length):
-    """The steepest least-squares line over this length; None if the rows are too few."""
+    """The steepest least-squares line over the rows of this length; None if they are too few."""
     best = None
     for first in range(len(time)):
         part = slice(first, int(np.searchsorted(time, time[first] + length * (1.0 + 1e-9), side='right')))
-        if time[part][-1] < time[first] + length * (1.0 - 1e-9) or len(time[part]) < 3:
+        if time[-1] < time[first] + length * (1.0 - 1e-9) or len(time[part]) < 3:
             continue
         slope, level = np.polyfit(time[part], velocity[part], 1)
         if slope > 0.0 and (best is None or slope > best.slope):

@@ -97,13 +97,16 @@ def waiting_times(runs, reynolds):
 
 
 def waiting_line(runs, reynolds):
-    """(slope [t_c], level, R^2) of t_relax against phi from 0.829 on; None for fewer than three columns."""
+    """(slope [t_c], level, R^2) of t_relax against phi from 0.829 on; None where fewer than two compacities have slid,
+    R^2 None where only two have."""
     points = np.array([(phi, one.time) for phi, one in waiting_times(runs, reynolds) if phi >= LEAST_WAITING])
-    if len(points) < 3:
+    if len(points) == 0 or len(set(points[:, 0])) < 2:
         return None
     slope, level = np.polyfit(*points.T, 1)
     rest = points[:, 1] - slope * points[:, 0] - level
     total = ((points[:, 1] - points[:, 1].mean())**2).sum()
+    if len(set(points[:, 0])) < 3:
+        return float(slope), float(level), None
     return float(slope), float(level), float(1.0 - (rest**2).sum() / total) if total > 0.0 else 0.0
 
 

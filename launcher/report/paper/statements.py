@@ -110,32 +110,32 @@ def dense_waits(runs):
 
 
 def waiting_lines(runs):
-    """figures.waiting_line by Re, None where fewer than three columns have slid; None if any was not played."""
+    """figures.waiting_line by Re; None if any column was not played."""
     played = all(waits(runs, reynolds, phi) for reynolds in REYNOLDS for phi in COMPACITIES[1:])
     return {reynolds: waiting_line(runs, reynolds) for reynolds in REYNOLDS} if played else None
 
 
-def told_of_lines(fits, of_fit):
-    return ', '.join(f'Re = {reynolds}: {of_fit(fit) if fit else "fewer than three have slid"}'
-                     for reynolds, fit in fits.items())
+def told_of_lines(fits, of_fit, fewer):
+    return ', '.join(f'Re = {reynolds}: {of_fit(fit) if fit else fewer}' for reynolds, fit in fits.items())
 
 
 def waits_linearly(runs):
     fits = waiting_lines(runs)
     if fits is None:
         return None
+    fits = {reynolds: fit if fit and fit[2] is not None else None for reynolds, fit in fits.items()}
     known = [fit for fit in fits.values() if fit]
-    return (told_of_lines(fits, lambda fit: f'R² = {fit[2]:.2f}'),
+    return (told_of_lines(fits, lambda fit: f'R² = {fit[2]:.2f}', 'fewer than three have slid'),
             all(fit[2] >= STRAIGHT for fit in known) if known else None)
 
 
 def slopes_are_alike(runs):
-    """Slopes that differ are enough to disagree; to agree, all have to be known."""
+    """Two slopes that differ are enough to disagree; to agree, all have to be known."""
     fits = waiting_lines(runs)
     if fits is None:
         return None
     slopes = [fit[0] for fit in fits.values() if fit]
-    text = told_of_lines(fits, lambda fit: f'{fit[0]:.3g} t_c')
+    text = told_of_lines(fits, lambda fit: f'{fit[0]:.3g} t_c', 'fewer than two have slid')
     alike = not slopes or (min(slopes) > 0.0 and max(slopes) / min(slopes) < WEAK)
     return f'slopes per unit of φ {text}', (True if len(slopes) == len(fits) else None) if alike else False
 

@@ -252,6 +252,13 @@ class Report(RunFolderTest):
         self.assertIn(typeset('Relaxation time 3.80 t_c'), self.make())
         self.assertIn('collapse-mean_velocity_norm.png', self.pictures())
 
+    def test_rows_need_not_divide_the_length_of_the_fit(self):
+        time = 0.26 * np.arange(60)
+        found = relaxation.steepest(time, 0.1 * np.maximum(time - 3.0, 0.0), 1.0)
+        self.assertAlmostEqual(found.time, 3.0)
+        self.assertAlmostEqual(found.slope, 0.1)
+        self.assertIsNone(relaxation.steepest(time[:3], time[:3], 1.0))  # shorter than the fit
+
     def test_there_is_no_relaxation_time_without_a_slide(self):
         self.write_all()
         creep = 'step,time,mean_velocity_norm\n' + ''.join(f'{n},{n},{0.009 * n}\n' for n in range(11))
