@@ -20,7 +20,7 @@ class Relaxation:
     """u = slope (t - time) from `begin` to `end`; times in t_c, velocities in u_c."""
 
     time: float    # t_relax
-    lowest: float  # of all lengths of the fit
+    lowest: float  # of fits of all lengths that overlap this one
     highest: float
     slope: float
     begin: float
@@ -40,21 +40,25 @@ def relaxation(run):
         return None
     highest = int(velocity.argmax())
     rising = time[:highest + 1], velocity[:highest + 1]
-    first = max(FIT, 2.0 * float(time[1] - time[0]))
-    fits = [steepest(*rising, length) for length in (first, *OTHER_FITS)]
-    if fits[0] is None:
+    shortest = 2.0 * float(time[1] - time[0])
+    found = steepest(*rising, max(FIT, shortest))
+    if found is None:
         return None
-    times = [fit.time for fit in fits if fit is not None]
-    fits[0].lowest, fits[0].highest = min(times), max(times)
-    return fits[0]
+    others = [steepest(*rising, max(length, shortest), near=found) for length in OTHER_FITS]
+    times = [fit.time for fit in (found, *others) if fit is not None]
+    found.lowest, found.highest = min(times), max(times)
+    return found
 
 
-def steepest(time, velocity, length):
-    """The steepest least-squares line over the rows of this length; None if they are too few."""
+def steepest(time, velocity, length, near=None):
+    """The steepest least-squares line over the rows of this length, of those that overlap the fit `near`; None if they
+    are too few."""
     best = None
     for first in range(len(time)):
         part = slice(first, int(np.searchsorted(time, time[first] + length * (1.0 + 1e-9), side='right')))
         if time[-1] < time[first] + length * (1.0 - 1e-9) or len(time[part]) < 3:
+            continue
+        if near is not None and (time[part][-1] <= near.begin or time[first] >= near.end):
             continue
         slope, level = np.polyfit(time[part], velocity[part], 1)
         if slope > 0.0 and (best is None or slope > best.slope):

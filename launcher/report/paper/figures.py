@@ -127,12 +127,12 @@ def waiting(runs):
     if not axes.get_legend_handles_labels()[1]:
         plt.close(figure)
         return None
-    top = axes.get_ylim()[1]
+    bottom, top = axes.get_ylim()
     for k, reynolds in enumerate(REYNOLDS):
         phi = np.linspace(float(LOOSE), float(DENSE), 100)
         axes.plot(phi, darcy.time_to_dilate(phi, float(reynolds), DENSITY_RATIO), color=f'C{k}', linestyle=':',
                   linewidth=1.0, label=rf'Darcy, $Re_c = {reynolds}$')
-    axes.set_ylim(top=top)
+    axes.set_ylim(bottom, 1.3 * top)
     axes.legend(fontsize=8)
     return figure
 
