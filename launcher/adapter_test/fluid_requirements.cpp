@@ -111,19 +111,9 @@ Finding lets_grains_go(const Candidate& candidate, const std::filesystem::path& 
 }
 
 Finding same_on_two_ranks(const Candidate& candidate, const std::filesystem::path& folder) {
-    const TrialCase one{"1-rank", across_the_middle, {"time.end=0.4"}};
-    TrialCase two = one;
-    two.name = "2-ranks", two.overrides.push_back("fluid.ranks=2");
-    const Trial alone = play_trial(candidate, one, folder);
-    if (!alone.done()) return failure_of(alone.outcome);
-    const Trial shared = play_trial(candidate, two, folder);
-    if (shared.outcome.code == ExitCode::participant_failed && shared.history.empty())
-        return {Grade::not_supported, "refuses two ranks: " + shared.outcome.error};
-    if (!shared.done()) return failure_of(shared.outcome);
-    return within(
-        worst(alone, shared,
-              {"mean_velocity_x", "mean_velocity_y", "mean_position_x", "mean_position_y"}),
-        solver_tolerance, "the motion on two ranks");
+    return moves_alike(candidate, {"", across_the_middle, {"time.end=0.4"}}, {"fluid.ranks=2"},
+                       solver_tolerance, folder)
+        .finding;
 }
 
 Finding keeps_order(const Candidate& candidate, const std::filesystem::path& folder) {

@@ -164,20 +164,10 @@ Finding repeats_windows(const Candidate& candidate, const std::filesystem::path&
 /// The run on one rank and on two; the second with a recording of the grains.
 Finding same_on_two_ranks(const Candidate& candidate, const std::string& name,
                           const std::string& grains, const std::filesystem::path& folder) {
-    const TrialCase one{name + "-1-rank", grains, {"time.end=0.6"}};
-    TrialCase two = one;
-    two.name = name + "-2-ranks";
-    two.overrides.insert(two.overrides.end(), {"grains.ranks=2", "coupling.recording=grains"});
-    const Trial alone = play_trial(candidate, one, folder);
-    if (!alone.done()) return failure_of(alone.outcome);
-    const Trial shared = play_trial(candidate, two, folder);
-    if (shared.outcome.code == ExitCode::participant_failed && shared.history.empty())
-        return {Grade::not_supported, "refuses two ranks: " + shared.outcome.error};
-    if (!shared.done()) return failure_of(shared.outcome);
-    const double error = worst(
-        alone, shared,
-        {"mean_velocity_x", "mean_velocity_y", "mean_position_x", "mean_position_y", "mean_speed"});
-    Finding finding = within(error, round_off, "the motion on two ranks");
+    auto [finding, shared] =
+        moves_alike(candidate, {name + "-", grains, {"time.end=0.6"}},
+                    {"grains.ranks=2", "coupling.recording=grains"}, round_off, folder);
+    if (!shared.done()) return finding;
     if (finding.grade == Grade::failed)
         finding.text += ". A program for one rank refuses grains.ranks = 2 in initialise";
     const auto moved = grains_that_moved(RunFolder{shared.root}.recording("grains"));

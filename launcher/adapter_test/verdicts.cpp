@@ -68,6 +68,24 @@ Finding ends_on_request(const Candidate& candidate, TrialCase trial,
     return {Grade::met, "left in order after one window"};
 }
 
+OnTwoRanks moves_alike(const Candidate& candidate, TrialCase trial,
+                       const std::vector<std::string>& keys_of_two, double tolerance,
+                       const std::filesystem::path& folder) {
+    TrialCase two = trial;
+    trial.name += "1-rank", two.name += "2-ranks";
+    two.overrides.insert(two.overrides.end(), keys_of_two.begin(), keys_of_two.end());
+    const Trial alone = play_trial(candidate, trial, folder);
+    if (!alone.done()) return {failure_of(alone.outcome), alone};
+    const Trial shared = play_trial(candidate, two, folder);
+    if (shared.outcome.code == ExitCode::participant_failed && shared.history.empty())
+        return {{Grade::not_supported, "refuses two ranks: " + shared.outcome.error}, shared};
+    if (!shared.done()) return {failure_of(shared.outcome), shared};
+    const double error = worst(
+        alone, shared,
+        {"mean_velocity_x", "mean_velocity_y", "mean_position_x", "mean_position_y", "mean_speed"});
+    return {within(error, tolerance, "the motion on two ranks"), shared};
+}
+
 Finding runs_alike(const Candidate& candidate, TrialCase trial,
                    const std::filesystem::path& folder) {
     std::vector<Trial> trials;

@@ -36,6 +36,16 @@ double worst(const Trial& a, const Trial& b, const std::vector<const char*>& col
 Finding ends_on_request(const Candidate& candidate, TrialCase trial,
                         const std::filesystem::path& folder);
 
+struct OnTwoRanks {
+    Finding finding;
+    Trial shared;  ///< the run on two ranks
+};
+
+/// A run on one rank and one with these keys on two have the same motion, or two are refused.
+OnTwoRanks moves_alike(const Candidate& candidate, TrialCase trial,
+                       const std::vector<std::string>& keys_of_two, double tolerance,
+                       const std::filesystem::path& folder);
+
 /// Two equal runs have the same history, to the last digit.
 Finding runs_alike(const Candidate& candidate, TrialCase trial,
                    const std::filesystem::path& folder);

@@ -17,7 +17,8 @@ TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
     const Answer answer = end_of(run);
     EXPECT_EQ(answer.code, 5);
     EXPECT_SAYS(answer.out, "still waiting for");  // after limits.stall_soft
-    EXPECT_SAYS(answer.err, "from " + role + " for 3 s");
+    EXPECT_SAYS(answer.err, "from " + role + " rank 0 (");
+    EXPECT_SAYS(answer.err, "/logs/" + role + ".log) for 3 s");
     EXPECT_SAYS(answer.err, role + " rank 0 (host ");
     EXPECT_SAYS(answer.err, "is due to send");
     EXPECT_SAYS(answer.err, "waits for the coupler's");
