@@ -136,7 +136,9 @@ class Scene:
     def play_window(self):
         """Runs one window and stores the contact impulses, so that O.save after it includes them."""
         if not self.participant.step():
-            O.pause()
+            # Not O.pause(): O.run would return while engines after this one still work on the step, and YADE's exit,
+            # which waits for its thread without releasing Python's lock, would wait for ever.
+            O.stopAtIter = O.iter + 1
         self.store.keep(self.participant.contacts())
 
     def erase(self, ids):
