@@ -15,6 +15,7 @@
 #include "launcher/job/resume_run.hpp"
 #include "launcher/report/report_script.hpp"
 #include "launcher/study/study_record.hpp"
+#include "launcher/study/study_turns.hpp"
 
 namespace turbidite {
 namespace {
@@ -93,32 +94,43 @@ PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const La
     return prepare(run.resolve(), {.out = folder, .force = true}, site);
 }
 
+void announce(const PlannedRun& run, const std::vector<PlannedRun>& plan, const StudyTurns& turns,
+              const PaceOfParts& pace) {
+    std::vector<const PlannedRun*> to_come = turns.to_come();
+    to_come.push_back(&run);
+    const std::optional<double> alone = pace.left(to_come);
+    const double players = 1.0 + static_cast<double>(turns.played_by_others());
+    fmt::print("[{}/{}] {}{}\n", &run - plan.data() + 1, plan.size(), run.path(),
+               alone ? "  (study: " + duration(*alone / players) + " left)" : "");
+}
+
 /// Plays them one after the other; a run that fails does not keep the others from being played.
 /// The code of the first that failed, or of the signal that stopped the study.
-ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan,
-                      const fs::path& out) {
+ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, const fs::path& out,
+                      StudyTurns& turns) {
     const LaunchSite site = this_site();
-    std::vector<const PlannedRun*> to_come = missing_runs(plan, out);
     PaceOfParts pace;
     ExitCode result = ExitCode::done;
-    while (!to_come.empty()) {
-        const PlannedRun& run = *to_come.front();
-        const std::optional<double> left = pace.left(to_come);
-        fmt::print("[{}/{}] {}{}\n", plan.size() - to_come.size() + 1, plan.size(), run.path(),
-                   left ? "  (study: " + duration(*left) + " left)" : "");
+    for (;;) {
+        std::shared_ptr<RunLock> chosen = turns.lock();
+        const PlannedRun* run = turns.next();
+        if (run == nullptr) return result;
+        announce(*run, plan, turns, pace);
         const auto start = Clock::now();
-        const JobOutcome outcome = play(prepare_to_play(run, out, site), site.programs);
+        const PreparedRun prepared = prepare_to_play(*run, out, site);
+        chosen.reset();
+        const JobOutcome outcome = play(prepared, site.programs);
+        chosen = turns.lock();
         write_study_record(study, plan, out);
         if (asked_to_stop(outcome.code)) return outcome.code;
         if (result == ExitCode::done) result = outcome.code;
-        pace.take_in(run.part, std::chrono::duration<double>(Clock::now() - start).count());
-        to_come.erase(to_come.begin());
+        pace.take_in(run->part, std::chrono::duration<double>(Clock::now() - start).count());
     }
-    return result;
 }
 
-const char* word_of(RunState state) {
-    switch (state) {
+const char* word_of(const PlannedRun& run, const fs::path& out) {
+    if (RunLock::is_held(out / run.path())) return "running";
+    switch (state_of(run, out)) {
         case RunState::missing:
             return "missing";
         case RunState::begun:
@@ -133,8 +145,7 @@ const char* word_of(RunState state) {
 
 void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
     for (const PlannedRun& run : plan) {
-        fmt::print("{:<8} {:>7}  {}\n", word_of(state_of(run, out)), rough_time(run.seconds),
-                   run.path());
+        fmt::print("{:<8} {:>7}  {}\n", word_of(run, out), rough_time(run.seconds), run.path());
     }
 }
 
@@ -142,6 +153,26 @@ void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
 fs::path folder_of(const Study& study, const StudyOptions& options) {
     if (!options.out.empty()) return fs::absolute(options.out);
     return fs::absolute(study.out.string() + (options.quick ? "-quick" : ""));
+}
+
+/// Table and figures, by the last to end. False if they cannot be written.
+bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs::path& out,
+              const StudyTurns& turns) {
+    const auto lock = turns.lock();
+    if (const std::size_t others = turns.played_by_others()) {
+        fmt::print(
+            "{} more {} being played by another `turbidite study`; the last to end writes "
+            "table and figures.\n",
+            others, others == 1 ? "run is" : "runs are");
+        return true;
+    }
+    if (!write_study_results(out, find_programs())) return false;
+    const std::size_t left = missing_runs(plan, out).size();
+    fmt::print("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
+               plan.size() - left, plan.size(), out.string(),
+               study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
+               left > 0 ? " The same line again runs what is missing." : "");
+    return true;
 }
 
 int run_study(const StudyOptions& options) {
@@ -159,17 +190,15 @@ int run_study(const StudyOptions& options) {
         return static_cast<int>(ExitCode::done);
     }
     fs::create_directories(out);
-    write_study_record(study, plan, out);
-    const ExitCode code = play_missing(study, plan, out);
+    StudyTurns turns(plan, out);
+    {
+        const auto lock = turns.lock();
+        write_study_record(study, plan, out);
+    }
+    const ExitCode code = play_missing(study, plan, out, turns);
     std::fflush(nullptr);
-    if (!write_study_results(out, find_programs()))
-        return static_cast<int>(ExitCode::participant_failed);
-    const std::size_t left = missing_runs(plan, out).size();
-    fmt::print("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
-               plan.size() - left, plan.size(), out.string(),
-               study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
-               left > 0 ? " The same line again runs what is missing." : "");
-    return static_cast<int>(code);
+    return conclude(study, plan, out, turns) ? static_cast<int>(code)
+                                             : static_cast<int>(ExitCode::participant_failed);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ Attempt attempt(const std::filesystem::path& path) {
 
 // A process that was killed holds its files a little longer than its name in the process table: a
 // `resume` that follows at once has to wait for them.
-std::shared_ptr<RunLock> RunLock::take(const std::filesystem::path& folder) {
+std::shared_ptr<RunLock> RunLock::take(const std::filesystem::path& folder,
+                                       std::chrono::seconds patience) {
     using Clock = std::chrono::steady_clock;
     std::filesystem::path path = folder / file;
     const auto deadline = Clock::now() + patience;
@@ -51,6 +52,14 @@ std::shared_ptr<RunLock> RunLock::take(const std::filesystem::path& folder) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (got.result == Try::busy) return nullptr;
     return std::shared_ptr<RunLock>(new RunLock(std::move(path), got.descriptor));
+}
+
+bool RunLock::is_held(const std::filesystem::path& folder) {
+    const int descriptor = ::open((folder / file).c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return false;
+    const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(descriptor);
+    return held;
 }
 
 RunLock::~RunLock() {

@@ -12,12 +12,16 @@ namespace turbidite {
 
 class RunLock {
  public:
+    /// How long to wait for a job that was killed to be gone [s].
+    static constexpr std::chrono::seconds for_the_killed{3};
+
     /// Null if another process has the folder, which must exist, and keeps it for all of
     /// `patience`. Where the file system knows no locks, the folder counts as free.
-    static std::shared_ptr<RunLock> take(const std::filesystem::path& folder);
+    static std::shared_ptr<RunLock> take(const std::filesystem::path& folder,
+                                         std::chrono::seconds patience = for_the_killed);
 
-    /// How long to wait for a job that was killed to be gone [s].
-    static constexpr std::chrono::seconds patience{3};
+    /// Whether another process has the folder now; false if it does not exist.
+    static bool is_held(const std::filesystem::path& folder);
 
     /// Name of the file in a run folder.
     static constexpr const char* file = "lock";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // `turbidite study`: a sweep that is run, continued and refused.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -152,6 +154,32 @@ TEST_F(StudyRuns, KilledThreeTimesItGivesTheSameTable) {
     };
     EXPECT_EQ(table("s"), table("whole"));
     EXPECT_EQ(table("s").size(), 4u);
+}
+
+// Two processes share a study: every run is played once, both play some, at least once both at the
+// same time, and the last to end writes the table of all.
+TEST_F(StudyRuns, TwoAtOnceShareTheRuns) {
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, sweep: {random.seed: [1, 2, 3, 4, 5]}, set: {time.end: 2, "
+                  "time.step: 0.002}}");
+    const std::string line =
+        "timeout 100 " + std::string(TURBIDITE_PROGRAM) + " study frictions.yaml --out s";
+    const Answer answer =
+        shell(fmt::format("{0} > first & {0} > second; code=$?; wait %1 && exit $code", line));
+    ASSERT_EQ(answer.code, 0) << answer.out << answer.err;
+    const std::string first = text(scratch.path() / "first"),
+                      second = text(scratch.path() / "second");
+    EXPECT_SAYS(first + second, "being played by another `turbidite study`");
+    EXPECT_SAYS(first + second, "5 of 5 runs done");
+    for (int seed = 1; seed <= 5; ++seed) {
+        const std::string start = fmt::format("[{}/5] frictions/seed-{}", seed, seed);
+        EXPECT_NE(first.find(start) == std::string::npos, second.find(start) == std::string::npos)
+            << start << "\n"
+            << first << second;
+    }
+    EXPECT_SAYS(first, "/5] frictions/seed-");
+    EXPECT_SAYS(second, "/5] frictions/seed-");
+    EXPECT_EQ(column("status"), std::vector<std::string>(5, "done"));
 }
 
 TEST_F(StudyRuns, NothingStartsWhenARunIsWrong) {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Several `turbidite study` may play one study from one folder at the same time: each takes the
+// next run that is neither done nor being played. What they share is locked by the run folders
+// (RunLock), and by the study's folder while a run is chosen or a common file is written.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "launcher/job/run_lock.hpp"
+#include "launcher/study/study_plan.hpp"
+
+namespace turbidite {
+
+class StudyTurns {
+ public:
+    /// `plan` must outlive it. `out`: the study's folder, which must exist.
+    StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out)
+        : plan_(&plan), out_(std::move(out)) {}
+
+    /// Keeps the others from choosing and writing as long as it lives. Throws Failure (exit code 2)
+    /// if another keeps it for minutes.
+    std::shared_ptr<RunLock> lock() const;
+
+    /// The first run that is not done, that nobody plays and that was not given before: a run that
+    /// failed is played once. Null if there is none.
+    const PlannedRun* next();
+
+    /// Those that are not done and were not given before, also if others play them now.
+    std::vector<const PlannedRun*> to_come() const;
+
+    /// Runs that other processes play now.
+    std::size_t played_by_others() const;
+
+ private:
+    bool is_to_come(const PlannedRun& run) const;
+    const PlannedRun* free_run() const;
+
+    const std::vector<PlannedRun>* plan_;
+    std::filesystem::path out_;
+    std::set<const PlannedRun*> given_;
+};
+
+}  // namespace turbidite
