@@ -130,14 +130,16 @@ def waits_linearly(runs):
 
 
 def slopes_are_alike(runs):
-    """Two slopes that differ are enough to disagree; to agree, all have to be known."""
+    """Where hardly a column has slid at one Re while others have at another, Re changes more than slightly."""
     fits = waiting_lines(runs)
     if fits is None:
         return None
     slopes = [fit[0] for fit in fits.values() if fit]
     text = told_of_lines(fits, lambda fit: f'{fit[0]:.3g} t_c', 'fewer than two have slid')
-    alike = not slopes or (min(slopes) > 0.0 and max(slopes) / min(slopes) < WEAK)
-    return f'slopes per unit of φ {text}', (True if len(slopes) == len(fits) else None) if alike else False
+    if not slopes:
+        return f'slopes per unit of φ {text}', None
+    return (f'slopes per unit of φ {text}',
+            len(slopes) == len(fits) and min(slopes) > 0.0 and max(slopes) / min(slopes) < WEAK)
 
 
 def peaks_of(runs, reynolds):

@@ -73,19 +73,16 @@ class Statements(unittest.TestCase):
             self.assertFalse(result(name, runs), name)
 
     def test_of_columns_that_do_not_slide(self):
-        """At the smallest Re only the loosest moves: known to differ where two slopes do, unknown where they do not."""
-        def runs(steeper):
-            waits = lambda re, phi: 0.0 if phi < 0.8 else (1.0 if re == '89' else steeper) * 40.0 * (phi - 0.8)
-            slopes = lambda re, phi: 0.3 if re != '0.89' or phi < 0.8 else 0.001
-            return PaperRuns(immersed(waits, slopes))
-        self.assertIn('φ = 0.85: 2 (2 to 2), 1 of 3 not by the end', statements.dense_waits(runs(1.0))[0])
-        self.assertTrue(result('dense_waits', runs(1.0)))
-        self.assertTrue(result('waits_linearly', runs(1.0)))
-        self.assertIn('Re = 0.89: fewer than two have slid', statements.slopes_are_alike(runs(1.0))[0])
-        self.assertIn('Re = 0.89: fewer than three have slid', statements.waits_linearly(runs(1.0))[0])
-        self.assertIsNone(result('slopes_are_alike', runs(1.0)))
-        self.assertFalse(result('slopes_are_alike', runs(3.0)))
-        self.assertIsNotNone(statements.slopes_are_alike(runs(1.0)))
+        """At the smallest Re only the loosest moves by the end: Re changes more than the slope slightly."""
+        waits = lambda re, phi: 0.0 if phi < 0.8 else 40.0 * (phi - 0.8)
+        slopes = lambda re, phi: 0.3 if re != '0.89' or phi < 0.8 else 0.001
+        runs = PaperRuns(immersed(waits, slopes))
+        self.assertIn('φ = 0.85: 2 (2 to 2), 1 of 3 not by the end', statements.dense_waits(runs)[0])
+        self.assertTrue(result('dense_waits', runs))
+        self.assertTrue(result('waits_linearly', runs))
+        self.assertIn('Re = 0.89: fewer than two have slid', statements.slopes_are_alike(runs)[0])
+        self.assertIn('Re = 0.89: fewer than three have slid', statements.waits_linearly(runs)[0])
+        self.assertIs(False, result('slopes_are_alike', runs))
 
     def test_darcy(self):
         """A layer of one grain at 0.9069: 0.1547 D of liquid at Re k (rho_r - 1) phi = 89 1.03e-3 0.5 0.9069 per t_c."""
