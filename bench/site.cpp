@@ -13,28 +13,12 @@
 #include "launcher/job/launch_line.hpp"
 
 namespace turbidite::bench {
-namespace {
 
 namespace fs = std::filesystem;
 
-fs::path temporary_folder() {
-    std::string name = (fs::temp_directory_path() / "turbidite-bench-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-        throw Failure(ExitCode::bad_input, "no temporary folder " + name +
-                                               " could be made: set TMPDIR to a folder with 2 GB");
-    return name;
-}
-
-}  // namespace
-
-Site::Site(bool quick) : quick_(quick), programs_(find_programs()), folder_(temporary_folder()) {
+Site::Site(bool quick) : quick_(quick), programs_(find_programs()), folder_("bench") {
     // OpenFOAM reads its settings while its libraries are loaded.
     ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
-}
-
-Site::~Site() {
-    std::error_code ignored;  // a folder left behind does not affect the figures
-    fs::remove_all(folder_, ignored);
 }
 
 fs::path Site::source(const std::string& file) const {
@@ -43,7 +27,7 @@ fs::path Site::source(const std::string& file) const {
 
 void Site::run(const std::vector<std::string>& line, const std::string& log) const {
     const std::string command =
-        shell_line(line) + " >" + shell_line({(folder_ / log).string()}) + " 2>&1 </dev/null";
+        shell_line(line) + " >" + shell_line({(folder() / log).string()}) + " 2>&1 </dev/null";
     std::fflush(nullptr);
     const int status = std::system(command.c_str());
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
@@ -55,7 +39,7 @@ void Site::run(const std::vector<std::string>& line, const std::string& log) con
 }
 
 std::string Site::text(const std::string& log) const {
-    std::ifstream file(folder_ / log);
+    std::ifstream file(folder() / log);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

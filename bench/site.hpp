@@ -12,6 +12,7 @@
 #include "bench/figure.hpp"
 #include "bench/step_clock.hpp"
 #include "launcher/job/programs.hpp"
+#include "launcher/job/temporary_folder.hpp"
 
 namespace turbidite::bench {
 
@@ -19,13 +20,10 @@ class Site {
  public:
     /// `quick`: tiny meshes. Throws Failure if the folder cannot be made.
     explicit Site(bool quick);
-    ~Site();
-    Site(const Site&) = delete;
-    Site& operator=(const Site&) = delete;
 
     bool quick() const { return quick_; }  ///< tiny meshes, to test that everything works
     const Programs& programs() const { return programs_; }
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
     /// Path of a file in this folder, bench/.
     std::filesystem::path source(const std::string& file) const;
 
@@ -39,7 +37,7 @@ class Site {
  private:
     bool quick_;
     Programs programs_;
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
 };
 
 using Contender = std::function<Sample()>;

@@ -11,7 +11,9 @@ TemporaryFolder::TemporaryFolder(const std::string& purpose) {
     std::string pattern =
         std::filesystem::temp_directory_path() / ("turbidite-" + purpose + "-XXXXXX");
     if (mkdtemp(pattern.data()) == nullptr)
-        throw Failure(ExitCode::participant_failed, "cannot create a folder like " + pattern);
+        throw Failure(ExitCode::participant_failed,
+                      "cannot create a folder like " + pattern +
+                          "\n  Set TMPDIR to a folder you may write to.");
     path_ = pattern;
 }
 
