@@ -123,11 +123,16 @@ def add_table(page, members, keys, values):
 
 
 def numbers_of(key, members, values):
-    """The swept values as numbers, None when they are not."""
+    """The swept values as numbers, None when they are not, and what they are called. Of lists that differ in one place
+    alone, the numbers there."""
     try:
-        return [float(values[member.name][key]) for member in members]
+        lists = np.array([values[member.name][key].strip('[]').split(',') for member in members], dtype=float)
     except (KeyError, ValueError):
-        return None
+        return None, key
+    varied = np.flatnonzero(np.ptp(lists, axis=0) > 0)
+    if len(varied) != 1:
+        return None, key
+    return list(lists[:, varied[0]]), key if lists.shape[1] == 1 else f'{key}[{varied[0]}]'
 
 
 def lines_of(key, members, values, abscissae):
@@ -144,15 +149,15 @@ def seeds_word(key):
 
 
 def draw_against(key, members, values):
-    """(figure, name) per measured quantity; none where the key has fewer than two numbers."""
-    abscissae = numbers_of(key, members, values)
-    if abscissae is None or len(set(abscissae)) < 2:
+    """(figure, name) per measured quantity; none where the key has no two numbers."""
+    abscissae, title = numbers_of(key, members, values)
+    if abscissae is None:
         return []
     shown = []
     for measured in (m for m in MEASURED if m.name in DRAWN):
         if not any(measured.of(run) is not None for member in members for run in member.runs):
             continue
-        figure, axes = curves.panel(measured.title, key, measured.unit)
+        figure, axes = curves.panel(measured.title, title, measured.unit)
         for i, (label, points) in enumerate(lines_of(key, members, values, abscissae).items()):
             draw_line(axes, i, label.strip(), points, measured)
         if len(axes.get_legend_handles_labels()[1]) > 0:
