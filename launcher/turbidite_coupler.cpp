@@ -12,8 +12,8 @@
 
 #include "coupler/hub/hub.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
+#include "coupler/transport/joining.hpp"
 #include "coupler/transport/recording.hpp"
-#include "coupler/transport/world.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/run_folder.hpp"
 
@@ -28,10 +28,14 @@ struct Meeting {
     std::unique_ptr<IntercommChannel> grains, fluid;
 };
 
-Meeting meet_participants(MPI_Comm local, bool with_fluid, double limit) {
+std::vector<Role> participants(bool with_fluid) {
+    return with_fluid ? std::vector{Role::fluid, Role::grains} : std::vector{Role::grains};
+}
+
+Meeting meet_participants(Joining& joining, MPI_Comm local, bool with_fluid) {
     Meeting meeting;
-    for (int missing = with_fluid ? 2 : 1; missing > 0; --missing) {
-        const JoinedParticipant joined = accept_participant(local, limit);
+    for (auto missing = participants(with_fluid).size(); missing > 0; --missing) {
+        const JoinedParticipant joined = joining.meet(local);
         auto& place = joined.role == Role::fluid ? meeting.fluid : meeting.grains;
         if (place || (joined.role == Role::fluid && !with_fluid))
             throw Failure(
@@ -68,20 +72,14 @@ void record_failure(const std::string& directory, ExitCode code, const std::stri
     }
 }
 
-// MPI is initialised under the watch: a program that hangs before its own MPI_Init keeps this one
-// in MPI_Init for ever.
-MPI_Comm join_world(const std::string& directory, double limit,
-                    std::optional<MpiEnvironment>& mpi) {
-    StartWatch watch(limit, [directory, limit] {
-        const std::string text = fmt::format(
-            "not all programs of the job have joined within limits.start = {} s", limit);
+Meeting join(const std::string& directory, const Settings& settings,
+             std::optional<MpiEnvironment>& mpi) {
+    const bool with_fluid = settings.flag("fluid.enabled");
+    Joining joining(directory, settings, participants(with_fluid), [&](const std::string& text) {
         std::fprintf(stderr, "turbidite: %s\n", text.c_str());
         record_failure(directory, ExitCode::stalled, text);
     });
-    mpi.emplace(nullptr, nullptr);
-    const MPI_Comm local = split_world(Role::coupler);
-    watch.disarm();
-    return local;
+    return meet_participants(joining, joining.join_world(mpi), with_fluid);
 }
 
 /// The channel itself, or one that records it.
@@ -105,9 +103,7 @@ class MaybeRecorded {
 RunStatus couple(const std::string& directory, const std::string& set,
                  std::optional<MpiEnvironment>& mpi) {
     ResolvedCase resolved = load_run_folder(directory);
-    const double limit = resolved.settings.real("limits.start");
-    const MPI_Comm local = join_world(directory, limit, mpi);
-    Meeting meeting = meet_participants(local, resolved.settings.flag("fluid.enabled"), limit);
+    Meeting meeting = join(directory, resolved.settings, mpi);
     const RunFolder folder{directory};
     MaybeRecorded grains(meeting.grains.get(), resolved, folder, Role::grains);
     MaybeRecorded fluid(meeting.fluid.get(), resolved, folder, Role::fluid);

@@ -7,8 +7,8 @@
 // 0 before MPI_Init, the others may wait for it for ever in their own MPI_Init, where nobody can
 // watch them. Here it is noticed, since this program does not use MPI: unless the coupler has
 // recorded the end of the run, the program left too early, and the exit code 4 makes mpirun end the
-// job. Who it was is written to RUN/logs/first_end. The output of a participant goes to its log
-// from its very first line.
+// job. Who it was is written to RUN/logs/first_end, and who has been started to RUN/logs/starts
+// (start_record.hpp). The output of a participant goes to its log from its very first line.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -27,6 +27,7 @@
 
 #include "coupler/output/run_record.hpp"
 #include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/start_record.hpp"
 #include "launcher/case/run_folder.hpp"
 
 namespace {
@@ -63,8 +64,14 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::filesystem::path log_of(const Member& member) {
+    return log_file(member.run, member.role, member.rank, member.ranks);
+}
+
+/// The coupler speaks to the user, and keeps a log of its own.
 void open_log(const Member& member) {
-    const auto file = log_file(member.run, member.role, member.rank, member.ranks);
+    if (member.role == Role::coupler) return;
+    const auto file = log_of(member);
     const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644);
     if (log < 0) return;  // the output then goes where mpirun sends it
     dup2(log, STDOUT_FILENO);
@@ -72,10 +79,19 @@ void open_log(const Member& member) {
     close(log);
 }
 
+std::string host_name() {
+    char host[256] = {};
+    gethostname(host, sizeof host - 1);
+    return host;
+}
+
 [[noreturn]] void become(const Member& member) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (member.role != Role::coupler) open_log(member);
-    setenv(member_variable, "1", 1);
+    open_log(member);
+    const std::string record = begin_start_record(
+        member.run,
+        {member.role, member.rank, host_name(), getpid(), member.command[0], log_of(member)});
+    setenv(member_variable, record.c_str(), 1);
     execvp(member.command[0], member.command);
     std::fprintf(stderr, "turbidite-member: cannot start %s: %s\n", member.command[0],
                  std::strerror(errno));
@@ -104,9 +120,7 @@ std::string end_text(const Member& member, int status, pid_t child) {
                                       strsignal(WTERMSIG(status)) + ")"
                                 : "ended with status " + std::to_string(WEXITSTATUS(status)) +
                                       " before the run was over";
-    char host[256] = {};
-    gethostname(host, sizeof host - 1);
-    return how + "; program " + member.command[0] + ", host " + host + ", pid " +
+    return how + "; program " + member.command[0] + ", host " + host_name() + ", pid " +
            std::to_string(child);
 }
 

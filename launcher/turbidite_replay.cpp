@@ -12,7 +12,7 @@
 #include "coupler/output/run_record.hpp"
 #include "coupler/replay/replay.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
-#include "coupler/transport/world.hpp"
+#include "coupler/transport/joining.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/run_folder.hpp"
 
@@ -42,15 +42,28 @@ std::string summary(const ReplayReport& report, const std::string& role) {
     return text;
 }
 
+void record_end(const RunFolder& folder, ExitCode code, const std::string& reason) {
+    RunStatus status;
+    status.code = code;
+    status.reason = reason;
+    write_run_record(folder.record(), status, {});
+}
+
+MPI_Comm join(const RunFolder& folder, const Settings& settings, const std::string& role,
+              std::optional<MpiEnvironment>& mpi) {
+    const Role participant = role == role_name(Role::fluid) ? Role::fluid : Role::grains;
+    Joining joining(folder.root, settings, {participant}, [&](const std::string& text) {
+        std::fprintf(stderr, "turbidite-replay: %s\n", text.c_str());
+        record_end(folder, ExitCode::stalled, text);
+    });
+    return joining.meet(joining.join_world(mpi)).intercomm;
+}
+
 ExitCode play(const RunFolder& folder, const std::string& role, const std::string& file,
               std::optional<MpiEnvironment>& mpi) {
     const ResolvedCase resolved = load_run_folder(folder.root);
     Recording recording(file);
-    mpi.emplace(nullptr, nullptr);
-    const MPI_Comm local = split_world(Role::coupler);
-    const JoinedParticipant joined =
-        accept_participant(local, resolved.settings.real("limits.start"));
-    IntercommChannel channel(joined.intercomm);
+    IntercommChannel channel(join(folder, resolved.settings, role, mpi));
     ReplayOrder order;
     order.limit = resolved.settings.real("limits.stall_hard");
     const std::int64_t windows = resolved.settings.integer("run.windows");
@@ -59,13 +72,6 @@ ExitCode play(const RunFolder& folder, const std::string& role, const std::strin
     fmt::print("{}", summary(report, role));
     std::fflush(stdout);
     return report.differences == 0 ? ExitCode::done : ExitCode::tests_failed;
-}
-
-void record_end(const RunFolder& folder, ExitCode code, const std::string& reason) {
-    RunStatus status;
-    status.code = code;
-    status.reason = reason;
-    write_run_record(folder.record(), status, {});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "coupler/hub/handshake.hpp"
 #include "coupler/hub/schemes/exchanges.hpp"
+#include "coupler/protocol/start_record.hpp"
 
 namespace turbidite {
 namespace {
@@ -50,6 +51,15 @@ std::vector<Hello> hellos(const std::vector<ParticipantLink*>& links) {
             all.back().rank = rank;
         }
     return all;
+}
+
+Hello preliminary_hello(const StartRecord& record) {
+    Hello hello;
+    hello.adapter = std::filesystem::path(record.program).filename().string();
+    hello.host = record.host;
+    hello.pid = record.pid;
+    hello.log_file = record.log;
+    return hello;
 }
 
 }  // namespace
@@ -205,6 +215,7 @@ void Hub::end_and_record() {
 void Hub::start() {
     if (case_.settings.has("output.timeline") && case_.settings.flag("output.timeline"))
         watch_.set_timeline(&timeline_.emplace(files_.root, Role::coupler, 0));
+    name_by_start_records();
     shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
     ledger_.name_programs(grains_.program(), fluid_ ? fluid_->program() : "");
     tell_participants();
@@ -224,6 +235,14 @@ void Hub::start() {
     else
         begin_output(std::move(initial));
     watch_.take_waited();
+}
+
+// So that a participant which never sends its hello has a host and a log all the same.
+void Hub::name_by_start_records() {
+    for (ParticipantLink* link : links_)
+        for (int rank = 0; rank < link->ranks(); ++rank)
+            if (const auto record = read_start_record(files_.root, link->role(), rank))
+                link->set_hello(rank, preliminary_hello(*record));
 }
 
 void Hub::begin_output(Motion initial) {

@@ -61,6 +61,7 @@ class Hub {
 
  private:
     void start();
+    void name_by_start_records();
     void begin_output(Motion initial);
     void go_on_from(const Resumption& earlier);
     void play_windows();

@@ -136,10 +136,13 @@ std::string ParticipantLink::state_of(int rank) const {
     const bool waits = of.order.due().front().from_coupler;
     const std::string round =
         of.order.iteration() > 0 ? fmt::format(", round {}", of.order.iteration()) : "";
-    return fmt::format("{} (host {}, pid {}) {} {}, window {}{}, for {:.0f} s", rank_name(rank),
+    const std::string when = of.order.window() < 0
+                                 ? " at the start"
+                                 : fmt::format(", window {}{}", of.order.window(), round);
+    return fmt::format("{} (host {}, pid {}) {} {}{}, for {:.0f} s", rank_name(rank),
                        of.hello.host.empty() ? "unknown" : of.hello.host, of.hello.pid,
                        waits ? "waits for the coupler's" : "is due to send", of.order.due_text(),
-                       of.order.window(), round, seconds);
+                       when, seconds);
 }
 
 void ParticipantLink::dismiss(const Verdict& verdict) {

@@ -35,7 +35,8 @@ inline constexpr const char* stop_file = "STOP";
 inline constexpr const char* write_file = "WRITE";
 inline constexpr const char* checkpoint_file = "CHECKPOINT";
 
-/// Set for a program started by turbidite-member, which has opened its log.
+/// Set for a program started by turbidite-member, which has opened its log, to the file in which
+/// the program notes the steps of its start (start_record.hpp).
 inline constexpr const char* member_variable = "TURBIDITE_MEMBER";
 
 }  // namespace turbidite

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/start_record.hpp"
 #include "coupler/transport/channel.hpp"
 
 namespace turbidite {
@@ -27,6 +28,7 @@ MpiEnvironment::MpiEnvironment(int* argc, char*** argv) {
     PMPI_Initialized(&running);
     if (running) return;
     int provided = 0;
+    note_start(StartStep::mpi_init);
     PMPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
     ours_ = true;
 }
@@ -39,6 +41,7 @@ MpiEnvironment::~MpiEnvironment() {
 
 MPI_Comm split_world(Role role) {
     MPI_Comm local = MPI_COMM_NULL;
+    note_start(StartStep::split);
     PMPI_Comm_split(MPI_COMM_WORLD, first_colour + static_cast<int>(role), 0, &local);
     return local;
 }
@@ -47,6 +50,7 @@ MPI_Comm join_coupler(MPI_Comm local, Role role) {
     int rank = 0, ranks = 0;
     PMPI_Comm_rank(local, &rank);
     PMPI_Comm_size(local, &ranks);
+    note_start(StartStep::announcement);
     if (rank == 0) {
         const std::array<int, 2> announcement = {static_cast<int>(role), ranks};
         PMPI_Send(announcement.data(), 2, MPI_INT, 0, announcement_tag, MPI_COMM_WORLD);

@@ -4,11 +4,21 @@
 Must be imported before anything else. YADE must be started with `-x`: otherwise a Python error opens a prompt, and
 the job waits for ever.
 """
+import os
 import sys
 import traceback
 
-# Must come first: mpy splits the MPI world when it is imported, a collective operation that all processes of the
-# job perform at this point. A later import (YADE does one at its exit) would hang a finished job.
+
+def note_start(step):
+    """Notes for the coupler that this program is about to take a step of its start (start_record.hpp)."""
+    if 'TURBIDITE_MEMBER' in os.environ:
+        with open(os.environ['TURBIDITE_MEMBER'], 'a') as record:
+            record.write(step + '\n')
+
+
+# Must come first: mpy initialises MPI and splits its world when it is imported, a collective operation that all
+# processes of the job perform at this point. A later import (YADE does one at its exit) would hang a finished job.
+note_start('split')
 from yade import mpy
 
 import yade.config

@@ -89,7 +89,9 @@ TEST_F(FailingFluid, AProgramThatNeverJoinsEndsTheJob) {
     const Answer answer = run_with("early-hang", "--set limits.start=3");
     EXPECT_LT(watch.seconds(), 3.0 + longest);
     EXPECT_EQ(answer.code, 5) << answer.err;
-    EXPECT_SAYS(answer.err, "not all programs of the job have joined within limits.start = 3 s");
+    EXPECT_SAYS(answer.err, "The run failed: nothing from fluid rank 0 (");
+    EXPECT_SAYS(answer.err, " within limits.start = 3 s: it has not called MPI_Init\n");
+    EXPECT_EQ(count(answer.err, "nor from"), 0) << "the grains wait in MPI_Init\n" << answer.err;
     expect_nothing_left();
 }
 

@@ -21,6 +21,7 @@ class ScriptAtTheEnd : public FailingRun {
  protected:
     void SetUp() override {
         FailingRun::SetUp();
+        setenv("TURBIDITE_REPORT", "off", 1);
         std::string script = slow_engine;
         script.replace(script.find("FOLDER"), 6, scratch.path().string());
         scratch.write("mine.py", script);

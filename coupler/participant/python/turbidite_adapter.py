@@ -31,6 +31,16 @@ import traceback
 import zlib
 
 import numpy
+
+
+def _note_start(step):
+    """Notes for the coupler that this program is about to take a step of its start: docs/protocol.md, Joining."""
+    if 'TURBIDITE_MEMBER' in os.environ:
+        with open(os.environ['TURBIDITE_MEMBER'], 'a') as record:
+            record.write(step + '\n')
+
+
+_note_start('MPI_Init')                # which this import calls
 from mpi4py import MPI
 
 PROTOCOL = (1, 7)
@@ -387,7 +397,9 @@ def run_grains(adapter, run_folder):
     All processes of the job make exactly one split of the world, here: after it nothing collective may be done on
     MPI.COMM_WORLD. The adapter's own ranks, if there are several, communicate over `adapter.comm`.
     """
+    _note_start('split')
     local = MPI.COMM_WORLD.Split(FIRST_COLOUR + GRAINS, 0)
+    _note_start('announcement')
     adapter.comm = local
     _redirect_output(_log_file(run_folder, local))
     coupler = _Coupler(local, run_folder)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// How far every program of a job has come in its start: RUN/logs/starts/ROLE.RANK, one file per
+// rank. turbidite-member writes who it is and the library a line for each step, so that a program
+// that never joins can be named: those that wait for it in MPI_Init or in the split of the world
+// cannot ask. Valid C++17.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/hello.hpp"
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// The steps of a start, in this order; a program that has taken a step may still wait in it for
+/// the others.
+enum class StartStep { none, mpi_init, split, announcement };
+
+struct StartRecord {
+    Role role = Role::grains;
+    int rank = 0;
+    std::string host;
+    long pid = 0;
+    std::string program;
+    std::string log;
+    StartStep step = StartStep::none;
+};
+
+/// turbidite-member: writes the record of the program that this process becomes, without a step,
+/// and returns its file, for `member_variable`.
+std::string begin_start_record(const std::filesystem::path& run, const StartRecord& record);
+
+/// The program: notes that it is about to take a step. Does nothing without turbidite-member.
+void note_start(StartStep step);
+
+/// Empty if turbidite-member has not written one.
+std::optional<StartRecord> read_start_record(const std::filesystem::path& run, Role role, int rank);
+
+/// The records of all ranks of these participants that have not taken the step.
+std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path& run,
+                                    const std::vector<Role>& roles, const Settings& settings);
+
+/// "nothing from grains rank 0 (program, host, pid, log) within limits.start = 120 s: it has not
+/// called MPI_Init".
+std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit);
+
+}  // namespace turbidite

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupler/transport/joining.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace turbidite {
+
+Joining::Joining(std::filesystem::path run, const Settings& settings, std::vector<Role> roles,
+                 std::function<void(const std::string&)> failed)
+    : run_(std::move(run)),
+      settings_(settings),
+      roles_(std::move(roles)),
+      watch_(settings.real("limits.start"),
+             [this, failed = std::move(failed)] { failed(who_is_late()); }) {}
+
+MPI_Comm Joining::join_world(std::optional<MpiEnvironment>& mpi) {
+    mpi.emplace(nullptr, nullptr);
+    awaited_ = StartStep::split;
+    const MPI_Comm local = split_world(Role::coupler);
+    awaited_ = StartStep::announcement;
+    return local;
+}
+
+// The watch also covers the intercommunicator, which all ranks of the participant create.
+JoinedParticipant Joining::meet(MPI_Comm local) {
+    return accept_participant(local, std::numeric_limits<double>::infinity());
+}
+
+std::string Joining::who_is_late() const {
+    const StartStep awaited = awaited_;
+    return late_start_text(awaited, not_yet_at(awaited, run_, roles_, settings_),
+                           settings_.real("limits.start"));
+}
+
+}  // namespace turbidite
