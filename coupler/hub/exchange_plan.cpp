@@ -136,9 +136,22 @@ void ExchangePlan::refuse_missing(const std::vector<bool>& answered) const {
 }
 
 template <class Record>
-std::vector<std::vector<Record>> ExchangePlan::by_owner(const std::vector<Record>& records) const {
+std::vector<std::vector<Record>> ExchangePlan::by_owner(std::vector<Record> records) const {
+    const std::vector<int> owners = owners_of(records);
     std::vector<std::vector<Record>> routed(owners_);
+    if (owners_ == 1)
+        routed[0] = std::move(records);
+    else
+        for (std::size_t i = 0; i < records.size(); ++i) routed[owners[i]].push_back(records[i]);
+    return routed;
+}
+
+/// Of each record; throws unless every grain is answered once.
+template <class Record>
+std::vector<int> ExchangePlan::owners_of(const std::vector<Record>& records) const {
     std::vector<bool> answered(index_.size(), false);
+    std::vector<int> owners;
+    owners.reserve(records.size());
     std::size_t at = GrainIndex::nowhere;
     for (const Record& record : records) {
         at = index_.place(record.id, at + 1);
@@ -146,16 +159,16 @@ std::vector<std::vector<Record>> ExchangePlan::by_owner(const std::vector<Record
             throw PhysicsRefused(
                 "the fluid answered for grain " + std::to_string(record.id) +
                 (at != GrainIndex::nowhere ? " twice" : ", which no grains rank owns"));
-        routed[owner_[at]].push_back(record);
+        owners.push_back(owner_[at]);
         answered[at] = true;
     }
     if (records.size() < index_.size()) refuse_missing(answered);
-    return routed;
+    return owners;
 }
 
-template std::vector<std::vector<Kick>> ExchangePlan::by_owner(const std::vector<Kick>&) const;
+template std::vector<std::vector<Kick>> ExchangePlan::by_owner(std::vector<Kick>) const;
 template std::vector<std::vector<FreeResponse>> ExchangePlan::by_owner(
-    const std::vector<FreeResponse>&) const;
+    std::vector<FreeResponse>) const;
 
 std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks) {
     std::vector<GrainState> sorted = population;

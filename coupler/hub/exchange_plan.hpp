@@ -37,11 +37,13 @@ class ExchangePlan {
     /// For every grains rank, the records of its grains (as of the last `gather`). Throws
     /// PhysicsRefused unless every grain gets exactly one record.
     template <class Record>
-    std::vector<std::vector<Record>> by_owner(const std::vector<Record>& records) const;
+    std::vector<std::vector<Record>> by_owner(std::vector<Record> records) const;
 
  private:
     void remember_owners(const std::vector<Motion>& shares);
     void demand_owned(const std::vector<ContactRecord>& contacts) const;
+    template <class Record>
+    std::vector<int> owners_of(const std::vector<Record>& records) const;
     [[noreturn]] void refuse_missing(const std::vector<bool>& answered) const;
 
     std::vector<Box> boxes_;

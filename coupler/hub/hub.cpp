@@ -99,9 +99,6 @@ RunOutput Hub::make_output() const {
 /// One window, from t^n to t^{n+1}.
 void Hub::play(const Window& window) {
     WindowResult result = scheme_->play(window, output_.state(), cast());
-    if (fluid_)
-        result.grain_balance =
-            kick_rule_.balance(result.kicks.kicks, output_.state(), result.motion, window.step);
     ledger_.check(window, result);
     output_.record(window, std::move(result), watch_.take_waited());
 }

@@ -17,14 +17,19 @@ Vec3 array(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-// R I R^T with R the rotation matrix of q; inertia tensors are given in the body frame.
-Eigen::Matrix3d in_space(const Eigen::Matrix3d& inertia, const Quaternion& q) {
+// R I R^T w with R the rotation matrix of q; inertia tensors are given in the body frame. A
+// rotation in the plane leaves what turns about z alone.
+Eigen::Vector3d angular_momentum(const Eigen::Matrix3d& inertia, const Quaternion& q,
+                                 const Eigen::Vector3d& spin) {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
+    const bool plane = x == 0.0 && y == 0.0 && spin.x() == 0.0 && spin.y() == 0.0 &&
+                       inertia(0, 2) == 0.0 && inertia(1, 2) == 0.0;
+    if (plane) return {0.0, 0.0, inertia(2, 2) * spin.z()};
     Eigen::Matrix3d rotation;
     rotation << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
         2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 2 * (x * z - w * y),
         2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
-    return rotation * inertia * rotation.transpose();
+    return rotation * (inertia * (rotation.transpose() * spin));
 }
 
 // The largest term of a balance, and its residual.
@@ -78,7 +83,7 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
             (vector(kick.multiplier_impulse) + immersed.displaced_mass * velocity_change) / step);
         kick.torque =
             array((vector(kick.multiplier_angular_impulse) +
-                   in_space(immersed.displaced_inertia, grain.orientation) * spin_change) /
+                   angular_momentum(immersed.displaced_inertia, grain.orientation, spin_change)) /
                   step);
     }
 }
@@ -103,10 +108,10 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         linear.add(kick.id, {immersed.mass * velocity_change,
                              Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
                              -vector(with_contact.contact_impulse), -step * vector(kick.force)});
-        angular.add(kick.id,
-                    {in_space(immersed.inertia, grain.orientation) * spin_change / grain.radius,
-                     -vector(with_contact.contact_angular_impulse) / grain.radius,
-                     -step * vector(kick.torque) / grain.radius});
+        angular.add(kick.id, {angular_momentum(immersed.inertia, grain.orientation, spin_change) /
+                                  grain.radius,
+                              -vector(with_contact.contact_angular_impulse) / grain.radius,
+                              -step * vector(kick.torque) / grain.radius});
     }
     const double largest = std::max(linear.largest, angular.largest);
     const Balance& worse = linear.rest >= angular.rest ? linear : angular;

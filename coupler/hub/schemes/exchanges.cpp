@@ -105,6 +105,9 @@ void finish_window(const Window& window, const Motion& before, Cast& cast, Windo
     for (auto& kicks : cast.plan.by_owner(result.kicks.kicks))
         routed.push_back({std::move(kicks), result.kicks.report});
     cast.grains.send_each(Kind::kick, routed);
+    // While the grains move.
+    result.grain_balance =
+        cast.kick_rule.balance(result.kicks.kicks, before, result.motion, window.step);
     result.state = receive_grains(Kind::state, window.index, cast);
 }
 

@@ -27,7 +27,8 @@ std::vector<FreeResponse> play_contact_round(const Window& window,
 /// The last constraint is final: the fluid ends its window.
 void send_accept(Cast& cast);
 
-/// After send_accept: sends corrected velocities to the grains, which move. Fills kicks and state.
+/// After send_accept: sends corrected velocities to the grains, which move. Fills kicks, balance and
+/// state.
 void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result);
 
 }  // namespace turbidite
