@@ -15,15 +15,6 @@ constexpr double bytes_of_rigid_grains = 190.0;  // per cell, pressure and visco
 constexpr double bytes_without_cells = 1e8;
 constexpr double gigabyte = 1e9;
 
-/// Seconds per cell and window on one core, grains included.
-double time_per_cell(const Settings& settings) {
-    const std::string& splitting = settings.text("fluid.splitting");
-    if (splitting == "explicit-multiplier") return 160e-9;  // figure explicit_over_plain
-    if (splitting == "implicit-multiplier") return 500e-9;  // figure implicit_over_plain
-    const bool second_order = settings.text("fluid.time_scheme") == "second-order";
-    return second_order ? 110e-9 : 60e-9;  // figure joint_window_d16
-}
-
 }  // namespace
 
 double fluid_rows(const Settings& settings) {
@@ -45,11 +36,6 @@ double fluid_memory(const Settings& settings) {
     const double per_cell = bytes_per_cell + (second_order ? bytes_of_second_order : 0.0) +
                             (rigid_grains ? bytes_of_rigid_grains : 0.0);
     return (bytes_without_cells + per_cell * fluid_cells(settings)) / gigabyte;
-}
-
-double fluid_window_time(const Settings& settings) {
-    return time_per_cell(settings) * fluid_cells(settings) /
-           static_cast<double>(settings.integer("fluid.ranks"));
 }
 
 double memory_limit(const Settings& settings) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How much memory and time the fluid of a case takes, over all its ranks, and how much memory there
-// is.
+// How many cells the fluid of a case has and how much memory it takes, over all its ranks, and how
+// much memory there is.
 #pragma once
 
 #include "coupler/protocol/settings.hpp"
@@ -21,10 +21,6 @@ double fluid_cells(const Settings& settings);
 /// of `turbidite bench fluid`), the vectors of time and splitting, and what OpenFOAM takes by
 /// itself.
 double fluid_memory(const Settings& settings);
-
-/// Rough time of one window of the fluid on fluid.ranks cores [s], from what the figures of
-/// `turbidite bench fluid` take per cell; machines and packings differ by a factor of two.
-double fluid_window_time(const Settings& settings);
 
 /// limits.memory, or the memory of this machine [GB].
 double memory_limit(const Settings& settings);

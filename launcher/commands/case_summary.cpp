@@ -31,15 +31,23 @@ std::string fluid_line(const ResolvedCase& resolved) {
     if (!settings.flag("fluid.enabled")) return "  fluid: none\n";
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double cells = settings.real("fluid.cells_per_diameter");
-    const double windows = static_cast<double>(settings.integer("run.windows"));
-    const std::int64_t ranks = settings.integer("fluid.ranks");
-    return fmt::format(
-               "  fluid: {:.0f} x {:.0f} cells (about {:.1g} GB, roughly {} on {}), "
-               "Re = {:.4g}\n",
-               size[0] * cells, fluid_rows(settings), fluid_memory(settings),
-               rough_time(windows * fluid_window_time(settings)),
-               ranks == 1 ? "one core" : fmt::format("{} cores", ranks), resolved.scales.reynolds) +
+    return fmt::format("  fluid: {:.0f} x {:.0f} cells, Re = {:.4g}\n", size[0] * cells,
+                       fluid_rows(settings), resolved.scales.reynolds) +
            rows_text(settings, size[1]) + "  scheme: " + settings.text("coupling.scheme") + "\n";
+}
+
+/// "fluid 22, grains 1.2, coupler 0.5, messages 7"
+std::string parts_text(const WindowForecast& window) {
+    std::string text = window.fluid > 0.0 ? fmt::format("fluid {:.3g}, ", 1e3 * window.fluid) : "";
+    return text + fmt::format("grains {:.3g}, coupler {:.3g}, messages {:.3g}", 1e3 * window.grains,
+                              1e3 * window.coupler, 1e3 * window.messages);
+}
+
+std::string forecast_line(const ResolvedCase& resolved) {
+    const WindowForecast window = forecast_window(resolved);
+    return fmt::format("  forecast: roughly {}, {:.3g} ms per window ({}), {:.2g} GB\n",
+                       rough_time(predicted_seconds(resolved)), 1e3 * window.seconds(),
+                       parts_text(window), predicted_memory(resolved));
 }
 
 std::string md_line(const Settings& settings) {
@@ -100,6 +108,7 @@ std::string case_summary(const ResolvedCase& resolved) {
     text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
                         settings.integer("run.windows"), settings.text("time.step"),
                         resolved.scales.time, resolved.scales.velocity);
+    text += forecast_line(resolved);
     text += md_line(settings);
     text += checkpoint_line(settings);
     for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
