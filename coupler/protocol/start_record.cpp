@@ -20,6 +20,7 @@ constexpr StepName step_names[] = {
      "has called MPI_Init, but has not taken part in the split of MPI_COMM_WORLD"},
     {StartStep::announcement, "announcement",
      "has taken part in the split of MPI_COMM_WORLD, but has not announced itself to the coupler"},
+    {StartStep::end, "end", "has not ended"},
 };
 constexpr std::size_t most_named = 4;
 
@@ -106,6 +107,13 @@ std::string late_start_text(StartStep step, const std::vector<StartRecord>& late
     if (late.size() > most_named)
         text += "\n  nor from " + std::to_string(late.size() - most_named) + " other ranks";
     return text;
+}
+
+std::string late_end_text(const std::vector<StartRecord>& late, double limit) {
+    const std::string others =
+        late.size() > 1 ? " and " + std::to_string(late.size() - 1) + " other programs" : "";
+    return "the run is over, but " + (late.empty() ? "a program" : who(late.front())) + others +
+           " has not ended within limits.stall_hard = " + seconds(limit) + " and is killed";
 }
 
 }  // namespace turbidite

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How far every program of a job has come in its start: RUN/logs/starts/ROLE.RANK, one file per
-// rank. turbidite-member writes who it is and the library a line for each step, so that a program
-// that never joins can be named: those that wait for it in MPI_Init or in the split of the world
-// cannot ask. Valid C++17.
+// How far every program of a job has come in its start, and whether it ends: RUN/logs/starts/
+// ROLE.RANK, one file per rank. turbidite-member writes who it is and the library a line for each
+// step, so that a program that never joins or never leaves can be named: those that wait for it in
+// MPI_Init, in the split of the world or in MPI_Finalize cannot ask. Valid C++17.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,9 @@
 
 namespace turbidite {
 
-/// The steps of a start, in this order; a program that has taken a step may still wait in it for
-/// the others.
-enum class StartStep { none, mpi_init, split, announcement };
+/// The steps of a start, in this order, and MPI_Finalize; a program that has taken a step may still
+/// wait in it for the others.
+enum class StartStep { none, mpi_init, split, announcement, end };
 
 struct StartRecord {
     Role role = Role::grains;
@@ -47,5 +47,9 @@ std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path&
 /// "nothing from grains rank 0 (program, host, pid, log) within limits.start = 120 s: it has not
 /// called MPI_Init".
 std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit);
+
+/// "the run is over, but grains rank 0 (program, host, pid, log) has not ended within
+/// limits.stall_hard = 600 s and is killed".
+std::string late_end_text(const std::vector<StartRecord>& late, double limit);
 
 }  // namespace turbidite

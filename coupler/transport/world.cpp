@@ -36,7 +36,9 @@ MpiEnvironment::MpiEnvironment(int* argc, char*** argv) {
 MpiEnvironment::~MpiEnvironment() {
     int finalized = 0;
     PMPI_Finalized(&finalized);
-    if (ours_ && !finalized) PMPI_Finalize();
+    if (!ours_ || finalized) return;
+    note_start(StartStep::end);
+    PMPI_Finalize();
 }
 
 MPI_Comm split_world(Role role) {

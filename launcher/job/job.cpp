@@ -109,8 +109,13 @@ int code_of(int status) {
 
 JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) {
     JobEnd end;
+    const timespec second{1, 0};
     while (!has_ended(child)) {
-        const int signal = sigwaitinfo(&signals.set(), nullptr);
+        const int signal = sigtimedwait(&signals.set(), nullptr, &second);
+        if (signal < 0 && order.overdue && order.overdue()) {
+            end_session(child, signals);
+            break;
+        }
         if (signal == SIGCHLD || signal < 0) continue;
         const bool first = end.signal == 0;
         if (first) end.signal = signal;

@@ -18,6 +18,9 @@ struct JobOrder {
     std::filesystem::path output_log = {};  ///< its stdout; empty: that of this program
     /// Called once, at the first signal. False: the program cannot be asked, it is to be killed.
     std::function<bool(int signal)> request_stop;
+    /// Asked every second, if there is one. True: the program should have ended, it is to be
+    /// killed.
+    std::function<bool()> overdue = {};
 };
 
 struct JobEnd {

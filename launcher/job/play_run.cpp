@@ -5,10 +5,14 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 
+#include "coupler/protocol/start_record.hpp"
 #include "launcher/job/job.hpp"
+#include "launcher/job/run_json.hpp"
 #include "launcher/report/report_script.hpp"
 
 namespace turbidite {
@@ -41,6 +45,46 @@ bool has_output(const RunFolder& folder) {
     return std::getline(history, header) && std::getline(history, row);
 }
 
+bool is_over(const RunFolder& folder) {
+    const auto record = read_run_json(folder.record());
+    return record.contains("exit_code") && !record["exit_code"].is_null();
+}
+
+/// Programs that have not come to their MPI_Finalize.
+std::vector<StartRecord> staying(const PreparedRun& prepared) {
+    const bool wet = prepared.settings.flag("fluid.enabled");
+    const auto roles = wet ? std::vector{Role::fluid, Role::grains} : std::vector{Role::grains};
+    auto late = not_yet_at(StartStep::end, prepared.folder.root, roles, prepared.settings);
+    char host[256] = {};
+    gethostname(host, sizeof host - 1);
+    std::erase_if(late, [&](const StartRecord& record) {
+        return record.host == host && kill(static_cast<pid_t>(record.pid), 0) != 0;
+    });
+    return late;
+}
+
+// The run is over when the coupler has written its verdict. A program may stay all the same, in an
+// exit handler of the user or a thread of its host, and the others wait for it in MPI_Finalize.
+class Overdue {
+ public:
+    explicit Overdue(const PreparedRun& prepared)
+        : prepared_(prepared), limit_(prepared.settings.real("limits.stall_hard")) {}
+
+    bool operator()() {
+        if (!over_ && !is_over(prepared_.folder)) return false;
+        if (!over_) over_ = Clock::now();
+        if (std::chrono::duration<double>(Clock::now() - *over_).count() < limit_) return false;
+        fmt::print(stderr, "{}\n", late_end_text(staying(prepared_), limit_));
+        return true;
+    }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+    const PreparedRun& prepared_;
+    double limit_;
+    std::optional<Clock::time_point> over_;
+};
+
 }  // namespace
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
@@ -48,7 +92,7 @@ PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const L
     const auto [folder, lock] = own_run_folder(order, resolved.name);
     const auto line = launch_arguments(resolved.settings, folder, site);
     prepare_run(resolved, folder, line);
-    return {folder, lock, line, rank_names(resolved.settings)};
+    return {folder, lock, line, rank_names(resolved.settings), resolved.settings};
 }
 
 JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
@@ -57,7 +101,8 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
     const JobEnd end = run_job({.arguments = prepared.line,
                                 .error_log = folder.log("mpirun"),
-                                .request_stop = [&](int s) { return request_stop(folder, s); }});
+                                .request_stop = [&](int s) { return request_stop(folder, s); },
+                                .overdue = Overdue(prepared)});
     JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
     std::fflush(stdout);
     const bool done = outcome.code == ExitCode::done;

@@ -14,6 +14,7 @@ struct PreparedRun {
     std::shared_ptr<RunLock> lock;   ///< on the folder
     std::vector<std::string> line;   ///< mpirun and its arguments
     std::vector<std::string> ranks;  ///< who they are, by number
+    Settings settings;
 };
 
 /// Makes and fills the run folder. Throws Failure (exit code 2) when a program is not there or the

@@ -209,7 +209,7 @@ PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& fo
     const auto line = launch_arguments(resolved.settings, folder, site);
     fs::remove_all(folder.fluid());
     prepare_run(resolved, folder, line);
-    return {folder, std::move(lock), line, rank_names(resolved.settings)};
+    return {folder, std::move(lock), line, rank_names(resolved.settings), resolved.settings};
 }
 
 }  // namespace
@@ -259,7 +259,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
     write_record(resolved, folder, chosen->manifest.windows, line);
-    return Resumed{{folder, lock, line, rank_names(resolved.settings)},
+    return Resumed{{folder, lock, line, rank_names(resolved.settings), resolved.settings},
                    chosen->manifest.windows,
                    chosen->manifest.time};
 }

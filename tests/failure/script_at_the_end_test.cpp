@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE leaves a finished run although an engine of the user's script is still at work on the last
-// step.
+// YADE leaves a finished run although the user's script is still at work: an engine on the last
+// step, or an exit handler.
 #include "tests/failure/failing_run.hpp"
 
 namespace turbidite {
@@ -22,9 +22,16 @@ class ScriptAtTheEnd : public FailingRun {
     void SetUp() override {
         FailingRun::SetUp();
         setenv("TURBIDITE_REPORT", "off", 1);
-        std::string script = slow_engine;
-        script.replace(script.find("FOLDER"), 6, scratch.path().string());
+    }
+
+    /// Three windows. SIGKILL, since the first SIGTERM would only ask a hanging run to stop.
+    Answer run_with(std::string script) const {
+        const auto folder = script.find("FOLDER");
+        if (folder != std::string::npos) script.replace(folder, 6, scratch.path().string());
         scratch.write("mine.py", script);
+        return shell("timeout -s KILL 40 " TURBIDITE_PROGRAM " run small.yaml" + into_run_folder() +
+                     " --set grains.adapter=yade-nscd --set grains.script=mine.py"
+                     " --set time.end=0.15");
     }
 
     long steps_of_the_engine() const {
@@ -33,17 +40,29 @@ class ScriptAtTheEnd : public FailingRun {
     }
 };
 
-// Three windows; the step after them finds the run over, and its engine works all the same.
-// SIGKILL, since the first SIGTERM would only ask a hanging run to stop.
+// The step after the last window finds the run over, and its engine works all the same.
 TEST_F(ScriptAtTheEnd, LetsTheRunEnd) {
-    const Answer answer =
-        shell("timeout -s KILL 40 " TURBIDITE_PROGRAM " run small.yaml" + into_run_folder() +
-              " --set grains.adapter=yade-nscd --set grains.script=mine.py"
-              " --set time.end=0.15");
+    const Answer answer = run_with(slow_engine);
     EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, "Done.");
     EXPECT_EQ(record().at("windows_done"), 3);
     EXPECT_EQ(steps_of_the_engine(), 4);
+    expect_nothing_left();
+}
+
+// YADE runs exit handlers of C, and no others. The run is done, and the job ends after
+// limits.stall_hard.
+TEST_F(ScriptAtTheEnd, ThatStaysIsNamedAndKilled) {
+    const Answer answer = run_with(
+        "import ctypes, time\n"
+        "stay = ctypes.CFUNCTYPE(None)(lambda: time.sleep(1000))\n"
+        "ctypes.CDLL(None).__cxa_atexit(stay, None, None)\n");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "the run is over, but grains rank 0 (/usr/bin/yade, host ");
+    EXPECT_SAYS(answer.err, "logs/grains.log) has not ended within limits.stall_hard = 3 s");
+    EXPECT_SAYS(answer.out, "Done.");
+    EXPECT_EQ(record().at("windows_done"), 3);
+    EXPECT_EQ(record().at("exit_code"), 0);
     expect_nothing_left();
 }
 

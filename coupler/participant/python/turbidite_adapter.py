@@ -21,6 +21,7 @@ The calls mean what docs/write-an-adapter.md says, units and fields are those of
 `grains`, `kicks` and `responses` are numpy arrays with named fields (GRAIN, KICK, RESPONSE). An exception ends the
 run for all participants with its text: exit code 4, or 6 for PhysicsRefused. docs/protocol.md describes the bytes.
 """
+import atexit
 import collections
 import os
 import socket
@@ -34,13 +35,14 @@ import numpy
 
 
 def _note_start(step):
-    """Notes for the coupler that this program is about to take a step of its start: docs/protocol.md, Joining."""
+    """Notes for the coupler that this program is about to take a step of its start, or to end: docs/protocol.md."""
     if 'TURBIDITE_MEMBER' in os.environ:
         with open(os.environ['TURBIDITE_MEMBER'], 'a') as record:
             record.write(step + '\n')
 
 
 _note_start('MPI_Init')                # which this import calls
+atexit.register(_note_start, 'end')    # the first one registered is the last one called
 from mpi4py import MPI
 
 PROTOCOL = (1, 7)

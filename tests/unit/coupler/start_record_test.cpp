@@ -72,6 +72,16 @@ TEST_F(StartRecords, NameTheRanksThatHaveNotTakenAStep) {
     EXPECT_EQ(late_at(StartStep::announcement).size(), 7u);
 }
 
+TEST_F(StartRecords, NameThoseThatStayAfterTheEnd) {
+    start(Role::fluid, 0, {StartStep::announcement, StartStep::end});
+    start(Role::grains, 3, {StartStep::announcement});
+    const auto late = late_at(StartStep::end);
+    ASSERT_EQ(late.size(), 1u);
+    EXPECT_EQ(late_end_text(late, 600.0),
+              "the run is over, but grains rank 3 (/bin/code, host node07, pid 13, log "
+              "logs/code.log) has not ended within limits.stall_hard = 600 s and is killed");
+}
+
 // A program started by hand has no record.
 TEST_F(StartRecords, MayBeMissing) {
     note_start(StartStep::split);

@@ -101,6 +101,18 @@ TEST_F(JobTest, NamesAProgramThatIsNotThere) {
     }
 }
 
+TEST_F(JobTest, KillsAProgramThatIsOverdue) {
+    int asked = 0;
+    const JobEnd end = run_job({.arguments = {"sleep", "60"},
+                                .error_log = scratch.path() / "stderr",
+                                .request_stop = [](int) { return true; },
+                                .overdue = [&] { return ++asked == 2; }});
+    EXPECT_EQ(asked, 2);
+    EXPECT_EQ(end.signal, 0);
+    // By SIGTERM, or by SIGKILL where another test has left SIGTERM blocked for the child.
+    EXPECT_TRUE(end.status == 128 + SIGTERM || end.status == 128 + SIGKILL) << end.status;
+}
+
 TEST_F(JobTest, FirstSignalIsARequest) {
     const std::string stop = (scratch.path() / "STOP").string();
     const Later signal(1, SIGTERM);
