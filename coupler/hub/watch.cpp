@@ -18,8 +18,7 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     const bool fluid = link.role() == Role::fluid;
     enter(timeline_, Timeline::Part::wait, fluid ? "wait for the fluid" : "wait for the grains",
           link.window());
-    double& usual = usual_wait_[{kind, link.iteration()}];
-    Patience patience(usual);
+    Patience patience;
     for (;; patience.wait(any_in_transit())) {
         if (signal_ && *signal_) throw EndedFromOutside{};
         for (ParticipantLink* other : links_) other->pump();
@@ -35,8 +34,7 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
             next_notice *= 2.0;
         }
     }
-    usual = patience.seconds();
-    waited_ += usual;
+    waited_ += patience.seconds();
     enter(timeline_, Timeline::Part::compute, "check and route", link.window());
 }
 

@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <functional>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,8 +51,6 @@ class Watch {
     const volatile std::sig_atomic_t* signal_ = nullptr;
     Timeline* timeline_ = nullptr;
     double waited_ = 0.0;
-    /// Duration of the last wait [s], by kind and round.
-    std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;
 };
 
 }  // namespace turbidite

@@ -9,11 +9,9 @@ Conversation::Conversation(Role role, Channel& channel)
     : channel_(channel), order_(role, "coupler") {}
 
 FramedMessage Conversation::next() {
-    double& usual = usual_wait_[{order_.due().front().kind, order_.iteration()}];
     enter(timeline_, Timeline::Part::wait, "wait for the coupler", order_.window());
-    for (Patience patience(usual);; patience.wait(channel_.in_transit())) {
+    for (Patience patience;; patience.wait(channel_.in_transit())) {
         if (auto frame = channel_.try_receive()) {
-            usual = patience.seconds();
             enter(timeline_, Timeline::Part::transfer, "receive", order_.window());
             return FramedMessage(std::move(frame->bytes));
         }

@@ -4,7 +4,6 @@
 // not this.
 #pragma once
 
-#include <map>
 #include <utility>
 
 #include "coupler/protocol/call_order.hpp"
@@ -81,8 +80,6 @@ class Conversation {
     CallOrder order_;
     Timeline* timeline_ = nullptr;
     double limit_ = 600.0;
-    /// Duration of the last wait [s], by kind and round.
-    std::map<std::pair<Kind, std::int64_t>, double> usual_wait_;
 };
 
 }  // namespace turbidite

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <sys/prctl.h>
+
 #include <algorithm>
 #include <thread>
 
@@ -7,15 +9,18 @@
 namespace turbidite {
 namespace {
 
-constexpr double hot = 50e-6;       // [s] of polling first: most answers on an idle machine
-constexpr int shortest_sleep = 20;  // [us] near the expected arrival
-constexpr int longest_sleep = 400;  // [us] limits the delay that sleeping adds to a window
-constexpr double alert_from = 0.9;  // of the expected wait: from here on sleeps are short
-constexpr double alert_until = 1.2;
+constexpr double hot = 50e-6;             // [s] of polling first: answers that come at once
+constexpr double share = 1.0 / 64.0;      // of the time waited so far: what a sleep may add to it
+constexpr double shortest_sleep = 20e-6;  // [s]
+constexpr double longest_sleep = 2e-3;    // [s]
+
+/// By default Linux wakes a sleeper up to 50 us late.
+void sleep_exactly() {
+    static thread_local const int once = ::prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
+    static_cast<void>(once);
+}
 
 }  // namespace
-
-Patience::Patience(double expected) : start_(Clock::now()), expected_(expected) {}
 
 double Patience::seconds() const {
     return std::chrono::duration<double>(Clock::now() - start_).count();
@@ -25,10 +30,9 @@ void Patience::wait(bool in_transit) {
     if (in_transit) return std::this_thread::yield();  // the other end may need this core
     const double waited = seconds();
     if (waited < hot) return;
-    int sleep = std::min(shortest_sleep << std::min(sleeps_++, 5), longest_sleep);
-    const bool near_arrival = waited > alert_from * expected_ && waited < alert_until * expected_;
-    if (near_arrival) sleep = shortest_sleep;
-    std::this_thread::sleep_for(std::chrono::microseconds(sleep));
+    sleep_exactly();
+    const double sleep = std::clamp(share * waited, shortest_sleep, longest_sleep);
+    std::this_thread::sleep_for(std::chrono::duration<double>(sleep));
 }
 
 }  // namespace turbidite

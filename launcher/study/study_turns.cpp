@@ -17,6 +17,12 @@ constexpr std::chrono::minutes for_the_others{20};
 
 }  // namespace
 
+StudyTurns::StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out)
+    : plan_(&plan), out_(std::move(out)) {
+    for (const PlannedRun& run : plan)
+        if (state_of(run, out_) == RunState::failed) had_failed_.insert(&run);
+}
+
 std::shared_ptr<RunLock> StudyTurns::lock() const {
     auto lock = RunLock::take(out_, for_the_others);
     if (!lock)
@@ -28,7 +34,10 @@ std::shared_ptr<RunLock> StudyTurns::lock() const {
 }
 
 bool StudyTurns::is_to_come(const PlannedRun& run) const {
-    return given_.count(&run) == 0 && state_of(run, out_) != RunState::done;
+    if (given_.count(&run) > 0) return false;
+    const RunState state = state_of(run, out_);
+    return state == RunState::missing || state == RunState::begun ||
+           (state == RunState::failed && had_failed_.count(&run) > 0);
 }
 
 std::vector<const PlannedRun*> StudyTurns::to_come() const {

@@ -18,15 +18,14 @@ namespace turbidite {
 class StudyTurns {
  public:
     /// `plan` must outlive it. `out`: the study's folder, which must exist.
-    StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out)
-        : plan_(&plan), out_(std::move(out)) {}
+    StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out);
 
     /// Keeps the others from choosing and writing as long as it lives. Throws Failure (exit code 2)
     /// if another keeps it for minutes.
     std::shared_ptr<RunLock> lock() const;
 
-    /// The first run that is not done, that nobody plays and that was not given before: a run that
-    /// failed is played once. Null if there is none.
+    /// The first run that is not done, that nobody plays and that was not given before. A run that
+    /// had failed is played again, one that fails meanwhile is not. Null if there is none.
     const PlannedRun* next();
 
     /// Those that are not done and were not given before, also if others play them now.
@@ -42,6 +41,7 @@ class StudyTurns {
     const std::vector<PlannedRun>* plan_;
     std::filesystem::path out_;
     std::set<const PlannedRun*> given_;
+    std::set<const PlannedRun*> had_failed_;
 };
 
 }  // namespace turbidite

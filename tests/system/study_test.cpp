@@ -182,6 +182,23 @@ TEST_F(StudyRuns, TwoAtOnceShareTheRuns) {
     EXPECT_EQ(column("status"), std::vector<std::string>(5, "done"));
 }
 
+// The second process comes to the end of the list after the run has failed in the first.
+TEST_F(StudyRuns, ARunThatFailsIsPlayedByOneOfTwo) {
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, variants: {coarse: {time.step: 0.5, time.end: 5, "
+                  "limits.penetration: 1e-9}, a: {}, b: {}, c: {}}, set: {time.end: 2, time.step: "
+                  "0.002}}");
+    const std::string line =
+        "timeout 100 " + std::string(TURBIDITE_PROGRAM) + " study frictions.yaml --out s";
+    shell(fmt::format("{0} > first & {0} > second; wait", line));
+    const std::string said = text(scratch.path() / "first") + text(scratch.path() / "second");
+    const auto played = said.find("frictions/coarse");
+    EXPECT_NE(played, std::string::npos) << said;
+    EXPECT_EQ(said.find("] frictions/coarse", played), std::string::npos) << said;
+    EXPECT_SAYS(text(scratch.path() / "s/study.csv"), "physics refused");
+    EXPECT_SAYS(said, "3 of 4 runs done");
+}
+
 TEST_F(StudyRuns, NothingStartsWhenARunIsWrong) {
     scratch.write("frictions.yaml",
                   "{case: column.yaml, sweep: {contact.friction: [0, 0.3, -0.6]}}");
