@@ -19,7 +19,7 @@ constexpr int windows_until_refused = 3;
 /// Advice on reducing overlaps; for springs, their own keys set the stiffness and with it the
 /// sub-steps.
 std::string against_overlap(const std::string& adapter) {
-    if (adapter == "yade-md" || adapter == "lammps-md")
+    if (adapter == "yade-md" || adapter == "lammps-md" || adapter == "standalone-md")
         return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
     if (adapter == "external")
         return "Use a smaller time.step, or stiffer or better converged contacts in your program.";
@@ -56,7 +56,7 @@ void Ledger::resume(const LedgerState& state) {
 }
 
 void Ledger::check(const Window& window, const WindowResult& result) {
-    check_overlap(result.state);
+    check_overlap(window, result.state);
     check_divergence(result.kicks.report);
     check_multipliers(result.kicks.report);
     if (settings_.run.wet) check_balances(window, result);
@@ -89,12 +89,13 @@ void Ledger::judge(Balance& balance, double defect, const Window& window,
     warn_("turbidite: warning: " + text("soft", balance.limits.soft));
 }
 
-void Ledger::check_overlap(const Motion& state) const {
+void Ledger::check_overlap(const Window& window, const Motion& state) const {
     const double overlap = state.report.max_penetration / settings_.run.diameter;
     if (overlap <= settings_.penetration) return;
-    throw PhysicsRefused(
-        fmt::format("grains overlap by {:.3g} D, limits.penetration = {:.3g} D. {}", overlap,
-                    settings_.penetration, against_overlap(settings_.grains_adapter)));
+    throw PhysicsRefused(fmt::format(
+        "overlap of {:.3g} D in window {}, reported by {}; limits.penetration = {:.3g} D. {}",
+        overlap, window.index, grains_, settings_.penetration,
+        against_overlap(settings_.grains_adapter)));
 }
 
 void Ledger::check_divergence(const FluidReport& report) {

@@ -37,7 +37,7 @@ class Ledger {
     void check(const Window& window, const WindowResult& result);
 
  private:
-    void check_overlap(const Motion& state) const;
+    void check_overlap(const Window& window, const Motion& state) const;
     void check_divergence(const FluidReport& report);
     void check_multipliers(const FluidReport& report);
 

@@ -58,10 +58,7 @@ class ParticipantLink {
     /// A long frame is on its way, see Channel.
     bool in_transit() const { return channel_.in_transit(); }
 
-    /// Rounds begun in the present window, as the coupler's order counts them.
-    std::int64_t iteration() const { return ranks_.front().order.iteration(); }
-
-    /// The present one, as the coupler's order counts; -1 before the first.
+    /// The present window, as the coupler's order counts; -1 before the first.
     std::int64_t window() const { return ranks_.front().order.window(); }
 
     /// True when every rank has delivered a message of this kind.

@@ -26,6 +26,10 @@ void Conversation::send(Kind kind) {
     channel_.send(0, frame({order_.next_sent(kind, to_coupler), {}}));
 }
 
+void Conversation::see_off() {
+    for (Patience patience; !channel_.flushed() && channel_.in_transit();) patience.wait(true);
+}
+
 FramedMessage Conversation::receive() {
     FramedMessage message = next();
     order_.received(message.envelope, from_coupler);

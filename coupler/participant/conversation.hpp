@@ -57,6 +57,10 @@ class Conversation {
         channel_.send(0, framed(order_.next_sent(kind, to_coupler), record));
     }
 
+    /// Attends to what was sent until it has gone or the coupler turns out to be busy: what the
+    /// host does between windows would hold up a long frame.
+    void see_off();
+
     /// Waits for the message that is due; after a round the coupler decides which of two it is.
     /// Throws Dismissed, OrderViolation, MalformedPayload, CouplerSilent.
     FramedMessage receive();

@@ -93,6 +93,7 @@ bool Session::step() {
             else
                 checkpoint(message);
         }
+        talk_->conversation.see_off();
     });
 }
 

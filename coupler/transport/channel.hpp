@@ -37,9 +37,10 @@ class Channel {
     virtual bool in_transit() const { return false; }
 };
 
-/// Waiting without continuous polling: polls for 50 us, then sleeps for a 64th of the time waited so
-/// far, at most 2 ms, so that a waiting process leaves its core to one that computes and adds less
-/// than two per cent to what it waits for. No sleeps while a frame moves.
+/// Waiting without continuous polling: polls for 50 us, then sleeps for a 64th of the time waited
+/// so far, 20 us to 2 ms, so that a waiting process leaves its core to one that computes and adds
+/// little to what it waits for. A ring of the doorbell ends a sleep, and polling begins again. No
+/// sleeps while a frame moves.
 class Patience {
  public:
     using Clock = std::chrono::steady_clock;
@@ -51,6 +52,7 @@ class Patience {
 
  private:
     Clock::time_point start_ = Clock::now();
+    Clock::time_point last_ring_ = start_;
 };
 
 }  // namespace turbidite

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/transport/world.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -35,6 +37,7 @@ std::chrono::steady_clock::time_point attended_until(std::size_t bytes, double r
 
 IntercommChannel::IntercommChannel(MPI_Comm intercomm) : intercomm_(intercomm) {
     PMPI_Comm_remote_size(intercomm_, &peers_);
+    for (const int rank : world_ranks_of_peers(intercomm_)) bells_.emplace_back(bell_name(rank));
 }
 
 void IntercommChannel::send(int peer, Bytes bytes) {
@@ -47,6 +50,7 @@ void IntercommChannel::send(int peer, Bytes bytes) {
     frame.attended_until = attended_until(frame.bytes.size(), slow_sending);
     PMPI_Isend(frame.bytes.data(), static_cast<int>(frame.bytes.size()), MPI_BYTE, peer, frame_tag,
                intercomm_, &frame.request);
+    bells_[static_cast<std::size_t>(peer)].ring();
 }
 
 std::optional<Channel::Frame> IntercommChannel::try_receive() {

@@ -6,8 +6,10 @@
 #include <mpi.h>
 
 #include <list>
+#include <vector>
 
 #include "coupler/transport/channel.hpp"
+#include "coupler/transport/doorbell.hpp"
 
 namespace turbidite {
 
@@ -40,7 +42,8 @@ class IntercommChannel final : public Channel {
 
     MPI_Comm intercomm_;
     int peers_ = 0;
-    std::list<Pending> pending_;  // frames that MPI still reads from
+    std::vector<BellButton> bells_;  // of the peers
+    std::list<Pending> pending_;     // frames that MPI still reads from
     std::list<Incoming>
         incoming_;  // frames that MPI still writes to, in the order of their sending
 };

@@ -5,12 +5,13 @@
 #include <thread>
 
 #include "coupler/transport/channel.hpp"
+#include "coupler/transport/doorbell.hpp"
 
 namespace turbidite {
 namespace {
 
 constexpr double hot = 50e-6;             // [s] of polling first: answers that come at once
-constexpr double share = 1.0 / 64.0;      // of the time waited so far: what a sleep may add to it
+constexpr double share = 1.0 / 64.0;      // of the time waited: what a sleep may add to it, unrung
 constexpr double shortest_sleep = 20e-6;  // [s]
 constexpr double longest_sleep = 2e-3;    // [s]
 
@@ -20,19 +21,23 @@ void sleep_exactly() {
     static_cast<void>(once);
 }
 
+double seconds_since(Patience::Clock::time_point past) {
+    return std::chrono::duration<double>(Patience::Clock::now() - past).count();
+}
+
 }  // namespace
 
 double Patience::seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
+    return seconds_since(start_);
 }
 
 void Patience::wait(bool in_transit) {
     if (in_transit) return std::this_thread::yield();  // the other end may need this core
-    const double waited = seconds();
+    const double waited = seconds_since(last_ring_);
     if (waited < hot) return;
     sleep_exactly();
-    const double sleep = std::clamp(share * waited, shortest_sleep, longest_sleep);
-    std::this_thread::sleep_for(std::chrono::duration<double>(sleep));
+    if (Doorbell::own().sleep(std::clamp(share * waited, shortest_sleep, longest_sleep)))
+        last_ring_ = Clock::now();
 }
 
 }  // namespace turbidite

@@ -6,6 +6,8 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/start_record.hpp"
 #include "coupler/transport/channel.hpp"
+#include "coupler/transport/doorbell.hpp"
 
 namespace turbidite {
 namespace {
@@ -20,6 +23,13 @@ namespace {
 constexpr int first_colour = 1000;  // private: 3 is YADE's, 1 EOF-Library's, small ones APPNUMs
 constexpr int announcement_tag = 1000;
 constexpr int intercomm_tag = 1010;  // + role
+
+/// Before the intercommunicator, whose other end may ring at once.
+void hang_doorbell() {
+    int rank = 0;
+    PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    Doorbell::own().hang(bell_name(rank));
+}
 
 }  // namespace
 
@@ -52,6 +62,7 @@ MPI_Comm join_coupler(MPI_Comm local, Role role) {
     int rank = 0, ranks = 0;
     PMPI_Comm_rank(local, &rank);
     PMPI_Comm_size(local, &ranks);
+    hang_doorbell();
     note_start(StartStep::announcement);
     if (rank == 0) {
         const std::array<int, 2> announcement = {static_cast<int>(role), ranks};
@@ -66,6 +77,7 @@ MPI_Comm join_coupler(MPI_Comm local, Role role) {
 JoinedParticipant accept_participant(MPI_Comm local, double limit) {
     MPI_Status status;
     int arrived = 0;
+    hang_doorbell();
     for (Patience patience; !arrived; patience.wait()) {
         PMPI_Iprobe(MPI_ANY_SOURCE, announcement_tag, MPI_COMM_WORLD, &arrived, &status);
         if (!arrived && patience.seconds() > limit)
@@ -82,6 +94,26 @@ JoinedParticipant accept_participant(MPI_Comm local, double limit) {
     PMPI_Intercomm_create(local, 0, MPI_COMM_WORLD, status.MPI_SOURCE,
                           intercomm_tag + announcement[0], &joined.intercomm);
     return joined;
+}
+
+std::vector<int> world_ranks_of_peers(MPI_Comm intercomm) {
+    MPI_Group peers = MPI_GROUP_NULL, world = MPI_GROUP_NULL;
+    PMPI_Comm_remote_group(intercomm, &peers);
+    PMPI_Comm_group(MPI_COMM_WORLD, &world);
+    int count = 0;
+    PMPI_Group_size(peers, &count);
+    std::vector<int> there(static_cast<std::size_t>(count)), ranks(there.size());
+    std::iota(there.begin(), there.end(), 0);
+    PMPI_Group_translate_ranks(peers, count, there.data(), world, ranks.data());
+    PMPI_Group_free(&peers);
+    PMPI_Group_free(&world);
+    return ranks;
+}
+
+// PMIx names the jobs of a host.
+std::string bell_name(int world_rank) {
+    const char* job = std::getenv("PMIX_NAMESPACE");
+    return std::string("turbidite/") + (job ? job : "") + "/" + std::to_string(world_rank);
 }
 
 struct StartWatch::State {

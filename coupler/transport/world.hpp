@@ -12,6 +12,8 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "coupler/protocol/hello.hpp"
 
@@ -45,6 +47,12 @@ struct JoinedParticipant {
 
 /// The coupler: waits for the next announcement. Throws Failure (stalled) after `limit` seconds.
 JoinedParticipant accept_participant(MPI_Comm local, double limit);
+
+/// The world ranks of the processes at the other end.
+std::vector<int> world_ranks_of_peers(MPI_Comm intercomm);
+
+/// The doorbell of a process of this job, which hangs as soon as it has an intercommunicator.
+std::string bell_name(int world_rank);
 
 /// Ends a job that hangs during its start: unless `disarm`ed within `limit` seconds the process
 /// calls `expired` and exits with code `stalled`, which makes mpirun end the job. Used for the

@@ -24,6 +24,7 @@ run for all participants with its text: exit code 4, or 6 for PhysicsRefused. do
 import atexit
 import collections
 import os
+import select
 import socket
 import struct
 import sys
@@ -202,11 +203,40 @@ class _Dismissed(Exception):
         self.code, self.reason = code, reason
 
 
+class _Doorbell:
+    """Lets a process of the same host end our sleep, and us the coupler's (docs/protocol.md)."""
+
+    def __init__(self):
+        self.name = '\0turbidite/' + os.environ.get('PMIX_NAMESPACE', '') + '/'
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.socket.setblocking(False)
+        try:
+            self.socket.bind(self.name + str(MPI.COMM_WORLD.rank))
+        except OSError:                                 # the name is taken: nobody can ring
+            pass
+
+    def ring_coupler(self):
+        try:
+            self.socket.sendto(b'.', self.name + '0')
+        except OSError:                                 # on another host, or it has rings to hear
+            pass
+
+    def sleep(self, seconds):
+        if not select.select([self.socket], [], [], seconds)[0]:
+            return
+        try:
+            while True:
+                self.socket.recv(1)                     # several rings are one
+        except BlockingIOError:
+            pass
+
+
 class _Coupler:
     """Frames to and from the coupler, rank 0 of the other side of the intercommunicator."""
 
     def __init__(self, local, run_folder):
         self.local, self.run_folder = local, run_folder
+        self.bell = _Doorbell()                         # before the intercommunicator, whose other end may ring at once
         if local.rank == 0:
             MPI.COMM_WORLD.Send(numpy.array([GRAINS, local.size], 'i'), 0, ANNOUNCEMENT_TAG)
         self.comm = local.Create_intercomm(0, MPI.COMM_WORLD, 0, INTERCOMM_TAG + GRAINS)
@@ -220,15 +250,16 @@ class _Coupler:
         # A blocking send of a long frame would wait for a coupler that is stopped or gone.
         self.pending = [(kept, request) for kept, request in self.pending if not request.Test()]
         self.pending.append((frame, self.comm.Isend([frame, MPI.BYTE], 0, FRAME_TAG)))
+        self.bell.ring_coupler()
 
     def next(self):
         """(kind, Reader) of the next message; sleeps while it waits, so that others can use the core."""
-        status, start, pause = MPI.Status(), time.monotonic(), 20e-6
+        status, start = MPI.Status(), time.monotonic()
         while not self.comm.Iprobe(0, FRAME_TAG, status):
-            if time.monotonic() - start > self.limit:
+            waited = time.monotonic() - start
+            if waited > self.limit:
                 self.give_up(f'the coupler has been silent for {self.limit:.0f} s')
-            time.sleep(pause)
-            pause = min(2 * pause, 400e-6)
+            self.bell.sleep(min(max(waited / 64, 20e-6), 2e-3))
         frame = bytearray(status.Get_count(MPI.BYTE))
         self.comm.Recv([frame, MPI.BYTE], 0, FRAME_TAG)
         reader = Reader(memoryview(frame))

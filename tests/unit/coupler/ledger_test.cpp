@@ -58,7 +58,9 @@ TEST_F(LedgerTest, BoundsTheOverlap) {
     result.state.report.max_penetration = 0.2;
     EXPECT_EQ(complaint(), "");
     result.state.report.max_penetration = 0.21;
-    EXPECT_SAYS(complaint(), "grains overlap by 0.21 D, limits.penetration = 0.2 D");
+    EXPECT_SAYS(
+        complaint(),
+        "overlap of 0.21 D in window 7, reported by grains (my-code); limits.penetration = 0.2 D");
     result.state.report.max_penetration = not_a_number;
     EXPECT_NE(complaint(), "");
 }
@@ -67,11 +69,13 @@ TEST_F(LedgerTest, BoundsTheOverlap) {
 TEST_F(LedgerTest, AdvisesHowToReduceOverlaps) {
     result.state.report.max_penetration = 0.21;
     EXPECT_SAYS(complaint(), "Use a smaller time.step, or more contact.iterations.");
-    Settings settings = test_settings();
-    settings.set("grains.adapter", std::string("yade-md"));
-    ledger = make(settings);
-    EXPECT_SAYS(complaint(), "Use a smaller contact.md_overlap");
-    EXPECT_EQ(complaint().find("contact.iterations"), std::string::npos);
+    for (const char* springs : {"yade-md", "lammps-md", "standalone-md"}) {
+        Settings settings = test_settings();
+        settings.set("grains.adapter", std::string(springs));
+        ledger = make(settings);
+        EXPECT_SAYS(complaint(), "Use a smaller contact.md_overlap");
+        EXPECT_EQ(complaint().find("contact.iterations"), std::string::npos);
+    }
 }
 
 TEST_F(LedgerTest, ToleratesTwoDivergentWindowsButNotThree) {
