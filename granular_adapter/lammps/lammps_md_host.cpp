@@ -47,7 +47,7 @@ std::string LammpsMdHost::code() const {
     return "LAMMPS " + std::to_string(lammps_->version());
 }
 
-void LammpsMdHost::create(const Settings& settings, const nscd::Bodies& bodies) {
+void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nscd::Bodies& bodies) {
     const RunValues run = run_values(settings);
     gravity_ = run.gravity;
     width_ = run.size[0], height_ = run.size[1];

@@ -30,7 +30,8 @@ class LammpsMdHost final : public MdHost {
 
     std::string code() const override;
     double velocity_lag() const override { return 0.0; }
-    void create(const Settings& settings, const nscd::Bodies& bodies) override;
+    void create(const Settings& settings, const ShapeTable& shapes,
+                const nscd::Bodies& bodies) override;
     void read(nscd::Bodies& bodies) const override;
     void write(const nscd::Bodies& bodies) override;
     SubstepReport run(const Substeps& substeps, const std::vector<Load>& loads) override;

@@ -13,11 +13,6 @@ const char* const loads_fix = "loads";
 
 namespace {
 
-// Ratio of tangential to normal stiffness and damping for which both directions oscillate with the
-// same period: an impulse moves the contact point of a disc three times as far along the contact
-// as across it.
-constexpr double tangential = 1.0 / 3.0;
-
 void run_all(Library& lammps, std::initializer_list<std::string> lines) {
     for (const std::string& line : lines) lammps.command(line);
 }
@@ -28,8 +23,8 @@ std::string contact(const SoftLaw& law, double reduced_mass) {
     return fmt::format(
         "hooke {:.17g} {:.17g} tangential linear_history {:.17g} {:.17g} {:.17g} damping "
         "mass_velocity limit_damping",
-        stiffness, 2.0 * law.damping * law.frequency, tangential * stiffness, tangential,
-        law.friction);
+        stiffness, 2.0 * law.damping * law.frequency, tangential_share * stiffness,
+        tangential_share, law.friction);
 }
 
 void declare_pairs(Library& lammps, const SoftLaw& law, const std::vector<double>& masses) {
@@ -75,11 +70,6 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
 }
 
 }  // namespace
-
-SoftLaw::SoftLaw(const Settings& settings)
-    : frequency(settings.real("run.md_frequency")),
-      damping(settings.real("run.md_damping")),
-      friction(settings.real("contact.friction")) {}
 
 void declare_box(Library& lammps, double width, double height, std::size_t types) {
     run_all(lammps,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // The commands that make LAMMPS' granular package a scene of discs between walls, with the contact
-// law of docs/md.md: linear spring and dashpot without attraction, tangential ones a third as
-// strong, Coulomb friction.
+// law of md/soft_law.hpp.
 #pragma once
 
 #include <string>
@@ -12,17 +11,9 @@
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/lammps/lammps_library.hpp"
 #include "granular_adapter/lammps/mass_classes.hpp"
+#include "granular_adapter/md/soft_law.hpp"
 
 namespace turbidite::lammps {
-
-/// The parameters of a contact (launcher/case/soft_contact.hpp).
-struct SoftLaw {
-    explicit SoftLaw(const Settings& settings);
-
-    double frequency;  ///< w [1/s]
-    double damping;    ///< zeta
-    double friction;   ///< mu
-};
 
 /// The fix that calls the host in every sub-step, after all contact forces.
 extern const char* const loads_fix;

@@ -45,11 +45,18 @@ void refuse_cyclic(const std::vector<Border>& borders) {
                                         "this version; allowed: wall, free");
 }
 
-void refuse_other_shapes(const ShapeTable& shapes) {
+std::string listed(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+void refuse_other_shapes(const ShapeTable& shapes, const std::vector<std::string>& known) {
     for (const ShapeRecord& shape : shapes)
-        if (shape.kind != "disc")
-            throw std::invalid_argument("shape \"" + shape.kind +
-                                        "\" is unknown to molecular dynamics; allowed: disc");
+        if (std::find(known.begin(), known.end(), shape.kind) == known.end())
+            throw std::invalid_argument(
+                "shape \"" + shape.kind +
+                "\" is unknown to this molecular dynamics; allowed: " + listed(known));
 }
 
 double deepest_overlap(const nscd::Bodies& bodies, const ShapeTable& shapes,
@@ -75,7 +82,7 @@ Hello MdAdapter::describe() const {
     hello.capabilities.restores_within_window = true;
     hello.capabilities.serialises_state = true;
     hello.capabilities.native_substeps = true;
-    hello.capabilities.shapes = {"disc"};
+    hello.capabilities.shapes = host_.shapes();
     hello.capabilities.contact_laws = {"linear-spring-dashpot"};
     return hello;
 }
@@ -89,7 +96,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     substep_count_ = settings.integer("run.md_substeps");
     borders_ = lay_borders(settings);
     refuse_cyclic(borders_);
-    refuse_other_shapes(shapes);
+    refuse_other_shapes(shapes, host_.shapes());
     agree([&] {
         if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
         add_grains(bodies_, run_, shapes, grains);
@@ -98,7 +105,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     });
     if (broken_) return motion(bodies_);
     held_.assign(bodies_.size(), {});
-    host_.create(settings, bodies_);
+    host_.create(settings, shapes, bodies_);
     follow_migration(nullptr);
     report_ = {};
     report_.max_penetration = deepest_overlap(bodies_, shapes, walls_of(borders_));

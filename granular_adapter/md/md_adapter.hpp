@@ -47,15 +47,15 @@ class MdAdapter final : public GrainsAdapter {
 
     Hello describe() const override;
 
-    /// Throws std::invalid_argument naming a cyclic side, or a shape that is not a disc.
+    /// Throws std::invalid_argument naming a cyclic side, or a shape that the host cannot move.
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
 
     /// In windows with output the contact impulses are those summed by the host; in the others they
-    /// follow from the change of momentum. With responses, of which only the velocities are used,
-    /// the window is played again from t^n: each grain holds the impulse J_h + cM (U - U^{n+4/5})
-    /// that would take it to the velocity U if its contacts stayed as they were
-    /// (run.repeats_windows). Throws std::runtime_error if there are responses otherwise.
+    /// follow from the change of momentum if it does not sum them. With responses, of which only
+    /// the velocities are used, the window is played again from t^n: each grain holds the impulse
+    /// J_h + cM (U - U^{n+4/5}) that would take it to the velocity U if its contacts stayed as they
+    /// were (run.repeats_windows). Throws std::runtime_error if there are responses otherwise.
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override;
 
     /// One kick per grain, or none if the case has no fluid.

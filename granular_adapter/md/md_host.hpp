@@ -40,7 +40,7 @@ struct SubstepReport {
     std::int64_t contacts = 0;     ///< with a force in the last sub-step
     double max_penetration = 0.0;  ///< largest overlap found by the host's probes, >= 0 [m]
     /// Sum over the sub-steps of delta times all forces except gravity, one per body, and the same
-    /// for moments; only if requested. [N s], [N m s]
+    /// for moments; may be empty unless requested. [N s], [N m s]
     std::vector<Vec3> impulses, angular_impulses;
     /// Contacts after the last sub-step, their impulses being its forces times the window; only if
     /// requested.
@@ -54,12 +54,17 @@ class MdHost {
     /// Name and version of the code, e.g. "YADE 2023.02a".
     virtual std::string code() const = 0;
 
+    /// Shapes that it can move, names of shapes/shape_list.
+    virtual std::vector<std::string> shapes() const { return {"disc"}; }
+
     /// How far velocities are behind positions, in sub-steps: 1 for leap-frog, whose velocities
     /// belong to the middle of a sub-step and positions to its end; 0 for velocity Verlet.
     virtual double velocity_lag() const { return 1.0; }
 
-    /// Creates the bodies, with the given mass and inertia, and the walls of the domain.
-    virtual void create(const Settings& settings, const nscd::Bodies& bodies) = 0;
+    /// Creates the bodies, with the given mass and inertia, and the walls of the domain. `shapes`
+    /// are those of the run, all of them among shapes().
+    virtual void create(const Settings& settings, const ShapeTable& shapes,
+                        const nscd::Bodies& bodies) = 0;
 
     /// Reads positions, orientations and velocities.
     virtual void read(nscd::Bodies& bodies) const = 0;

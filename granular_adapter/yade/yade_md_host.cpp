@@ -45,7 +45,7 @@ bool is_zero(const Load& load) {
 YadeMdHost::YadeMdHost(python::object scene, std::string yade_version)
     : scene_(std::move(scene)), version_(std::move(yade_version)) {}
 
-void YadeMdHost::create(const Settings& settings, const nscd::Bodies& bodies) {
+void YadeMdHost::create(const Settings& settings, const ShapeTable&, const nscd::Bodies& bodies) {
     ids_ = ids_of(scene_.attr("create")(settings_dict(settings), grain_list(bodies)));
     fetch_bodies(bodies.size());
     radii_ = bodies.radius;

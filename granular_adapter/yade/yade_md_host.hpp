@@ -25,7 +25,8 @@ class YadeMdHost final : public MdHost {
     YadeMdHost(boost::python::object scene, std::string yade_version);
 
     std::string code() const override { return "YADE " + version_; }
-    void create(const Settings& settings, const nscd::Bodies& bodies) override;
+    void create(const Settings& settings, const ShapeTable& shapes,
+                const nscd::Bodies& bodies) override;
     void read(nscd::Bodies& bodies) const override;
     void write(const nscd::Bodies& bodies) override;
     SubstepReport run(const Substeps& substeps, const std::vector<Load>& loads) override;

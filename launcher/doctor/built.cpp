@@ -32,6 +32,7 @@ std::vector<fs::path> files_of_build(const Programs& programs) {
             programs.member(),
             programs.fluid(),
             programs.folder / "turbidite-grains",
+            programs.folder / "turbidite-grains-md",
             programs.folder / "turbidite-lammps",
             programs.yade_extension(),
             yade / "turbidite_contact_engine.so",

@@ -56,6 +56,7 @@ RULES = [
     ("granular_adapter/grains/*.[hc]pp", [YADE, PYTHON], "the grains of a case are for any host"),
     ("granular_adapter/nscd_adapter/*.[hc]pp", [YADE, PYTHON], "the engine's adapter is for any host"),
     ("granular_adapter/md/*.[hc]pp", [YADE, LAMMPS, PYTHON, MPI], "molecular dynamics is for any host"),
+    ("granular_adapter/soft/*.[hc]pp", [YADE, LAMMPS, PYTHON, MPI], "soft grains need no other code"),
     ("granular_adapter/yade/*.[hc]pp", [LAMMPS], "hosts do not know each other"),
     ("granular_adapter/lammps/*.[hc]pp", [YADE, PYTHON], "hosts do not know each other"),
     ("coupler/**/*.[hc]pp", [LAMMPS], "the coupler knows no host"),

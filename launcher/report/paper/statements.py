@@ -50,15 +50,22 @@ def triangles_are_slower(runs):
     return (f'rest at {spread(triangles)} against {spread(discs)} t_c: {100 * (ratio - 1):+.0f} %', 1.0 < ratio < 1.2)
 
 
-def md_is_like_nscd(runs):
-    nscd, md = (runs.member('sedimentation', variant=variant) for variant in ('discs-nscd', 'discs-md'))
+def md_from_nscd(runs, shape):
+    """Mean difference of the mean vertical velocities over the largest; None where a run is missing."""
+    nscd, md = (runs.member('sedimentation', variant=f'{shape}-{method}') for method in ('nscd', 'md'))
     if nscd is None or md is None:
         return None
     apart = difference(nscd.data.column('mean_velocity_y'), md.data.column('mean_velocity_y'))
-    if apart is None or not apart.scale:
+    return apart.relative(apart.mean) if apart is not None and apart.scale else None
+
+
+def md_is_like_nscd(runs):
+    shares = {shape: md_from_nscd(runs, shape) for shape in ('discs', 'triangles')}
+    shares = {shape: share for shape, share in shares.items() if share is not None}
+    if not shares:
         return None
-    share = apart.relative(apart.mean)
-    return f'⟨u_y⟩ differs by {100 * share:.2g} % of its largest value on average', share < SAME_CURVE
+    text = ', '.join(f'{shape}: {100 * share:.2g} %' for shape, share in shares.items())
+    return f'⟨u_y⟩ differs by, of its largest value on average, {text}', max(shares.values()) < SAME_CURVE
 
 
 def dry_peak(runs):

@@ -48,7 +48,7 @@ struct Scene {
           MPI_Comm communicator = MPI_COMM_SELF) {
         for (const nscd::Body& body : list) bodies.add(body);
         host.join(communicator);
-        host.create(settings, bodies);
+        host.create(settings, {{"disc", {}}}, bodies);
     }
 
     /// Sub-steps of `step` [s], with the results in `bodies`.

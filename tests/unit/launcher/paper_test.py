@@ -93,14 +93,20 @@ class Statements(unittest.TestCase):
     def test_of_sedimentation(self):
         rest = lambda t: np.where(ROWS < t, 1.0, 0.0)
         box = {'scales.kind': 'sedimentation'}
-        runs = PaperRuns([made('sedimentation', {'variant': variant, 'random.seed': seed}, box,
-                               mean_velocity_y=-speed * rest(time), mean_speed=rest(time))
-                          for variant, speed, time in (('discs-nscd', 1.0, 10), ('discs-md', 0.95, 10),
-                                                       ('triangles-nscd', 0.8, 11)) for seed in '12'])
-        self.assertTrue(result('triangles_are_slower', runs))
-        self.assertIn('+10 %', statements.triangles_are_slower(runs)[0])
-        self.assertTrue(result('md_is_like_nscd', runs))
-        self.assertIsNotNone(figures.settling(runs))
+        played = (('discs-nscd', 1.0, 10), ('discs-md', 0.95, 10), ('triangles-nscd', 0.8, 11))
+        runs = lambda *variants: PaperRuns([
+            made('sedimentation', {'variant': variant, 'random.seed': seed}, box, mean_velocity_y=-speed * rest(time),
+                 mean_speed=rest(time)) for variant, speed, time in variants for seed in '12'])
+        found = runs(*played)
+        self.assertTrue(result('triangles_are_slower', found))
+        self.assertIn('+10 %', statements.triangles_are_slower(found)[0])
+        self.assertTrue(result('md_is_like_nscd', found))
+        self.assertNotIn('triangles', statements.md_is_like_nscd(found)[0])
+        alike, apart = (runs(*played, ('triangles-md', speed, 11)) for speed in (0.78, 0.3))
+        self.assertTrue(result('md_is_like_nscd', alike))
+        self.assertIn('triangles: ', statements.md_is_like_nscd(alike)[0])
+        self.assertFalse(result('md_is_like_nscd', apart))
+        self.assertIsNotNone(figures.settling(alike))
         plt.close('all')
 
     def test_of_the_dry_columns(self):

@@ -19,7 +19,7 @@ class LeapFrogHost final : public MdHost {
     double stiffness = 1e4, dashpot = 5.0, drag = 3.0;
 
     std::string code() const override { return "leap-frog"; }
-    void create(const Settings& settings, const nscd::Bodies& bodies) override {
+    void create(const Settings& settings, const ShapeTable&, const nscd::Bodies& bodies) override {
         gravity_ = run_values(settings).gravity;
         bodies_ = bodies;
     }

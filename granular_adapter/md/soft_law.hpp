@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The contact of soft grains: linear spring and dashpot without attraction, tangential ones a third
+// as strong, Coulomb friction. With the reduced mass m_r of two grains, or the mass of a grain at a
+// wall,
+//
+//     k = m_r w^2,  c = 2 zeta m_r w      so that all contacts of discs last pi/w
+#pragma once
+
+#include "coupler/protocol/settings.hpp"
+
+namespace turbidite {
+
+/// Ratio of tangential to normal stiffness and damping for which both directions oscillate with the
+/// same period: an impulse moves the contact point of a disc three times as far along the contact
+/// as across it.
+constexpr double tangential_share = 1.0 / 3.0;
+
+/// The parameters of all contacts (launcher/case/soft_contact.hpp).
+struct SoftLaw {
+    /// Reads run.md_frequency, run.md_damping and contact.friction.
+    explicit SoftLaw(const Settings& settings);
+
+    double frequency;  ///< w [1/s]
+    double damping;    ///< zeta, [0, 1]
+    double friction;   ///< mu
+};
+
+}  // namespace turbidite

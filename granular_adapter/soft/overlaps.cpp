@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/soft/overlaps.hpp"
+
+#include <algorithm>
+
+#include "granular_adapter/nscd/problem/vec3.hpp"
+
+namespace turbidite::soft {
+
+using nscd::operator-;
+
+void OverlapFinder::find(const nscd::Bodies& bodies) {
+    overlaps_.clear();
+    const nscd::PlacedPolygons polygons = narrow_.place(bodies);
+    for (const Near& near : neighbours_.of(bodies, walls_)) detect(bodies, near, polygons);
+}
+
+void OverlapFinder::detect(const nscd::Bodies& bodies, const Near& near,
+                           const nscd::PlacedPolygons& polygons) {
+    constexpr double alert = 0.0;  // overlaps only
+    points_.clear();
+    if (near.wall < 0)
+        narrow_.pair({bodies, near.a, near.b, bodies.position[near.b] - bodies.position[near.a],
+                      alert, &polygons},
+                     points_);
+    else
+        narrow_.wall({bodies, near.b, walls_[near.wall], near.wall, alert, &polygons}, points_);
+    if (points_.empty()) return;
+    std::sort(points_.begin(), points_.end(),
+              [](const auto& x, const auto& y) { return x.feature < y.feature; });
+    const double mass = mass_of_point(bodies, near);
+    for (const nscd::ContactPoint& point : points_) {
+        overlaps_.push_back({near.name, point, mass});
+        overlaps_.back().name.feature = point.feature;
+    }
+}
+
+bool OverlapFinder::has_corners(const nscd::Bodies& bodies, std::int32_t body) const {
+    return narrow_.polygons()[bodies.shape[body]].corners > 0;
+}
+
+double OverlapFinder::mass_of_point(const nscd::Bodies& bodies, const Near& near) const {
+    const double b = bodies.mass[near.b];
+    const double reduced = near.wall < 0 ? bodies.mass[near.a] * b / (bodies.mass[near.a] + b) : b;
+    const bool sides =
+        has_corners(bodies, near.b) && (near.wall >= 0 || has_corners(bodies, near.a));
+    return sides ? 0.5 * reduced : reduced;
+}
+
+}  // namespace turbidite::soft
