@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "coupler/keys/nearest_name.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "launcher/case/wrapped_text.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/commands/terminal_width.hpp"
 
 namespace turbidite {
 namespace {
@@ -19,9 +23,9 @@ constexpr auto description =
     "fictitious-domain method.";
 
 constexpr auto footer =
-    "Exit codes: 0 done, 1 a test or benchmark failed, 2 bad usage or case, 3 handshake refused,\n"
+    "Exit codes: 0 done, 1 a test or benchmark failed, 2 bad usage or case, 3 handshake refused, "
     "4 a program of the job failed, 5 stalled, 6 physics refused (NaN, overlap, grain through a "
-    "wall),\n130/143 interrupted (`turbidite resume` goes on).";
+    "wall), 130/143 interrupted (`turbidite resume` goes on).";
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
@@ -47,6 +51,14 @@ const std::vector<Command>& commands() {
     };
     return table;
 }
+
+/// CLI11 does not break long lines.
+class Help final : public CLI::Formatter {
+    std::string make_help(const CLI::App* app, std::string name,
+                          CLI::AppFormatMode mode) const override {
+        return fitted(CLI::Formatter::make_help(app, std::move(name), mode), terminal_width());
+    }
+};
 
 int act(const CommandAction& action) {
     try {
@@ -92,6 +104,7 @@ int turbidite_main(const std::vector<std::string>& words) {
     CLI::App app{description, "turbidite"};
     app.set_version_flag("--version", "turbidite " TURBIDITE_VERSION);
     app.require_subcommand(1);
+    app.formatter(std::make_shared<Help>());
     app.footer(footer);
     CommandAction action;
     for (const Command& command : commands()) {

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "coupler/keys/nearest_name.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "launcher/case/keys.hpp"
+#include "launcher/case/wrapped_text.hpp"
 
 namespace turbidite {
 namespace {
@@ -77,23 +77,6 @@ KeyTable selected(const std::vector<std::string>& names) {
                                          [&](const auto& name) { return is_part_of(key, name); }))
             keys.push_back(key);
     return keys;
-}
-
-/// The words of a text in lines of this width, each begun with `indent` blanks.
-std::string wrapped(const std::string& text, int indent, int width) {
-    std::istringstream words(text);
-    std::string lines, line(indent, ' '), word;
-    bool begun = false;
-    while (words >> word) {
-        if (begun && static_cast<int>(line.size() + 1 + word.size()) > width) {
-            lines += line + "\n";
-            line.assign(indent, ' ');
-            begun = false;
-        }
-        line += (begun ? " " : "") + word;
-        begun = true;
-    }
-    return begun ? lines + line + "\n" : lines;
 }
 
 std::string entry(const KeySpec& key, int width) {

@@ -28,11 +28,12 @@ constexpr double busiest_share = 1.6;  // of the covered cells, over an equal on
 // Seconds per window and grain.
 constexpr double disc_contacts = 4e-6;
 constexpr double polygon_contacts = 12e-6;
-constexpr double external_code = 20e-6;  // nothing is known of it
-constexpr double spring_step = 0.4e-6;   // and per sub-step
-constexpr double checks = 1.5e-6;        // of the coupler
+constexpr double external_code = 20e-6;   // nothing is known of it
+constexpr double spring_step = 0.4e-6;    // and per sub-step
+constexpr double own_disc_step = 0.1e-6;  // of standalone-md; its polygons take as long as others
+constexpr double checks = 1.5e-6;         // of the coupler
 
-constexpr double handover = 0.5e-3;  // [s] from program to program, asleep on arrival
+constexpr double handover = 0.15e-3;  // [s] from program to program of one host, asleep on arrival
 
 constexpr double seconds_to_start = 0.5;
 constexpr double seconds_of_yade = 1.5;
@@ -83,14 +84,23 @@ double fluid_time(const ResolvedCase& resolved) {
            covered * covered_cells(resolved) * std::min(1.0, busiest_share / ranks);
 }
 
+bool all_round(const ResolvedCase& resolved) {
+    return std::all_of(resolved.shapes.begin(), resolved.shapes.end(),
+                       [](const ShapeRecord& shape) { return shape.vertices.empty(); });
+}
+
+double time_per_substep(const ResolvedCase& resolved) {
+    const bool own = resolved.settings.text("grains.adapter") == "standalone-md";
+    return own && all_round(resolved) ? own_disc_step : spring_step;
+}
+
 double time_per_grain(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
     if (settings.text("grains.adapter") == "external") return external_code;
     if (settings.has("run.md_substeps"))
-        return spring_step * static_cast<double>(settings.integer("run.md_substeps"));
-    const bool round = std::all_of(resolved.shapes.begin(), resolved.shapes.end(),
-                                   [](const ShapeRecord& shape) { return shape.vertices.empty(); });
-    return round ? disc_contacts : polygon_contacts;
+        return time_per_substep(resolved) *
+               static_cast<double>(settings.integer("run.md_substeps"));
+    return all_round(resolved) ? disc_contacts : polygon_contacts;
 }
 
 /// Under sub-iterated the sub-steps are repeated; contact solves of `joint` begin where the last

@@ -8,6 +8,7 @@
 #include "launcher/case/run_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/commands/terminal_width.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/prepare_run.hpp"
 #include "launcher/study/study_plan.hpp"
@@ -38,7 +39,7 @@ int check(const CheckOptions& options) {
     if (is_study(options.file)) return check_study(options);
     const ResolvedCase resolved = load_case(options.file, options.overrides);
     require_programs(resolved.settings, needed_programs(resolved.settings, find_programs()));
-    fmt::print("{}valid\n", case_summary(resolved));
+    fmt::print("{}valid\n", for_stdout(case_summary(resolved)));
     return static_cast<int>(ExitCode::done);
 }
 

@@ -100,10 +100,10 @@ int replay(const ReplayOptions& options) {
         fmt::print("{}\n", shell_line(line));
         return static_cast<int>(ExitCode::done);
     }
-    const JobEnd end =
-        run_job({.arguments = line, .error_log = folder.log("mpirun"), .request_stop = [](int) {
-                     return false;
-                 }});
+    const JobEnd end = run_job({.arguments = line,
+                                .error_log = folder.log("mpirun"),
+                                .request_stop = [](int) { return false; },
+                                .ends_with_children = true});
     const JobOutcome outcome = settle_outcome(folder, end, {"replay", side + " rank 0"});
     if (outcome.code != ExitCode::done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
     const bool differs = is_there(folder.root / "differences");

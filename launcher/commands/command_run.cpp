@@ -7,6 +7,7 @@
 
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/commands/terminal_width.hpp"
 #include "launcher/job/play_run.hpp"
 
 namespace turbidite {
@@ -24,10 +25,13 @@ int run(const RunOptions& options) {
     const ResolvedCase resolved = load_case(options.file, options.overrides, options.from);
     const LaunchSite site = this_site();
     const PreparedRun prepared = prepare(resolved, options.order, site);
-    fmt::print(options.dry_run ? stderr : stdout, "{}  folder: {}\n", case_summary(resolved),
-               prepared.folder.root.string());
-    if (!options.dry_run) return static_cast<int>(play(prepared, site.programs).code);
-    std::fflush(nullptr);
+    const std::string summary =
+        case_summary(resolved) + fmt::format("  folder: {}\n", prepared.folder.root.string());
+    if (!options.dry_run) {
+        fmt::print("{}", for_stdout(summary));
+        return static_cast<int>(play(prepared, site.programs).code);
+    }
+    fmt::print(stderr, "{}", summary);
     fmt::print("{}\n", shell_line(prepared.line));
     return static_cast<int>(ExitCode::done);
 }

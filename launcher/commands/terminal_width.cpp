@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "launcher/case/wrapped_text.hpp"
+
 namespace turbidite {
 
 int terminal_width() {
@@ -17,6 +19,10 @@ int terminal_width() {
     else if (const char* given = std::getenv("COLUMNS"); given && std::atoi(given) > 0)
         columns = std::atoi(given);
     return std::clamp(columns, 40, 120);
+}
+
+std::string for_stdout(const std::string& lines) {
+    return isatty(STDOUT_FILENO) ? fitted(lines, terminal_width()) : lines;
 }
 
 }  // namespace turbidite

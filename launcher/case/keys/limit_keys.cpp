@@ -13,7 +13,7 @@ Ruling limits_in_order(const Settings& s) {
     if (s.real("limits.stall_soft") <= s.real("limits.stall_hard")) return std::nullopt;
     return Objection{fmt::format("The hard limit must be at least limits.stall_soft = {} s.",
                                  s.text("limits.stall_soft")),
-                     "Increase it."};
+                     "Increase it, or decrease limits.stall_soft."};
 }
 
 /// A pair of limits of a relative defect: a warning at `soft`, the end of the run at `hard`.
@@ -21,7 +21,7 @@ Ruling balance_in_order(const Settings& s, const std::string& key) {
     if (s.real(key + "_soft") <= s.real(key + "_hard")) return std::nullopt;
     return Objection{
         fmt::format("The hard limit must be at least {0}_soft = {1}.", key, s.text(key + "_soft")),
-        "Increase it."};
+        fmt::format("Increase it, or decrease {}_soft.", key)};
 }
 Ruling grain_balance_in_order(const Settings& s) {
     return balance_in_order(s, "limits.grain_balance");

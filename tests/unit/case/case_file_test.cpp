@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "coupler/protocol/case_hash.hpp"
 #include "launcher/case/keys.hpp"
 #include "launcher/case/population.hpp"
@@ -214,6 +216,14 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
     EXPECT_EQ(settings.text("coupling.scheme"), "split");
     EXPECT_SAYS(refusal("", {"grains.adapter=lammps-md", "grains.shape=triangle"}),
                 "lammps-md supports discs only.");
+    const std::vector<std::string> soft = {"grains.adapter=standalone-md", "grains.shape=triangle"};
+    EXPECT_EQ(load("", soft).shapes[0].kind, "triangle");
+    const auto few = load("", {soft[0], soft[1], "contact.md_substeps=12"}).notes;
+    EXPECT_EQ(std::count_if(few.begin(), few.end(),
+                            [](const std::string& note) {
+                                return note.find("contact.md_substeps = 12: polygons") == 0;
+                            }),
+              1);
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {

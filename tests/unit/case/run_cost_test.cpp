@@ -64,6 +64,9 @@ TEST_F(RunCost, GrainsGrowWithTheirNumberAndWhatTheyNeed) {
     EXPECT_GT(window({"grains.shape=triangle"}).grains, discs);
     const std::vector<std::string> springs{"grains.adapter=yade-md", "coupling.scheme=split"};
     EXPECT_GT(window(springs).grains, discs);
+    const std::string own = "grains.adapter=standalone-md";
+    EXPECT_LT(window({own}).grains, window(springs).grains);
+    EXPECT_GT(window({own, "grains.shape=triangle"}).grains, window({own}).grains);
     EXPECT_GT(window({springs[0], "coupling.scheme=sub-iterated"}).grains, window(springs).grains);
 }
 
