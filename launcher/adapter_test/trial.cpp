@@ -95,7 +95,8 @@ JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
     const JobEnd end = run_job({.arguments = line,
                                 .error_log = folder.log("mpirun"),
                                 .output_log = folder.log("output"),
-                                .request_stop = [](int) { return false; }});
+                                .request_stop = [](int) { return false; },
+                                .ends_with_children = true});
     if (end.signal != 0)
         throw Failure(ExitCode::interrupted, "adapter-test was interrupted in \"" + name + "\"");
     return end;
@@ -103,7 +104,8 @@ JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
 
 Trial played(const PreparedRun& prepared, const Settings& settings, const std::string& name) {
     const JobEnd end = start(prepared.line, prepared.folder, name);
-    const JobOutcome outcome = settle_outcome(prepared.folder, end, prepared.ranks);
+    JobOutcome outcome = settle_outcome(prepared.folder, end, prepared.ranks);
+    if (outcome.code != ExitCode::done) outcome.log_tail = last_words(prepared.folder, outcome);
     return {outcome, read_history(prepared.folder.history()), maxima_of(prepared.folder), settings,
             prepared.folder.root};
 }

@@ -33,8 +33,9 @@ std::string different_column(const Trial& a, const Trial& b) {
 }  // namespace
 
 Finding failure_of(const JobOutcome& outcome) {
-    return {Grade::failed,
-            fmt::format("ended with code {}: {}", static_cast<int>(outcome.code), outcome.error)};
+    const std::string tail = outcome.log_tail.empty() ? "" : "\n" + outcome.log_tail;
+    return {Grade::failed, fmt::format("ended with code {}: {}{}", static_cast<int>(outcome.code),
+                                       outcome.error, tail)};
 }
 
 Finding within(double error, double limit, const std::string& what) {

@@ -29,7 +29,8 @@ JobEnd start(const PreparedRun& prepared) {
     const JobEnd end = run_job({.arguments = prepared.line,
                                 .error_log = prepared.folder.log("mpirun"),
                                 .output_log = prepared.folder.log("output"),
-                                .request_stop = [](int) { return false; }});
+                                .request_stop = [](int) { return false; },
+                                .ends_with_children = true});
     if (end.signal != 0) throw Failure(ExitCode::interrupted, "doctor was interrupted");
     return end;
 }

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -66,27 +67,39 @@ void redirect(int stream, const std::filesystem::path& file) {
     _exit(cannot_start);
 }
 
-/// Session of a process from /proc/PID/stat: the fourth field after the name in parentheses.
-pid_t session_of(const std::filesystem::path& process) {
-    std::ifstream file(process / "stat");
+struct Process {
+    pid_t id = 0, session = 0;
+    bool runs = false;  ///< no zombie
+};
+
+/// From /proc/PID/stat: the first and the fourth field after the name in parentheses.
+Process process_of(const std::filesystem::path& folder) {
+    std::ifstream file(folder / "stat");
     std::string text;
     std::getline(file, text, '\0');
     const auto end_of_name = text.rfind(')');
-    if (end_of_name == std::string::npos) return 0;
+    if (end_of_name == std::string::npos) return {};
     char state = 0;
     int parent = 0, group = 0, session = 0;
     std::sscanf(text.c_str() + end_of_name + 1, " %c %d %d %d", &state, &parent, &group, &session);
-    return session;
+    return {std::stoi(folder.filename()), session, state != 'Z'};
 }
 
 // mpirun gives every rank its own process group, but they stay in its session.
-void kill_session(pid_t session) {
+std::vector<Process> processes_of_session(pid_t session) {
+    std::vector<Process> found;
     std::error_code ignored;  // processes may end during the search
     for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
         const std::string name = entry.path().filename();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        if (session_of(entry.path()) == session) kill(std::stoi(name), SIGKILL);
+        const Process process = process_of(entry.path());
+        if (process.session == session) found.push_back(process);
     }
+    return found;
+}
+
+void kill_session(pid_t session) {
+    for (const Process& process : processes_of_session(session)) kill(process.id, SIGKILL);
 }
 
 // Checks without reaping the process: until then its session id cannot be reused.
@@ -103,16 +116,42 @@ void end_session(pid_t child, const BlockedSignals& signals) {
         sigtimedwait(&signals.set(), nullptr, &tick);
 }
 
+/// Whether a program has stayed without its children for too long. Open MPI 4.1's mpirun can wait
+/// for itself for ever after MPI_Abort (PMIx_server_finalize).
+class LeftAlone {
+ public:
+    /// To be called every second.
+    bool too_long(pid_t child) {
+        const auto processes = processes_of_session(child);
+        const bool alone = std::none_of(
+            processes.begin(), processes.end(),
+            [child](const Process& process) { return process.runs && process.id != child; });
+        had_children_ = had_children_ || !alone;
+        seconds_ = had_children_ && alone ? seconds_ + 1 : 0;
+        return seconds_ > patience;
+    }
+
+ private:
+    static constexpr int patience = 10;  // [s]
+
+    bool had_children_ = false;
+    int seconds_ = 0;
+};
+
 int code_of(int status) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) {
     JobEnd end;
+    LeftAlone left_alone;
+    bool overdue = false;
     const timespec second{1, 0};
     while (!has_ended(child)) {
         const int signal = sigtimedwait(&signals.set(), nullptr, &second);
-        if (signal < 0 && order.overdue && order.overdue()) {
+        overdue = signal < 0 && ((order.overdue && order.overdue()) ||
+                                 (order.ends_with_children && left_alone.too_long(child)));
+        if (overdue) {
             end_session(child, signals);
             break;
         }
@@ -128,7 +167,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     int status = 0;
     waitpid(child, &status, 0);
     end.status = code_of(status);
-    end.crashed = WIFSIGNALED(status) && !end.killed;
+    end.crashed = WIFSIGNALED(status) && !end.killed && !overdue;
     return end;
 }
 

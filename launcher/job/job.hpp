@@ -21,6 +21,9 @@ struct JobOrder {
     /// Asked every second, if there is one. True: the program should have ended, it is to be
     /// killed.
     std::function<bool()> overdue = {};
+    /// Whether the program has nothing to do without its children on this host, like mpirun in a
+    /// job of one host: it is killed when it stays for ten seconds after the last of them.
+    bool ends_with_children = false;
 };
 
 struct JobEnd {

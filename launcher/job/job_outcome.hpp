@@ -18,6 +18,8 @@ struct JobOutcome {
     std::string error;  ///< empty when done
     /// Log of the program at fault; empty if that is not known.
     std::filesystem::path log = {};
+    /// Its last_words(), where the folder will not be there to look at.
+    std::string log_tail = {};
 };
 
 /// The message is, in this order, that of the coupler's record, of the program that ended first

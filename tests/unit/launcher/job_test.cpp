@@ -113,6 +113,21 @@ TEST_F(JobTest, KillsAProgramThatIsOverdue) {
     EXPECT_TRUE(end.status == 128 + SIGTERM || end.status == 128 + SIGKILL) << end.status;
 }
 
+// As mpirun may do after MPI_Abort.
+TEST_F(JobTest, KillsAProgramThatStaysWithoutItsChildren) {
+    const auto play = [this](const std::string& script) {
+        return run_job({.arguments = {"sh", "-c", script},
+                        .error_log = scratch.path() / "stderr",
+                        .request_stop = [](int) { return true; },
+                        .ends_with_children = true});
+    };
+    const JobEnd stayed = play("sleep 2; exec sleep 600");
+    EXPECT_TRUE(stayed.status == 128 + SIGTERM || stayed.status == 128 + SIGKILL) << stayed.status;
+    EXPECT_EQ(stayed.signal, 0);
+    EXPECT_FALSE(stayed.crashed);
+    EXPECT_EQ(play("sleep 2; exit 3").status, 3);
+}
+
 TEST_F(JobTest, FirstSignalIsARequest) {
     const std::string stop = (scratch.path() / "STOP").string();
     const Later signal(1, SIGTERM);
