@@ -4,7 +4,7 @@
 // that nothing ended: everything killed at random moments, one program killed, a full disk, signals
 // of a batch system.
 //
-// TURBIDITE_KILLS=100 in the environment kills so many times instead of a few (half an hour):
+// TURBIDITE_KILLS=100 in the environment kills so many times instead of a few (4 minutes):
 //
 //     TURBIDITE_KILLS=100 build/release/bin/failure_tests --gtest_filter=*KilledAtRandomMoments*
 #include <random>

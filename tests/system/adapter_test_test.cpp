@@ -38,7 +38,8 @@ TEST_P(ShippedAdapter, Conforms) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Adapters, ShippedAdapter,
-                         ::testing::Values("standalone-nscd", "yade-nscd", "yade-md", "lammps-md"),
+                         ::testing::Values("standalone-nscd", "yade-nscd", "yade-md", "lammps-md",
+                                           "standalone-md"),
                          [](const auto& info) {
                              std::string name = info.param;
                              name[name.find('-')] = '_';
@@ -123,6 +124,14 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"Noisy", "broken-fluid noisy", "repeats itself", "differs between two"},
         BrokenProgram{"Forgets", "broken-fluid forgets", "goes on from", "in one part"}),
     [](const auto& info) { return info.param.name; });
+
+// The log goes with the temporary folder.
+TEST_F(AdapterTest, ShowsTheLogOfAProgramThatDoesNotStart) {
+    const Answer answer = judge("--only 'falls freely' -- /usr/bin/python3 -c 'def 1'");
+    EXPECT_EQ(answer.code, 1);
+    EXPECT_SAYS(answer.out, "grains rank 0 ended with status 1");
+    EXPECT_SAYS(answer.out, "SyntaxError");
+}
 
 TEST_F(AdapterTest, NeedsAProgramThatIsThere) {
     EXPECT_EQ(judge("").code, 2);

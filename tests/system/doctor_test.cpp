@@ -20,6 +20,7 @@ constexpr auto names = {"OpenFOAM",
                         "turbidite-coupler",
                         "turbidite-fluid",
                         "turbidite-grains",
+                        "turbidite-grains-md",
                         "turbidite_yade.so",
                         "one libmpi",
                         "free disk",
@@ -43,7 +44,7 @@ class Doctor : public ShellTest {
         const fs::path bin = scratch.path() / "bin";
         fs::create_directories(bin);
         for (const char* name : {"turbidite-coupler", "turbidite-member", "turbidite-fluid",
-                                 "turbidite-grains", "turbidite-lammps"})
+                                 "turbidite-grains", "turbidite-grains-md", "turbidite-lammps"})
             if (name != missing) fs::create_symlink(build / "bin" / name, bin / name);
         fs::create_directory_symlink(build / "lib", scratch.path() / "lib");
         fs::copy_file(TURBIDITE_PROGRAM, bin / "turbidite");
