@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "coupler/protocol/start_record.hpp"
+#include "coupler/protocol/whole_file.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/run_json.hpp"
 #include "launcher/report/report_script.hpp"
@@ -18,16 +19,19 @@
 namespace turbidite {
 namespace {
 
-// The coupler looks for this file before every window and ends the run with the code in it. Before
-// the history begins there is no coupler to look for it, and nothing to keep.
+// The coupler looks for this file before every window and ends the run with the code in it: the file
+// appears with its code. Before the history begins there is no coupler to look for it, and nothing
+// to keep.
 bool request_stop(const RunFolder& folder, int signal) {
     if (!std::filesystem::exists(folder.history())) return false;
     const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
-    std::ofstream file(folder.stop());
-    file << static_cast<int>(code) << "\n";
-    file.close();
-    const char* answer =
-        file ? "Stopping after the next window" : "The stop request cannot be written";
+    std::string answer = "Stopping after the next window";
+    try {
+        write_whole(folder.stop(),
+                    [code](std::ostream& file) { file << static_cast<int>(code) << "\n"; });
+    } catch (const Failure& failure) {
+        answer = failure.what();
+    }
     fmt::print(stderr, "\n{}; interrupt again to kill the job.\n", answer);
     return true;
 }

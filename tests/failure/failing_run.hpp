@@ -32,8 +32,8 @@ class FailingRun : public ShellTest {
     pid_t start(long rows, const std::string& options = "",
                 const std::string& program = TURBIDITE_PROGRAM) const {
         const pid_t child = begin(program + " run small.yaml" + into_run_folder() + " " + options);
-        for (int i = 0; i < 300 && rows_of_history() < rows; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        for (int i = 0; i < 3000 && rows_of_history() < rows; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
         EXPECT_GE(rows_of_history(), rows) << "the run did not get going";
         return child;
     }
