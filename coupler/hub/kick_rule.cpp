@@ -32,6 +32,18 @@ Eigen::Vector3d angular_momentum(const Eigen::Matrix3d& inertia, const Quaternio
     return rotation * (inertia * (rotation.transpose() * spin));
 }
 
+Eigen::Vector3d change(const Vec3& from, const Vec3& to) {
+    return vector(to) - vector(from);
+}
+
+bool same_velocities(const Kick& kick, const GrainState& grain) {
+    return kick.velocity == grain.velocity && kick.angular_velocity == grain.angular_velocity;
+}
+bool same_impulses(const GrainState& a, const GrainState& b) {
+    return a.contact_impulse == b.contact_impulse &&
+           a.contact_angular_impulse == b.contact_angular_impulse;
+}
+
 // The largest term of a balance, and its residual.
 struct Balance {
     double largest = 0.0;
@@ -49,6 +61,12 @@ struct Balance {
         worst = grain;
     }
 };
+
+GrainBalance found(const Balance& linear, const Balance& angular, GrainBalance::Rule rule) {
+    const double largest = std::max(linear.largest, angular.largest);
+    const Balance& worse = linear.rest >= angular.rest ? linear : angular;
+    return {largest > 0.0 ? worse.rest / largest : 0.0, worse.worst, rule, largest};
+}
 
 }  // namespace
 
@@ -75,9 +93,8 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
                                  ", which is unknown");
         const GrainState& grain = before.grains[at];
         const ImmersedBody& immersed = body_of(grain);
-        const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
-        const Eigen::Vector3d spin_change =
-            vector(kick.angular_velocity) - vector(grain.angular_velocity);
+        const Eigen::Vector3d velocity_change = change(grain.velocity, kick.velocity);
+        const Eigen::Vector3d spin_change = change(grain.angular_velocity, kick.angular_velocity);
         // F_h = (J_lambda + rho_f V dU) / dt, T_h = (K_lambda + I_f domega) / dt
         kick.force = array(
             (vector(kick.multiplier_impulse) + immersed.displaced_mass * velocity_change) / step);
@@ -98,14 +115,12 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         at = before_.place(kick.id, at + 1);
         at_contact = contact_.place(kick.id, at_contact + 1);
         const GrainState& grain = before.grains.at(at);
-        if (grain.prescribed) continue;  // what holds it takes the rest
+        if (grain.prescribed) continue;
         const GrainState& with_contact = contact.grains.at(at_contact);
         const ImmersedBody& immersed = body_of(grain);
-        const Eigen::Vector3d velocity_change = vector(kick.velocity) - vector(grain.velocity);
-        const Eigen::Vector3d spin_change =
-            vector(kick.angular_velocity) - vector(grain.angular_velocity);
+        const Eigen::Vector3d spin_change = change(grain.angular_velocity, kick.angular_velocity);
         // M dU - (M - m_f) g dt - J_c - F_h dt; the same for the spin, divided by R
-        linear.add(kick.id, {immersed.mass * velocity_change,
+        linear.add(kick.id, {immersed.mass * change(grain.velocity, kick.velocity),
                              Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
                              -vector(with_contact.contact_impulse), -step * vector(kick.force)});
         angular.add(kick.id, {angular_momentum(immersed.inertia, grain.orientation, spin_change) /
@@ -113,9 +128,57 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
                               -vector(with_contact.contact_angular_impulse) / grain.radius,
                               -step * vector(kick.torque) / grain.radius});
     }
-    const double largest = std::max(linear.largest, angular.largest);
-    const Balance& worse = linear.rest >= angular.rest ? linear : angular;
-    return {largest > 0.0 ? worse.rest / largest : 0.0, worse.worst};
+    return found(linear, angular, GrainBalance::Rule::wet);
+}
+
+GrainBalance KickRule::balance(const Motion& before, const Motion& after, double step) {
+    before_.follow(before.grains);
+    Balance linear, angular;
+    std::size_t at = GrainIndex::nowhere;
+    for (const GrainState& now : after.grains) {  // those that have left are no longer known
+        at = before_.place(now.id, at + 1);
+        const GrainState& grain = before.grains.at(at);
+        if (grain.prescribed) continue;
+        const ImmersedBody& body = body_of(grain);
+        const Eigen::Vector3d spin_change = change(grain.angular_velocity, now.angular_velocity);
+        // M dU - M g dt - J_c; the same for the spin, divided by R
+        linear.add(now.id, {body.mass * change(grain.velocity, now.velocity),
+                            Eigen::Vector3d(0.0, body.mass * gravity_ * step, 0.0),
+                            -vector(now.contact_impulse)});
+        angular.add(now.id,
+                    {angular_momentum(body.inertia, grain.orientation, spin_change) / grain.radius,
+                     -vector(now.contact_angular_impulse) / grain.radius});
+    }
+    return found(linear, angular, GrainBalance::Rule::dry);
+}
+
+GrainBalance KickRule::with_state(GrainBalance so_far, const std::vector<Kick>& kicks,
+                                  const Motion& contact, const Motion& state) {
+    contact_.follow(contact.grains);
+    state_.follow(state.grains);
+    std::size_t at_contact = GrainIndex::nowhere, at_state = at_contact;
+    for (const Kick& kick : kicks) {
+        at_contact = contact_.place(kick.id, at_contact + 1);
+        at_state = state_.place(kick.id, at_state + 1);
+        if (at_state == GrainIndex::nowhere) continue;  // it has left
+        const GrainState& now = state.grains[at_state];
+        if (now.prescribed) continue;
+        const GrainState& then = contact.grains.at(at_contact);
+        if (same_velocities(kick, now) && same_impulses(then, now)) continue;
+        const ImmersedBody& body = body_of(now);
+        const Eigen::Vector3d spin_error = change(kick.angular_velocity, now.angular_velocity);
+        const double worst = std::max(
+            {body.mass * change(kick.velocity, now.velocity).norm(),
+             angular_momentum(body.inertia, now.orientation, spin_error).norm() / now.radius,
+             change(then.contact_impulse, now.contact_impulse).norm(),
+             change(then.contact_angular_impulse, now.contact_angular_impulse).norm() /
+                 now.radius});
+        if (worst <= so_far.defect * so_far.largest) continue;
+        // Where nothing else moves there is no scale, and the difference is all there is.
+        so_far.largest = std::max(so_far.largest, worst);
+        so_far = {worst / so_far.largest, kick.id, GrainBalance::Rule::state, so_far.largest};
+    }
+    return so_far;
 }
 
 }  // namespace turbidite

@@ -8,7 +8,9 @@
 //
 //     M dU/dt = (M - m_f) g + F_c + F_h
 //
-// to round-off, where F_c = J_c/Δt; `balance` measures it.
+// to round-off, where F_c = J_c/Δt; without a fluid M dU/dt = M g + F_c. The balances measure it,
+// and their angular counterparts divided by R, relative to the largest term of all grains. Grains
+// with a given motion are left out: what moves them takes the rest.
 #pragma once
 
 #include <optional>
@@ -27,10 +29,17 @@ class KickRule {
     /// unknown grain.
     void complete(std::vector<Kick>& kicks, const Motion& before, double step);
 
-    /// Largest |M dU/dt - (M - m_f) g - F_c - F_h| (and its angular counterpart divided by R) over
-    /// all grains, relative to the largest term. Zero without grains.
+    /// Of a window with a fluid. Zero without grains.
     GrainBalance balance(const std::vector<Kick>& kicks, const Motion& before,
                          const Motion& contact, double step);
+
+    /// Of a window without a fluid. `before` and `after` are the states at its ends.
+    GrainBalance balance(const Motion& before, const Motion& after, double step);
+
+    /// `found` by balance, or worse if the state that follows has other velocities than the kicks,
+    /// or other contact impulses than `contact`.
+    GrainBalance with_state(GrainBalance found, const std::vector<Kick>& kicks,
+                            const Motion& contact, const Motion& state);
 
  private:
     /// Valid until the next call. Grains that follow each other are often of one kind.
@@ -40,7 +49,7 @@ class KickRule {
     GrainState last_;  ///< of the last call
     std::optional<ImmersedBody> last_body_;
     double gravity_;
-    GrainIndex before_, contact_;
+    GrainIndex before_, contact_, state_;
 };
 
 }  // namespace turbidite

@@ -59,21 +59,37 @@ void Ledger::check(const Window& window, const WindowResult& result) {
     check_overlap(window, result.state);
     check_divergence(result.kicks.report);
     check_multipliers(result.kicks.report);
-    if (settings_.run.wet) check_balances(window, result);
+    if (result.grain_balance)
+        judge(grain_balance_, result.grain_balance->defect, window, meaning(*result.grain_balance));
+    if (settings_.run.wet)
+        judge(
+            fluid_balance_, result.kicks.report.momentum_defect, window,
+            fmt::format("the momentum of the fluid does not change by the impulses of multipliers "
+                        "and boundaries, as reported by {}",
+                        fluid_));
 }
 
-void Ledger::check_balances(const Window& window, const WindowResult& result) {
-    if (result.grain_balance)
-        judge(grain_balance_, result.grain_balance->defect, window,
-              fmt::format(
-                  "M dU = (M - m_f) g dt + J_c + F_h dt fails most for grain {}. Contact impulses, "
-                  "velocities and masses of {} must belong together, and so must the multiplier "
-                  "impulses and velocities of {}",
-                  result.grain_balance->worst, grains_, fluid_));
-    judge(fluid_balance_, result.kicks.report.momentum_defect, window,
-          fmt::format("the momentum of the fluid does not change by the impulses of multipliers "
-                      "and boundaries, as reported by {}",
-                      fluid_));
+std::string Ledger::meaning(const GrainBalance& balance) const {
+    switch (balance.rule) {
+        case GrainBalance::Rule::wet:
+            return fmt::format(
+                "M dU = (M - m_f) g dt + J_c + F_h dt fails most for grain {}. Contact impulses, "
+                "velocities and masses of {} must belong together, and so must the multiplier "
+                "impulses and velocities of {}",
+                balance.worst, grains_, fluid_);
+        case GrainBalance::Rule::dry:
+            return fmt::format(
+                "M dU = M g dt + J_c fails most for grain {}. Contact impulses, velocities and "
+                "masses of {} must belong together",
+                balance.worst, grains_);
+        case GrainBalance::Rule::state:
+            return fmt::format(
+                "velocities of the state must be those of the kicks, and its contact impulses "
+                "those "
+                "of the motion; grain {} of {} is farthest from it",
+                balance.worst, grains_);
+    }
+    return "";
 }
 
 void Ledger::judge(Balance& balance, double defect, const Window& window,

@@ -41,7 +41,8 @@ class Ledger {
     void check_divergence(const FluidReport& report);
     void check_multipliers(const FluidReport& report);
 
-    void check_balances(const Window& window, const WindowResult& result);
+    /// What a balance that is not kept says of the grains.
+    std::string meaning(const GrainBalance& balance) const;
 
     /// One of the balances and whether it was warned of.
     struct Balance {

@@ -18,8 +18,17 @@ struct JointReport {
 
 /// Largest residual of the grains' equations of motion over the largest of their terms.
 struct GrainBalance {
+    /// What the worst grain fails.
+    enum class Rule {
+        wet,   ///< M dU = (M - m_f) g dt + J_c + F_h dt
+        dry,   ///< M dU = M g dt + J_c
+        state  ///< U of the state = U of the kick, J_c of the state = J_c of the motion
+    };
+
     double defect = 0.0;
     GrainId worst = 0;  ///< the grain with the largest residual
+    Rule rule = Rule::wet;
+    double largest = 0.0;  ///< of all terms [kg m/s]
 };
 
 struct WindowResult {
@@ -27,7 +36,7 @@ struct WindowResult {
     Kicks kicks;    ///< after step 5; empty in dry runs
     Motion state;   ///< at t^{n+1}
     std::optional<JointReport> joint = {};
-    std::optional<GrainBalance> grain_balance = {};  ///< KickRule::balance; empty in dry runs
+    std::optional<GrainBalance> grain_balance = {};
 };
 
 }  // namespace turbidite

@@ -112,7 +112,7 @@ std::string late_start_text(StartStep step, const std::vector<StartRecord>& late
 std::string late_end_text(const std::vector<StartRecord>& late, double limit) {
     const std::string others =
         late.size() > 1 ? " and " + std::to_string(late.size() - 1) + " other programs" : "";
-    return "the run is over, but " + (late.empty() ? "a program" : who(late.front())) + others +
+    return "the run is over, but " + (late.empty() ? "mpirun" : who(late.front())) + others +
            " has not ended within limits.stall_hard = " + seconds(limit) + " and is killed";
 }
 

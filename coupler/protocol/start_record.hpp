@@ -49,7 +49,7 @@ std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path&
 std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit);
 
 /// "the run is over, but grains rank 0 (program, host, pid, log) has not ended within
-/// limits.stall_hard = 600 s and is killed".
+/// limits.stall_hard = 600 s and is killed"; mpirun if all of its programs have ended.
 std::string late_end_text(const std::vector<StartRecord>& late, double limit);
 
 }  // namespace turbidite

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 
+#include "coupler/protocol/run_files.hpp"
 #include "coupler/protocol/start_record.hpp"
 #include "coupler/protocol/whole_file.hpp"
 #include "launcher/job/job.hpp"
@@ -49,7 +50,9 @@ bool has_output(const RunFolder& folder) {
     return std::getline(history, header) && std::getline(history, row);
 }
 
+/// The coupler has written its verdict, or a program has ended before that.
 bool is_over(const RunFolder& folder) {
+    if (read_first_end(folder.root)) return true;
     const auto record = read_run_json(folder.record());
     return record.contains("exit_code") && !record["exit_code"].is_null();
 }
@@ -67,8 +70,9 @@ std::vector<StartRecord> staying(const PreparedRun& prepared) {
     return late;
 }
 
-// The run is over when the coupler has written its verdict. A program may stay all the same, in an
-// exit handler of the user or a thread of its host, and the others wait for it in MPI_Finalize.
+// When the run is over a program may stay all the same, in an exit handler of the user or a thread
+// of its host, and the others wait for it in MPI_Finalize; and mpirun may stay after a program has
+// crashed (LeftAlone in job.cpp).
 class Overdue {
  public:
     explicit Overdue(const PreparedRun& prepared)

@@ -128,7 +128,7 @@ def solvers(run):
     defects = [(name, findings.largest(run, column, column)) for name, column in
                (('grains', 'grain_balance'), ('fluid', 'fluid_balance'))]
     told = ', '.join(f'{name} {defect:.2g}' for name, defect in defects if defect is not None)
-    if told and run.is_wet():
+    if told:
         text.append(f'Largest momentum defect of any window: {told}.')
     divergence = findings.largest(run, 'divergence', 'divergence')
     if divergence is not None and run.is_wet():

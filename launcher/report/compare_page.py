@@ -87,7 +87,7 @@ def overview(comparison):
         ['at rest from [t_c]'] + ['not at rest' if value is None else number(value) for value in rest],
         ['largest overlap of any window [D]'] + maxima('penetration', 'max_penetration'),
         ['windows beyond contact.tolerance'] + maxima('unconverged_windows', ''),
-        ['largest defect of the grains\' momentum [-]'] + wet('grain_balance', 'grain_balance'),
+        ['largest defect of the grains\' momentum [-]'] + maxima('grain_balance', 'grain_balance'),
         ['largest defect of the fluid\'s momentum [-]'] + wet('fluid_balance', 'fluid_balance'),
         ['largest Courant number [-]'] + wet('courant', ''),
     ]

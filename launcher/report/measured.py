@@ -88,7 +88,7 @@ MEASURED = [
              'ρ_f u_c² D', end_norm('fluid_force_x', 'fluid_force_y')),
     Measured('overlap', 'Largest overlap', r'overlap $/\,D$', 'D', maximum('max_penetration', 'penetration')),
     Measured('grain_balance', 'Defect of the grains\' momentum', RELATIVE, RELATIVE,
-             lambda run: maximum('grain_balance', 'grain_balance')(run) if run.is_wet() else None),
+             maximum('grain_balance', 'grain_balance')),
     Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', 'windows',
              maximum('', 'unconverged_windows')),
     Measured('wall_seconds', 'Wall time', 's', 's', lambda run: findings.wall_seconds(run)[0]),

@@ -6,6 +6,8 @@
 namespace turbidite {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Victim {
     const char* program;
     const char* name;
@@ -34,6 +36,23 @@ INSTANTIATE_TEST_SUITE_P(
         const std::string program = info.param.program;
         return program.substr(program.find('-') + 1);
     });
+
+// Seen with Open MPI 4.1: after a crash mpirun ends its ranks and then waits for itself.
+TEST_F(FailingRun, AnMpirunThatStaysAfterACrashIsKilled) {
+    const fs::path bin = scratch.path() / "bin", own = bin / "mpirun";
+    fs::create_directories(bin);
+    scratch.write("bin/mpirun", "#!/bin/sh\nPATH=${PATH#*:}\nmpirun \"$@\"\nexec sleep 1000\n");
+    fs::permissions(own, fs::perms::owner_all);
+    const pid_t run =
+        start(4, "", "env PATH=" + bin.string() + ":$PATH " + std::string(TURBIDITE_PROGRAM));
+    for (const pid_t process : processes("turbidite-grains")) kill(process, SIGKILL);
+    const Answer answer = end_of(run);
+    EXPECT_EQ(answer.code, 4);
+    EXPECT_SAYS(answer.err, "mpirun has not ended within limits.stall_hard = 3 s and is killed");
+    EXPECT_SAYS(answer.err, "The run failed: grains rank 0 was ended by signal 9");
+    expect_nothing_left();
+    expect_good_output_is_kept(ExitCode::participant_failed);
+}
 
 // A batch system kills `turbidite` itself.
 TEST_F(FailingRun, KilledTurbiditeLeavesNoJobBehind) {

@@ -112,7 +112,10 @@ class Mine:
         self.grains['velocity'] = kicks['velocity']
         self.grains['angular_velocity'] = kicks['angular_velocity']
         self.grains['position'] += window.step * self.grains['velocity']
-        return turbidite.Motion(self.grains)
+        fault, sent = sys.argv[1] if window.index == 3 else '', self.grains.copy()
+        if fault == 'state_impulse': sent['contact_impulse'][4, 0] = 1
+        if fault == 'state_velocity': sent['velocity'][4, 0] = 1
+        return turbidite.Motion(sent)
 
 turbidite.run_grains(Mine(), sys.argv[-1])
 )";
@@ -144,7 +147,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"_exit", 4, {"ended with status 3", "was due to send \"motion\", window 3"}},
         Fault{"fewer", 6, {mine, "2 of 12 grains are missing", "in \"motion\" of window 3"}},
         Fault{"nan", 6, {mine, "grain 4: contact impulse is not finite: (nan, nan, nan)"}},
-        Fault{"impulse", 6, {"grain_balance = ", "fails most for grain 4", "of grains (mine)"}}),
+        Fault{"impulse", 6, {"grain_balance = ", "fails most for grain 4", "of grains (mine)"}},
+        Fault{"state_impulse", 6, {"those of the motion; grain 4 of grains (mine)"}},
+        Fault{"state_velocity", 6, {"those of the kicks", "grain 4 of grains (mine)"}}),
     [](const auto& info) {
         const std::string name = info.param.name;
         return name[0] == '_' ? "Quick" + name : name;

@@ -106,9 +106,11 @@ void finish_window(const Window& window, const Motion& before, Cast& cast, Windo
         routed.push_back({std::move(kicks), result.kicks.report});
     cast.grains.send_each(Kind::kick, routed);
     // While the grains move.
-    result.grain_balance =
+    const GrainBalance balance =
         cast.kick_rule.balance(result.kicks.kicks, before, result.motion, window.step);
     result.state = receive_grains(Kind::state, window.index, cast);
+    result.grain_balance =
+        cast.kick_rule.with_state(balance, result.kicks.kicks, result.motion, result.state);
 }
 
 }  // namespace turbidite

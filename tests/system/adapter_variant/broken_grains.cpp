@@ -34,7 +34,7 @@ class BrokenGrains final : public ScriptedGrains {
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override {
         Settings own = settings;
-        if (fault_ == "heavy") own.set("run.gravity", 1.001 * settings.real("run.gravity"));
+        if (fault_ == "heavy") own.set("run.gravity", 1.00001 * settings.real("run.gravity"));
         return ScriptedGrains::initialise(own, shapes, grains);
     }
 
@@ -50,7 +50,10 @@ class BrokenGrains final : public ScriptedGrains {
         if (fault_ == "fails at the end" && window.index == 0)
             throw std::runtime_error("no more windows");
         const bool deaf = fault_ == "deaf" || (fault_ == "second rank is deaf" && is_second_rank());
-        return ScriptedGrains::apply_kick(window, deaf ? std::vector<Kick>() : kicks);
+        Motion state = ScriptedGrains::apply_kick(window, deaf ? std::vector<Kick>() : kicks);
+        if (fault_ == "wrong impulse")
+            for (GrainState& grain : state.grains) grain.contact_impulse[0] += 0.01;
+        return state;
     }
 
     void restore(const SavedState& state) override {

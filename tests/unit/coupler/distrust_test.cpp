@@ -268,6 +268,27 @@ TEST_F(Distrust, AnImpulseThatDoesNotBelongToTheVelocity) {
                 "fails most for grain 100", "grains (scripted)"});
 }
 
+TEST_F(Distrust, AStateWithOtherImpulsesThanTheContacts) {
+    grains_send(Kind::state, [](Motion& m) { grain_100(m).contact_impulse[0] += 0.01; });
+    expect_end(ExitCode::physics_refused,
+               {"grain_balance = ", "in window 3", "its contact impulses those of the motion",
+                "grain 100 of grains (scripted)"});
+}
+
+TEST_F(Distrust, AStateWithOtherVelocitiesThanTheKicks) {
+    grains_send(Kind::state, [](Motion& m) { grain_100(m).velocity[1] += 0.01; });
+    expect_end(ExitCode::physics_refused,
+               {"in window 3", "velocities of the state must be those of the kicks",
+                "grain 100 of grains (scripted)"});
+}
+
+TEST_F(Distrust, AnImpulseThatDoesNotBelongToTheVelocityWithoutAFluid) {
+    job.settings = test_settings("split", false);
+    grains_send(Kind::state, [](Motion& m) { grain_100(m).contact_impulse[0] += 0.01; });
+    expect_end(ExitCode::physics_refused,
+               {"grain_balance = ", "in window 3", "M dU = M g dt + J_c fails most for grain 100"});
+}
+
 // Within the limits it is a warning, once.
 TEST_F(Distrust, AnImpulseThatIsAlmostRight) {
     job.from_grains = [](Bytes& bytes) {

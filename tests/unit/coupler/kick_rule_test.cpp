@@ -52,5 +52,46 @@ TEST(KickRule, BalanceClosesForAConsistentWindowAndOnlyThen) {
     EXPECT_GT(disc.rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 0.1);
 }
 
+// M (U1 - Un) = M g dt + Jc, I (w1 - wn) = Kc.
+TEST(KickRule, BalanceWithoutAFluid) {
+    OneDisc disc;
+    const double mass = 1.5 * pi / 4, inertia = mass / 8;
+    Motion after = disc.before;
+    GrainState& grain = after.grains[0];
+    grain.contact_impulse = {0.01, 0.02, 0.0};
+    grain.contact_angular_impulse = {0.0, 0.0, 0.003};
+    grain.velocity = {0.3 + 0.01 / mass, -0.2 - step + 0.02 / mass, 0.0};
+    grain.angular_velocity = {0.0, 0.0, 0.003 / inertia};
+    EXPECT_LT(disc.rule.balance(disc.before, after, step).defect, 1e-14);
+
+    grain.contact_angular_impulse[2] = 0.0;
+    const GrainBalance found = disc.rule.balance(disc.before, after, step);
+    EXPECT_GT(found.defect, 0.1);
+    EXPECT_EQ(found.worst, grain.id);
+    EXPECT_EQ(found.rule, GrainBalance::Rule::dry);
+
+    after.grains.clear();  // it has left
+    EXPECT_EQ(disc.rule.balance(disc.before, after, step).defect, 0.0);
+}
+
+TEST(KickRule, TheStateMustBeThatOfTheKicksAndTheContacts) {
+    OneDisc disc;
+    disc.kicks[0].velocity = disc.before.grains[0].velocity;
+    const GrainBalance good{0.0, 0, GrainBalance::Rule::wet, 0.5};
+    Motion state = disc.contact;
+    EXPECT_EQ(disc.rule.with_state(good, disc.kicks, disc.contact, state).defect, 0.0);
+
+    state.grains[0].contact_impulse[0] = 0.001;
+    const GrainBalance found = disc.rule.with_state(good, disc.kicks, disc.contact, state);
+    EXPECT_NEAR(found.defect, 0.001 / 0.5, 1e-15);
+    EXPECT_EQ(found.rule, GrainBalance::Rule::state);
+
+    const GrainBalance worse{0.1, 7, GrainBalance::Rule::wet, 0.5};
+    EXPECT_EQ(disc.rule.with_state(worse, disc.kicks, disc.contact, state).worst, 7);
+
+    state.grains[0].prescribed = true;
+    EXPECT_EQ(disc.rule.with_state(good, disc.kicks, disc.contact, state).defect, 0.0);
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -51,7 +51,7 @@ struct Job {
         fluid->set_hook(to_fluid);
         for (const auto& end : fluid_ends) end->set_hook(from_fluid);
         for (const auto& end : grains_ends) end->set_hook(from_grains);
-        outcomes.resize(grains_ranks + fluid_ranks);
+        outcomes.resize(grains_ranks + (wet ? fluid_ranks : 0));
 
         std::vector<std::thread> threads;
         for (int rank = 0; rank < grains_ranks; ++rank)
