@@ -52,6 +52,11 @@ const char* word(Grade grade) {
     return grade == Grade::met ? "ok" : grade == Grade::failed ? "FAILS" : "-";
 }
 
+std::string conclusion(int failed) {
+    if (failed == 0) return "conforms";
+    return fmt::format("{} {} not met", failed, failed == 1 ? "requirement is" : "requirements are");
+}
+
 Failure refused(const std::string& text) {
     return Failure(ExitCode::bad_input, "adapter-test " + text + " Exit code 2.");
 }
@@ -99,8 +104,7 @@ int test_adapter(const AdapterTestOptions& options) {
         fmt::print("{:<6}{:<36}{}\n", word(finding.grade), requirement.name, finding.text);
         std::fflush(stdout);
     }
-    fmt::print("{}\n",
-               failed == 0 ? "conforms" : fmt::format("{} requirements are not met", failed));
+    fmt::print("{}\n", conclusion(failed));
     return static_cast<int>(failed == 0 ? ExitCode::done : ExitCode::tests_failed);
 }
 

@@ -75,7 +75,7 @@ TEST_P(Broken, IsTold) {
     EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, std::string("FAILS ") + program.requirement);
     EXPECT_SAYS(answer.out, program.says);
-    EXPECT_SAYS(answer.out, "1 requirements are not met");
+    EXPECT_SAYS(answer.out, "1 requirement is not met");
 }
 
 INSTANTIATE_TEST_SUITE_P(
