@@ -16,8 +16,10 @@ class PaperRuns:
     runs: list  # study.StudyRun
 
     def of(self, part, **values):
-        """RunData of the runs with a history; `values` by the last word of their keys."""
-        return [run.data for run in self.runs if run.entry['part'] == part and run.data.history is not None
+        """RunData of the runs with a history, of this part and of those that repeat it ("immersed-again"); `values`
+        by the last word of their keys."""
+        return [run.data for run in self.runs if run.entry['part'] in (part, f'{part}-again')
+                and run.data.history is not None
                 and all(value_of(run.entry, name) == value for name, value in values.items())]
 
     def member(self, part, **values):
