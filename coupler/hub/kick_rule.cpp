@@ -173,7 +173,8 @@ GrainBalance KickRule::with_state(GrainBalance so_far, const std::vector<Kick>& 
              change(then.contact_impulse, now.contact_impulse).norm(),
              change(then.contact_angular_impulse, now.contact_angular_impulse).norm() /
                  now.radius});
-        if (worst <= so_far.defect * so_far.largest) continue;
+        // Where the motion is at fault, the state differs from it by as much.
+        if (worst <= 2.0 * so_far.defect * so_far.largest) continue;
         // Where nothing else moves there is no scale, and the difference is all there is.
         so_far.largest = std::max(so_far.largest, worst);
         so_far = {worst / so_far.largest, kick.id, GrainBalance::Rule::state, so_far.largest};

@@ -36,9 +36,9 @@ class KickRule {
     /// Of a window without a fluid. `before` and `after` are the states at its ends.
     GrainBalance balance(const Motion& before, const Motion& after, double step);
 
-    /// `found` by balance, or worse if the state that follows has other velocities than the kicks,
-    /// or other contact impulses than `contact`.
-    GrainBalance with_state(GrainBalance found, const std::vector<Kick>& kicks,
+    /// What balance found, or, if the state that follows has other velocities than the kicks or
+    /// other contact impulses than `contact`, by more than twice that, how far it is from them.
+    GrainBalance with_state(GrainBalance so_far, const std::vector<Kick>& kicks,
                             const Motion& contact, const Motion& state);
 
  private:
