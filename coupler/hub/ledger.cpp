@@ -85,8 +85,7 @@ std::string Ledger::meaning(const GrainBalance& balance) const {
         case GrainBalance::Rule::state:
             return fmt::format(
                 "velocities of the state must be those of the kicks, and its contact impulses "
-                "those "
-                "of the motion; grain {} of {} is farthest from it",
+                "those of the motion; grain {} of {} is farthest from it",
                 balance.worst, grains_);
     }
     return "";

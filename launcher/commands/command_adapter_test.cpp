@@ -54,7 +54,8 @@ const char* word(Grade grade) {
 
 std::string conclusion(int failed) {
     if (failed == 0) return "conforms";
-    return fmt::format("{} {} not met", failed, failed == 1 ? "requirement is" : "requirements are");
+    return fmt::format("{} {} not met", failed,
+                       failed == 1 ? "requirement is" : "requirements are");
 }
 
 Failure refused(const std::string& text) {

@@ -20,9 +20,9 @@
 namespace turbidite {
 namespace {
 
-// The coupler looks for this file before every window and ends the run with the code in it: the file
-// appears with its code. Before the history begins there is no coupler to look for it, and nothing
-// to keep.
+// The coupler looks for this file before every window and ends the run with the code in it: the
+// file appears with its code. Before the history begins there is no coupler to look for it, and
+// nothing to keep.
 bool request_stop(const RunFolder& folder, int signal) {
     if (!std::filesystem::exists(folder.history())) return false;
     const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
