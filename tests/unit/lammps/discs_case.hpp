@@ -9,24 +9,9 @@
 #include <numbers>
 
 #include "granular_adapter/lammps/lammps_md_host.hpp"
-#include "tests/unit/nscd_adapter/contact_case.hpp"
+#include "tests/unit/md/spring_box.hpp"
 
 namespace turbidite::lammps {
-
-constexpr double frequency = 300.0;  ///< w [1/s]
-
-/// Box of 20 x 10 with walls and an open top, without gravity; undamped.
-inline Settings soft_settings() {
-    Settings settings = box_settings();
-    settings.set("domain.top", std::string("free"));
-    settings.set("run.size_x", 20.0), settings.set("run.size_y", 10.0);
-    settings.set("run.gravity", 0.0);
-    settings.set("run.md_frequency", frequency), settings.set("run.md_damping", 0.0);
-    settings.set("run.md_substeps", std::int64_t{60});
-    settings.set("contact.md_substeps", 20.0);
-    settings.set("coupling.md_hold", true);
-    return settings;
-}
 
 /// Moves along x with `speed`.
 inline nscd::Body disc(GrainId id, double x, double y, Vec3 velocity = {}, double radius = 0.5) {

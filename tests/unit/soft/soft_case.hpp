@@ -10,11 +10,10 @@
 #include "coupler/shapes/shape.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/soft/soft_md_host.hpp"
-#include "tests/unit/nscd_adapter/contact_case.hpp"
+#include "tests/unit/md/spring_box.hpp"
 
 namespace turbidite::soft {
 
-constexpr double frequency = 300.0;  ///< w [1/s]
 constexpr double contact_time = std::numbers::pi / frequency;
 constexpr double fine = contact_time / 1200.0;  ///< a sub-step [s]
 
@@ -26,19 +25,6 @@ inline const ShapeTable all_shapes = {
      {std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2,
       std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2,
       std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}}};
-
-/// Box of 20 x 10 with walls and an open top, without gravity; undamped, friction 0.3.
-inline Settings soft_settings() {
-    Settings settings = box_settings();
-    settings.set("domain.top", std::string("free"));
-    settings.set("run.size_x", 20.0), settings.set("run.size_y", 10.0);
-    settings.set("run.gravity", 0.0);
-    settings.set("run.md_frequency", frequency), settings.set("run.md_damping", 0.0);
-    settings.set("run.md_substeps", std::int64_t{60});
-    settings.set("contact.md_substeps", 20.0);
-    settings.set("coupling.md_hold", true);
-    return settings;
-}
 
 inline Settings damped(double zeta) {
     Settings settings = soft_settings();
