@@ -34,7 +34,7 @@ class Triangles:
         return np.hypot(d[:, 0, 0] - d[:, 1, 1], d[:, 0, 1] + d[:, 1, 0])
 
 
-def triangles(snapshot):
+def triangles(snapshot, limit=LARGEST_CIRCUMRADIUS):
     """Of a snapshots.Snapshot; None for fewer than three grains, or if all stand in one line."""
     points = snapshot.centres
     if len(points) < 3 or np.ptp(points, axis=0).min() < 1e-9:
@@ -45,7 +45,7 @@ def triangles(snapshot):
     lengths = np.hypot(sides[..., 0], sides[..., 1])
     areas = 0.5 * np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
     with np.errstate(divide='ignore'):
-        kept = lengths.prod(axis=1) / (4.0 * areas) <= LARGEST_CIRCUMRADIUS * (1.0 + 1e-9)
+        kept = lengths.prod(axis=1) / (4.0 * areas) <= limit * (1.0 + 1e-9)
     corners, places, sides, areas = corners[kept], places[kept], sides[kept], areas[kept]
     solid = (angles(sides) / (2.0 * np.pi) * snapshot.areas[corners]).sum(axis=1)
     return Triangles(corners, places.mean(axis=1), areas, solid, gradients(places, snapshot.velocities[corners]))

@@ -16,6 +16,9 @@ from analysis.once import once_per_run
 
 AT = 0.05  # dx/x0 at which runs are compared
 LEAST_SOLID = 3.0  # D^2 in a cell: fewer grains have no void ratio
+REGIMES_TO = 0.3   # dx/x0: two lines are fitted to the curve until there ...
+LEAST_SPAN = 0.1   # ... or to its end, if that is at least so far
+FIT_POINTS = 300   # at equal distances in dx/x0
 
 
 @dataclass
@@ -66,6 +69,34 @@ def largest_change(run):
     initial = found.change if there is None else np.append(
         found.change[:int(np.argmax(found.displacement >= AT))], there)
     return float(initial[np.abs(initial).argmax()])
+
+
+@dataclass
+class Regimes:
+    """A continuous curve of two straight lines."""
+
+    knee: float    # dx/x0
+    first: float   # slope of dV/V0 until there
+    second: float  # and after it
+
+
+def regimes(run):
+    """The two lines through the origin and a knee that fit dV/V0 over dx/x0 best; None if the column moves too little."""
+    found = pore_curve(run)
+    if found is None or found.displacement.max() < LEAST_SPAN:
+        return None
+    moved = np.maximum.accumulate(found.displacement)
+    at = np.linspace(0.0, min(REGIMES_TO, moved[-1]), FIT_POINTS + 1)[1:]
+    change = np.interp(at, moved, found.change)
+    fits = [two_lines(at, change, knee) for knee in at[FIT_POINTS // 50:-FIT_POINTS // 50]]
+    return min(fits, key=lambda fit: fit[0])[1]
+
+
+def two_lines(at, change, knee):
+    """(sum of squared errors, Regimes) of the best lines with this knee."""
+    lengths = np.column_stack([np.minimum(at, knee), np.maximum(at - knee, 0.0)])
+    slopes = np.linalg.lstsq(lengths, change, rcond=None)[0]
+    return float(((lengths @ slopes - change)**2).sum()), Regimes(float(knee), *map(float, slopes))
 
 
 def change_per_cell(run, snapshot):

@@ -19,6 +19,7 @@ WEAK = 2.0               # largest ratio of slopes that still is a weak dependen
 SAME_CURVE = 0.1         # largest mean difference of curves that count as similar
 BACK = 0.1               # of the largest mean velocity: the grains of a wave that runs back are faster
 NEVER = float('inf')     # t_relax of a column that has not slid
+SATURATED = 0.5          # of the first slope of dV/V0: the largest second one that is another regime
 ALIKE = 0.1              # relative spread within which values count as independent of phi
 
 
@@ -232,14 +233,15 @@ def pores_grow_with_compacity(runs):
 
 
 def two_regimes(runs):
-    """Slope of dV/V0 until 0.05 against that from there to 0.15."""
-    ratios = []
-    for run in [run for phi in COMPACITIES[1:] for run in runs.of('immersed', compacity=phi, reynolds='89')]:
-        early, late = pores.change_at(run, 0.05), pores.change_at(run, 0.15)
-        if early and late is not None:
-            ratios.append((early / 0.05) / max((late - early) / 0.10, 1e-9))
-    return (f'the first {spread([min(ratio, 99.0) for ratio in ratios], ".2g")} times as steep as the second',
-            min(ratios) > 1.5) if ratios else None
+    """Two lines fitted to dV/V0 against dx/x0 of the columns that dilate."""
+    found = [pores.regimes(run) for phi in COMPACITIES[1:] for run in runs.of('immersed', compacity=phi, reynolds='89')]
+    found = [one for one in found if one is not None]
+    if not found:
+        return None
+    flatter = [one.second / one.first for one in found]
+    return (f'the second {spread(flatter, ".2f")} times as steep as the first, from δx/x₀ = '
+            f'{spread([one.knee for one in found], ".2f")} on',
+            min(one.first for one in found) > 0.0 and max(flatter) < SATURATED)
 
 
 def energy_closes(runs):

@@ -162,6 +162,24 @@ class Pores(unittest.TestCase):
         self.assertIsNone(pores.change_at(data))
         self.assertAlmostEqual(pores.largest_change(data), -0.1)
 
+    def test_two_regimes(self):
+        moved = np.linspace(0.0, 0.4, 41)
+        change = np.minimum(moved, 0.06) * 2.0 + np.maximum(moved - 0.06, 0.0) * 0.25
+        found = pores.regimes(with_snapshots(run(time=range(41), pore_volume=100.0 * (1.0 + change),
+                                                  mean_position_x=5.0 * (1.0 + moved))))
+        self.assertAlmostEqual(found.knee, 0.06, places=6)
+        self.assertAlmostEqual(found.first, 2.0, places=6)
+        self.assertAlmostEqual(found.second, 0.25, places=6)
+
+    def test_no_regimes_of_a_column_that_hardly_moves(self):
+        self.assertIsNone(pores.regimes(with_snapshots(run(time=[0, 1], pore_volume=[10, 11], mean_position_x=[5, 5.1]))))
+
+    def test_fewer_triangles_belong_to_a_packing_with_a_smaller_limit(self):
+        # Two triangles of circumradius 1/sqrt(3) D, and a corner at a distance that makes a third of 0.80 D.
+        corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)], [1.5, np.sqrt(0.75)], [2.4, 0.2]])
+        count = lambda limit: len(packing_triangles.triangles(snapshot(corners), limit).areas)
+        self.assertEqual((count(0.7), count(1.0)), (2, 3))
+
     def test_void_ratio_of_a_stretched_lattice(self):
         # e = A/S - 1 grows from 0.1027 to 0.2158 with a spacing of 1.05.
         first, last = snapshot(lattice(20, 16)), snapshot(lattice(20, 16, 1.05))

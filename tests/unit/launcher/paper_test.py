@@ -62,6 +62,8 @@ class Statements(unittest.TestCase):
         for name in ('loose_at_once', 'dense_waits', 'waits_linearly', 'slopes_are_alike', 'peak_falls_with_compacity',
                      'peak_and_viscosity', 'only_the_loosest_contracts', 'pores_grow_with_compacity'):
             self.assertTrue(result(name, runs), name)
+        self.assertTrue(result('two_regimes', runs))
+        self.assertIn('from δx/x₀ = 0.20 (0.20 to 0.20) on', statements.two_regimes(runs)[0])
         slope, _, straight = figures.waiting_line(runs, '8.9')
         self.assertAlmostEqual(slope, 60.0, places=6)
         self.assertAlmostEqual(straight, 1.0)
@@ -71,6 +73,11 @@ class Statements(unittest.TestCase):
         runs = PaperRuns(immersed(waits, lambda re, phi: 0.3 * phi / (1.0 + 0.1 * float(re))))
         for name in ('loose_at_once', 'slopes_are_alike', 'peak_falls_with_compacity', 'peak_and_viscosity'):
             self.assertFalse(result(name, runs), name)
+
+    def test_of_pores_that_grow_steadily(self):
+        rows = [made('immersed', {'fluid.reynolds': '89', 'grains.compacity': phi}, pore_volume=100.0 + ROWS,
+                     mean_position_x=12.5 * (1.0 + 0.02 * ROWS)) for phi in COMPACITIES]
+        self.assertFalse(result('two_regimes', PaperRuns(rows)))
 
     def test_of_columns_that_do_not_slide(self):
         """At the smallest Re only the loosest moves by the end: Re changes more than the slope slightly."""
