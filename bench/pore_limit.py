@@ -30,7 +30,7 @@ def arguments():
 
 def changes(outputs, limit, displacements):
     """dV/V0 at these displacements; nan beyond the last output."""
-    places = np.array([output.centres[:, 0].mean() for output in outputs])
+    places = np.maximum.accumulate([output.centres[:, 0].mean() for output in outputs])
     pores = np.array([packing_triangles.triangles(output, limit).pores().sum() for output in outputs])
     return np.interp(displacements, places / places[0] - 1.0, pores / pores[0] - 1.0, right=np.nan)
 

@@ -73,7 +73,7 @@ def largest_change(run):
 
 @dataclass
 class Regimes:
-    """A continuous curve of two straight lines."""
+    """dV/V0 over dx/x0 as a continuous curve of two straight lines."""
 
     knee: float    # dx/x0
     first: float   # slope of dV/V0 until there
@@ -81,7 +81,8 @@ class Regimes:
 
 
 def regimes(run):
-    """The two lines through the origin and a knee that fit dV/V0 over dx/x0 best; None if the column moves too little."""
+    """The line through the origin and the one from its end, the knee, that fit dV/V0 over dx/x0 best; None if the column
+    moves too little."""
     found = pore_curve(run)
     if found is None or found.displacement.max() < LEAST_SPAN:
         return None

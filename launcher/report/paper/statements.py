@@ -238,10 +238,10 @@ def two_regimes(runs):
     found = [one for one in found if one is not None]
     if not found:
         return None
-    flatter = [one.second / one.first for one in found]
+    flatter = [one.second / one.first if one.first > 0.0 else np.inf for one in found]
     return (f'the second {spread(flatter, ".2f")} times as steep as the first, from δx/x₀ = '
             f'{spread([one.knee for one in found], ".2f")} on',
-            min(one.first for one in found) > 0.0 and max(flatter) < SATURATED)
+            max(flatter) < SATURATED)
 
 
 def energy_closes(runs):
