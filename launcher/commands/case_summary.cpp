@@ -9,6 +9,7 @@
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/command_words.hpp"
+#include "launcher/case/disk_cost.hpp"
 #include "launcher/case/mesh_cost.hpp"
 #include "launcher/case/run_cost.hpp"
 
@@ -45,9 +46,10 @@ std::string parts_text(const WindowForecast& window) {
 
 std::string forecast_line(const ResolvedCase& resolved) {
     const WindowForecast window = forecast_window(resolved);
-    return fmt::format("  forecast: roughly {}, {:.3g} ms per window ({}), {:.2g} GB\n",
-                       rough_time(predicted_seconds(resolved)), 1e3 * window.seconds(),
-                       parts_text(window), predicted_memory(resolved));
+    return fmt::format(
+        "  forecast: roughly {}, {:.3g} ms per window ({}), {} of memory, {} of files\n",
+        rough_time(predicted_seconds(resolved)), 1e3 * window.seconds(), parts_text(window),
+        rough_size(predicted_memory(resolved)), rough_size(predicted_disk(resolved)));
 }
 
 std::string md_line(const Settings& settings) {

@@ -25,13 +25,14 @@ struct CheckOptions {
 int check_study(const CheckOptions& options) {
     const Study study = read_study(options.file);
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
+    std::vector<const PlannedRun*> all;
     for (const PlannedRun& run : plan) {
         const Settings settings = run.resolve().settings;
         require_programs(settings, needed_programs(settings, find_programs()));
         fmt::print("  {:>7}  {}\n", rough_time(run.seconds), run.path());
+        all.push_back(&run);
     }
-    fmt::print("{}: {} runs, roughly {}\nvalid\n", study.name, plan.size(),
-               rough_time(predicted_seconds(plan)));
+    fmt::print("{}: {} runs, {}\nvalid\n", study.name, plan.size(), forecast_text(all));
     return static_cast<int>(ExitCode::done);
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "launcher/case/disk_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/terminal_width.hpp"
@@ -24,6 +25,10 @@ struct RunOptions {
 int run(const RunOptions& options) {
     const ResolvedCase resolved = load_case(options.file, options.overrides, options.from);
     const LaunchSite site = this_site();
+    const auto folder =
+        options.order.out.empty() ? std::filesystem::path("runs") : options.order.out;
+    if (const std::string lack = lack_of_disk(predicted_disk(resolved), folder); !lack.empty())
+        fmt::print(stderr, "turbidite: {}\n", lack);
     const PreparedRun prepared = prepare(resolved, options.order, site);
     const std::string summary =
         case_summary(resolved) + fmt::format("  folder: {}\n", prepared.folder.root.string());

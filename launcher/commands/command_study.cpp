@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "launcher/case/disk_cost.hpp"
 #include "launcher/case/run_cost.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
@@ -180,11 +181,11 @@ int run_study(const StudyOptions& options) {
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     const fs::path out = folder_of(study, options);
     const std::vector<const PlannedRun*> missing = missing_runs(plan, out);
-    double seconds = 0.0;
-    for (const PlannedRun* run : missing) seconds += run->seconds;
     fmt::print("{}: {} runs, {} of them done, folder {}{}\n", study.name, plan.size(),
                plan.size() - missing.size(), out.string(),
-               missing.empty() ? "" : ", to do: roughly " + rough_time(seconds));
+               missing.empty() ? "" : ", to do: " + forecast_text(missing));
+    if (const std::string lack = lack_of_disk(predicted_disk(missing), out); !lack.empty())
+        fmt::print(stderr, "turbidite: {}\n", lack);
     if (options.dry_run) {
         list(plan, out);
         return static_cast<int>(ExitCode::done);

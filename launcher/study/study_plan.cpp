@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "launcher/case/disk_cost.hpp"
 #include "launcher/case/run_cost.hpp"
 
 namespace turbidite {
@@ -130,6 +131,7 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
             const ResolvedCase resolved = run.resolve();
             run.hash = resolved.settings.text("run.hash");
             run.seconds = predicted_seconds(resolved);
+            run.disk = predicted_disk(resolved);
         } catch (const CaseRefused& refused) {
             for (const CaseProblem& problem : refused.problems())
                 if (told.insert(text_of(problem)).second) problems.push_back(in_run(problem, run));
@@ -139,10 +141,16 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
     return plan;
 }
 
-double predicted_seconds(const std::vector<PlannedRun>& plan) {
+double predicted_disk(const std::vector<const PlannedRun*>& runs) {
     double sum = 0.0;
-    for (const PlannedRun& run : plan) sum += run.seconds;
+    for (const PlannedRun* run : runs) sum += run->disk;
     return sum;
+}
+
+std::string forecast_text(const std::vector<const PlannedRun*>& runs) {
+    double seconds = 0.0;
+    for (const PlannedRun* run : runs) seconds += run->seconds;
+    return "roughly " + rough_time(seconds) + ", " + rough_size(predicted_disk(runs)) + " of files";
 }
 
 }  // namespace turbidite

@@ -21,6 +21,7 @@ struct PlannedRun {
     std::vector<std::pair<std::string, std::string>> values;
     std::string hash = {};  ///< of the resolved case
     double seconds = 0.0;   ///< predicted (case/run_cost.hpp)
+    double disk = 0.0;      ///< predicted [GB] (case/disk_cost.hpp)
 
     /// "column/compacity-0.785-seed-1": below the study's folder, and in messages.
     std::string path() const { return part + "/" + name; }
@@ -34,7 +35,10 @@ struct PlannedRun {
 std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides,
                                    bool quick = false);
 
-/// Predicted, of all runs one after the other [s].
-double predicted_seconds(const std::vector<PlannedRun>& plan);
+/// Of some runs, one after the other: "roughly 7 h, 52 GB of files".
+std::string forecast_text(const std::vector<const PlannedRun*>& runs);
+
+/// Files of some runs, predicted [GB].
+double predicted_disk(const std::vector<const PlannedRun*>& runs);
 
 }  // namespace turbidite

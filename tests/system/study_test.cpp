@@ -210,10 +210,20 @@ TEST_F(StudyRuns, NothingStartsWhenARunIsWrong) {
     }
 }
 
+TEST_F(StudyRuns, SaysBeforehandThatTheDiskIsTooSmall) {
+    const Answer room = study("--dry-run");
+    EXPECT_EQ(room.err, "");
+    const Answer none = study("--dry-run --set time.end=1e10");
+    EXPECT_EQ(none.code, 0);
+    EXPECT_SAYS(none.err, " GB of files are to come, ");
+    EXPECT_SAYS(none.err, " are free in " + scratch.path().string());
+}
+
 TEST_F(StudyRuns, ADryRunListsTheRuns) {
     const Answer answer = study("--dry-run");
     EXPECT_EQ(answer.code, 0);
     EXPECT_SAYS(answer.out, "to do: roughly ");
+    EXPECT_SAYS(answer.out, " MB of files\n");
     EXPECT_SAYS(answer.out, " s  frictions/friction-0.3");
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "s"));
 }

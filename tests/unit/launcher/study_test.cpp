@@ -155,7 +155,10 @@ variants: {rough: {contact.friction: 0.5}, plain: {}}
     EXPECT_EQ(q.real("time.step"), 0.01);
     EXPECT_EQ(q.real("contact.friction"), 0.2);
     EXPECT_EQ(quick[0].resolve().settings.real("contact.friction"), 0.5) << "of the variant";
-    EXPECT_GT(predicted_seconds(full), predicted_seconds(quick));
+    EXPECT_GT(full[2].seconds, quick[2].seconds);
+    EXPECT_GT(full[2].disk, quick[2].disk);
+    EXPECT_DOUBLE_EQ(predicted_disk({&full[0], &full[2]}), full[0].disk + full[2].disk);
+    EXPECT_SAYS(forecast_text({&full[0], &full[2]}), " of files");
 }
 
 TEST_F(StudyTest, AQuickKeyTakesThePlaceOfItsSweep) {
