@@ -46,7 +46,7 @@ double bytes_of_fields(const Settings& settings) {
     return of_field_set + of_scalar_field * words(more);
 }
 
-/// Those in turn, and the last window.
+/// Those of every so many windows, and of the last one.
 double outputs(std::int64_t windows, std::int64_t every) {
     return static_cast<double>((windows + every - 1) / every);
 }
@@ -82,9 +82,11 @@ double grain_bytes(const ResolvedCase& resolved, const RunValues& run) {
     return per_grain * static_cast<double>(resolved.population.size());
 }
 
-fs::path nearest_folder(fs::path path) {
+/// The folder itself, or the nearest one above it that exists.
+fs::path existing_folder(fs::path path) {
+    std::error_code error;
     path = fs::absolute(path);
-    while (!fs::exists(path) && path.has_relative_path()) path = path.parent_path();
+    while (!fs::exists(path, error) && path.has_relative_path()) path = path.parent_path();
     return path;
 }
 
@@ -104,7 +106,7 @@ std::string rough_size(double gigabytes) {
 
 std::string lack_of_disk(double gigabytes, const fs::path& folder) {
     std::error_code error;
-    const fs::path where = nearest_folder(folder);
+    const fs::path where = existing_folder(folder);
     const auto space = fs::space(where, error);
     if (error) return "";
     const double available = static_cast<double>(space.available) / gigabyte;
