@@ -536,6 +536,11 @@ EarlierStart earlier_run(const std::string& text) {
 
 }  // namespace
 
+bool all_round(const ResolvedCase& resolved) {
+    return std::all_of(resolved.shapes.begin(), resolved.shapes.end(),
+                       [](const ShapeRecord& shape) { return shape.vertices.empty(); });
+}
+
 ResolvedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const std::string& from) {
     GivenGrains given;

@@ -34,6 +34,9 @@ struct ResolvedCase {
     std::string from;
 };
 
+/// Whether all shapes of the case are discs.
+bool all_round(const ResolvedCase& resolved);
+
 /// Overrides are the arguments of --set, `key=value` with the value in YAML; `from` is the argument
 /// of --from, DIR[@time], whose grains replace those of the case.
 ResolvedCase load_case(const std::filesystem::path& file,

@@ -51,6 +51,7 @@ double outputs(std::int64_t windows, std::int64_t every) {
     return static_cast<double>((windows + every - 1) / every);
 }
 
+/// Sets that are kept.
 double checkpoints(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
     const auto windows = static_cast<double>(settings.integer("run.windows"));
@@ -62,23 +63,17 @@ double checkpoints(const ResolvedCase& resolved) {
     return std::min(std::floor(all), static_cast<double>(settings.integer("checkpoint.keep")));
 }
 
-double fluid_bytes(const ResolvedCase& resolved, const RunValues& run) {
-    const Settings& settings = resolved.settings;
+double fluid_bytes(const Settings& settings, const RunValues& run, double sets) {
     const double per_cell = bytes_of_mesh(settings) +
                             bytes_of_fields(settings) * outputs(run.windows, run.fields_every) +
-                            of_fluid_checkpoint * checkpoints(resolved);
+                            of_fluid_checkpoint * sets;
     return per_cell * fluid_cells(settings);
 }
 
-bool is_round(const ShapeRecord& shape) {
-    return shape.vertices.empty();
-}
-
-double grain_bytes(const ResolvedCase& resolved, const RunValues& run) {
-    const bool round = std::all_of(resolved.shapes.begin(), resolved.shapes.end(), is_round);
-    const double per_grain =
-        (round ? of_disc : of_polygon) * (1.0 + outputs(run.windows, run.output_every)) +
-        of_grain_checkpoint * checkpoints(resolved);
+double grain_bytes(const ResolvedCase& resolved, const RunValues& run, double sets) {
+    const double per_grain = (all_round(resolved) ? of_disc : of_polygon) *
+                                 (1.0 + outputs(run.windows, run.output_every)) +
+                             of_grain_checkpoint * sets;
     return per_grain * static_cast<double>(resolved.population.size());
 }
 
@@ -95,8 +90,9 @@ fs::path existing_folder(fs::path path) {
 double predicted_disk(const ResolvedCase& resolved) {
     const RunValues run = run_values(resolved.settings);
     const double history = of_history_row * (1.0 + outputs(run.windows, run.output_every));
-    const double fluid = run.wet ? fluid_bytes(resolved, run) : 0.0;
-    return (fluid + grain_bytes(resolved, run) + history) / gigabyte;
+    const double sets = checkpoints(resolved);
+    const double fluid = run.wet ? fluid_bytes(resolved.settings, run, sets) : 0.0;
+    return (fluid + grain_bytes(resolved, run, sets) + history) / gigabyte;
 }
 
 std::string rough_size(double gigabytes) {

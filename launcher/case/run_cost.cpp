@@ -84,11 +84,6 @@ double fluid_time(const ResolvedCase& resolved) {
            covered * covered_cells(resolved) * std::min(1.0, busiest_share / ranks);
 }
 
-bool all_round(const ResolvedCase& resolved) {
-    return std::all_of(resolved.shapes.begin(), resolved.shapes.end(),
-                       [](const ShapeRecord& shape) { return shape.vertices.empty(); });
-}
-
 double time_per_substep(const ResolvedCase& resolved) {
     const bool own = resolved.settings.text("grains.adapter") == "standalone-md";
     return own && all_round(resolved) ? own_disc_step : spring_step;
