@@ -40,7 +40,7 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
     excess_[1].assign(static_cast<std::size_t>(nx_) * (ny_ + 1), 0.0);
     flux_x_.resize(nx_ + 1);
     corrected_u_.resize(nx_ + RowReader::padding);
-    for (Row* row : {&flux_below_, &flux_above_, &corrected_below_, &corrected_here_,
+    for (Row* row : {&flux_below_, &flux_above_, &corrected_below_, &corrected_here_, &result_,
                      &largest_divergence_, &largest_outflow_, &divergence_})
         row->resize(nx_);
     for (SideValues& values : side_velocity_)
@@ -145,8 +145,13 @@ void BoxStep::correct_row(int j, double dt) {
             excess_of(nx_, shares_at(j), flux_above_.data(), corrected_below_.data(),
                       corrected_here_.data(), excess_y(j));
     }
+    const std::size_t row = j;
+    if (j >= 0) hold_middle(1, row * nx_, nx_, flux_above_.data());
     if (j >= 1) check_row(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data());
-    if (j >= 0 && j < ny_) correct_across(j, dt, p_.row(j));
+    if (j >= 0 && j < ny_) {
+        correct_across(j, dt, p_.row(j));
+        hold_middle(0, row * (nx_ + 1), nx_ + 1, flux_x_.data());
+    }
     flux_below_.swap(flux_above_);
     corrected_below_.swap(corrected_here_);
 }
@@ -197,17 +202,85 @@ void BoxStep::correct_held_row(int j, double dt) {
 void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
     u_.begin(velocity(0));
     v_.begin(velocity(1));
-    if (impulses) {
-        impulses->f.resize(static_cast<std::size_t>(nx_) * ny_);
-        impulses->sum_f = {};
-        p_.begin(pressure());
-    }
+    if (impulses) begin_impulses(*impulses);
     for (int j = -1; j < ny_; ++j) {
         carry_above(j);
         if (j >= 0) transport_row(j, dt);
         if (j >= 0 && impulses) add_impulses(j, *impulses);
         carried_below_.swap(carried_above_);
     }
+}
+
+/// Rows are read before they are written, so u may be the result.
+BoxStep::Force BoxStep::play(const VelocityStage& stage) {
+    Force force = convective_force(stage.u[0], stage.u[1]);
+    if (stage.viscous) {
+        const Force viscous = viscous_force(stage.u[0], stage.u[1]);
+        for (int axis = 0; axis < 2; ++axis) force[axis] += viscous[axis];
+    }
+    u_.begin(stage.u[0]);
+    v_.begin(stage.u[1]);
+    for (int j = -1; j < ny_; ++j) {
+        carry_above(j);
+        if (stage.viscous) diffuse_between(j + 1);
+        if (j >= 0) play_row(j, stage);
+        carried_below_.swap(carried_above_);
+    }
+    return force;
+}
+
+/// The flux of momentum by viscosity, nu du/dy, through the faces below row j.
+void BoxStep::diffuse_between(int j) {
+    const double share = fluid_.viscosity / heights_.distance(j);
+    subtract_difference(nx_, share, u_.row(j - 1), u_.row(j), carried_above_[0].data());
+    subtract_difference(nx_, share, v_.row(j - 1), v_.row(j), carried_above_[1].data());
+}
+
+void BoxStep::play_row(int j, const VelocityStage& stage) {
+    const std::array<const double*, 2> u{u_.row(j), v_.row(j)};
+    carry_along(j);
+    const std::size_t first = static_cast<std::size_t>(j) * nx_;
+    for (int axis = 0; axis < 2; ++axis) {
+        double* across = carried_x_[axis].data();
+        if (stage.viscous)
+            subtract_difference(nx_ + 1, fluid_.viscosity / hx_, u[axis] - 1, u[axis], across);
+        const StageRows rows{stage.old,
+                             stage.fresh,
+                             stage.rate,
+                             stage.v[axis] + first,
+                             stage.now[axis] + first,
+                             stage.before[axis] + first};
+        stage_row(nx_, rows, u[axis], -stage.dt / hx_, across, across + 1,
+                  -stage.dt / heights_.size(j), carried_below_[axis].data(),
+                  carried_above_[axis].data(), result_.data());
+        std::copy(result_.begin(), result_.end(), stage.result[axis] + first);
+        if (!stage.copy.empty())
+            std::copy(result_.begin(), result_.end(), stage.copy[axis] + first);
+    }
+}
+
+void BoxStep::add_impulses(const VelocityStage::Values& u2, ImpulsesOfWindow& impulses) {
+    begin_impulses(impulses);
+    u_.begin(velocity(0));
+    v_.begin(velocity(1));
+    for (int j = 0; j < ny_; ++j) {
+        u_.row(j + 1);  // before row j is written
+        v_.row(j + 1);
+        for (int axis = 0; axis < 2; ++axis)
+            std::copy_n(u2[axis] + static_cast<std::size_t>(j) * nx_, nx_, row_of(axis, j));
+        add_impulses(j, impulses);
+    }
+}
+
+void BoxStep::begin_impulses(ImpulsesOfWindow& impulses) {
+    impulses.f.resize(static_cast<std::size_t>(nx_) * ny_);
+    impulses.sum_f = {};
+    p_.begin(pressure());
+}
+
+double BoxStep::fastest_decay(double dt) const {
+    const double hy = fluid_.pressure.y.spacing;
+    return 4.0 * fluid_.viscosity * dt * (1.0 / (hx_ * hx_) + 1.0 / (hy * hy));
 }
 
 void BoxStep::hold_flux() {
@@ -223,13 +296,36 @@ void BoxStep::hold_flux() {
     held_ = true;
 }
 
+namespace {
+
+double windows_to_the_middle(bool begins) {
+    return begins ? 0.0 : 0.5;
+}
+
+}  // namespace
+
+FluxReport BoxStep::project_and_hold_middle(double dt, bool begins) {
+    for (int axis = 0; axis < 2; ++axis) flux_[axis].resize(excess_[axis].size());
+    extrapolated_ = windows_to_the_middle(begins);
+    const FluxReport report = project(dt);
+    extrapolated_.reset();
+    held_ = true;
+    return report;
+}
+
+/// Of a row of phi1 over |S|, which begins at `first`.
+void BoxStep::hold_middle(int axis, std::size_t first, int count, const double* flux) {
+    if (extrapolated_)
+        extrapolate(count, *extrapolated_, flux, last_flux_[axis].data() + first,
+                    flux_[axis].data() + first);
+}
+
 void BoxStep::hold_middle_flux(bool begins) {
-    hold_flux();
     for (int axis = 0; axis < 2; ++axis) {
         std::vector<double>& last = last_flux_[axis];
         std::swap(flux_[axis], last);  // phi1 is the next window's last flux
         if (begins) flux_[axis] = last;
-        if (!begins) combine_stage(last.size(), 1.5, last.data(), -0.5, flux_[axis].data());
+        if (!begins) combine(last.size(), -0.5, flux_[axis].data(), 1.5, last.data());
     }
 }
 
@@ -271,7 +367,8 @@ void BoxStep::carry_above(int j) {
     }
 }
 
-void BoxStep::transport_row(int j, double dt) {
+/// Momentum carried through the x faces of row j.
+void BoxStep::carry_along(int j) {
     const double *u = u_.row(j), *v = v_.row(j);
     const double* flux = held_ ? held_x(j) : flux_x_.data();
     if (!held_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
@@ -281,6 +378,11 @@ void BoxStep::transport_row(int j, double dt) {
             carried_x_[0][face] = 0.5 * flux[face] * (u[face - 1] + u[face]);
             carried_x_[1][face] = 0.5 * flux[face] * (v[face - 1] + v[face]);
         }
+}
+
+void BoxStep::transport_row(int j, double dt) {
+    const double *u = u_.row(j), *v = v_.row(j);
+    carry_along(j);
     for (int axis = 0; axis < 2; ++axis) {
         const double* across = carried_x_[axis].data();
         advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / heights_.size(j),
@@ -378,10 +480,14 @@ BoxStep::Force BoxStep::pressure_force() {
 }
 
 BoxStep::Force BoxStep::convective_force() {
+    return convective_force(velocity(0), velocity(1));
+}
+
+BoxStep::Force BoxStep::convective_force(const double* u_x, const double* u_y) {
     return over_sides([&](int side, int at, std::size_t cell, std::size_t face) {
         const double share = at_face(fluid_.velocity, side);
-        const Force u{share * velocity(0)[cell] + at_side(0, side, at),
-                      share * velocity(1)[cell] + at_side(1, side, at)};
+        const Force u{share * u_x[cell] + at_side(0, side, at),
+                      share * u_y[cell] + at_side(1, side, at)};
         const int axis = side / 2;
         const double flux = held_ ? flux_[axis][face] : u[axis] + excess_[axis][face];
         const double inward = side % 2 == 0 ? flux : -flux;
@@ -390,6 +496,10 @@ BoxStep::Force BoxStep::convective_force() {
 }
 
 BoxStep::Force BoxStep::viscous_force() {
+    return viscous_force(velocity(0), velocity(1));
+}
+
+BoxStep::Force BoxStep::viscous_force(const double* u_x, const double* u_y) {
     const auto across = [&](int side) {  // h
         return side < 2 ? hx_ : heights_.size(side == 2 ? 0 : ny_ - 1);
     };
@@ -397,7 +507,8 @@ BoxStep::Force BoxStep::viscous_force() {
         const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
         const double per_length = fluid_.viscosity / across(side);
         const auto rate = [&](int axis) {  // nu (u_{-1} - u_0)/h
-            return per_length * (difference * velocity(axis)[cell] + 2.0 * at_side(axis, side, at));
+            return per_length *
+                   (difference * (axis == 0 ? u_x : u_y)[cell] + 2.0 * at_side(axis, side, at));
         };
         return Force{rate(0), rate(1)};
     });

@@ -25,6 +25,7 @@
 #include "fluid_adapter/box_step/row_heights.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
 #include "fluid_adapter/box_step/row_work.hpp"
+#include "fluid_adapter/box_step/velocity_stage.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {
@@ -89,6 +90,16 @@ class BoxStep {
     /// added, those of viscosity from u1.
     void transport(double dt, ImpulsesOfWindow* impulses = nullptr);
 
+    /// A stage of step 2, and with viscosity of step 3, with the flux that is held; pieces are the
+    /// components. Returns what crosses the sides by L(u), before it.
+    std::array<double, 2> play(const VelocityStage& stage);
+
+    /// u1 becomes u2 + f - dt G p, with the impulses of u1; ends step 2 of a window with impulses.
+    void add_impulses(const VelocityStage::Values& u2, ImpulsesOfWindow& impulses);
+
+    /// nu dt (4/hx2 + 4/hy2): the fastest decay by viscosity in dt [s].
+    double fastest_decay(double dt) const;
+
     /// For transport in several sub-steps: keeps phi1 for all of them while u changes.
     void hold_flux();
     void release_flux() { held_ = false; }
@@ -119,8 +130,13 @@ class BoxStep {
     /// The solver of p: values of -div/dt become p over rho_f.
     SeparableSolve& pressure_solve() { return pressure_; }
 
-    /// The flux of second order in time: instead of phi1, 3/2 phi1 - 1/2 of the last window's phi1
-    /// is held, unless `begins`.
+    // Second order in time transports with the flux of the window's middle, 3/2 phi1 - 1/2 of the
+    // last window's phi1; where the run `begins`, with phi1.
+
+    /// Step 1, which holds that flux.
+    FluxReport project_and_hold_middle(double dt, bool begins);
+
+    /// Instead of the flux that is held.
     void hold_middle_flux(bool begins);
 
     /// phi1 of the last window over |S| on the faces normal to an axis, laid out like excess.
@@ -139,6 +155,7 @@ class BoxStep {
  private:
     using Row = std::vector<double>;
 
+    void hold_middle(int axis, std::size_t first, int count, const double* flux);
     void begin_projection(double dt);
     FluxReport checked(double dt) const;
     void right_hand_side(int j, double dt);
@@ -147,7 +164,11 @@ class BoxStep {
     void check_row(int j, const double* along, const double* below, const double* above);
     void correct_held_row(int j, double dt);
     void carry_above(int j);
+    void carry_along(int j);
+    void diffuse_between(int j);
     void transport_row(int j, double dt);
+    void play_row(int j, const VelocityStage& stage);
+    void begin_impulses(ImpulsesOfWindow& impulses);
     void add_impulses(int j, ImpulsesOfWindow& impulses);
     void carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
                std::array<Row, 2>& carried) const;
@@ -162,6 +183,8 @@ class BoxStep {
     double at_side(int axis, int side, int at) const { return side_velocity_[axis][side][at]; }
     template <class PerCell>
     Force over_sides(PerCell per_cell);
+    Force convective_force(const double* u, const double* v);
+    Force viscous_force(const double* u, const double* v);
 
     double* excess_x(int j) { return excess_[0].data() + static_cast<std::size_t>(j) * (nx_ + 1); }
     double* held_x(int j) { return flux_[0].data() + static_cast<std::size_t>(j) * (nx_ + 1); }
@@ -183,10 +206,11 @@ class BoxStep {
     std::array<std::vector<double>, 2> flux_;       // phi1 over |S| if held, laid out like excess_
     std::array<std::vector<double>, 2> last_flux_;  // where second order asks for it
     bool held_ = false;
+    std::optional<double> extrapolated_;  // by how many windows, while step 1 holds the flux
     std::array<SideValues, 2> side_velocity_;
     RowReader u_, v_, p_;
     Row flux_x_, flux_below_, flux_above_;
-    Row corrected_u_, corrected_below_, corrected_here_;
+    Row corrected_u_, corrected_below_, corrected_here_, result_;
     std::array<Row, 2> carried_x_, carried_below_, carried_above_;
     Row largest_divergence_, largest_outflow_, divergence_;
 };

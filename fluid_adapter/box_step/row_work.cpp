@@ -152,32 +152,44 @@ double dot_row(int count, const double* __restrict a, const double* __restrict b
     return sum;
 }
 
-namespace {
-
 TURBIDITE_ROW_WORK
-void combine_two(std::size_t count, double old_share, const double* v, double new_share,
-                 double* __restrict u) {
-    for (std::size_t i = 0; i < count; ++i) u[i] = old_share * v[i] + new_share * u[i];
+void combine(std::size_t count, double new_share, double* __restrict u, double share,
+             const double* __restrict v) {
+    for (std::size_t i = 0; i < count; ++i) u[i] = new_share * u[i] + share * v[i];
 }
 
 TURBIDITE_ROW_WORK
-void combine_rate(std::size_t count, double old_share, const double* v, double new_share,
-                  double rate_share, const double* now, const double* before,
-                  double* __restrict u) {
+void combine(std::size_t count, double new_share, double* __restrict u, double share_v,
+             const double* __restrict v, double share_w, const double* __restrict w) {
     for (std::size_t i = 0; i < count; ++i)
-        u[i] = old_share * v[i] + new_share * u[i] + rate_share * (now[i] - before[i]);
+        u[i] = new_share * u[i] + share_v * v[i] + share_w * w[i];
 }
 
-}  // namespace
-
-void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
-                   double* u) {
-    combine_two(count, old_share, v, new_share, u);
+TURBIDITE_ROW_WORK
+void stage_row(int count, const StageRows& stage, const double* __restrict in, double x,
+               const double* __restrict left, const double* __restrict right, double y,
+               const double* __restrict below, const double* __restrict above,
+               double* __restrict out) {
+    const auto [old, fresh, rate, v, now, before] = stage;
+    for (int i = 0; i < count; ++i)
+        out[i] = old * v[i] +
+                 fresh * (in[i] + (x * (right[i] - left[i]) + y * (above[i] - below[i]))) +
+                 rate * (now[i] - before[i]);
 }
 
-void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
-                   double rate_share, const double* now, const double* before, double* u) {
-    combine_rate(count, old_share, v, new_share, rate_share, now, before, u);
+TURBIDITE_ROW_WORK
+void extrapolate(int count, double share, const double* __restrict flux, double* __restrict last,
+                 double* __restrict held) {
+    for (int i = 0; i < count; ++i) {
+        held[i] = (1.0 + share) * flux[i] - share * last[i];
+        last[i] = flux[i];
+    }
+}
+
+TURBIDITE_ROW_WORK
+void subtract_difference(int count, double share, const double* __restrict low,
+                         const double* __restrict high, double* __restrict carried) {
+    for (int i = 0; i < count; ++i) carried[i] -= share * (high[i] - low[i]);
 }
 
 TURBIDITE_ROW_WORK

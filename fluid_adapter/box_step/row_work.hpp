@@ -84,13 +84,31 @@ double sum_row(int count, const double* a);
 /// sum of a[i] b[i], in the same order
 double dot_row(int count, const double* a, const double* b);
 
-/// u[i] = old_share v[i] + new_share u[i]
-void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
-                   double* u);
+/// u[i] = new_share u[i] + share v[i]
+void combine(std::size_t count, double new_share, double* u, double share, const double* v);
 
-/// u[i] = old_share v[i] + new_share u[i] + rate_share (now[i] - before[i]); v may be now
-void combine_stage(std::size_t count, double old_share, const double* v, double new_share,
-                   double rate_share, const double* now, const double* before, double* u);
+/// u[i] = new_share u[i] + share_v v[i] + share_w w[i]
+void combine(std::size_t count, double new_share, double* u, double share_v, const double* v,
+             double share_w, const double* w);
+
+/// What a row takes part in, of the shares of a stage (velocity_stage.hpp).
+struct StageRows {
+    double old, fresh, rate;
+    const double *v, *now, *before;
+};
+
+/// out[i] = old v[i] + fresh (in[i] + x (right[i] - left[i]) + y (above[i] - below[i]))
+///          + rate (now[i] - before[i])
+void stage_row(int count, const StageRows& stage, const double* in, double x, const double* left,
+               const double* right, double y, const double* below, const double* above,
+               double* out);
+
+/// held[i] = (1 + share) flux[i] - share last[i]; last[i] = flux[i]
+void extrapolate(int count, double share, const double* flux, double* last, double* held);
+
+/// carried[i] -= share (high[i] - low[i])
+void subtract_difference(int count, double share, const double* low, const double* high,
+                         double* carried);
 
 // The same between rows of different heights (row_heights.hpp), with a factor for each row.
 

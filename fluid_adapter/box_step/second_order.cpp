@@ -5,91 +5,120 @@
 #include <cmath>
 
 #include "fluid_adapter/box_step/row_work.hpp"
+#include "fluid_adapter/box_step/transport_parts.hpp"
 
 namespace turbidite {
 namespace {
 
 const double diagonal = 1.0 - std::sqrt(0.5);  // g
 
+// Of a sub-step: the scheme is stable up to a decay of 2.51, and convection takes of it.
+constexpr double largest_decay = 2.0;
+
 void add(SideForce& sum, double share, const SideForce& force) {
     for (int axis = 0; axis < 2; ++axis) sum[axis] += share * force[axis];
 }
 
+VelocityStage::Values pieces_of(SecondOrderHost& host) {
+    VelocityStage::Values values;
+    for (const VelocityValues& piece : host.velocity_values()) values.push_back(piece.first);
+    return values;
+}
+
 }  // namespace
 
-void SecondOrder::copy(SecondOrderHost& host, Pieces& to) const {
-    const std::vector<VelocityValues> pieces = host.velocity_values();
-    to.resize(pieces.size());
-    for (std::size_t k = 0; k < pieces.size(); ++k)
-        to[k].assign(pieces[k].first, pieces[k].first + pieces[k].count);
+TransportParts SecondOrder::parts(double relative_courant, double decay) {
+    const bool viscous = decay <= largest_decay;
+    const double share = viscous ? decay / largest_decay : 0.0;
+    return {transport_parts(relative_courant + share, 1.0), viscous};
 }
 
-/// u = old_share v + new_share u + rate_share dt s.
-void SecondOrder::combine(SecondOrderHost& host, const Pieces& v, double old_share,
-                          double new_share, double rate_share) const {
-    const std::vector<VelocityValues> pieces = host.velocity_values();
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const std::size_t n = pieces[k].count;
-        if (goes_on_)
-            combine_stage(n, old_share, v[k].data(), new_share, rate_share, window_start_[k].data(),
-                          carried_[k].data(), pieces[k].first);
-        else
-            combine_stage(n, old_share, v[k].data(), new_share, pieces[k].first);
+/// Arrays of the size of the velocity.
+VelocityStage::Values SecondOrder::room(SecondOrderHost& host, Pieces& pieces) const {
+    const std::vector<VelocityValues> velocity = host.velocity_values();
+    pieces.resize(velocity.size());
+    VelocityStage::Values values;
+    for (std::size_t k = 0; k < velocity.size(); ++k) {
+        pieces[k].resize(velocity[k].count);
+        values.push_back(pieces[k].data());
     }
-    host.velocity_changed();
+    return values;
 }
 
-/// Over `share` of the window; at the end of the last one s is taken off.
-SideForce SecondOrder::sub_step(SecondOrderHost& host, double share, bool last) {
-    const double d = share * dt_;
-    const Pieces& v = share < 1.0 ? part_start_ : window_start_;
-    if (share < 1.0) copy(host, part_start_);
+void SecondOrder::make_room(SecondOrderHost& host) {
+    carried_values_ = room(host, carried_);
+}
+
+/// Over `share` of the window, from `stage.v`; at the end of the last one s is taken off.
+SideForce SecondOrder::sub_step(SecondOrderHost& host, VelocityStage stage, double share,
+                                bool last) {
+    const VelocityStage::Values result = stage.result, copy = stage.copy;
+    const double steered = goes_on_ ? 1.0 : 0.0;
     SideForce force{};
-    add(force, 1.0 / 6.0, host.convect(d));
-    combine(host, v, 0.0, 1.0, share);
-    add(force, 1.0 / 6.0, host.convect(d));
-    combine(host, v, 0.75, 0.25, 0.25 * share);
-    add(force, 2.0 / 3.0, host.convect(d));
-    combine(host, v, 1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0 * share - (last ? 1.0 : 0.0));
+    stage.u = stage.v;
+    stage.result = room(host, working_);
+    stage.copy.clear();
+    stage.old = 0.0, stage.fresh = 1.0, stage.rate = steered * share;
+    add(force, 1.0 / 6.0, host.play(stage));
+    stage.u = stage.result;
+    stage.old = 0.75, stage.fresh = 0.25, stage.rate = steered * 0.25 * share;
+    add(force, 1.0 / 6.0, host.play(stage));
+    stage.result = result, stage.copy = copy;
+    stage.old = 1.0 / 3.0, stage.fresh = 2.0 / 3.0;
+    stage.rate = steered * (2.0 / 3.0 * share - (last ? 1.0 : 0.0));
+    add(force, 2.0 / 3.0, host.play(stage));
     return force;
 }
 
-std::vector<SideForce> SecondOrder::transport(SecondOrderHost& host, double dt, int parts) {
-    dt_ = dt;
-    copy(host, window_start_);
+std::vector<SideForce> SecondOrder::transport(SecondOrderHost& host, double dt,
+                                              TransportParts parts) {
+    const VelocityStage::Values velocity = pieces_of(host);  // u1
+    make_room(host);
+    VelocityStage stage;
+    stage.viscous = parts.viscous;
+    stage.dt = dt / parts.count;
+    stage.v = stage.now = velocity;
+    stage.before = carried_values_;
     std::vector<SideForce> forces;
-    for (int part = 0; part < parts; ++part)
-        forces.push_back(sub_step(host, 1.0 / parts, part + 1 == parts));
-    copy(host, carried_);
+    for (int part = 1; part <= parts.count; ++part) {
+        const bool last = part == parts.count;
+        stage.result = last ? carried_values_ : room(host, part_start_);
+        if (last && parts.viscous) stage.copy = velocity;
+        forces.push_back(sub_step(host, stage, 1.0 / parts.count, last));
+        stage.v = stage.result;
+    }
     goes_on_ = true;
+    if (parts.viscous) host.velocity_changed();
     return forces;
 }
 
 SideForce SecondOrder::diffuse(SecondOrderHost& host, double dt) {
-    const double g = diagonal;
+    const double g = diagonal, a = (1.0 - g) / g;
+    const std::vector<VelocityValues> u = host.velocity_values();
+    const VelocityStage::Values start = room(host, working_);  // u1
     SideForce force{};
-    const std::vector<VelocityValues> pieces = host.velocity_values();
-    for (std::size_t k = 0; k < pieces.size(); ++k)  // u1 + g c
-        combine_stage(pieces[k].count, 1.0 - g, window_start_[k].data(), g, pieces[k].first);
+    for (std::size_t k = 0; k < u.size(); ++k) {  // u1 + g c
+        std::copy_n(u[k].first, u[k].count, start[k]);
+        combine(u[k].count, 1.0 - g, u[k].first, g, carried_values_[k]);
+    }
     host.velocity_changed();
     add(force, 1.0 - g, host.diffuse_implicitly(g * dt));
-    for (std::size_t k = 0; k < pieces.size(); ++k)  // u1 + (1 - g)/g (y1 - u1) + g c
-        combine_stage(pieces[k].count, 1.0 - (1.0 - g) / g, window_start_[k].data(), (1.0 - g) / g,
-                      -g, window_start_[k].data(), carried_[k].data(), pieces[k].first);
+    for (std::size_t k = 0; k < u.size(); ++k)  // u1 + (1 - g)/g (y1 - u1) + g c
+        combine(u[k].count, a, u[k].first, 1.0 - a - g, start[k], g, carried_values_[k]);
     host.velocity_changed();
     add(force, g, host.diffuse_implicitly(g * dt));
     return force;
 }
 
 void SecondOrder::append_memory(SecondOrderHost& host, std::vector<double>& values) {
-    if (carried_.empty()) copy(host, carried_);
+    make_room(host);
     values.push_back(goes_on_ ? 1.0 : 0.0);
     for (const std::vector<double>& piece : carried_)
         values.insert(values.end(), piece.begin(), piece.end());
 }
 
 void SecondOrder::set_memory(SecondOrderHost& host, const double* values) {
-    if (carried_.empty()) copy(host, carried_);
+    make_room(host);
     goes_on_ = *values++ > 0.0;
     for (std::vector<double>& piece : carried_)
         for (double& value : piece) value = *values++;

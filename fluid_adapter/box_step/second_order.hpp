@@ -8,7 +8,7 @@
 // C is second-order accurate: phi is the solenoidal flux at the middle of the window, extrapolated
 // from the last two projections, and u follows
 //
-//     du/dt = -div(phi u) + s,    s = (u1^n - u2^{n-1})/dt
+//     du/dt = L(u) + s,    L(u) = -div(phi u),    s = (u1^n - u2^{n-1})/dt
 //
 // by the third-order Runge-Kutta scheme of Shu and Osher (1988), in sub-steps of a limited Courant
 // number. s is what viscosity, grains and pressure did to the velocity in the last window; it only
@@ -18,8 +18,10 @@
 //     v2 = 3/4 v + 1/4 (v1 + d L(v1))
 //     v  = 1/3 v + 2/3 (v2 + d L(v2))          fluxes: 1/6 (first), 1/6 (second), 2/3 (third)
 //
-// Step 3 integrates nu laplacian(u) + C with the two-stage SDIRK method of Alexander (1977), second
-// order, L-stable and stiffly accurate, both stages with the same matrix; g = 1 - 1/sqrt(2),
+// Where cells are large against the way that momentum diffuses in a window, L contains viscosity
+// as well, u2 is u3, and step 3 has nothing left to do: no linear system. Elsewhere step 3
+// integrates nu laplacian(u) + C with the two-stage SDIRK method of Alexander (1977), second order,
+// L-stable and stiffly accurate, both stages with the same matrix; g = 1 - 1/sqrt(2),
 // c = u2 - u1 = dt C:
 //
 //     (1 - g dt nu laplacian) y1 = u1 + g c
@@ -31,7 +33,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
+
+#include "fluid_adapter/box_step/velocity_stage.hpp"
 
 namespace turbidite {
 
@@ -49,26 +54,45 @@ class SecondOrderHost {
  public:
     virtual ~SecondOrderHost() = default;
 
+    /// The velocity itself.
     virtual std::vector<VelocityValues> velocity_values() = 0;
     virtual void velocity_changed() = 0;  ///< through these values
 
-    /// u -= dt div(phi u); returns what crosses the sides by it, taken before.
-    virtual SideForce convect(double dt) = 0;
+    /// Returns what crosses the sides by dt L(u), taken before.
+    virtual SideForce play(const VelocityStage& stage) = 0;
 
-    /// Implicit Euler over dt; returns what crosses the sides by it, taken after.
+    /// The velocity itself, by implicit Euler over dt; returns what crosses the sides by it, taken
+    /// after.
     virtual SideForce diffuse_implicitly(double dt) = 0;
+};
+
+/// How a window is cut for transport.
+struct TransportParts {
+    int count = 1;
+    bool viscous = false;  ///< L contains viscosity
 };
 
 class SecondOrder {
  public:
-    /// Courant number up to which a sub-step is stable, central fluxes included: the limit of the
-    /// scheme is 1.73 for these, 1.91 for LUST and 1.17 for linearUpwind.
-    static constexpr double largest_courant = 1.0;
+    /// Courant number of a sub-step with the share `central` of linear interpolation; none: limited
+    /// interpolation. The scheme is stable up to 1.73 for a share of 1 (linear), 1.91 for 3/4
+    /// (LUST) and 1.17 for 0 (linearUpwind).
+    static double largest_courant(std::optional<double> central) {
+        return central && *central >= 0.75 ? 1.5 : 1.0;
+    }
 
-    /// u1 becomes u2. Returns one force per sub-step.
-    std::vector<SideForce> transport(SecondOrderHost& host, double dt, int parts);
+    /// For the largest Courant number of the flux over that, and nu dt (4/hx2 + 4/hy2), the fastest
+    /// decay. Viscosity is part of L where it costs one more sub-step at most.
+    static TransportParts parts(double relative_courant, double decay);
 
-    /// u2 becomes u3.
+    /// u1 becomes u3 if viscosity is part of L. Otherwise u1 remains, until `diffuse`, and u2 is in
+    /// `transported`. Returns one force per sub-step.
+    std::vector<SideForce> transport(SecondOrderHost& host, double dt, TransportParts parts);
+
+    /// u2, or u3 if viscosity is part of L, after `transport`; the pieces of velocity_values.
+    const VelocityStage::Values& transported() const { return carried_values_; }
+
+    /// u1 becomes u3, where viscosity is not part of L.
     SideForce diffuse(SecondOrderHost& host, double dt);
 
     /// Is there an earlier window?
@@ -86,14 +110,13 @@ class SecondOrder {
  private:
     using Pieces = std::vector<std::vector<double>>;
 
-    void copy(SecondOrderHost& host, Pieces& to) const;
-    SideForce sub_step(SecondOrderHost& host, double share, bool last);
-    void combine(SecondOrderHost& host, const Pieces& v, double old_share, double new_share,
-                 double rate_share) const;
+    VelocityStage::Values room(SecondOrderHost& host, Pieces& pieces) const;
+    void make_room(SecondOrderHost& host);
+    SideForce sub_step(SecondOrderHost& host, VelocityStage stage, double share, bool last);
 
-    double dt_ = 0.0;
-    Pieces window_start_, part_start_;  // u1, v
-    Pieces carried_;                    // u2, of the last window until this one has its own
+    Pieces working_, part_start_;
+    Pieces carried_;  // u2, of the last window until this one has its own
+    VelocityStage::Values carried_values_;
     bool goes_on_ = false;
 };
 

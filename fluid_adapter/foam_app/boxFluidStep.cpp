@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
 #include "fluid_adapter/ranks/rank_rows.hpp"
@@ -63,6 +64,7 @@ BoxFluidStep::BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const Box
       rows_(fields.ranks, box.cells[0], box.cells[1], box.place),
       step_(fluid, box_rows(fields.ranks, fluid.pressure, rows_)),
       in_second_order_(fluid.second_order),
+      largest_courant_(SecondOrder::largest_courant(fluid.central)),
       floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()),
       first_row_(rows_.rows_of_rank()[fields.ranks.rank()].first) {
     if (coupled && !rows_.in_cell_order())
@@ -122,35 +124,56 @@ BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
     return force;
 }
 
+/// Holds the flux of transport, where it is not phi1.
+FluxReport BoxFluidStep::project(double dt) {
+    const bool begins = !second_order_.goes_on();
+    if (in_second_order_ && !coupled_) return step_.project_and_hold_middle(dt, begins);
+    if (!coupled_) return step_.project(dt);
+    const FluxReport report = step_.hold_solenoidal_flux(dt);
+    if (in_second_order_) step_.hold_middle_flux(begins);
+    return report;
+}
+
 Projection BoxFluidStep::project() {
     if (!rows_.in_cell_order()) load();
     const double dt = fields_.time.deltaTValue();
-    const FluxReport report = coupled_ ? step_.hold_solenoidal_flux(dt) : step_.project(dt);
+    const FluxReport report = project(dt);
     double largest[] = {report.divergence, report.courant};
     fields_.ranks.max(largest, 2);
     const BoxStep::Force none{};
     return {{largest[0], largest[1]}, coupled_ ? none : on_all_ranks(step_.pressure_force())};
 }
 
-double BoxFluidStep::largest_courant() const {
-    return in_second_order_ ? SecondOrder::largest_courant : FluidStep::largest_courant();
+/// Where pressure and viscosity know the grains, transport leaves viscosity to them.
+TransportParts BoxFluidStep::parts(double courant) const {
+    if (!in_second_order_) return {transport_parts(courant)};
+    const double decay = step_.fastest_decay(fields_.time.deltaTValue());
+    return SecondOrder::parts(courant / largest_courant_, coupled_ ? INFINITY : decay);
 }
 
-std::vector<BoundaryForce> BoxFluidStep::transport(int parts) {
-    const double dt = fields_.time.deltaTValue();
-    std::vector<BoundaryForce> forces;
-    if (in_second_order_) {
-        step_.hold_middle_flux(!second_order_.goes_on());
-        forces = second_order_.transport(*this, dt, parts);
-        for (BoundaryForce& force : forces) force = on_all_ranks(force);
-    } else {
-        if (parts > 1 && !step_.holds_flux()) step_.hold_flux();
-        ImpulsesOfWindow* impulses = coupled_ ? &coupled_->begin(dt) : nullptr;
-        for (int part = 0; part < parts; ++part)
-            forces.push_back(
-                on_all_ranks(convect(dt / parts, part == parts - 1 ? impulses : nullptr)));
-    }
+std::vector<BoundaryForce> BoxFluidStep::transport(const TransportParts& parts) {
+    std::vector<BoundaryForce> forces =
+        in_second_order_ ? transport_in_second_order(parts) : transport_in_first_order(parts.count);
+    for (BoundaryForce& force : forces) force = on_all_ranks(force);
+    viscous_transport_ = parts.viscous;
     step_.release_flux();
+    return forces;
+}
+
+std::vector<BoundaryForce> BoxFluidStep::transport_in_second_order(const TransportParts& parts) {
+    const double dt = fields_.time.deltaTValue();
+    std::vector<BoundaryForce> forces = second_order_.transport(*this, dt, parts);
+    if (coupled_) step_.add_impulses(second_order_.transported(), coupled_->begin(dt));
+    return forces;
+}
+
+std::vector<BoundaryForce> BoxFluidStep::transport_in_first_order(int parts) {
+    const double dt = fields_.time.deltaTValue();
+    if (parts > 1 && !step_.holds_flux()) step_.hold_flux();
+    ImpulsesOfWindow* impulses = coupled_ ? &coupled_->begin(dt) : nullptr;
+    std::vector<BoundaryForce> forces;
+    for (int part = 1; part <= parts; ++part)
+        forces.push_back(convect(dt / parts, part == parts ? impulses : nullptr));
     return forces;
 }
 
@@ -160,8 +183,9 @@ BoundaryForce BoxFluidStep::diffuse() {
         return {};
     }
     const double dt = fields_.time.deltaTValue();
-    const BoundaryForce force =
-        in_second_order_ ? second_order_.diffuse(*this, dt) : diffuse_implicitly(dt);
+    BoundaryForce force{};
+    if (!in_second_order_) force = diffuse_implicitly(dt);
+    if (in_second_order_ && !viscous_transport_) force = second_order_.diffuse(*this, dt);
     if (!rows_.in_cell_order()) store();
     return on_all_ranks(force);
 }

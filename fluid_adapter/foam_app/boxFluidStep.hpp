@@ -6,7 +6,6 @@
 // the steps and back after them.
 #pragma once
 
-#include "fluid_adapter/box_step/second_order.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/foam_solver/boxCells.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
@@ -21,7 +20,8 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
                  const CellGrid& grid);
 
     Projection project() override;
-    std::vector<BoundaryForce> transport(int parts) override;
+    TransportParts parts(double courant) const override;
+    std::vector<BoundaryForce> transport(const TransportParts& parts) override;
     BoundaryForce diffuse() override;
     CoupledStep* coupled() override { return coupled_ ? &*coupled_ : nullptr; }
     std::vector<BoundaryForce> end_coupled() override;
@@ -33,8 +33,9 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     void sides_changed() override;
     void put_pressure() override;
     void forget_rates() override { second_order_.forget(); }
-    double largest_courant() const override;
-    std::int64_t kind() const override { return in_second_order_ ? 4 : coupled_ ? 6 : 2; }
+    std::int64_t kind() const override {
+        return in_second_order_ ? (coupled_ ? 7 : 4) : coupled_ ? 6 : 2;
+    }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
     MemoryRows memory_rows() const override;
@@ -42,6 +43,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
  private:
     BoxFluidStep(FluidFields& fields, const BoxFluid& fluid, const BoxCells& box, bool coupled);
 
+    FluxReport project(double dt);
     void load();
     void store();
     void store(const double* x, const double* y);
@@ -49,8 +51,10 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
 
     std::vector<VelocityValues> velocity_values() override;
     void velocity_changed() override {}
-    SideForce convect(double dt) override { return convect(dt, nullptr); }
+    SideForce play(const VelocityStage& stage) override { return step_.play(stage); }
     SideForce convect(double dt, ImpulsesOfWindow* impulses);
+    std::vector<BoundaryForce> transport_in_first_order(int parts);
+    std::vector<BoundaryForce> transport_in_second_order(const TransportParts& parts);
     SideForce diffuse_implicitly(double dt) override;
 
     FluidFields& fields_;
@@ -58,6 +62,8 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     CellRows rows_;
     BoxStep step_;
     bool in_second_order_;
+    double largest_courant_;          // of a sub-step in second order
+    bool viscous_transport_ = false;  // step 2 has done step 3, in this window
     SecondOrder second_order_;
     std::optional<CoupledStep> coupled_;
     bool floating_;  // no side fixes p

@@ -24,9 +24,21 @@ bool gauss_linear(const FluidFields& fields, const Foam::word& gradient) {
     return Foam::word(scheme) == "Gauss" && (scheme.eof() || Foam::word(scheme) == "linear");
 }
 
-/// Share of linear interpolation of the schemes that upwind it linearly.
-double central_share(const Foam::word& name) {
-    return name == "LUST" ? 0.75 : 0.0;
+/// Share of linear interpolation of the schemes that are linear in u.
+std::optional<double> central_share(const Foam::word& name) {
+    if (name == "linear") return 1.0;
+    if (name == "LUST") return 0.75;
+    if (name == "linearUpwind") return 0.0;
+    return std::nullopt;
+}
+
+/// The same for the case's div(phi,U), `bounded` or not.
+std::optional<double> central_share(const FluidFields& fields) {
+    Foam::Istream& scheme = fields.mesh.divScheme("div(phi,U)");
+    Foam::word name;
+    while (!scheme.eof() && (name.empty() || name == "bounded" || name == "Gauss"))
+        name = Foam::word(scheme);
+    return central_share(name);
 }
 
 /// The case's div(phi,U), if rows of a box know the scheme.
@@ -35,14 +47,11 @@ std::optional<TransportMethod> transport_on_rows(const FluidFields& fields) {
     if (Foam::word(scheme) != "Gauss" || scheme.eof()) return std::nullopt;
     const Foam::word name(scheme);
     TransportMethod method;
-    if (name == "linear") {
-        method.central = 1.0;
-        return method;
-    }
+    method.central = central_share(name);
+    if (name == "linear") return method;
     if (scheme.eof()) return std::nullopt;  // OpenFOAM says what is missing
-    if (name == "LUST" || name == "linearUpwind") {
+    if (method.central) {
         if (!gauss_linear(fields, Foam::word(scheme))) return std::nullopt;
-        method.central = central_share(name);
         return method;
     }
     if (name != "limitedLinearV") return std::nullopt;
@@ -88,7 +97,7 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
     check_solver(fields.U, box, "fluid.viscous_solver", "PCG");
     const RunValues run = run_values(settings);
     return std::make_unique<OperatorStep>(fields, divergence_goal * run.velocity / run.diameter,
-                                          in_second_order(settings));
+                                          in_second_order(settings), central_share(fields));
 }
 
 }  // namespace
@@ -97,8 +106,6 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
                                            const CellGrid& grid, const std::vector<int>& cells) {
     const BoxCells box =
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
-    if (in_second_order(settings))
-        demand_marchuk_yanenko(settings, "it needs fluid.time_scheme = first-order");
     std::optional<TransportMethod> method = transport_on_rows(fields);
     if (method) method->second_order = in_second_order(settings);
     if (method) method->coupled = corrects_with_rigid_grains(settings);

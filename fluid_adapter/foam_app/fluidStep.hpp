@@ -19,6 +19,7 @@
 
 #include "coupler/protocol/settings.hpp"
 #include "fluid_adapter/box_step/box_step.hpp"
+#include "fluid_adapter/box_step/second_order.hpp"
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
@@ -60,8 +61,11 @@ class FluidStep {
 
     virtual Projection project() = 0;  ///< step 1
 
-    /// Step 2, in `parts` equal sub-steps with the same flux; one force each.
-    virtual std::vector<BoundaryForce> transport(int parts) = 0;
+    /// How transport cuts a window whose flux has this Courant number.
+    virtual TransportParts parts(double courant) const = 0;
+
+    /// Step 2, in equal sub-steps with the same flux; one force each.
+    virtual std::vector<BoundaryForce> transport(const TransportParts& parts) = 0;
     virtual BoundaryForce diffuse() = 0;  ///< step 3
 
     /// The part that corrects pressure and viscosity together with the grains, after `diffuse`;
@@ -91,9 +95,6 @@ class FluidStep {
 
     /// u was changed from outside: what the step knows of earlier windows' rates is void.
     virtual void forget_rates() {}
-
-    /// Courant number that a sub-step of transport may have.
-    virtual double largest_courant() const { return 2.0 / 3.0; }
 
     /// State beyond u and p: the excess flux, in the step's own order; saved and restored. `kind`
     /// identifies the implementation, and so the order.

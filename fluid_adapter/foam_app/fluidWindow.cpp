@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
 #include "fluid_adapter/multiplier/splitting.hpp"
 
@@ -136,11 +135,8 @@ void FluidWindow::drive() {
 }
 
 void FluidWindow::transport() {
-    ledger_.add(step_->transport(transport_parts()));
-}
-
-int FluidWindow::transport_parts() const {
-    return turbidite::transport_parts(report_.courant, step_->largest_courant());
+    parts_ = step_->parts(report_.courant);
+    ledger_.add(step_->transport(parts_));
 }
 
 void FluidWindow::diffuse() {
@@ -238,7 +234,7 @@ void FluidWindow::write_fields() {
     put_fields();
     report_.final_divergence = fields_.largest_divergence();
     Foam::Info << "window " << window_.index << ": Courant number " << report_.courant
-               << ", transport in " << transport_parts() << " parts; largest divergence "
+               << ", transport in " << parts_.count << " parts; largest divergence "
                << report_.divergence << " 1/s after step 1, " << report_.final_divergence
                << " 1/s after step 5; multipliers " << report_.multiplier_iterations
                << " iterations, rms slip " << report_.multiplier_residual << " m/s" << Foam::endl;

@@ -70,7 +70,6 @@ class FluidWindow {
     void project();
     void drive();
     void transport();
-    int transport_parts() const;
     void diffuse();
     void check_finite(bool finite, const char* steps) const;
     void check_rows(const std::vector<GrainState>& grains) const;
@@ -101,6 +100,7 @@ class FluidWindow {
     bool fields_follow_ = true;  ///< U, p and phi hold what the steps know
     StepWatch watch_;
     FluidTimings timings_;
+    TransportParts parts_;
     FluidReport report_;
 };
 

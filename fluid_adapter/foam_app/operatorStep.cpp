@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/operatorStep.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "fluid_adapter/box_step/transport_parts.hpp"
 #include "fluid_adapter/foam_app/advection.hpp"
 #include "fluid_adapter/foam_app/boundaryForce.hpp"
 
@@ -32,16 +34,33 @@ Projection OperatorStep::project() {
     return {{divergence, fields_.courant()}, pressure_force(fields_)};
 }
 
-double OperatorStep::largest_courant() const {
-    return in_second_order_ ? SecondOrder::largest_courant : FluidStep::largest_courant();
+TransportParts OperatorStep::parts(double courant) const {
+    if (!in_second_order_) return {transport_parts(courant)};
+    return SecondOrder::parts(courant / largest_courant_,
+                              fastest_decay(fields_.time.deltaTValue()));
+}
+
+/// 2 nu dt sum(|S|/d)/V, the sum over the faces to other cells: on a box nu dt (4/hx2 + 4/hy2).
+double OperatorStep::fastest_decay(double dt) const {
+    const Foam::fvMesh& mesh = fields_.mesh;
+    const Foam::surfaceScalarField::Internal& area = mesh.magSf();
+    const Foam::surfaceScalarField::Internal& per_distance = mesh.nonOrthDeltaCoeffs();
+    Foam::scalarField sum(mesh.nCells(), Foam::Zero);
+    forAll(area, face) {
+        const Foam::scalar one = area[face] * per_distance[face];
+        sum[mesh.owner()[face]] += one;
+        sum[mesh.neighbour()[face]] += one;
+    }
+    return 2.0 * fields_.nu * dt * Foam::gMax(Foam::scalarField(sum / mesh.V()));
 }
 
 /// In second order phi becomes the flux at the middle of the window.
-std::vector<BoundaryForce> OperatorStep::transport(int parts) {
+std::vector<BoundaryForce> OperatorStep::transport(const TransportParts& parts) {
     const double dt = fields_.time.deltaTValue();
+    viscous_transport_ = parts.viscous;
     std::vector<BoundaryForce> forces;
     if (!in_second_order_) {
-        for (int part = 0; part < parts; ++part) forces.push_back(convect(dt / parts));
+        for (int part = 0; part < parts.count; ++part) forces.push_back(convect(dt / parts.count));
         return forces;
     }
     const Foam::surfaceScalarField flux(fields_.phi);
@@ -51,6 +70,7 @@ std::vector<BoundaryForce> OperatorStep::transport(int parts) {
 }
 
 BoundaryForce OperatorStep::diffuse() {
+    if (viscous_transport_) return {};
     const double dt = fields_.time.deltaTValue();
     return in_second_order_ ? second_order_.diffuse(*this, dt) : diffuse_implicitly(dt);
 }
@@ -64,6 +84,36 @@ std::vector<VelocityValues> OperatorStep::velocity_values() {
 SideForce OperatorStep::convect(double dt) {
     const SideForce force = convective_force(fields_);
     advect(fields_, dt);
+    return force;
+}
+
+/// U holds u while OpenFOAM's operators work on it, and what it held afterwards.
+SideForce OperatorStep::play(const VelocityStage& stage) {
+    Foam::vectorField& U = fields_.U.primitiveFieldRef();
+    const Foam::vectorField kept(U);
+    const std::size_t size = 3 * static_cast<std::size_t>(U.size());
+    double* const values = U.data()->v_;
+    std::copy_n(stage.u[0], size, values);
+    velocity_changed();
+    const SideForce force = advance(stage.dt, stage.viscous);
+    const std::vector<double> fresh(values, values + size);  // u + dt L(u)
+    U = kept;
+    for (std::size_t i = 0; i < size; ++i)
+        stage.result[0][i] = stage.old * stage.v[0][i] + stage.fresh * fresh[i] +
+                             stage.rate * (stage.now[0][i] - stage.before[0][i]);
+    if (!stage.copy.empty()) std::copy_n(stage.result[0], size, stage.copy[0]);
+    velocity_changed();
+    return force;
+}
+
+/// U += dt L(U)
+SideForce OperatorStep::advance(double dt, bool viscous) {
+    if (!viscous) return convect(dt);
+    SideForce force = viscous_force(fields_);
+    const Foam::vectorField change(dt * viscosity_.acceleration());
+    const SideForce convected = convect(dt);
+    for (int axis = 0; axis < 2; ++axis) force[axis] += convected[axis];
+    fields_.U.primitiveFieldRef() += change;
     return force;
 }
 

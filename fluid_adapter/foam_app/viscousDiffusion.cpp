@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/viscousDiffusion.hpp"
 
+#include <fvcLaplacian.H>
 #include <fvmLaplacian.H>
 #include <fvmSup.H>
 
@@ -14,6 +15,11 @@ void ViscousDiffusion::assemble(Foam::scalar dt) {
     matrix_ = std::make_unique<Foam::fvVectorMatrix>(Foam::fvm::Sp(rate, fields_.U) -
                                                      Foam::fvm::laplacian(nu, fields_.U));
     assembled_for_ = dt;
+}
+
+Foam::tmp<Foam::vectorField> ViscousDiffusion::acceleration() const {
+    const Foam::dimensionedScalar nu("nu", Foam::dimViscosity, fields_.nu);
+    return Foam::tmp<Foam::vectorField>::New(Foam::fvc::laplacian(nu, fields_.U)->primitiveField());
 }
 
 void ViscousDiffusion::solve(Foam::scalar dt) {

@@ -19,6 +19,9 @@ class ViscousDiffusion {
     /// Advances u2 to u3 over dt [s]. Throws PhysicsRefused if the solver does not converge.
     void solve(Foam::scalar dt);
 
+    /// nu laplacian(u) [m/s2]
+    Foam::tmp<Foam::vectorField> acceleration() const;
+
     /// Values that U holds on sides, which are part of the matrix, were changed.
     void forget_sides() { assembled_for_ = 0.0; }
 

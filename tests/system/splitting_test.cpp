@@ -108,8 +108,7 @@ TEST_F(Splitting, IsRefusedWithWhatItCannotWorkWith) {
          std::vector<std::pair<std::string, std::string>>{{"coupling.scheme", "split"},
                                                           {"fluid.pressure_solver", "GAMG"},
                                                           {"fluid.viscous_solver", "PCG"},
-                                                          {"fluid.decomposition", "columns"},
-                                                          {"fluid.time_scheme", "second-order"}}) {
+                                                          {"fluid.decomposition", "columns"}}) {
         const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
                                     " check case.yaml --set fluid.splitting=explicit-multiplier "
                                     "--set " +

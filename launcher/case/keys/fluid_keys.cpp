@@ -177,7 +177,6 @@ constexpr Needed needed_with_rigid_grains[] = {
     {"fluid.pressure_solver", "FFT", "that solve is its preconditioner"},
     {"fluid.viscous_solver", "FFT", "it works on the rows of a box"},
     {"fluid.decomposition", "rows", "it works on complete rows of cells"},
-    {"fluid.time_scheme", "first-order", "viscosity is implicit over the whole window"},
 };
 
 constexpr const char* schemes_on_rows[] = {"Gauss limitedLinearV ", "Gauss linear", "Gauss LUST ",

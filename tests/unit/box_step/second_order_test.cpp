@@ -12,8 +12,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "fluid_adapter/box_step/box_step.hpp"
 #include "fluid_adapter/box_step/transport_parts.hpp"
@@ -25,14 +27,15 @@ constexpr double pi = 3.14159265358979323846, nu = 0.01, until = 0.5;
 
 struct Choice {
     bool second_order;
-    std::optional<double> central;  // else limitedLinearV 1
+    std::optional<double> central;   // else limitedLinearV 1
+    bool viscous_transport = false;  // viscosity is part of step 2 where that is possible
 };
 constexpr double lust = 0.75;
 
 class CyclicBox final : public SecondOrderHost {
  public:
-    CyclicBox(int n, const Choice& choice)
-        : n_(n), choice_(choice), step_(fluid(n, choice)), exact_(2 * n * n) {
+    CyclicBox(int n, const Choice& choice, double viscosity = nu)
+        : n_(n), choice_(choice), step_(fluid(n, choice, viscosity)), exact_(2 * n * n) {
         set_exact(0.0);
         for (int axis = 0; axis < 2; ++axis)
             std::copy_n(exact_.data() + axis * n * n, n * n, step_.velocity(axis));
@@ -41,11 +44,12 @@ class CyclicBox final : public SecondOrderHost {
     void play(int windows) {
         const double dt = until / windows;
         for (int window = 0; window < windows; ++window) {
-            const double courant = step_.project(dt).courant;
-            choice_.second_order ? advance_second_order(dt, courant) : advance(dt, courant);
+            choice_.second_order ? advance_second_order(dt) : advance(dt);
         }
         step_.project(dt);
     }
+
+    void project(double dt) { step_.project_and_hold_middle(dt, true); }
 
     std::vector<double> velocity() {
         std::vector<double> u(step_.velocity(0), step_.velocity(0) + n_ * n_);
@@ -62,39 +66,53 @@ class CyclicBox final : public SecondOrderHost {
         return {{step_.velocity(0), size}, {step_.velocity(1), size}};
     }
     void velocity_changed() override {}
-    SideForce convect(double dt) override {
-        step_.transport(dt);
-        return step_.convective_force();
+    int most_parts() const { return most_parts_; }
+    double decay(double dt) const { return step_.fastest_decay(dt); }
+
+    /// Adds the shortest wave to u.
+    void shake() {
+        for (int c = 0; c < n_ * n_; ++c)
+            step_.velocity(0)[c] += (c / n_ + c % n_) % 2 == 0 ? 0.1 : -0.1;
     }
+    double largest() {
+        double result = 0.0;
+        for (const double u : velocity()) result = std::max(result, std::abs(u));
+        return result;
+    }
+    SideForce play(const VelocityStage& stage) override { return step_.play(stage); }
     SideForce diffuse_implicitly(double dt) override {
         step_.diffuse(dt, [](int) {});
         return step_.viscous_force();
     }
 
  private:
-    static BoxFluid fluid(int n, const Choice& choice) {
+    static BoxFluid fluid(int n, const Choice& choice, double viscosity) {
         const AxisOperator axis{n, 1.0 / n, End::periodic, End::periodic};
         BoxFluid fluid;
         fluid.velocity = fluid.pressure = {axis, axis};
-        fluid.viscosity = nu;
+        fluid.viscosity = viscosity;
         fluid.central = choice.central;
         fluid.second_order = choice.second_order;
         return fluid;
     }
 
-    void advance(double dt, double courant) {
-        const int parts = transport_parts(courant);
+    void advance(double dt) {
+        const int parts = transport_parts(step_.project(dt).courant);
         step_.hold_flux();
         for (int part = 0; part < parts; ++part) step_.transport(dt / parts);
         step_.release_flux();
         diffuse_implicitly(dt);
     }
 
-    void advance_second_order(double dt, double courant) {
-        step_.hold_middle_flux(!second_order_.goes_on());
-        second_order_.transport(*this, dt, transport_parts(courant, SecondOrder::largest_courant));
+    void advance_second_order(double dt) {
+        const double courant = step_.project_and_hold_middle(dt, !second_order_.goes_on()).courant;
+        const double decay = choice_.viscous_transport ? step_.fastest_decay(dt) : INFINITY;
+        const double largest = SecondOrder::largest_courant(choice_.central);
+        const TransportParts parts = SecondOrder::parts(courant / largest, decay);
+        most_parts_ = std::max(most_parts_, parts.count);
+        second_order_.transport(*this, dt, parts);
         step_.release_flux();
-        second_order_.diffuse(*this, dt);
+        if (!parts.viscous) second_order_.diffuse(*this, dt);
     }
 
     void set_exact(double t) {
@@ -108,7 +126,7 @@ class CyclicBox final : public SecondOrderHost {
             }
     }
 
-    int n_;
+    int n_, most_parts_ = 0;
     Choice choice_;
     BoxStep step_;
     SecondOrder second_order_;
@@ -134,21 +152,90 @@ double order(double coarse, double fine) {
     return result;
 }
 
-/// Windows proportional to cells: Courant number about 0.5 at every size.
+constexpr Choice in_two_steps{true, lust}, in_one_step{true, lust, true}, first_order{};
+
+/// Windows proportional to cells: Courant number about 0.5 at every size. Viscosity in a step of
+/// its own, and as part of transport.
 TEST(SecondOrder, ConvergesWithTheSquareOfStepAndCell) {
-    const Choice second{true, lust}, first{false, std::nullopt};
-    const double errors[] = {error(16, 32, second), error(32, 64, second), error(64, 128, second)};
-    EXPECT_GT(order(errors[0], errors[1]), 1.9);
-    EXPECT_GT(order(errors[1], errors[2]), 1.9);
-    EXPECT_LT(errors[2], 2e-3);
-    const double before[] = {error(32, 64, first), error(64, 128, first)};
-    EXPECT_NEAR(order(before[0], before[1]), 1.0, 0.15);
-    EXPECT_LT(errors[2], 0.1 * before[1]);
+    for (const Choice& second : {in_two_steps, in_one_step}) {
+        const double errors[] = {error(16, 32, second), error(32, 64, second),
+                                 error(64, 128, second)};
+        EXPECT_GT(order(errors[0], errors[1]), 1.9);
+        EXPECT_GT(order(errors[1], errors[2]), 1.9);
+        EXPECT_LT(errors[2], 2e-3);
+        const double before[] = {error(32, 64, first_order), error(64, 128, first_order)};
+        EXPECT_NEAR(order(before[0], before[1]), 1.0, 0.15);
+        EXPECT_LT(errors[2], 0.1 * before[1]);
+    }
+}
+
+/// Both ways of viscosity are what they say: they differ, and less and less.
+TEST(SecondOrder, ViscosityAsPartOfTransportDiffersBySecondOrder) {
+    const auto difference = [](int n, int windows) {
+        CyclicBox one(n, in_one_step), two(n, in_two_steps);
+        one.play(windows);
+        two.play(windows);
+        return rms(one.velocity(), two.velocity());
+    };
+    const double coarse = difference(32, 64), fine = difference(64, 128);
+    EXPECT_GT(fine, 1e-8);
+    EXPECT_GT(order(coarse, fine), 1.8);
+}
+
+/// One more sub-step is the price that viscosity may cost as part of transport.
+TEST(SecondOrder, CutsWindowsByCourantNumberAndDecay) {
+    const auto cut = [](double courant, double decay, int count, bool viscous) {
+        const TransportParts parts = SecondOrder::parts(courant, decay);
+        EXPECT_EQ(parts.count, count) << courant << " " << decay;
+        EXPECT_EQ(parts.viscous, viscous) << courant << " " << decay;
+    };
+    cut(0.0, 0.1, 1, true);
+    cut(0.9, 0.1, 1, true);
+    cut(0.9, 0.3, 2, true);
+    cut(1.9, 2.0, 3, true);
+    cut(1.9, 2.1, 2, false);
+    cut(0.2, 24.0, 1, false);
+    cut(std::numeric_limits<double>::quiet_NaN(), 0.1, 1, true);  // refused elsewhere
+}
+
+TEST(SecondOrder, KnowsTheStableCourantNumberOfAScheme) {
+    EXPECT_EQ(SecondOrder::largest_courant(1.0), 1.5);   // linear: 1.73
+    EXPECT_EQ(SecondOrder::largest_courant(lust), 1.5);  // 1.91
+    EXPECT_EQ(SecondOrder::largest_courant(0.0), 1.0);   // linearUpwind: 1.17
+    EXPECT_EQ(SecondOrder::largest_courant(std::nullopt), 1.0);
+}
+
+/// At the largest Courant number that a sub-step may have, along a diagonal, nothing grows: the
+/// shortest waves on a stream that meets no viscosity.
+TEST(SecondOrder, IsStableAtItsCourantNumber) {
+    for (const double central : {0.0, lust, 1.0}) {
+        CyclicBox box(32, {true, central, true}, 1e-9);
+        const double largest = SecondOrder::largest_courant(central);
+        const int windows = static_cast<int>(std::ceil(until * 4.0 * 32.0 / largest));  // |u| + |v|
+        box.shake();
+        const double before = box.largest();
+        EXPECT_EQ(SecondOrder::parts(1.0 - 1e-9, 0.0).count, 1);
+        box.play(windows);
+        EXPECT_LT(box.largest(), 1.2 * before) << central;
+        EXPECT_LE(box.most_parts(), 2) << central;
+    }
+}
+
+/// The largest cut that parts allows does not grow, in the shortest waves either.
+TEST(SecondOrder, IsStableWithAsMuchViscosityAsTransportTakes) {
+    CyclicBox box(32, in_one_step);
+    const int windows = 24;  // a decay of 1.7 each
+    ASSERT_TRUE(SecondOrder::parts(1.0, box.decay(until / windows)).viscous);
+    EXPECT_GT(box.decay(until / windows), 1.5);
+    box.shake();
+    const double before = box.largest();
+    box.play(windows);
+    EXPECT_LT(box.largest(), before);
 }
 
 TEST(SecondOrder, ConvergesWithEverySchemeForSmoothFlow) {
     for (const double central : {0.0, lust, 1.0}) {
-        const Choice choice{true, central};
+        const Choice choice{true, central, true};
         const double coarse = error(32, 64, choice), fine = error(64, 128, choice);
         EXPECT_GT(order(coarse, fine), 1.9) << central;
         EXPECT_LT(fine, 3e-3) << central;
@@ -178,7 +265,8 @@ TEST(SecondOrder, GoesOnFromItsMemory) {
     CyclicBox straight(16, {true, lust});
     SecondOrder a, b;
     straight.play(3);
-    a.transport(straight, 0.01, 1);
+    straight.project(0.01);
+    a.transport(straight, 0.01, {});
     std::vector<double> memory;
     a.append_memory(straight, memory);
     ASSERT_EQ(memory.size(), 1u + 2 * 16 * 16);

@@ -5,16 +5,56 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "fluid_adapter/box_step/second_order.hpp"
+
 #include "tests/unit/coupled_step/tank.hpp"
 
 namespace turbidite {
 namespace {
 
-/// What a window does between two outputs, without contacts.
-CoupledReport play(Tank& tank, CoupledStep& coupled, const CoupledLimits& limits) {
-    tank.step.hold_solenoidal_flux(time_step);
-    tank.step.transport(time_step, &coupled.begin(time_step));
+void transport(Tank& tank, CoupledStep& coupled, double dt) {
+    tank.step.hold_solenoidal_flux(dt);
+    tank.step.transport(dt, &coupled.begin(dt));
     tank.step.release_flux();
+}
+
+/// Transport of second order in time.
+class SecondOrderTransport final : private SecondOrderHost {
+ public:
+    explicit SecondOrderTransport(Tank& tank) : tank_(tank) {}
+
+    void operator()(Tank&, CoupledStep& coupled, double dt) {
+        const double courant = tank_.step.hold_solenoidal_flux(dt).courant;
+        tank_.step.hold_middle_flux(!second_order_.goes_on());
+        second_order_.transport(*this, dt, SecondOrder::parts(courant, INFINITY));
+        tank_.step.add_impulses(second_order_.transported(), coupled.begin(dt));
+        tank_.step.release_flux();
+    }
+
+ private:
+    std::vector<VelocityValues> velocity_values() override {
+        return {{tank_.step.velocity(0), tank_.size()}, {tank_.step.velocity(1), tank_.size()}};
+    }
+    void velocity_changed() override {}
+    SideForce play(const VelocityStage& stage) override { return tank_.step.play(stage); }
+    SideForce diffuse_implicitly(double) override {
+        throw std::logic_error("viscosity belongs to the coupled step");
+    }
+
+    Tank& tank_;
+    SecondOrder second_order_;
+};
+
+/// What a window does between two outputs, without contacts.
+template <class Transport>
+CoupledReport play(Tank& tank, CoupledStep& coupled, const CoupledLimits& limits, Transport&& move,
+                   double dt = time_step) {
+    move(tank, coupled, dt);
     coupled.keep_transported();
     std::vector<Planar> momenta;
     for (std::size_t g = 0; g < tank.grains.size(); ++g) {
@@ -51,7 +91,7 @@ TEST_P(Windows, ThatAreCorrectedOnceAreStable) {
     const double begin = energy(tank);
     double before = begin;
     for (int window = 0; window < 50; ++window) {
-        const CoupledReport report = play(tank, coupled, {});
+        const CoupledReport report = play(tank, coupled, {}, transport);
         EXPECT_EQ(report.pressure.iterations, 1);
         EXPECT_GE(report.viscosity.iterations, 1);
         const double now = energy(tank);
@@ -74,8 +114,8 @@ TEST(Window, CorrectedOnceFollowsTheSolved) {
     limits.viscosity = {400, 1e-4};
     limits.pressure = {400, 1e-5};
     for (int window = 0; window < 10; ++window) {
-        play(once, coupled_once, {});
-        EXPECT_TRUE(play(solved, coupled_solved, limits).pressure.converged);
+        play(once, coupled_once, {}, transport);
+        EXPECT_TRUE(play(solved, coupled_solved, limits, transport).pressure.converged);
     }
     double largest = 0.0, difference = 0.0;
     for (int axis = 0; axis < 2; ++axis)
@@ -86,6 +126,68 @@ TEST(Window, CorrectedOnceFollowsTheSolved) {
         }
     EXPECT_GT(largest, 1e-3);
     EXPECT_LT(difference, 0.1 * largest);
+}
+
+/// The same with transport of second order.
+TEST_P(Windows, WithTransportOfSecondOrderAreStable) {
+    Tank tank({Side::wall}, GetParam());
+    CoupledStep coupled(tank.step);
+    SecondOrderTransport move(tank);
+    const double begin = energy(tank);
+    double before = begin;
+    for (int window = 0; window < 50; ++window) {
+        play(tank, coupled, {}, move);
+        const double now = energy(tank);
+        if (window > 0) {
+            ASSERT_LT(now, std::max(1.05 * before, 1e-4 * begin)) << "window " << window;
+        }
+        before = now;
+    }
+    EXPECT_GT(before, 0.0);
+    EXPECT_LT(before, (GetParam() < 1.0 ? 0.3 : 1e-3) * begin);
+}
+
+/// Velocity after 0.16 t_c in windows of `dt`, from the end of some windows of first order.
+template <class Move>
+std::vector<double> later(double dt, Move make) {
+    Tank tank({Side::wall}, 1e-3);  // viscosity is of first order
+    CoupledStep coupled(tank.step);
+    CoupledLimits limits;
+    limits.iterated = true;
+    limits.viscosity = {400, 1e-6};
+    limits.pressure = {400, 1e-6};
+    for (int window = 0; window < 40; ++window) play(tank, coupled, limits, transport, 0.005);
+    auto&& move = make(tank);
+    const int windows = static_cast<int>(std::lround(0.16 / dt));
+    for (int window = 0; window < windows; ++window) play(tank, coupled, limits, move, dt);
+    std::vector<double> u(tank.step.velocity(0), tank.step.velocity(0) + tank.size());
+    u.insert(u.end(), tank.step.velocity(1), tank.step.velocity(1) + tank.size());
+    return u;
+}
+
+template <class Move>
+std::array<double, 2> changes_with_the_step(Move make) {
+    const std::array<std::vector<double>, 3> u{later(0.02, make), later(0.01, make),
+                                               later(0.005, make)};
+    std::array<double, 2> result{};
+    for (int pair = 0; pair < 2; ++pair) {
+        for (std::size_t c = 0; c < u[0].size(); ++c)
+            result[pair] += std::pow(u[pair][c] - u[pair + 1][c], 2);
+        result[pair] = std::sqrt(result[pair] / u[0].size());
+    }
+    return result;
+}
+
+/// Steps of twice the length change less with transport of second order, and the error falls
+/// faster.
+TEST(Window, OfSecondOrderDependsLessOnTheStep) {
+    const auto first = changes_with_the_step([](Tank&) { return transport; });
+    const auto second =
+        changes_with_the_step([](Tank& tank) { return SecondOrderTransport(tank); });
+    std::printf("first order %.3g, %.3g; second order %.3g, %.3g\n", first[0], first[1], second[0],
+                second[1]);
+    EXPECT_LT(second[0], 0.5 * first[0]);
+    EXPECT_GT(second[0] / second[1], 2.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Viscosities, Windows, testing::Values(0.01, 0.3, 5.0, 100.0),

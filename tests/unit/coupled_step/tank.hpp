@@ -61,6 +61,8 @@ inline BoxFluid box_fluid(const TankSides& sides, double viscosity) {
                            : side == Side::wall ? End::neumann
                                                 : End::dirichlet);
     fluid.viscosity = viscosity;
+    fluid.second_order = true;  // it may be, where a test asks for it
+    fluid.central = 0.75;
     return fluid;
 }
 
