@@ -49,16 +49,18 @@ RunFolder prepared_run(const Site& site, const Box2d& box, int ranks) {
     return folder;
 }
 
-RunFolder prepared_mid_fall(const Site& site, int ranks) {
-    const RunFolder folder{site.folder() / fmt::format("mid-fall-on-{}", ranks)};
+RunFolder prepared_mid_fall(const Site& site, const std::string& name,
+                            const std::vector<std::string>& sets) {
+    const RunFolder folder{site.folder() / name};
     if (fs::exists(folder.root)) return folder;
     say("preparing the mid-fall");
-    const ResolvedCase resolved = load_case(
-        site.source("../configs/sedimentation-discs.yaml"),
-        {"grains.adapter=standalone-nscd",
-         "grains.file=" + fs::canonical(site.source("mid_fall.csv")).string(),
-         fmt::format("fluid.ranks={}", ranks),
-         fmt::format("fluid.cells_per_diameter={}", site.quick() ? 4 : Box2d::cells_per_diameter)});
+    std::vector<std::string> all{
+        "grains.adapter=standalone-nscd",
+        "grains.file=" + fs::canonical(site.source("mid_fall.csv")).string(),
+        fmt::format("fluid.cells_per_diameter={}", site.quick() ? 4 : Box2d::cells_per_diameter)};
+    all.insert(all.end(), sets.begin(), sets.end());
+    const ResolvedCase resolved =
+        load_case(site.source("../configs/sedimentation-discs.yaml"), all);
     prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});
     return folder;
 }
@@ -127,7 +129,19 @@ Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks)
 }
 
 Sample mid_fall_window(Site& site, const Effort& effort, int ranks) {
-    return played(site, prepared_mid_fall(site, ranks), "mid-fall", effort, ranks, true);
+    const RunFolder folder = prepared_mid_fall(site, fmt::format("mid-fall-on-{}", ranks),
+                                               {fmt::format("fluid.ranks={}", ranks)});
+    return played(site, folder, "mid-fall", effort, ranks, true);
+}
+
+Sample mid_fall_window_in_order(Site& site, const Effort& effort, bool second) {
+    const std::string name = second ? "mid-fall-second-order" : "mid-fall-first-order";
+    const std::string scheme = second ? "Gauss LUST grad(U)" : "Gauss limitedLinearV 1";
+    const RunFolder folder = prepared_mid_fall(
+        site, name,
+        {std::string("fluid.time_scheme=") + (second ? "second-order" : "first-order"),
+         "fluid.transport_scheme=" + scheme});
+    return played(site, folder, name, effort, 1, true);
 }
 
 Sample array_code_step(Site& site, const Box2d& box, const Effort& effort) {

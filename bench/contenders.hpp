@@ -31,6 +31,9 @@ Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks 
 /// windows they fall among contacts again.
 Sample mid_fall_window(Site& site, const Effort& effort, int ranks = 1);
 
+/// The same on one rank, with transport and viscosity of first or of second order in time.
+Sample mid_fall_window_in_order(Site& site, const Effort& effort, bool second);
+
 Sample array_code_step(Site& site, const Box2d& box, const Effort& effort);
 
 /// Stock icoFoam on bench/icofoam: mean step time from the clock in its log (ExecutionTime).

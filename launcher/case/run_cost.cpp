@@ -22,7 +22,7 @@ struct FluidRates {
 constexpr FluidRates paper_splitting{50e-9, 280e-9};
 constexpr FluidRates explicit_splitting{85e-9, 380e-9};
 constexpr FluidRates implicit_splitting{300e-9, 1500e-9};
-constexpr double second_order = 2.0;   // of the cells
+constexpr double second_order = 1.3;   // of the cells
 constexpr double busiest_share = 1.6;  // of the covered cells, over an equal one: grains settle
 
 // Seconds per window and grain.

@@ -144,9 +144,12 @@ TEST(SettlingDiscState, RestoredFluidGoesOnTheSame) {
 
 /// Under `joint`, with pressure and excess flux carried from window to window.
 TEST(SettlingDiscState, RestoredSplittingsGoOnTheSame) {
-    for (const char* splitting : {"explicit-multiplier", "implicit-multiplier"}) {
+    for (const auto& [splitting, time_scheme] : {std::pair{"explicit-multiplier", "first-order"},
+                                                 {"implicit-multiplier", "first-order"},
+                                                 {"explicit-multiplier", "second-order"}}) {
         CoupledSetup setup = settling("interior+boundary");
         setup.splitting = splitting;
+        setup.time_scheme = time_scheme;
         CoupledRun run(setup, {disc_at(setup, 2.03, 3.0)});
         const std::vector<GrainState> grains = run.grains();
         const auto play = [&](int n) {

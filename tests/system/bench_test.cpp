@@ -23,7 +23,8 @@ TEST_F(Bench, QuickGivesEveryFigure) {
     const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
     for (const char* name :
          {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth", "speedup_2_ranks",
-          "joint_window_d16", "joint_speedup_2_ranks", "explicit_over_plain", "implicit_over_plain",
+          "joint_window_d16", "second_over_first_order", "joint_speedup_2_ranks",
+          "explicit_over_plain", "implicit_over_plain", "implicit_over_plain_loose",
           "avalanche_window_d16", "bytes_per_cell"}) {
         ASSERT_TRUE(figures.contains(name)) << answer.err;
         const auto& figure = figures.at(name);

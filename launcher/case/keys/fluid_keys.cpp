@@ -413,7 +413,7 @@ std::vector<KeySpec> scheme_keys() {
                       "methods, as in the paper"},
                      {"second-order",
                       "Runge-Kutta transport with the flux at the middle of "
-                      "the window, L-stable viscosity"}},
+                      "the window; viscosity in its stages, or L-stable"}},
          .help = "time integration of transport and viscosity",
          .idle = without_fluid},
         {.name = "fluid.pressure_solver",
