@@ -77,6 +77,7 @@ MEASURED = [
     Measured('peak_time', 'Time of the peak', curves.TIME_LABEL, 't_c', peak_part('time')),
     Measured('relaxation_time', 'Relaxation time of an avalanche', curves.TIME_LABEL, 't_c',
              relaxation.relaxation_time),
+    Measured('relaxation_bound', 'Relaxation time longer than', curves.TIME_LABEL, 't_c', relaxation.relaxation_bound),
     Measured('rest_time', 'At rest from', curves.TIME_LABEL, 't_c', findings.rest_time),
     Measured('end_front', 'Front at the end', r'$\max(x+R)\,/\,D$', 'D', end_of('front_x')),
     Measured('end_height', 'Mean height at the end', r'$\langle y \rangle\,/\,D$', 'D', end_of('mean_position_y')),
@@ -123,7 +124,7 @@ MEASURED = [
 ]
 DRAWN = ('peak_velocity', 'peak_time', 'relaxation_time', 'rest_time', 'end_front', 'end_height', 'run_out', 'slip_angle',
          'pore_change', 'wall_seconds')
-ANALYSIS = [one for one in MEASURED if one.name == 'relaxation_time' or MEASURED.index(one) >= [
+ANALYSIS = [one for one in MEASURED if one.name.startswith('relaxation') or MEASURED.index(one) >= [
     m.name for m in MEASURED].index('run_out')]  # what no other table of a comparison tells
 
 

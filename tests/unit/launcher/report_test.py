@@ -252,6 +252,23 @@ class Report(RunFolderTest):
         self.assertIn(typeset('Relaxation time 3.80 t_c'), self.make())
         self.assertIn('collapse-mean_velocity_norm.png', self.pictures())
 
+    def test_a_run_that_ends_while_it_accelerates_bounds_the_relaxation_time(self):
+        """The same onset to its end, and cut off where it becomes steeper: t_relax of what is left is too short."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        def cut_at(end):
+            times = np.arange(0.0, end + 0.1, 0.25)
+            velocity = 0.06 + 0.065 * (np.logaddexp(0.0, times - 20.0) - np.logaddexp(0.0, times - 24.0))
+            self.write('history.csv', 'step,time,mean_velocity_norm\n'
+                       + ''.join(f'{n},{t},{u}\n' for n, (t, u) in enumerate(zip(times, velocity))))
+            return run_data.load_run(self.folder)
+        whole, cut = cut_at(30.0), cut_at(20.5)
+        self.assertIsNone(relaxation.relaxation_bound(whole))
+        self.assertIsNone(relaxation.relaxation_time(cut))
+        self.assertLess(relaxation.relaxation_bound(cut), relaxation.relaxation_time(whole) - 0.5)
+        bound = np.floor(100.0 * relaxation.relaxation_bound(cut)) / 100.0
+        self.assertIn(typeset(f'Relaxation time > {bound:.2f} t_c'), self.make())
+
     def test_rows_need_not_divide_the_length_of_the_fit(self):
         time = 0.26 * np.arange(60)
         found = relaxation.steepest(time, 0.1 * np.maximum(time - 3.0, 0.0), 1.0)
