@@ -2,6 +2,8 @@
 """Comparison of avalanches: the peak velocity, and the difference between two mean curves."""
 from dataclasses import dataclass
 
+import numpy as np
+
 from differences import difference
 
 COLUMN = 'mean_velocity_norm'  # |<u>|, Fig. 8 of Topin et al. 2011
@@ -22,6 +24,15 @@ def peak(run):
         return None
     highest = int(values.argmax())
     return Peak(float(values[highest]), float(time[highest]))
+
+
+def half_time(run):
+    """When |<u>| has risen to half of its peak [t_c]; None if the grains never moved."""
+    found = peak(run)
+    if found is None:
+        return None
+    time, velocity = run.column(COLUMN)
+    return float(time[int(np.argmax(velocity >= 0.5 * found.value))])
 
 
 @dataclass

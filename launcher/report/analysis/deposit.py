@@ -35,6 +35,16 @@ class Deposit:
     def run_out(self):
         return (self.foot - self.first_foot) / self.first_foot
 
+    @property
+    def lengthening(self):
+        """The other reading of a spreading length: that of the whole heap over that of the column."""
+        return self.foot / self.first_foot
+
+    @property
+    def fits(self):
+        """Bare floor is left between the foot and the right side of the box."""
+        return self.foot < self.x[-1] + 0.5
+
 
 @once_per_run
 def deposit(run):

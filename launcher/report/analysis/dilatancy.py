@@ -45,11 +45,9 @@ def rates(mesh):
 
 def initial_angle(run):
     """Degrees, of the whole motion until the mean velocity has risen to half of its peak; None if nothing slid."""
-    found, peak = dilatancy(run), peaks.peak(run)
-    if found is None or peak is None:
+    found, half = dilatancy(run), peaks.half_time(run)
+    if found is None or half is None:
         return None
-    time, velocity = run.column(peaks.COLUMN)
-    half = time[int(np.argmax(velocity >= 0.5 * peak.value))]
     early = found.time <= half + 1e-9
     if early.sum() < 2:
         return None

@@ -6,7 +6,7 @@ Per window the coupler adds up the works of contacts and of the liquid on the gr
     d(E_kin + E_pot) = W_contacts + W_fluid + (dt/2) sum (M - m_f) g dU_y
 
 The last term is that of grains that move with their new velocity; over any time it is at most (1 - rho_f/rho_s) g dt/2
-times the change of the mean vertical velocity. What the liquid receives, -W_fluid, is its own kinetic energy (of the
+times the change of the mean vertical velocity, weighted by the submerged weights of the grains. What the liquid receives, -W_fluid, is its own kinetic energy (of the
 velocity fields, cells in grains taken off), and what viscosity dissipates or flows out of the box: the rest.
 Energies over (sum of m) u_c^2.
 """
@@ -17,7 +17,7 @@ import numpy as np
 import fluid_fields
 from analysis import snapshots
 from analysis.once import once_per_run
-from analysis.weight_balance import submerged_share
+from analysis.weight_balance import submerged_share, weights_of
 
 MOST_FIELDS = 11
 
@@ -50,12 +50,34 @@ def budget(run):
     whole = run.history['grains'] == run.history['grains'][0]
     rows = len(whole) if whole.all() else int(np.argmin(whole))
     work = lambda name: np.append(0.0, np.nancumsum(run.history[name][1:rows]))
-    change = lambda name: run.history[name][:rows] - run.history[name][0]
+    change = lambda name: changes(run.history[name][:rows])
     step = float(run.case.get('time.step', 0.0)) * run.scale('t_c')
     gravity = float(run.record.get('g') or 1.0) / run.scale('u_c')
     return Budget(run.history['time'][:rows], change('kinetic_energy'), change('potential_energy'),
                   work('contact_work'), work('fluid_work') if run.is_wet() else np.zeros(rows),
-                  0.5 * step * gravity * submerged_share(run) * change('mean_velocity_y'))
+                  0.5 * step * gravity * changes(weighted_fall(run)[:rows]))
+
+
+def changes(values):
+    return values - values[0]
+
+
+def weighted_fall(run):
+    """sum of (M - m_f) U_y over the sum of M at the rows [u_c]. The history has the number mean of U_y, which is all that
+    equal grains need; how much that of unequal ones differs is known at the snapshots and taken linearly in between."""
+    mean = submerged_share(run) * run.history['mean_velocity_y']
+    there = snapshots.snapshots(run)
+    if not there:
+        return mean
+    apart = [fall_of(run, one) - submerged_share(run) * one.velocities[:, 1].mean() for one in there]
+    return mean + np.interp(run.history['time'], [one.time for one in there], apart)
+
+
+def fall_of(run, snapshot):
+    """Masses and weights over rho_s D^2 (and g), rho_s that of grains.density_ratio."""
+    weights = weights_of(run, snapshot)
+    displaced = snapshot.areas / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 0.0
+    return float((weights * snapshot.velocities[:, 1]).sum() / (weights + displaced).sum())
 
 
 def largest_defect(run):

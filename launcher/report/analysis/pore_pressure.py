@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import fluid_fields
+import peaks
 from analysis import snapshots
 from analysis.once import once_per_run
 
@@ -109,3 +110,12 @@ def extreme(run, sign):
     if found is None or not run.is_avalanche() or len(found.values) < 2:
         return None
     return float(sign * (sign * found.values[1:, -1]).max())
+
+
+def while_starting(run):
+    """(lowest, highest) there until the mean velocity of an avalanche has risen to half of its peak; None without."""
+    found, half = probes(run), peaks.half_time(run)
+    if found is None or half is None or not run.is_avalanche():
+        return None
+    early = found.values[(found.time > 0.0) & (found.time <= half), -1]
+    return (float(early.min()), float(early.max())) if len(early) else None

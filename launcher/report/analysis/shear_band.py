@@ -44,11 +44,9 @@ def shear_band(run):
 
 def moment(run):
     """The snapshot nearest to half of the peak, on the rise."""
-    peak = peaks.peak(run)
-    if not run.is_avalanche() or peak is None or 'domain.size' not in run.case:
+    half = peaks.half_time(run)
+    if not run.is_avalanche() or half is None or 'domain.size' not in run.case:
         return None
-    time, velocity = run.column(peaks.COLUMN)
-    half = time[int(np.argmax(velocity >= 0.5 * peak.value))]
     there = [one for one in snapshots.snapshots(run) if one.time > 0.0]
     return min(there, key=lambda one: abs(one.time - half)) if there else None
 

@@ -7,8 +7,8 @@ import numpy as np
 from made_up_run import CASE, RunFolderTest
 
 import run_data
-from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, pore_pressure, pores,
-                      rheology, shear_band, snapshots, weight_balance)
+from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, phases, pore_pressure,
+                      pores, rheology, shear_band, snapshots, waves, weight_balance)
 from measured import MEASURED
 
 DISC = np.pi / 4.0
@@ -29,7 +29,7 @@ def lattice(columns, rows, spacing=1.0):
 
 
 def run(case=None, record=None, **history):
-    data = run_data.RunData('nowhere')
+    data = run_data.RunData(Path('nowhere'))
     data.case = {'scales.kind': 'avalanche', 'domain.size': '[40, 30]', 'grains.density_ratio': '1.5',
                  'fluid.enabled': 'true', 'domain.right': 'free', **(case or {})}
     data.record = {'D': 1.0, 'u_c': 1.0, 't_c': 1.0, 'g': 1.0, **(record or {})}
@@ -105,6 +105,91 @@ class Heaps(unittest.TestCase):
         self.assertIsNone(deposit.fitted_line(self.x, np.where(self.x < 10, 9.0, 0.0)))
 
 
+GRAIN = """<?xml version="1.0"?>
+<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="{count}">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{places}</DataArray></Points>
+<PointData><DataArray type="Float64" Name="radius" format="ascii">{radii}</DataArray></PointData>
+</Piece></PolyData></VTKFile>
+"""
+
+
+class WrittenDeposits(RunFolderTest):
+    def heap(self, *columns):
+        """A folder with an output for each list of how many discs lie in each column of one D."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche').replace('[4, 6]', '[8, 6]'))
+        entries = ''
+        for k, counts in enumerate(columns):
+            places = [f'{i + 0.5} {j + 0.5} 0' for i, count in enumerate(counts) for j in range(count)]
+            self.write(f'grains/grains_{k:08d}.vtp', GRAIN.format(count=len(places), places=' '.join(places),
+                                                                  radii=' '.join(len(places) * ['0.5'])))
+            entries += f'<DataSet timestep="{k}" part="0" file="grains_{k:08d}.vtp"/>'
+        self.write('grains/grains.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
+        return deposit.deposit(run_data.load_run(self.folder))
+
+    def test_its_feet_are_those_of_the_first_and_the_last_output(self):
+        found = self.heap([3, 3], [3, 2, 1], [2, 2, 1, 1, 0, 1])
+        self.assertEqual((found.first_foot, found.foot), (2.0, 4.0))
+        self.assertEqual((found.run_out, found.lengthening), (1.0, 2.0))
+        self.assertTrue(found.fits)
+
+    def test_a_heap_at_the_side_of_the_box_is_told(self):
+        self.assertFalse(self.heap([4, 4], [1, 1, 1, 1, 1, 1, 1, 1]).fits)
+
+
+class Waves(unittest.TestCase):
+    def thick(self, *columns):
+        """One of this many D of solid in each column of 4 D."""
+        places = [[4.0 * i + 0.5 + k % 4, 0.5 + k // 4] for i, count in enumerate(columns) for k in range(count)]
+        one = snapshot(places)
+        one.areas = np.ones(len(places))
+        return one
+
+    def test_height_of_the_solid(self):
+        np.testing.assert_allclose(waves.thickness(run(), self.thick(8, 4, 6)), [2.0, 1.0, 1.5] + 7 * [0.0])
+
+    def test_a_heap_has_no_crest(self):
+        self.assertEqual(waves.crest(np.array([1.0, 3.0, 2.0, 2.0, 1.0, 0.0])), 0.0)
+
+    def test_a_crest_stands_over_the_trough_behind_it(self):
+        self.assertEqual(waves.crest(np.array([1.0, 5.0, 2.0, 2.5, 1.0, 3.5, 0.0])), 2.5)
+
+    def test_the_largest_of_all_times_counts(self):
+        data = with_snapshots(run(), self.thick(12, 4, 0), self.thick(12, 4, 8), self.thick(8, 4, 6))
+        self.assertEqual(waves.largest_crest(data), 1.0)
+        self.assertIsNone(waves.largest_crest(with_snapshots(run())))
+
+
+class PhasesOfACollapse(unittest.TestCase):
+    def column(self, *velocities):
+        """Eight discs on each other at 1, 2, … t_c, with these velocities from the bottom up."""
+        places = [[0.5, 0.5 + k] for k in range(8)]
+        return with_snapshots(run(), *[snapshot(places, there, time=float(k)) for k, there in
+                                       enumerate([np.zeros((8, 2)), *velocities])])
+
+    fall = 2 * [(1, 0)] + 4 * [(0, -1)] + 2 * [(0.1, -1)]
+    heap = 4 * [(0, 0)] + 4 * [(1, -1)]
+    flat = 8 * [(1, -0.1)]
+
+    def test_one_after_the_other(self):
+        found = phases.phases(self.column(self.fall, self.heap, self.flat))
+        self.assertTrue(found.complete)
+        self.assertEqual([one.time for one in (found.fall, found.heap, found.flat)], [1.0, 2.0, 3.0])
+        self.assertAlmostEqual(found.fall.bottom, 0.0)
+        self.assertAlmostEqual(found.fall.top, np.degrees(np.arctan(10.0)))
+        self.assertAlmostEqual(found.heap.moving, 45.0)
+        self.assertAlmostEqual(found.heap.resting, 0.5)
+        self.assertAlmostEqual(found.flat.moving, np.degrees(np.arctan(0.1)))
+
+    def test_what_is_missing_is_told(self):
+        for velocities, words in (((self.heap, self.flat), 'no free fall'), ((self.fall, self.flat), 'no heap'),
+                                  ((self.fall, self.heap), 'never horizontally'),
+                                  ((self.fall, self.flat, self.heap), 'never horizontally')):
+            found = phases.phases(self.column(*velocities))
+            self.assertFalse(found.complete)
+            self.assertIn(words, found.text)
+
+
 class ShearBands(unittest.TestCase):
     def slide(self, angle):
         """Above a plane that falls to the right from (0, y0), grains move along it with 1; below they rest."""
@@ -121,6 +206,17 @@ class ShearBands(unittest.TestCase):
             self.assertAlmostEqual(found.angle, np.degrees(np.arctan(0.8 * np.tan(np.radians(angle)))), delta=2.5)
             self.assertGreater(found.elongation, 5.0)
             self.assertGreater(found.quiescent, 0.2)
+
+    def test_it_is_looked_for_at_half_of_the_peak(self):
+        """The plane is less steep there than at the peak, and at the half on the way down."""
+        history = dict(time=range(6), mean_velocity_norm=[0.0, 0.2, 0.5, 1.0, 0.5, 0.2])
+        at = {1: 15.0, 2: 25.0, 3: 45.0, 4: 60.0}
+        shots = [self.slide(angle) for angle in at.values()]
+        for shot, time in zip(shots, at):
+            shot.time = float(time)
+        found = shear_band.shear_band(with_snapshots(run(**history), *shots))
+        self.assertEqual(found.time, 2.0)
+        self.assertAlmostEqual(found.angle, np.degrees(np.arctan(0.8 * np.tan(np.radians(25.0)))), delta=2.5)
 
     def test_uniform_shear_has_no_band_direction(self):
         places = lattice(12, 14)
@@ -233,6 +329,15 @@ class Pressures(unittest.TestCase):
         self.assertAlmostEqual(pore_pressure.unit(run(record={'D': 2.0, 'g': 3.0})), 0.5 * 3.0 * 2.0)
         self.assertIsNone(pore_pressure.unit(run({'grains.density_ratio': '0.9'})))
 
+    def test_extremes_while_a_column_starts(self):
+        """Until 3 t_c, when half of the peak is reached; the last of the places is the one inside, the first row is that
+        of the packing at rest."""
+        data = run(time=range(7), mean_velocity_norm=[0, 0, 0, 0.5, 1, 1, 1])
+        inside = np.array([99.0, -2.0, 1.0, -3.0, 50.0, -50.0, 0.0])
+        data.measured['analysis.pore_pressure.probes'] = pore_pressure.Probes(
+            ['a', 'b'], np.zeros((2, 2)), np.arange(7.0), np.column_stack([100.0 + inside, inside]))
+        self.assertEqual(pore_pressure.while_starting(data), (-3.0, 1.0))
+
     def test_a_closed_box_has_no_level(self):
         self.assertTrue(pore_pressure.has_level(run()))
         self.assertFalse(pore_pressure.has_level(run({'domain.right': 'wall'})))
@@ -314,6 +419,22 @@ class Energies(unittest.TestCase):
         self.assertLess(np.abs(found.defect()).max(), 1e-12)
         # Half a step of the final speed: g' dt/2 |u|.
         self.assertAlmostEqual(found.splitting[-1], -(1 / 3) * 0.05 * (2 / 3))
+
+    def test_unequal_grains_fall_with_their_weights(self):
+        """A light grain rises by as much as a heavy one, nine times as large, sinks: the number mean of U_y is 0."""
+        gravity, step, n = 1.0 / 3.0, 0.1, np.arange(21)
+        speed = step * n
+        def shot(k):
+            one = snapshot([[0, 0], [3, 3]], [[0, -speed[k]], [0, speed[k]]], time=step * k)
+            one.areas = DISC * np.array([9.0, 1.0])
+            one.weights = one.areas / 3.0  # density ratio 1.5
+            return one
+        changed = dict(kinetic_energy=0.5 * speed**2, mean_velocity_y=0 * speed,
+                       potential_energy=5.0 - 0.8 * gravity * np.cumsum(speed) * step)
+        works = 0.5 * np.diff(speed**2) - 0.8 * gravity * step * 0.5 * (speed[1:] + speed[:-1])
+        data = with_snapshots(self.fall(**changed, contact_work=np.append(np.nan, works)), *map(shot, (0, 10, 20)))
+        self.assertLess(energy.largest_defect(data), 1e-12)
+        self.assertAlmostEqual(energy.budget(data).splitting[-1], -0.8 * gravity * 0.05 * speed[-1])
 
     def test_work_that_is_not_told_is_missed(self):
         work = np.append(np.nan, np.full(20, -0.01))

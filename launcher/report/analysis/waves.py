@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Waves on a granular flow (Topin et al. 2011, section 3.2): crests in front of troughs.
+
+The height of the flow is its solid area per length of floor, in columns of 4 D, so that single grains in the liquid above
+it count for little. Followed to the right from its highest column, the height of a heap only falls; where it rises
+again, by more than the lowest height so far, there is a crest.
+"""
+import numpy as np
+
+from analysis import snapshots
+
+WIDTH = 4.0        # D
+LEAST_CREST = 1.0  # D of solid: a lower one is the roughness of a heap
+
+
+def thickness(run, snapshot):
+    """Solid area over length of floor [D]."""
+    edges = np.arange(0.0, run.size()[0] + WIDTH, WIDTH)
+    return np.histogram(snapshot.centres[:, 0], edges, weights=snapshot.areas)[0] / WIDTH
+
+
+def crest(heights):
+    """The largest rise over the lowest height so far, to the right of the highest column [D]."""
+    falling = heights[int(heights.argmax()):]
+    return float((falling - np.minimum.accumulate(falling)).max())
+
+
+def largest_crest(run):
+    """Of all snapshots of an avalanche [D]; None without any."""
+    there = snapshots.snapshots(run)
+    if not run.is_avalanche() or not there:
+        return None
+    return max(crest(thickness(run, one)) for one in there)
