@@ -4,7 +4,8 @@ from page import write_whole
 from paper import figures, statements
 from paper.selection import PaperRuns
 
-HEADER = ['section', 'statement', 'paper', 'ours, mean (smallest to largest)', 'verdict', 'part of the study']
+HEADER = ['section', 'statement', 'paper', 'ours, mean (smallest to largest)', 'verdict', 'mesh and pores',
+          'part of the study']
 
 
 def add(page, folder, study_runs):

@@ -13,14 +13,30 @@ dilatancy set the time of an immersed start.
 """
 import numpy as np
 
-# k/D2 of the lattices with a hydrodynamic radius of 0.8, the geometric mean of both directions, at D/32
-# (configs/validation/packed-lattice.yaml; docs/paper.md).
-COMPACITY = (0.7854, 0.829, 0.85, 0.87, 0.9069)
-PERMEABILITY = (1.69e-3, 1.53e-3, 1.45e-3, 1.34e-3, 1.03e-3)
+from paper.selection import COMPACITIES
+
 LOOSEST = np.pi / 4.0
 
 
-def time_to_dilate(compacity, reynolds, density_ratio):
-    """[t_c]; `compacity` a number or an array from pi/4 on."""
-    permeability = np.interp(compacity, COMPACITY, PERMEABILITY)
-    return (compacity / LOOSEST - 1.0) / ((density_ratio - 1.0) * compacity * reynolds * permeability)
+def permeabilities(runs):
+    """(compacities, k/D2) of the lattices of the part `permeability`: the geometric mean of both directions of
+    k = nu U/a, U the mean flow at the end, a the body force per mass. None unless all of them are done."""
+    found = [(float(phi), [permeability(run) for run in runs.of('permeability', variant=phi)]) for phi in COMPACITIES]
+    asked = runs.entries('permeability')
+    if not asked or len(asked) != sum(len(values) for _, values in found):
+        return None
+    phi, values = zip(*found)
+    return np.array(phi), np.array([np.exp(np.mean(np.log(k))) for k in values])
+
+
+def permeability(run):
+    """In units of D, u_c and t_c nu = 1/Re."""
+    flow = np.array([run.column(name)[1][-1] for name in ('flow_x', 'flow_y')])
+    push = np.array([float(v) for v in run.case['fluid.acceleration'].strip('[]').split(',')])
+    return float(flow @ push / (push @ push) / float(run.case['fluid.reynolds']))
+
+
+def time_to_dilate(compacity, reynolds, density_ratio, lattices):
+    """[t_c]; `compacity` a number or an array from pi/4 on, `lattices` what permeabilities() gives."""
+    k = np.interp(compacity, *lattices)
+    return (compacity / LOOSEST - 1.0) / ((density_ratio - 1.0) * compacity * reynolds * k)

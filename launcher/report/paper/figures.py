@@ -6,35 +6,49 @@ import numpy as np
 
 import curves
 import pictures
-import relaxation
 from analysis import pores
-from paper import darcy
-from paper.selection import COMPACITIES, DENSE, LOOSE, REYNOLDS
+from paper import darcy, waiting
+from paper.selection import COLUMNS, COMPACITIES, DENSE, LOOSE, REYNOLDS
 
 SEDIMENTATION = (('discs-nscd', 'discs, NSCD'), ('discs-md', 'discs, MD'), ('triangles-nscd', 'triangles, NSCD'),
                  ('triangles-md', 'triangles, MD'))
 DENSITY_RATIO = 1.5
-LEAST_WAITING = 0.829  # the dense behaviour: phi from here on (section 3.3)
+OPEN, CLOSED = COLUMNS
 
 
 def all_figures(runs):
-    """[(number, caption, figure)] of those that can be drawn."""
+    """[(number, caption, figure)] of those that can be drawn. Figures 8 to 10 are drawn of both sets of columns, those
+    of closed pores with the letter c."""
     made = [(1, 'Sedimentation of 300 discs: vertical velocity of the fluid.',
              sequence(runs.of('sedimentation', variant='discs-nscd'))),
             (2, 'Sedimentation of 300 triangles: vertical velocity of the fluid.',
              sequence(runs.of('sedimentation', variant='triangles-nscd'))),
             (3, 'Sedimentation: (a) mean vertical velocity, (b) mean vertical position; bands: seeds.', settling(runs)),
-            (5, 'Collapse of the loosest column in the liquid (φ = 0.785, Re = 89).',
+            (5, f'Collapse of the loosest column in the liquid, φ = 0.785, Re = 89{told_conditions(runs, "run-out")}.',
              sequence(runs.of('run-out', compacity=LOOSE))),
-            (6, 'Collapse of the densest column in the liquid (φ = 0.906, Re = 89).',
+            (6, f'Collapse of the densest column in the liquid, φ = 0.906, Re = 89{told_conditions(runs, "run-out")}.',
              sequence(runs.of('run-out', compacity=DENSE))),
-            (7, 'The loosest column in a small closed box.', sequence(runs.of('closed'))),
-            (8, 'Norm of the mean velocity: (a) dry, (b) to (d) in a liquid; bands: seeds.', velocities(runs)),
-            (9, 'Relaxation time against compacity; bars: fits over 0.5 to 2 t_c; lines: fits from φ = 0.829; '
-             'dotted: time of the liquid to flow into a dilating layer (darcy.py), without fitted numbers.',
-             waiting(runs)),
-            (10, 'Pore volume against the displacement of the centre of gravity, Re = 89.', pore_volume(runs))]
+            (7, f'The loosest column in a small closed box{told_conditions(runs, "closed")}.', sequence(runs.of('closed')))]
+    made += figures_of_columns(runs, '') + figures_of_columns(runs.with_columns(CLOSED), 'c')
     return [(number, caption, figure) for number, caption, figure in made if figure is not None]
+
+
+def figures_of_columns(runs, letter):
+    how = told_conditions(runs, runs.columns)
+    lines = f'lines: fits from φ = {waiting.LEAST_WAITING}'
+    estimate = '; dotted: time of the liquid to flow into a dilating layer (darcy.py), without fitted numbers'
+    return [(f'8{letter}', f'Norm of the mean velocity: (a) dry, (b) to (d) in a liquid{how}; bands: seeds.',
+             velocities(runs)),
+            (f'9{letter}', f'Relaxation time against compacity{how}; bars: fits over 0.5 to 2 t_c; arrows: bounds of columns '
+             'that have not slid or accelerate most at the end of the run; '
+             f'{lines}{estimate if runs.columns == OPEN else ""}.', relaxation_times(runs)),
+            (f'10{letter}', f'Pore volume against the displacement of the centre of gravity, Re = 89{how}.',
+             pore_volume(runs))]
+
+
+def told_conditions(runs, part):
+    conditions = runs.conditions(part)
+    return f' ({conditions})' if conditions else ''
 
 
 def sequence(found):
@@ -70,7 +84,7 @@ def line(axes, k, label, member, column, unit):
 
 def velocities(runs):
     figure, axes = plt.subplots(2, 2, figsize=(10.0, 7.0), layout='constrained', sharex=True)
-    panels = [('(a) dry', 'dry', {})] + [(f'({letter}) Re = {reynolds}', 'immersed', {'reynolds': reynolds})
+    panels = [('(a) dry', 'dry', {})] + [(f'({letter}) Re = {reynolds}', runs.columns, {'reynolds': reynolds})
                                          for letter, reynolds in zip('bcd', REYNOLDS)]
     drawn = 0
     for (title, part, values), place in zip(panels, axes.flat):
@@ -78,7 +92,7 @@ def velocities(runs):
             member = runs.member(part, compacity=compacity, **values)
             if member is not None:
                 line(place, k, rf'$\phi = {compacity}$', member, 'mean_velocity_norm', 1.0)
-                drawn += 1
+                drawn += part == runs.columns or runs.columns == OPEN
         curves.decorate(place, title, r'$|\langle u_s \rangle|\,/\,u_c$')
         if place.get_legend_handles_labels()[1]:
             place.legend(fontsize=8)
@@ -89,58 +103,53 @@ def velocities(runs):
     return None
 
 
-def waiting_times(runs, reynolds):
-    """(compacities, relaxation.Relaxation) of the columns that have slid; the loosest always counts."""
-    found = [(float(phi), relaxation.relaxation(run)) for phi in COMPACITIES
-             for run in runs.of('immersed', compacity=phi, reynolds=reynolds)]
-    return [(phi, one) for phi, one in found if one is not None]
-
-
-def waiting_line(runs, reynolds):
-    """(slope [t_c], level, R^2) of t_relax against phi from 0.829 on; None where fewer than two compacities have slid,
-    R^2 None where only two have."""
-    points = np.array([(phi, one.time) for phi, one in waiting_times(runs, reynolds) if phi >= LEAST_WAITING])
-    if len(points) == 0 or len(set(points[:, 0])) < 2:
-        return None
-    slope, level = np.polyfit(*points.T, 1)
-    rest = points[:, 1] - slope * points[:, 0] - level
-    total = ((points[:, 1] - points[:, 1].mean())**2).sum()
-    if len(set(points[:, 0])) < 3:
-        return float(slope), float(level), None
-    return float(slope), float(level), float(1.0 - (rest**2).sum() / total) if total > 0.0 else 0.0
-
-
-def waiting(runs):
+def relaxation_times(runs):
     figure, axes = curves.panel('', r'$\phi$', r'$t_\mathrm{relax}\,/\,t_c$', size=(6.5, 4.2))
     for k, reynolds in enumerate(REYNOLDS):
-        points = waiting_times(runs, reynolds)
-        if not points:
-            continue
-        phi, times = np.array([(phi, one.time) for phi, one in points]).T
-        ends = np.array([(one.time - one.lowest, one.highest - one.time) for _, one in points]).T
-        axes.errorbar(phi, times, yerr=ends, linestyle='', marker=curves.MARKERS[k], capsize=3, color=f'C{k}',
-                      label=rf'$Re_c = {reynolds}$')
-        fit = waiting_line(runs, reynolds)
+        draw_waits(axes, k, reynolds, [(float(phi), one) for phi in COMPACITIES
+                                       for one in waiting.waits(runs, reynolds, phi)])
+        fit = waiting.line(runs, reynolds, COMPACITIES)
         if fit is not None:
-            x = np.array([max(LEAST_WAITING, phi.min()), phi.max()])
-            axes.plot(x, fit[0] * x + fit[1], color=f'C{k}', linestyle=curves.dash(k), linewidth=1.2)
+            x = np.array([fit.compacities[0], fit.compacities[-1]])
+            axes.plot(x, fit.slope * x + fit.level, color=f'C{k}', linestyle=curves.dash(k), linewidth=1.2)
     if not axes.get_legend_handles_labels()[1]:
         plt.close(figure)
         return None
+    if runs.columns == OPEN:
+        draw_estimate(axes, darcy.permeabilities(runs))
+    axes.legend(fontsize=8)
+    return figure
+
+
+def draw_waits(axes, k, reynolds, found):
+    """Points with bars, and arrows upwards from bounds."""
+    known, bounds = ([(phi, one) for phi, one in found if one.bound == bound] for bound in (False, True))
+    if known:
+        axes.errorbar([phi for phi, _ in known], [one.time for _, one in known],
+                      yerr=np.array([(one.time - one.lowest, one.highest - one.time) for _, one in known]).T, linestyle='',
+                      marker=curves.MARKERS[k], capsize=3, color=f'C{k}', label=rf'$Re_c = {reynolds}$')
+    if bounds:
+        aside = 0.0006 * (k - 1)  # those of several Re stand at the end of the runs
+        axes.plot([phi + aside for phi, _ in bounds], [one.time for _, one in bounds], linestyle='',
+                  marker=r'$\uparrow$', markersize=9, color=f'C{k}', label=rf'$Re_c = {reynolds}$, longer')
+
+
+def draw_estimate(axes, lattices):
+    """The estimate of darcy.py, dotted; nothing without its permeabilities."""
+    if lattices is None:
+        return
     bottom, top = axes.get_ylim()
     for k, reynolds in enumerate(REYNOLDS):
         phi = np.linspace(float(LOOSE), float(DENSE), 100)
-        axes.plot(phi, darcy.time_to_dilate(phi, float(reynolds), DENSITY_RATIO), color=f'C{k}', linestyle=':',
+        axes.plot(phi, darcy.time_to_dilate(phi, float(reynolds), DENSITY_RATIO, lattices), color=f'C{k}', linestyle=':',
                   linewidth=1.0, label=rf'Darcy, $Re_c = {reynolds}$')
     axes.set_ylim(bottom, 1.3 * top)
-    axes.legend(fontsize=8)
-    return figure
 
 
 def pore_volume(runs):
     figure, axes = curves.panel('', r'$\delta x\,/\,x_0$', r'$\delta V\,/\,V_0$', size=(6.5, 4.2))
     for k, compacity in enumerate(COMPACITIES):
-        for run in runs.of('immersed', compacity=compacity, reynolds='89'):
+        for run in runs.immersed(compacity=compacity, reynolds='89'):
             found = pores.pore_curve(run)
             if found is not None:
                 axes.plot(found.displacement, found.change, label=rf'$\phi = {compacity}$', linestyle=curves.dash(k),

@@ -1,26 +1,35 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The statements of the paper beside our own numbers. Each is a function of the runs that returns (ours, agrees) with
-agrees True, False or None (measured, but the paper gives no number to judge by); or None where runs are missing."""
+agrees True, False or None (measured, but not enough to judge: a heap that still flows, a paper without a number); or None
+where runs are missing."""
 from dataclasses import dataclass
 
 import numpy as np
 
 import findings
 import peaks
-import relaxation
-from analysis import deposit, energy, pores, shear_band
+from analysis import deposit, energy, phases, pore_pressure, pores, shear_band, waves
 from differences import difference
-from paper.figures import waiting_line
-from paper.selection import COMPACITIES, DENSE, LOOSE, REYNOLDS, spread
+from paper import waiting
+from paper.selection import COLUMNS, COMPACITIES, DENSE, LOOSE, spread
 
-AT_ONCE = 1.0            # t_c: the loosest column waits no longer
 STRAIGHT = 0.9           # R^2 of a linear dependence
 WEAK = 2.0               # largest ratio of slopes that still is a weak dependence
 SAME_CURVE = 0.1         # largest mean difference of curves that count as similar
+SLOWER = (1.0, 1.2)      # times of triangles over those of discs that count as "about 10 %"
+DRY_PEAK = 9.0           # t_c
+NEAR_PEAK = 1.0          # t_c: largest distance of the mean from it; columns may differ by twice that
+STOPPED = 0.05           # of the peak: the largest velocity that has decreased to zero
+STILL = 0.02             # u_c: the largest mean velocity of a column whose curve remains zero
 BACK = 0.1               # of the largest mean velocity: the grains of a wave that runs back are faster
-NEVER = float('inf')     # t_relax of a column that has not slid
 SATURATED = 0.5          # of the first slope of dV/V0: the largest second one that is another regime
 ALIKE = 0.1              # relative spread within which values count as independent of phi
+PLANE = (35.0, 55.0)     # degrees that count as 45
+QUIESCENT = 0.2          # least share of the grains that makes a quiescent part
+HALF = (0.35, 0.65)      # ratios that count as about half
+ENERGY = 1e-3            # largest relative defects of the balances
+MOMENTUM = 1e-8
+FLUID_MOMENTUM = 1e-6    # limits.fluid_balance_soft
 
 
 @dataclass
@@ -29,26 +38,32 @@ class Statement:
     text: str
     paper: str
     measure: object  # function of PaperRuns
-    part: str        # of the study, for the command
+    part: str        # of the study, for the command; that of immersed columns stands for all sets of them
 
 
-def peak_value(run):
+def value_of_peak(run):
     found = peaks.peak(run)
     return None if found is None else found.value
 
 
-def peak_time(run):
+def time_of_peak(run):
     found = peaks.peak(run)
     return None if found is None else found.time
 
 
+# --- sedimentation ------------------------------------------------------------------------------------
+
 def triangles_are_slower(runs):
-    discs, triangles = (runs.numbers(findings.rest_time, 'sedimentation', variant=variant)
-                        for variant in ('discs-nscd', 'triangles-nscd'))
-    if not discs or not triangles:
+    found = [runs.of('sedimentation', variant=variant) for variant in ('triangles-nscd', 'discs-nscd')]
+    if not all(found):
         return None
+    times = [[findings.rest_time(run) for run in shape] for shape in found]
+    if any(time is None for shape in times for time in shape):
+        return 'some are not at rest by the end', None
+    triangles, discs = times
     ratio = np.mean(triangles) / np.mean(discs)
-    return (f'rest at {spread(triangles)} against {spread(discs)} t_c: {100 * (ratio - 1):+.0f} %', 1.0 < ratio < 1.2)
+    return (f'rest at {spread(triangles)} against {spread(discs)} t_c: {100 * (ratio - 1):+.0f} %',
+            bool(SLOWER[0] < ratio < SLOWER[1]))
 
 
 def md_from_nscd(runs, shape):
@@ -69,58 +84,102 @@ def md_is_like_nscd(runs):
     return f'⟨u_y⟩ differs by, of its largest value on average, {text}', max(shares.values()) < SAME_CURVE
 
 
+# --- dry columns --------------------------------------------------------------------------------------
+
+def of_dry(runs, measure):
+    """{phi: values}; None unless all are there."""
+    found = {phi: runs.numbers(measure, 'dry', compacity=phi) for phi in COMPACITIES}
+    return found if all(found.values()) else None
+
+
+def by_compacity(found, form='.3g'):
+    return ', '.join(f'φ = {phi}: {spread(values, form)}' for phi, values in found.items())
+
+
 def dry_peak(runs):
-    times = {phi: runs.numbers(peak_time, 'dry', compacity=phi) for phi in COMPACITIES}
-    if not all(times.values()):
+    times = of_dry(runs, time_of_peak)
+    if times is None:
         return None
-    text = ', '.join(f'φ = {phi}: {spread(found)}' for phi, found in times.items())
     means = [np.mean(found) for found in times.values()]
-    return f'{text} t_c', abs(np.mean(means) - 9.0) < 1.0 and np.ptp(means) < 2.0
+    return (f'{by_compacity(times)} t_c',
+            bool(abs(np.mean(means) - DRY_PEAK) < NEAR_PEAK and np.ptp(means) < 2.0 * NEAR_PEAK))
 
 
 def dry_does_not_depend_on_compacity(runs):
-    values = {phi: runs.numbers(peak_value, 'dry', compacity=phi) for phi in COMPACITIES}
-    if not all(values.values()):
+    values = of_dry(runs, value_of_peak)
+    if values is None:
         return None
     means = np.array([np.mean(found) for found in values.values()])
-    text = ', '.join(f'φ = {phi}: {spread(found)}' for phi, found in values.items())
-    return f'peaks {text} u_c', bool(np.ptp(means) / means.mean() < ALIKE)
+    return f'peaks {by_compacity(values)} u_c', bool(np.ptp(means) / means.mean() < ALIKE)
 
 
-def waits(runs, reynolds, compacity):
-    """t_relax of these columns [t_c], NEVER for one that has not slid by its end."""
-    times = [relaxation.relaxation_time(run) for run in runs.of('immersed', compacity=compacity, reynolds=reynolds)]
-    return [NEVER if time is None else time for time in times]
+def left_of_peak(run):
+    """Share of the largest |<u>| that is left at the end."""
+    peak, velocity = peaks.peak(run), run.column(peaks.COLUMN)[1]
+    return None if peak is None else float(velocity[-1] / peak.value)
 
 
-def told(times):
-    slid = [time for time in times if time < NEVER]
-    if len(slid) == len(times):
-        return spread(slid)
-    return f'{spread(slid)}, {len(times) - len(slid)} of {len(times)} not by the end' if slid else 'not by the end'
+def dry_decreases_to_zero(runs):
+    shares = of_dry(runs, left_of_peak)
+    if shares is None:
+        return None
+    end = max(run.column(peaks.COLUMN)[0][-1] for run in runs.of('dry'))
+    return (f'at {end:.3g} t_c there is left of the peak {by_compacity(shares, ".2f")}',
+            max(share for found in shares.values() for share in found) < STOPPED)
 
+
+# --- waiting ------------------------------------------------------------------------------------------
 
 def loose_at_once(runs):
-    found = {reynolds: waits(runs, reynolds, LOOSE) for reynolds in REYNOLDS}
-    if not all(found.values()):
+    grid = runs.grid()
+    found = {reynolds: waiting.waits(runs, reynolds, LOOSE) for reynolds, there in (grid or {}).items() if LOOSE in there}
+    if not found:
         return None
-    text = ', '.join(f'Re = {reynolds}: {told(times)}' for reynolds, times in found.items())
-    return f't_relax {text} t_c', all(max(times) < AT_ONCE for times in found.values())
+    text = ', '.join(f'Re = {reynolds}: {waiting.told(times)}' for reynolds, times in found.items())
+    return f't_relax {text} t_c', all(one.at_once for times in found.values() for one in times)
 
 
 def dense_waits(runs):
-    found = {phi: [waits(runs, reynolds, phi) for reynolds in REYNOLDS] for phi in COMPACITIES[1:]}
-    if not all(all(times) for times in found.values()):
+    """One Re at a time; what has a bound waits at least that long."""
+    found = dense_columns(runs)
+    if found is None:
         return None
-    found = {phi: sum(times, []) for phi, times in found.items()}
-    text = ', '.join(f'φ = {phi}: {told(times)}' for phi, times in found.items())
-    return f't_relax over all Re: {text} t_c', all(min(times) > 0.0 for times in found.values())
+    text = '; '.join(f'Re = {reynolds}: ' + ', '.join(f'φ = {phi}: {waiting.told(times)}' for phi, times in rows.items())
+                     for reynolds, rows in found.items())
+    return f't_relax {text} t_c', all(one.waits for rows in found.values() for times in rows.values() for one in times)
+
+
+def dense_columns(runs):
+    """{Re: {phi: waiting times}} of the columns from LEAST_WAITING on; None unless all are played."""
+    grid = runs.grid()
+    if grid is None:
+        return None
+    return {reynolds: {phi: waiting.waits(runs, reynolds, phi) for phi in there if float(phi) >= waiting.LEAST_WAITING}
+            for reynolds, there in grid.items()}
+
+
+def stands_still(runs):
+    """Mean |<u>| until t_relax, or what bounds it, of the columns that wait."""
+    grid = runs.grid()
+    if grid is None:
+        return None
+    found = {reynolds: [creep(run) for phi in there if float(phi) >= waiting.LEAST_WAITING
+                        for run in runs.immersed(compacity=phi, reynolds=reynolds)] for reynolds, there in grid.items()}
+    text = ', '.join(f'Re = {reynolds}: {spread(values, ".2g")}' for reynolds, values in found.items())
+    return f'mean of |⟨u⟩| until t_relax {text} u_c', max(max(values) for values in found.values()) < STILL
+
+
+def creep(run):
+    """Mean |<u>| [u_c] until t_relax."""
+    time, velocity = run.column(peaks.COLUMN)
+    before = time <= max(waiting.wait(run).time, time[1])
+    return float(np.trapz(velocity[before], time[before]) / (time[before][-1] - time[0]))
 
 
 def waiting_lines(runs):
-    """figures.waiting_line by Re; None if any column was not played."""
-    played = all(waits(runs, reynolds, phi) for reynolds in REYNOLDS for phi in COMPACITIES[1:])
-    return {reynolds: waiting_line(runs, reynolds) for reynolds in REYNOLDS} if played else None
+    """{Re: waiting.Line or None}; None if any column was not played."""
+    grid = runs.grid()
+    return None if grid is None else {reynolds: waiting.line(runs, reynolds, there) for reynolds, there in grid.items()}
 
 
 def told_of_lines(fits, of_fit, fewer):
@@ -131,10 +190,11 @@ def waits_linearly(runs):
     fits = waiting_lines(runs)
     if fits is None:
         return None
-    fits = {reynolds: fit if fit and fit[2] is not None else None for reynolds, fit in fits.items()}
+    fits = {reynolds: fit if fit and fit.straight is not None else None for reynolds, fit in fits.items()}
     known = [fit for fit in fits.values() if fit]
-    return (told_of_lines(fits, lambda fit: f'R² = {fit[2]:.2f}', 'fewer than three have slid'),
-            all(fit[2] >= STRAIGHT for fit in known) if known else None)
+    return (told_of_lines(fits, lambda fit: f'R² = {fit.straight:.2f} of {len(fit.compacities)} compacities',
+                          'fewer than three have a t_relax'),
+            all(fit.straight >= STRAIGHT and fit.slope > 0.0 for fit in known) if known else None)
 
 
 def slopes_are_alike(runs):
@@ -142,60 +202,140 @@ def slopes_are_alike(runs):
     fits = waiting_lines(runs)
     if fits is None:
         return None
-    slopes = [fit[0] for fit in fits.values() if fit]
-    text = told_of_lines(fits, lambda fit: f'{fit[0]:.3g} t_c', 'fewer than two have slid')
+    slopes = [fit.slope for fit in fits.values() if fit]
+    text = told_of_lines(fits, lambda fit: f'{fit.slope:.3g} t_c of {len(fit.compacities)} compacities',
+                         'fewer than two have a t_relax')
     if not slopes:
         return f'slopes per unit of φ {text}', None
     return (f'slopes per unit of φ {text}',
             len(slopes) == len(fits) and min(slopes) > 0.0 and max(slopes) / min(slopes) < WEAK)
 
 
-def peaks_of(runs, reynolds):
-    """Mean peak velocity by compacity; None unless all columns are there."""
-    found = [runs.numbers(peak_value, 'immersed', compacity=phi, reynolds=reynolds) for phi in COMPACITIES]
-    return [float(np.mean(values)) for values in found] if all(found) else None
+# --- largest velocities -------------------------------------------------------------------------------
+
+@dataclass
+class MeanPeak:
+    value: float  # u_c
+    rising: bool  # some of the runs have it at their end
+
+    @property
+    def text(self):
+        return f'{self.value:.3g}' + (' (still rising)' if self.rising else '')
+
+
+def mean_peak(found):
+    """Of the largest |<u>| of these runs."""
+    tops = [peaks.peak(run) for run in found]
+    return MeanPeak(float(np.mean([top.value for top in tops])),
+                    any(top.time >= run.column(peaks.COLUMN)[0][-1] for top, run in zip(tops, found)))
+
+
+def mean_peaks(runs):
+    """{Re: {phi: MeanPeak}}; None unless all columns are there."""
+    grid = runs.grid()
+    if grid is None:
+        return None
+    return {reynolds: {phi: mean_peak(runs.immersed(compacity=phi, reynolds=reynolds)) for phi in there}
+            for reynolds, there in grid.items()}
 
 
 def peak_falls_with_compacity(runs):
-    found = {reynolds: peaks_of(runs, reynolds) for reynolds in REYNOLDS}
-    if any(values is None for values in found.values()):
+    """Within the time that the paper's Fig. 8 shows, like the paper's."""
+    found = mean_peaks(runs)
+    if found is None:
         return None
-    text = '; '.join(f'Re = {reynolds}: ' + ', '.join(f'{value:.3g}' for value in values)
-                     for reynolds, values in found.items())
-    return f'{text} u_c from loose to dense, to 20 t_c', all((np.diff(values) < 0.0).all() for values in found.values())
+    text = '; '.join(f'Re = {reynolds}: ' + ', '.join(f'φ = {phi}: {top.text}' for phi, top in tops.items())
+                     for reynolds, tops in found.items())
+    falls = [(np.diff([top.value for top in tops.values()]) < 0.0).all() for tops in found.values()]
+    return f'{text} u_c', all(map(bool, falls))
 
 
 def peak_and_viscosity(runs):
-    found = {reynolds: peaks_of(runs, reynolds) for reynolds in REYNOLDS}
-    if any(values is None for values in found.values()):
+    found = mean_peaks(runs)
+    shared = [phi for phi in COMPACITIES if found and all(phi in tops for tops in found.values())]
+    if not shared or len(found) < 2:
         return None
-    falls = [all(np.diff([found[reynolds][k] for reynolds in REYNOLDS]) < 0.0) for k in range(len(COMPACITIES))]
+    falls = [bool((np.diff([tops[phi].value for tops in found.values()]) < 0.0).all()) for phi in shared]
     return (f'the peak falls with growing viscosity for {sum(falls)} of {len(falls)} compacities: read as "for '
             'decreasing φ and decreasing 1/Re"', all(falls))
 
 
+# --- how columns collapse -----------------------------------------------------------------------------
+
+def of_bands(runs, part):
+    """What a slip band tells of the densest columns at Re 89, without those that have none."""
+    found = [getattr(shear_band.shear_band(run), part, None) for run in runs.immersed(compacity=DENSE, reynolds='89')]
+    return [value for value in found if value is not None]
+
+
 def slides_at_45(runs):
-    found = runs.numbers(lambda run: getattr(shear_band.shear_band(run), 'angle', None), 'immersed', compacity=DENSE,
-                         reynolds='89')
-    return (f'{spread(found)}° below the horizontal', bool(abs(np.mean(found) - 45.0) <= 10.0)) if found else None
+    found = of_bands(runs, 'angle')
+    return (f'{spread(found)}° below the horizontal', bool(PLANE[0] <= np.mean(found) <= PLANE[1])) if found else None
 
 
 def wedge_rests(runs):
-    found = runs.numbers(lambda run: getattr(shear_band.shear_band(run), 'quiescent', None), 'immersed',
-                         compacity=DENSE, reynolds='89')
-    return (f'{100 * np.mean(found):.0f} % of the grains rest at half of the peak', bool(np.mean(found) > 0.2)) if found else None
+    found = of_bands(runs, 'quiescent')
+    if not found:
+        return None
+    return f'{100 * np.mean(found):.0f} % of the grains rest at half of the peak', bool(np.mean(found) > QUIESCENT)
+
+
+def run_outs(runs):
+    """(loose, dense) heaps: [(run, Deposit)]; None unless both are there."""
+    found = [[(run, deposit.deposit(run)) for run in runs.of('run-out', compacity=phi)] for phi in (LOOSE, DENSE)]
+    whole = all(found) and all(heap is not None for heaps in found for _, heap in heaps)
+    return found if whole else None
 
 
 def spreads_half(runs):
-    found = [runs.numbers(lambda run: getattr(deposit.deposit(run), 'run_out', None), 'run-out', compacity=phi)
-             for phi in (LOOSE, DENSE)]
-    if not all(found):
+    """By both readings of a final spreading length. None of them is final before the heaps rest within the box."""
+    found = run_outs(runs)
+    if found is None:
         return None
-    loose, dense = (float(np.mean(values)) for values in found)
-    if loose <= 0.0:
-        return f'run-outs {dense:.3g} (dense) and {loose:.3g} (loose)', False
-    return (f'run-outs {dense:.3g} (dense) and {loose:.3g} (loose): ratio {dense / loose:.2g}',
-            0.35 <= dense / loose <= 0.65)
+    loose, dense = ([np.mean([getattr(heap, name) for _, heap in heaps]) for name in ('run_out', 'lengthening')]
+                    for heaps in found)
+    if loose[0] <= 0.0:
+        return f'the loose column has not spread: (L − L₀)/L₀ = {loose[0]:.3g}', False
+    ratios = [float(part / whole) for part, whole in zip(dense, loose)]
+    text = (f'(L − L₀)/L₀ = {dense[0]:.3g} (dense) and {loose[0]:.3g} (loose), ratio {ratios[0]:.2g}; '
+            f'L/L₀ = {dense[1]:.3g} and {loose[1]:.3g}, ratio {ratios[1]:.2g}')
+    unfinished = [why for heaps in found for run, heap in heaps for why in [not_final(run, heap)] if why]
+    if unfinished:
+        return f'{text}; lower bounds: {", ".join(dict.fromkeys(unfinished))}', None
+    half = [HALF[0] <= ratio <= HALF[1] for ratio in ratios]
+    return text, half[0] if half[0] == half[1] else None
+
+
+def not_final(run, heap):
+    """Why the length of a heap is not its last one; empty if it is."""
+    if not heap.fits:
+        return 'a heap reaches the side of the box'
+    if findings.rest_time(run) is None:
+        return f'not at rest by {run.column("mean_speed")[0][-1]:.3g} t_c'
+    return ''
+
+
+def dense_is_slower(runs):
+    loose, dense = ([value_of_peak(run) for run in runs.of('run-out', compacity=phi)] for phi in (LOOSE, DENSE))
+    if not loose or not dense:
+        return None
+    return (f'peak of |⟨u⟩| {spread(dense)} (dense) against {spread(loose)} u_c (loose)', bool(max(dense) < min(loose)))
+
+
+def falls_in_three_phases(runs):
+    found = [phases.phases(run) for run in runs.of('run-out', compacity=LOOSE)]
+    if not found or any(one is None for one in found):
+        return None
+    return '; '.join(one.text for one in found), all(one.complete for one in found)
+
+
+def no_wave_on_the_dense_one(runs):
+    """Beside the loose one, on which the same measure has to find waves."""
+    loose, dense = (runs.numbers(waves.largest_crest, 'run-out', compacity=phi) for phi in (LOOSE, DENSE))
+    if not loose or not dense:
+        return None
+    text = f'crests up to {spread(dense)} D (dense) and {spread(loose)} D (loose) above the trough behind them'
+    return text, max(dense) < waves.LEAST_CREST <= min(loose)
 
 
 def wave_breaks(runs):
@@ -213,28 +353,35 @@ def wave_breaks(runs):
     return None
 
 
-def pores_at(runs):
-    found = [runs.numbers(pores.largest_change, 'immersed', compacity=phi, reynolds='89') for phi in COMPACITIES]
-    return [float(np.mean(values)) for values in found] if all(found) else None
+# --- pores --------------------------------------------------------------------------------------------
+
+def of_columns(runs, measure):
+    """{phi: means} at Re 89; None unless all of them tell it."""
+    there = (runs.grid() or {}).get('89', [])
+    found = {phi: [measure(run) for run in runs.immersed(compacity=phi, reynolds='89')] for phi in there}
+    if not found or any(value is None for values in found.values() for value in values):
+        return None
+    return {phi: np.mean(values, axis=0) for phi, values in found.items()}
 
 
 def only_the_loosest_contracts(runs):
-    found = pores_at(runs)
+    found = of_columns(runs, pores.largest_change)
     if found is None:
         return None
-    text = ', '.join(f'φ = {phi}: {value:+.3g}' for phi, value in zip(COMPACITIES, found))
-    return f'{text} until δx/x₀ = {pores.AT:g}', found[0] < 0.0 and min(found[1:]) > 0.0
+    text = ', '.join(f'φ = {phi}: {value:+.3g}' for phi, value in found.items())
+    first, *others = found.values()
+    return f'{text} until δx/x₀ = {pores.AT:g}', bool(first < 0.0 and min(others) > 0.0)
 
 
 def pores_grow_with_compacity(runs):
-    found = pores_at(runs)
-    return None if found is None else (', '.join(f'{value:+.3g}' for value in found) + ' from loose to dense',
-                                       bool((np.diff(found) > 0.0).all()))
+    found = of_columns(runs, pores.largest_change)
+    return None if found is None else (', '.join(f'{value:+.3g}' for value in found.values()) + ' from loose to dense',
+                                       bool((np.diff(list(found.values())) > 0.0).all()))
 
 
 def two_regimes(runs):
     """Two lines fitted to dV/V0 against dx/x0 of the columns that dilate."""
-    found = [pores.regimes(run) for phi in COMPACITIES[1:] for run in runs.of('immersed', compacity=phi, reynolds='89')]
+    found = [pores.regimes(run) for phi in COMPACITIES[1:] for run in runs.immersed(compacity=phi, reynolds='89')]
     found = [one for one in found if one is not None]
     if not found:
         return None
@@ -244,17 +391,50 @@ def two_regimes(runs):
             max(flatter) < SATURATED)
 
 
-def energy_closes(runs):
-    found = [energy.largest_defect(run.data) for run in runs.runs if run.data.history is not None]
+def pressures(runs):
+    """{phi: (lowest, highest)} inside the columns while they start."""
+    return of_columns(runs, pore_pressure.while_starting)
+
+
+def told_pressures(found):
+    return 'inside, until half of the peak: ' + ', '.join(
+        f'φ = {phi}: {low:+.2g} to {high:+.2g}' for phi, (low, high) in found.items()) + ' (ρ_s − ρ_f) g D'
+
+
+def suction_holds_the_dense(runs):
+    found = pressures(runs)
+    dense = {phi: ends for phi, ends in (found or {}).items() if float(phi) >= waiting.LEAST_WAITING}
+    if not dense:
+        return None
+    return told_pressures(dense), all(bool(low < 0.0 and -low > high) for low, high in dense.values())
+
+
+def pressure_carries_the_loose(runs):
+    found = pressures(runs)
+    if found is None or LOOSE not in found:
+        return None
+    low, high = found[LOOSE]
+    return told_pressures({LOOSE: found[LOOSE]}), bool(high > 0.0 and high > -low)
+
+
+# --- balances -----------------------------------------------------------------------------------------
+
+def largest_defect(runs, measure, most):
+    found = [measure(run.data) for run in runs.done()]
     found = [value for value in found if value is not None]
-    return (f'largest defect {max(found):.1e} of {len(found)} runs', max(found) < 1e-3) if found else None
+    return (f'largest defect {max(found):.1e} of {len(found)} runs', max(found) < most) if found else None
+
+
+def energy_closes(runs):
+    return largest_defect(runs, energy.largest_defect, ENERGY)
 
 
 def momentum_closes(runs):
-    found = [findings.largest(run.data, 'grain_balance', 'grain_balance') for run in runs.runs
-             if run.data.history is not None]
-    found = [value for value in found if value is not None]
-    return (f'largest defect {max(found):.1e} of {len(found)} runs', max(found) < 1e-8) if found else None
+    return largest_defect(runs, lambda run: findings.largest(run, 'grain_balance', 'grain_balance'), MOMENTUM)
+
+
+def fluid_momentum_closes(runs):
+    return largest_defect(runs, lambda run: findings.largest(run, 'fluid_balance', 'fluid_balance'), FLUID_MOMENTUM)
 
 
 STATEMENTS = [
@@ -263,17 +443,26 @@ STATEMENTS = [
     Statement('3.3', 'Dry columns reach their largest mean velocity', '9.0 t_c', dry_peak, 'dry'),
     Statement('3.3', 'Without fluid the compacity does not influence the mean velocity', 'the same for all',
               dry_does_not_depend_on_compacity, 'dry'),
+    Statement('3.3', 'Dry, ⟨u_s⟩ then decreases to zero', 'zero', dry_decreases_to_zero, 'dry'),
     Statement('3.3', 'The loosest column destabilises instantly', 't_relax = 0', loose_at_once, 'immersed'),
     Statement('3.3', 'From φ = 0.829 on columns wait', 't_relax > 0', dense_waits, 'immersed'),
+    Statement('3.3', 'Meanwhile ⟨u_s⟩ remains zero', 'zero', stands_still, 'immersed'),
     Statement('3.3', 't_relax grows linearly with φ', 'linear', waits_linearly, 'immersed'),
     Statement('3.3', 'Re changes the slope only slightly', 'slightly', slopes_are_alike, 'immersed'),
     Statement('3.3', 'The largest velocity rises with falling φ', 'rises', peak_falls_with_compacity, 'immersed'),
     Statement('3.3', 'The largest velocity and Re ("increasing for a decreasing value of φ and 1/Re")', 'rises with Re',
               peak_and_viscosity, 'immersed'),
+    Statement('3.2', 'The loosest column falls, then flows over a deposit, then along the floor', 'three phases',
+              falls_in_three_phases, 'run-out'),
     Statement('3.2', 'The densest column slides on a plane', '45°', slides_at_45, 'immersed'),
     Statement('3.2', 'It slides over a quiescent part', 'quiescent', wedge_rests, 'immersed'),
+    Statement('3.2', 'The dense avalanche is slower', 'slower', dense_is_slower, 'run-out'),
     Statement('3.2', 'The dense column spreads half as far as the loose one', 'about half', spreads_half, 'run-out'),
+    Statement('3.2', 'Waves form on the loose column, none on the dense one', 'no wave', no_wave_on_the_dense_one, 'run-out'),
     Statement('3.2', 'In a closed box the loose column breaks back as a wave', 'breaking wave', wave_breaks, 'closed'),
+    Statement('3.3', 'A dense column that starts to move has a negative pore pressure', 'negative',
+              suction_holds_the_dense, 'immersed'),
+    Statement('3.3', 'The loosest has an excessive one', 'positive', pressure_carries_the_loose, 'immersed'),
     Statement('3.3', 'The pores shrink in the loosest column only', 'δV/V₀ < 0 only there', only_the_loosest_contracts,
               'immersed'),
     Statement('3.3', 'The pores grow more the denser the column', 'increases with φ', pores_grow_with_compacity,
@@ -281,18 +470,23 @@ STATEMENTS = [
     Statement('3.3', 'The pores grow quickly at first, then saturate', 'two regimes', two_regimes, 'immersed'),
     Statement('-', 'Energy of the grains is accounted for', '-', energy_closes, ''),
     Statement('-', 'Momentum of the grains is accounted for', '-', momentum_closes, ''),
+    Statement('-', 'Momentum of the fluid is accounted for', '-', fluid_momentum_closes, ''),
 ]
 
 
 def verdict(agrees):
-    return {True: 'agrees', False: 'does not agree', None: 'measured'}[agrees]
+    return {True: 'agrees', False: 'does not agree', None: 'no verdict'}[agrees]
 
 
 def rows(runs):
-    """[section, statement, paper, ours, verdict, part] of all statements."""
-    found = []
-    for one in STATEMENTS:
-        result = one.measure(runs)
-        ours, agrees = result if result is not None else ('not played yet', None)
-        found.append([one.section, one.text, one.paper, ours, '-' if result is None else verdict(agrees), one.part])
-    return found
+    """[section, statement, paper, ours, verdict, mesh and pores, part] of all statements, those about immersed columns once
+    for each set of them."""
+    return [row(one, runs.with_columns(part), part) for one in STATEMENTS
+            for part in (COLUMNS if one.part == COLUMNS[0] else [one.part])]
+
+
+def row(statement, runs, part):
+    result = statement.measure(runs)
+    ours, agrees = result if result is not None else ('not played yet', None)
+    return [statement.section, statement.text, statement.paper, ours, '-' if result is None else verdict(agrees),
+            runs.conditions(part) or '-', part]
