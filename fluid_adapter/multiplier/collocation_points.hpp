@@ -10,7 +10,7 @@
 //
 // Outward interpolation constrains fluid beyond the surface, so that the drag is that of a grain
 // larger by about a tenth of a cell: for a square array (Sangani & Acrivos 1982, area fraction 0.2,
-// D/16) it came out 5 % high, as published for such points. `fluid.hydrodynamic_radius` can
+// D/16) it came out 4.0 % high (docs/validation.md), as published for such points. `fluid.hydrodynamic_radius` can
 // calibrate this.
 //
 // The rules, in this order. Rules 1-3 are applied to all candidates, not to those that survive an

@@ -2,7 +2,7 @@
 """Waves on a granular flow (Topin et al. 2011, section 3.2): crests in front of troughs.
 
 The height of the flow is its solid area per length of floor, in columns of 4 D, so that single grains in the liquid above
-it count for little. Followed to the right from its highest column, the height of a heap only falls; where it rises
+it count for little; a grain is spread evenly over its width. Followed to the right from its highest column, the height of a heap only falls; where it rises
 again, by more than the lowest height so far, there is a crest.
 """
 import numpy as np
@@ -16,7 +16,8 @@ LEAST_CREST = 1.0  # D of solid: a lower one is the roughness of a heap
 def thickness(run, snapshot):
     """Solid area over length of floor [D]."""
     edges = np.arange(0.0, run.size()[0] + WIDTH, WIDTH)
-    return np.histogram(snapshot.centres[:, 0], edges, weights=snapshot.areas)[0] / WIDTH
+    places = (edges[:, None] - snapshot.centres[:, 0]) / (2.0 * snapshot.radii) + 0.5
+    return np.diff((np.clip(places, 0.0, 1.0) * snapshot.areas).sum(axis=1)) / WIDTH
 
 
 def crest(heights):
