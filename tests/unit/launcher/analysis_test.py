@@ -183,6 +183,7 @@ class PhasesOfACollapse(unittest.TestCase):
 
     def test_what_is_missing_is_told(self):
         for velocities, words in (((self.heap, self.flat), 'no free fall'), ((self.fall, self.flat), 'no heap'),
+                                  ((self.fall, 8 * [(1, -1)], self.flat), 'no heap'),  # nothing rests below
                                   ((self.fall, self.heap), 'never horizontally'),
                                   ((self.fall, self.flat, self.heap), 'never horizontally')):
             found = phases.phases(self.column(*velocities))
