@@ -20,6 +20,16 @@ def rest_time(run):
     return time[first] if first < len(time) else None
 
 
+def half_fall(run):
+    """When the mean height has gone half-way from its first to its last value [t_c]; None unless it falls."""
+    time, height = run.column('mean_position_y')
+    if len(height) < 2 or height[-1] >= height[0]:
+        return None
+    half = 0.5 * (height[0] + height[-1])
+    after = int(np.argmax(height <= half))
+    return float(np.interp(half, height[[after, after - 1]], time[[after, after - 1]]))
+
+
 def largest(run, column, in_record=None):
     """Largest value of a quantity, over all windows if run.json has it, else over the rows; or None."""
     recorded = (run.record.get('maxima') or {}).get(in_record) if in_record else None

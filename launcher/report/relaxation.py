@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import peaks
+from analysis.once import once_per_run
 
 FIT = 1.0                     # t_c, length of the fitted phase, or two rows of the history if these are longer
 OTHER_FITS = (0.5, 1.5, 2.0)  # t_c, to see how much it depends on that
@@ -38,6 +39,7 @@ class Relaxation:
         return f'> {np.floor(100.0 * self.time) / 100.0:.2f}' if self.bound else f'{self.time:.2f}'
 
 
+@once_per_run
 def relaxation(run):
     """None unless the scales are an avalanche's and it has slid."""
     if not run.is_avalanche():

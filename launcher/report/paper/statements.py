@@ -62,7 +62,9 @@ def triangles_are_slower(runs):
         return 'some are not at rest by the end', None
     triangles, discs = times
     ratio = np.mean(triangles) / np.mean(discs)
-    return (f'rest at {spread(triangles)} against {spread(discs)} t_c: {100 * (ratio - 1):+.0f} %',
+    halves = [[half for half in map(findings.half_fall, shape) if half is not None] for shape in found]
+    further = f'; half of the fall in {spread(halves[0])} against {spread(halves[1])} t_c' if all(halves) else ''
+    return (f'rest at {spread(triangles)} against {spread(discs)} t_c: {100 * (ratio - 1):+.0f} %{further}',
             bool(SLOWER[0] < ratio < SLOWER[1]))
 
 

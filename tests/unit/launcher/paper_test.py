@@ -71,7 +71,8 @@ def settling(triangles=11, triangle_speed=0.78, seeds='12'):
     played = (('discs-nscd', 1.0, 10), ('discs-md', 0.95, 10), ('triangles-nscd', 0.8, triangles),
               ('triangles-md', triangle_speed, triangles))
     return [made('sedimentation', {'variant': variant, 'random.seed': seed}, {'scales.kind': 'sedimentation'},
-                 mean_velocity_y=-speed * rest(time), mean_speed=rest(time))
+                 mean_velocity_y=-speed * rest(time), mean_speed=rest(time),
+                 mean_position_y=40.0 - 3.0 * np.minimum(ROWS, time))
             for variant, speed, time in played for seed in seeds]
 
 
@@ -196,6 +197,10 @@ class Statements(unittest.TestCase):
     def test_every_seed_counts(self):
         self.assertIn('φ = 0.85: 9.12 (9 to 9.25)', text('dry_peak', dry()))
         self.assertIn('φ = 0.85: 9.38 (9.25 to 9.5)', text('dry_peak', dry(seeds=(0.25, 0.5))))
+
+    def test_triangles_that_still_fall_have_no_verdict(self):
+        self.assertIsNone(result('triangles_are_slower', settling(triangles=30)))
+        self.assertIn('half of the fall in 5.5 (5.5 to 5.5) against 5 (5 to 5) t_c', text('triangles_are_slower', settling()))
 
     def test_runs_that_are_not_done_do_not_count(self):
         half = immersed()
