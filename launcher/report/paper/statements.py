@@ -202,7 +202,7 @@ def waits_linearly(runs):
 def slopes_are_alike(runs):
     """Where hardly a column has slid at one Re while others have at another, Re changes more than slightly."""
     fits = waiting_lines(runs)
-    if fits is None:
+    if fits is None or len(fits) < 2:
         return None
     slopes = [fit.slope for fit in fits.values() if fit]
     text = told_of_lines(fits, lambda fit: f'{fit.slope:.3g} t_c of {len(fit.compacities)} compacities',

@@ -218,6 +218,11 @@ class Statements(unittest.TestCase):
         self.assertEqual([row[5] for row in rows], ['D/16, pores opened to 0.8 R, explicit-multiplier',
                                                     "D/8, R_h = R, as in the paper's Eq. 10, marchuk-yanenko"])
 
+    def test_one_reynolds_number_says_nothing_of_reynolds_numbers(self):
+        runs = [run for run in immersed() if run.entry['values']['fluid.reynolds'] == '89']
+        for name in ('slopes_are_alike', 'peak_and_viscosity'):
+            self.assertIsNone(getattr(statements, name)(PaperRuns(runs)), name)
+
     def test_parts_that_add_runs(self):
         runs = immersed() + [made('immersed-again', {'fluid.reynolds': '89', 'grains.compacity': LOOSE}, OPEN,
                                   mean_velocity_norm=slide(0.5, 0.1))]
