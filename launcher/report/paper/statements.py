@@ -122,12 +122,24 @@ def left_of_peak(run):
 
 
 def dry_decreases_to_zero(runs):
-    shares = of_dry(runs, left_of_peak)
-    if shares is None:
+    """No verdict on what still falls."""
+    found = {phi: runs.of('dry-rest', compacity=phi) for phi in (LOOSE, DENSE)}
+    if not all(found.values()):
         return None
-    end = max(run.column(peaks.COLUMN)[0][-1] for run in runs.of('dry'))
-    return (f'at {end:.3g} t_c there is left of the peak {by_compacity(shares, ".2f")}',
-            max(share for found in shares.values() for share in found) < STOPPED)
+    shares = {phi: [left_of_peak(run) for run in there] for phi, there in found.items()}
+    there = [run for group in found.values() for run in group]
+    end = max(run.column(peaks.COLUMN)[0][-1] for run in there)
+    text = f'at {end:.3g} t_c there is left of the peak {by_compacity(shares, ".3f")}'
+    if max(map(max, shares.values())) < STOPPED:
+        return text, True
+    falls = any(left_of_peak(run) >= STOPPED and still_falls(run) for run in there)
+    return text + (', still falling' if falls else ''), None if falls else False
+
+
+def still_falls(run):
+    """Over the last quarter of the run."""
+    time, velocity = run.column(peaks.COLUMN)
+    return velocity[-1] < np.interp(time[0] + 0.75 * (time[-1] - time[0]), time, velocity)
 
 
 # --- waiting ------------------------------------------------------------------------------------------
@@ -445,7 +457,7 @@ STATEMENTS = [
     Statement('3.3', 'Dry columns reach their largest mean velocity', '9.0 t_c', dry_peak, 'dry'),
     Statement('3.3', 'Without fluid the compacity does not influence the mean velocity', 'the same for all',
               dry_does_not_depend_on_compacity, 'dry'),
-    Statement('3.3', 'Dry, ⟨u_s⟩ then decreases to zero', 'zero', dry_decreases_to_zero, 'dry'),
+    Statement('3.3', 'Dry, ⟨u_s⟩ then decreases to zero', 'zero', dry_decreases_to_zero, 'dry-rest'),
     Statement('3.3', 'The loosest column destabilises instantly', 't_relax = 0', loose_at_once, 'immersed'),
     Statement('3.3', 'From φ = 0.829 on columns wait', 't_relax > 0', dense_waits, 'immersed'),
     Statement('3.3', 'Meanwhile ⟨u_s⟩ remains zero', 'zero', stands_still, 'immersed'),

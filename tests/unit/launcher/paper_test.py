@@ -76,11 +76,11 @@ def settling(triangles=11, triangle_speed=0.78, seeds='12'):
             for variant, speed, time in played for seed in seeds]
 
 
-def dry(at=lambda phi: 9.0, height=lambda phi: 1.0, rest=0.0, seeds=(0.0, 0.25)):
-    """The seeds peak a quarter of a t_c apart."""
+def dry(at=lambda phi: 9.0, height=lambda phi: 1.0, rest=0.0, seeds=(0.0, 0.25), part='dry'):
+    """The seeds peak a quarter of a t_c apart; from `rest` on nothing slows down."""
     def column(phi, late):
         peaked = height(phi) * np.maximum(rest, 1.0 - np.abs(ROWS - at(phi) - late) / 8.0)
-        return made('dry', {'grains.compacity': str(phi), 'random.seed': str(late)}, {'fluid.enabled': 'false'},
+        return made(part, {'grains.compacity': str(phi), 'random.seed': str(late)}, {'fluid.enabled': 'false'},
                     mean_velocity_norm=peaked)
     return [column(float(phi), late) for phi in COMPACITIES for late in seeds]
 
@@ -138,7 +138,7 @@ CASES = {
     'md_is_like_nscd': (settling(), [settling(triangle_speed=0.3)]),
     'dry_peak': (dry(), [dry(at=lambda phi: 4.0 + 40.0 * (phi - 0.785)), dry(at=lambda phi: 7.0)]),
     'dry_does_not_depend_on_compacity': (dry(), [dry(height=lambda phi: phi)]),
-    'dry_decreases_to_zero': (dry(), [dry(rest=0.2)]),
+    'dry_decreases_to_zero': (dry(part='dry-rest'), [dry(rest=0.5, part='dry-rest')]),
     'loose_at_once': (immersed(), [immersed(lambda re, phi: 5.0), immersed(slopes=lambda re, phi: 0.001)]),
     'dense_waits': (immersed(), [immersed(lambda re, phi: 0.5), immersed(
         lambda re, phi: 0.5 if (re, phi) == ('8.9', 0.87) else 3.0)]),
@@ -217,6 +217,12 @@ class Statements(unittest.TestCase):
         self.assertEqual([(row[4], row[6]) for row in rows], [('agrees', 'immersed'), ('does not agree', 'closed-pores')])
         self.assertEqual([row[5] for row in rows], ['D/16, pores opened to 0.8 R, explicit-multiplier',
                                                     "D/8, R_h = R, as in the paper's Eq. 10, marchuk-yanenko"])
+
+    def test_what_still_falls_has_no_verdict(self):
+        falling = dry(at=lambda phi: 14.0, part='dry-rest')
+        self.assertIsNone(result('dry_decreases_to_zero', falling))
+        self.assertIn('0.25', text('dry_decreases_to_zero', falling))
+        self.assertIn('still falling', text('dry_decreases_to_zero', falling))
 
     def test_one_reynolds_number_says_nothing_of_reynolds_numbers(self):
         runs = [run for run in immersed() if run.entry['values']['fluid.reynolds'] == '89']
