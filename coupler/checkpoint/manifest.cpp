@@ -68,7 +68,7 @@ std::string manifest_text(const Manifest& manifest) {
           {"fluid", list_json(manifest.fluid)},
           {"grains", list_json(manifest.grains)}}},
         {"settings", settings_json(manifest.settings)}};
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Manifest parse_manifest(const std::string& text) {

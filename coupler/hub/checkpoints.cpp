@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/received.hpp"
 
 namespace turbidite {
 
@@ -102,7 +103,8 @@ std::vector<StoredFile> Checkpoints::collect(ParticipantLink& link, std::string&
     std::vector<StoredFile> files;
     for (const SavedPart& part : link.take<SavedPart>(Kind::saved)) {
         const int rank = static_cast<int>(files.size());
-        if (!part.fault.empty() && fault.empty()) fault = link.rank_name(rank) + ": " + part.fault;
+        if (!part.fault.empty() && fault.empty())
+            fault = link.rank_name(rank) + ": " + received_text(part.fault);
         files.push_back(part.file);
     }
     return files;

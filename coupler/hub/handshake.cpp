@@ -44,7 +44,7 @@ void shake_hands(const std::vector<ParticipantLink*>& links, const Settings& set
         const std::vector<Hello> hellos = link->take<Hello>(Kind::hello);
         for (int rank = 0; rank < link->ranks(); ++rank) {
             link->set_hello(rank, hellos[rank]);
-            for (const std::string& sentence : mismatches(hellos[rank], expected))
+            for (const std::string& sentence : mismatches(link->hello(rank), expected))
                 report += "\n  " + sentence;
         }
     }

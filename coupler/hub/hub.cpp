@@ -181,10 +181,20 @@ RunStatus Hub::run() {
     status_.wall_seconds = earlier_seconds_ + since(begin_);
     status_.checkpoints = {checkpoints_.written(), checkpoints_.seconds()};
     status_.statistics = output_.statistics();
+    check_end();
     for (const std::string& sentence : unconverged_sentences(status_.statistics, settings_.solves))
         progress_.say("turbidite: " + sentence);
     end_and_record();
     return status_;
+}
+
+/// Whatever ended it, a run is done when all its windows are.
+void Hub::check_end() {
+    const std::int64_t windows = settings_.run.windows, done = status_.statistics.windows_done;
+    if (status_.code != ExitCode::done || done == windows) return;
+    status_.code = ExitCode::participant_failed;
+    status_.reason = fmt::format("{}{}only {} of {} windows are done", status_.reason,
+                                 status_.reason.empty() ? "" : ": ", done, windows);
 }
 
 // The record is written first, so that the outcome is known even if a participant does not leave. A

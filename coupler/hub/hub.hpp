@@ -75,6 +75,7 @@ class Hub {
     Cast cast();
 
     void tell_participants();
+    void check_end();
     void end_and_record();
     void end(const Verdict& verdict);
     void report_end(const std::string& text);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/received.hpp"
 
 namespace turbidite {
 
@@ -31,7 +32,7 @@ std::string ParticipantLink::program() const {
 }
 
 void ParticipantLink::set_hello(int rank, Hello hello) {
-    ranks_[rank].hello = std::move(hello);
+    ranks_[rank].hello = received(std::move(hello));
     ranks_[rank].order.set_peer_name(who(rank));
 }
 
@@ -85,8 +86,13 @@ void ParticipantLink::take_in(int rank, FramedMessage message) {
 }
 
 void ParticipantLink::raise(int rank, const Verdict& verdict) const {
-    throw Failure(static_cast<ExitCode>(verdict.exit_code),
-                  fmt::format("{}: {}", who(rank), verdict.reason));
+    const ExitCode code = received_code(verdict.exit_code);
+    const bool strange = static_cast<std::int64_t>(code) != verdict.exit_code;
+    throw Failure(code, fmt::format("{}: {}{}", who(rank), received_text(verdict.reason),
+                                    strange ? fmt::format(" (with the exit code {}, which no "
+                                                          "program of a job may give)",
+                                                          verdict.exit_code)
+                                            : ""));
 }
 
 void ParticipantLink::refuse_payload(int rank, Kind kind, const std::string& fault) const {

@@ -29,6 +29,7 @@ class ParticipantLink {
 
     /// What the rank reported about itself; empty before its hello.
     const Hello& hello(int rank) const { return ranks_[rank].hello; }
+    /// Its texts are mended (protocol/received.hpp).
     void set_hello(int rank, Hello hello);
     /// Sets the messages of a window; to be called before the start is over.
     void set_window_order(const Order& order);

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "coupler/protocol/received.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -41,8 +43,9 @@ std::string format_problems(const std::vector<CaseProblem>& problems) {
     std::string text;
     for (const CaseProblem& problem : problems)
         text += fmt::format("{}{}\n  {}\n", place(problem), statement(problem), advice(problem));
-    return text + fmt::format("{} error{}, nothing was started. Exit code 2.", problems.size(),
-                              problems.size() == 1 ? "" : "s");
+    // Values stand in it as they were written.
+    return received_text(text) + fmt::format("{} error{}, nothing was started. Exit code 2.",
+                                             problems.size(), problems.size() == 1 ? "" : "s");
 }
 
 CaseRefused::CaseRefused(std::vector<CaseProblem> problems)

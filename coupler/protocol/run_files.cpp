@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "coupler/protocol/received.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -39,10 +41,11 @@ bool write_first_end(const std::filesystem::path& run, const FirstEnd& end) {
 std::optional<FirstEnd> read_first_end(const std::filesystem::path& run) {
     std::ifstream file(first_end_file(run));
     FirstEnd end;
-    int code = 0;
+    std::int64_t code = 0;
     if (!(file >> code) || !std::getline(file >> std::ws, end.who)) return std::nullopt;
-    end.code = static_cast<ExitCode>(code);
-    end.what.assign(std::istreambuf_iterator<char>(file), {});
+    end.code = received_code(code);
+    end.who = received_line(end.who);
+    end.what = received_text({std::istreambuf_iterator<char>(file), {}});
     while (!end.what.empty() && end.what.back() == '\n') end.what.pop_back();
     return end;
 }

@@ -28,6 +28,7 @@ struct FirstEnd {
 
 /// Does nothing if another program was first. Returns whether this one was.
 bool write_first_end(const std::filesystem::path& run, const FirstEnd& end);
+/// Mended (received.hpp), since any program may have written it.
 std::optional<FirstEnd> read_first_end(const std::filesystem::path& run);
 
 /// Files by which a user asks something of a run (hub/requests.hpp), in its folder.

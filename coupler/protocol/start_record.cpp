@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "coupler/protocol/received.hpp"
 #include "coupler/protocol/run_files.hpp"
 
 namespace turbidite {
@@ -74,6 +75,8 @@ std::optional<StartRecord> read_start_record(const std::filesystem::path& run, R
     if (!std::getline(file, record.host) || !std::getline(file, pid) ||
         !std::getline(file, record.program) || !std::getline(file, record.log))
         return std::nullopt;
+    for (std::string* text : {&record.host, &record.program, &record.log})
+        *text = received_line(*text);
     record.pid = std::atol(pid.c_str());
     for (std::string line; std::getline(file, line);)
         for (const StepName& entry : step_names)

@@ -8,6 +8,7 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/message.hpp"
+#include "coupler/protocol/received.hpp"
 #include "coupler/replay/record_numbers.hpp"
 
 namespace turbidite {
@@ -136,8 +137,9 @@ class Replay {
                                                  " has not answered within limits.stall_hard");
         if (message->envelope.kind != Kind::failure) return std::move(*message);
         const auto verdict = decode<Verdict>(message->payload);
-        throw Failure(static_cast<ExitCode>(verdict.exit_code),
-                      "rank " + std::to_string(peer) + " ended the run: " + verdict.reason);
+        throw Failure(
+            received_code(verdict.exit_code),
+            "rank " + std::to_string(peer) + " ended the run: " + received_text(verdict.reason));
     }
 
     void compare(int peer, const Message& then) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/protocol/received.hpp"
 #include "coupler/protocol/run_files.hpp"
 #include "launcher/job/run_json.hpp"
 
@@ -33,6 +34,7 @@ std::deque<std::string> last_lines(const std::filesystem::path& file, const std:
     std::ifstream input(file);
     std::deque<std::string> lines;
     for (std::string line; std::getline(input, line);) {
+        line = received_line(line);
         if (line.empty() || repeats(line, message)) continue;
         lines.push_back(line);
         if (lines.size() > lines_shown) lines.pop_front();
@@ -65,14 +67,6 @@ std::vector<std::filesystem::path> log_files(const RunFolder& folder) {
 
 ExitCode signal_code(int signal) {
     return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
-}
-
-// mpirun returns the exit code of the rank that ended first; only our own codes have a meaning.
-ExitCode code_of_status(int status) {
-    for (const ExitCode code :
-         {ExitCode::handshake_refused, ExitCode::stalled, ExitCode::physics_refused})
-        if (status == static_cast<int>(code)) return code;
-    return ExitCode::participant_failed;
 }
 
 std::string rank_name(const std::string& number, const std::vector<std::string>& ranks) {
@@ -142,10 +136,14 @@ std::string phase_of(const RunFolder& folder, const std::string& rank) {
                               std::regex("^waits "), "waited ");
 }
 
-JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first) {
-    const std::string phase = phase_of(folder, first.who);
+/// Any program may have written who it was: a log is looked for under the names of ranks only.
+JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first,
+                        const std::vector<std::string>& ranks) {
+    const bool known = std::find(ranks.begin(), ranks.end(), first.who) != ranks.end();
+    const std::string rank = known ? first.who : "";
+    const std::string phase = known ? phase_of(folder, rank) : "";
     const bool begun = std::filesystem::exists(folder.history());
-    const auto log = log_of(folder, first.who);
+    const auto log = log_of(folder, rank);
     return {
         first.code,
         fmt::format("{} {}, log {}{}{}", first.who, first.what, log.string(),
@@ -153,6 +151,7 @@ JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first) {
         log};
 }
 
+// mpirun returns the exit code of the rank that ended first.
 JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {
     const bool begun = std::filesystem::exists(folder.history());
@@ -160,13 +159,13 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
         return {signal_code(end.signal),
                 begun ? "killed on request" : "stopped on request before the first window"};
     if (const auto first = read_first_end(folder.root); first && !end.crashed)
-        return of_first_end(folder, *first);
+        return of_first_end(folder, *first, ranks);
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
     const std::string word = last_word(folder.log("coupler"));
-    if (!word.empty()) return {code_of_status(end.status), word};
+    if (!word.empty()) return {received_code(end.status), word};
     const std::string first = first_to_end(folder.log("mpirun"), ranks);
-    if (!first.empty()) return {code_of_status(end.status), first + "; see its log"};
-    return {code_of_status(end.status),
+    if (!first.empty()) return {received_code(end.status), first + "; see its log"};
+    return {received_code(end.status),
             fmt::format("mpirun ended with status {} and named no program: it was killed, or a "
                         "program of the job never started",
                         end.status)};
