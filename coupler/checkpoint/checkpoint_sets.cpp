@@ -7,9 +7,11 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/run_files.hpp"
 
 namespace turbidite {
 namespace {
@@ -42,6 +44,37 @@ void rename_or_throw(const fs::path& from, const fs::path& to) {
             fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), error.message()));
 }
 
+/// Compares the parts of a set with its manifest. Whoever wrote one may have been wrong about its
+/// name, its size, its content, and whether the disk has it.
+class ReadBack {
+ public:
+    explicit ReadBack(fs::path folder) : folder_(std::move(folder)) {}
+
+    void all(const Manifest& manifest) {
+        one("coupler", manifest.coupler);
+        for (const Role role : {Role::fluid, Role::grains}) {
+            int rank = 0;
+            for (const StoredFile& file : manifest.parts(role)) one(rank_name(role, rank++), file);
+        }
+    }
+
+ private:
+    void one(const std::string& who, const StoredFile& file) {
+        try {
+            verify(folder_, file);
+        } catch (const Failure& failure) {
+            throw Failure(failure.code(), who + ": " + failure.what());
+        }
+        if (!names_.insert(file.name).second)
+            throw Failure(ExitCode::bad_input,
+                          fmt::format("{}: {} is the file of another rank, too", who,
+                                      (folder_ / file.name).string()));
+    }
+
+    fs::path folder_;
+    std::set<std::string> names_;
+};
+
 }  // namespace
 
 std::string CheckpointSets::folder(const std::string& name) {
@@ -63,6 +96,8 @@ void CheckpointSets::commit(const Manifest& manifest) const {
     const std::string name = name_of(manifest.windows), text = manifest_text(manifest);
     const fs::path from = run_ / temporary(name), sets = run_ / sets_folder, to = sets / name;
     store(from, manifest_name, Bytes(text.begin(), text.end()));
+    ReadBack(from).all(manifest);
+    for (const StoredFile& file : manifest.files()) put_on_disk(from / file.name);
     put_on_disk(from);
     std::error_code error;
     fs::create_directory(sets, error);
@@ -115,7 +150,7 @@ Manifest CheckpointSets::manifest(const std::string& name) const {
 
 Manifest CheckpointSets::verified(const std::string& name) const {
     const Manifest result = manifest(name);
-    for (const StoredFile& file : result.files()) load(run_ / folder(name), file);
+    ReadBack(run_ / folder(name)).all(result);
     return result;
 }
 

@@ -2,9 +2,9 @@
 //
 // The checkpoints of a run folder: checkpoints/w<windows done>, each with a manifest.
 //
-// A set is written in a temporary folder beside `checkpoints`, every file and every folder put on
-// the disk, and then renamed into it; an old one is renamed out of it before its files are removed.
-// So whatever is in `checkpoints` is whole, at any moment.
+// A set is written in a temporary folder beside `checkpoints`, read back, every file and every
+// folder put on the disk, and then renamed into it; an old one is renamed out of it before its
+// files are removed. So whatever is in `checkpoints` is whole, at any moment.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,9 @@ class CheckpointSets {
     /// Makes the temporary folder of a set and returns its name in the run folder.
     std::string begin(std::int64_t windows) const;
 
-    /// Writes the manifest and puts the set in its place. Throws Failure (participant failed).
+    /// Writes the manifest, reads all files back, and puts the set in its place. Throws Failure
+    /// that says what could not be done, or names the rank whose file is not what the manifest
+    /// says.
     void commit(const Manifest& manifest) const;
 
     /// Removes temporary folders, of this process or an earlier one.
@@ -37,7 +39,7 @@ class CheckpointSets {
     std::vector<std::string> names() const;
 
     /// The manifest of a set, all of whose files were compared with it. Throws Failure (bad input)
-    /// naming what is missing or damaged.
+    /// naming what is missing or damaged, and whose it is.
     Manifest verified(const std::string& name) const;
     Manifest manifest(const std::string& name) const;  ///< the same without reading the files
 

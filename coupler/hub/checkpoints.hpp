@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Checkpoints from the coupler's side: every rank writes its state, the coupler its own, then the
-// set is put in its place (checkpoint/checkpoint_sets.hpp). A set that cannot be written is told,
-// and the run goes on: the one before it stays.
+// set is read back and put in its place (checkpoint/checkpoint_sets.hpp). A set that cannot be
+// written, or that is not what its writers say, is told, and the run goes on: those before it stay.
 #pragma once
 
 #include <functional>

@@ -4,13 +4,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/received.hpp"
 
 namespace turbidite {
 namespace {
@@ -54,7 +55,32 @@ Failure damaged(const std::filesystem::path& file, const std::string& fault) {
     return Failure(ExitCode::bad_input, file.string() + " " + fault);
 }
 
+/// Of the size that it is to have.
+std::ifstream opened(const std::filesystem::path& folder, const StoredFile& file) {
+    if (!is_file_name(file.name))
+        throw damaged(folder, "is said to have the file \"" + received_line(file.name) +
+                                  "\", which is no name of a file in its folder");
+    const std::filesystem::path path = folder / file.name;
+    std::error_code missing;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+    std::ifstream in(path, std::ios::binary);
+    if (missing || !in) throw damaged(path, "is missing");
+    if (static_cast<std::int64_t>(bytes) != file.bytes)
+        throw damaged(path, "has " + std::to_string(bytes) + " bytes instead of " +
+                                std::to_string(file.bytes));
+    return in;
+}
+
+Failure other_checksum(const std::filesystem::path& folder, const StoredFile& file) {
+    return damaged(folder / file.name, "is damaged: its checksum differs");
+}
+
 }  // namespace
+
+bool is_file_name(const std::string& name) {
+    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos &&
+           name == received_line(name);
+}
 
 std::int64_t crc32_of(const Bytes& bytes) {
     boost::crc_32_type crc;
@@ -71,15 +97,25 @@ StoredFile store(const std::filesystem::path& folder, const std::string& name, c
 }
 
 Bytes load(const std::filesystem::path& folder, const StoredFile& file) {
-    const std::filesystem::path path = folder / file.name;
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw damaged(path, "is missing");
-    const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
-    if (static_cast<std::int64_t>(bytes.size()) != file.bytes)
-        throw damaged(path, "has " + std::to_string(bytes.size()) + " bytes instead of " +
-                                std::to_string(file.bytes));
-    if (crc32_of(bytes) != file.crc32) throw damaged(path, "is damaged: its checksum differs");
+    std::ifstream in = opened(folder, file);
+    Bytes bytes(static_cast<std::size_t>(file.bytes));
+    in.read(bytes.data(), static_cast<std::streamsize>(file.bytes));
+    if (!in || crc32_of(bytes) != file.crc32) throw other_checksum(folder, file);
     return bytes;
+}
+
+void verify(const std::filesystem::path& folder, const StoredFile& file) {
+    constexpr std::int64_t at_once = 1 << 20;
+    std::ifstream in = opened(folder, file);
+    boost::crc_32_type crc;
+    Bytes piece(static_cast<std::size_t>(std::min(at_once, file.bytes)));
+    for (std::int64_t left = file.bytes; left > 0;) {
+        const std::int64_t now = std::min(at_once, left);
+        if (!in.read(piece.data(), now)) throw other_checksum(folder, file);
+        crc.process_bytes(piece.data(), static_cast<std::size_t>(now));
+        left -= now;
+    }
+    if (static_cast<std::int64_t>(crc.checksum()) != file.crc32) throw other_checksum(folder, file);
 }
 
 void put_on_disk(const std::filesystem::path& file_or_folder) {

@@ -206,6 +206,50 @@ TEST(Checkpoint, AParticipantThatCannotSaveIsNamedAndTheRunGoesOn) {
               std::string::npos);
 }
 
+// A manifest is read from a folder that may come from elsewhere.
+TEST(CheckpointSets, FilesOutsideOfTheirFolderAreRefused) {
+    const TestFolder folder("checkpoint-elsewhere");
+    Job job = job_with_checkpoints("split");
+    job.run(folder);
+    const CheckpointSets sets(folder.path());
+    Manifest manifest = sets.manifest("w00000006");
+    const fs::path set = folder.path() / "checkpoints" / "w00000006";
+    const Bytes secret(7, 's');
+    store(folder.path(), "secret", secret);
+    const std::string secret_file = folder.path() / "secret";
+    for (const std::string& name : Names{"../../secret", secret_file, "a/../../b"}) {
+        manifest.grains[0] = {name, 7, crc32_of(secret)};
+        std::ofstream(set / "manifest.json") << manifest_text(manifest);
+        try {
+            sets.verified("w00000006");
+            ADD_FAILURE() << name;
+        } catch (const Failure& failure) {
+            EXPECT_NE(std::string(failure.what()).find("which is no name of a file in its folder"),
+                      std::string::npos)
+                << failure.what();
+        }
+        EXPECT_THROW(load(set, manifest.grains[0]), Failure) << name;
+    }
+}
+
+TEST(CheckpointSets, TwoRanksHaveTwoFiles) {
+    const TestFolder folder("checkpoint-one-file");
+    const CheckpointSets sets(folder.path());
+    const fs::path place = folder.path() / sets.begin(4);
+    Manifest manifest;
+    manifest.windows = 4;
+    manifest.coupler = store(place, "coupler", {'c'});
+    manifest.grains = {store(place, "grains", {'g'}), store(place, "grains", {'g'})};
+    try {
+        sets.commit(manifest);
+        ADD_FAILURE() << "one file for two ranks";
+    } catch (const Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("grains rank 1: "), std::string::npos)
+            << failure.what();
+    }
+    EXPECT_TRUE(sets.names().empty());
+}
+
 TEST(CheckpointSets, ADamagedFileIsNamed) {
     const TestFolder folder("checkpoint-damaged");
     Job job = job_with_checkpoints("split");
@@ -232,6 +276,95 @@ TEST(CheckpointSets, ADamagedFileIsNamed) {
     overwrite(set / "manifest.json", 3, '}');
     EXPECT_NE(fault("w00000006").find("not the manifest of a checkpoint"), std::string::npos);
     EXPECT_EQ(fault("w00000004"), "");
+}
+
+using ChangeOfPart = std::function<void(SavedPart&)>;
+
+/// From its set of window 4 on, the grains' rank 0 tells something else than what it has written.
+Job job_with_a_liar(const ChangeOfPart& change) {
+    Job job = job_with_checkpoints("split");
+    job.from_grains = [change](Bytes& bytes) {
+        Message message = unframe(bytes);
+        if (message.envelope.kind != Kind::saved || message.envelope.window < 3) return true;
+        SavedPart part = decode<SavedPart>(message.payload);
+        change(part);
+        bytes = frame({message.envelope, encode(part)});
+        return true;
+    };
+    return job;
+}
+
+struct Lie {
+    const char* name;
+    const char* told;  ///< in the warning
+    ChangeOfPart change;
+};
+class ALie : public testing::TestWithParam<Lie> {};
+
+// Two sets of two are good when the lies begin: they stay, though newer ones are announced.
+TEST_P(ALie, DoesNotCountAndTheLastGoodSetsStay) {
+    const TestFolder folder(std::string("checkpoint-lie-") + GetParam().name);
+    Job job = job_with_a_liar(GetParam().change);
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_EQ(sets_in(folder), (Names{"w00000002", "w00000000"}));
+    EXPECT_EQ(job.status.checkpoints.written, 2);
+    for (const std::string& name : sets_in(folder))
+        EXPECT_NO_THROW(CheckpointSets(folder.path()).verified(name)) << name;
+    const std::string log = text_of(folder.files().log);
+    for (const char* part : {"no checkpoint after window 4: grains rank 0", GetParam().told,
+                             "The last one is checkpoints/w00000002."})
+        EXPECT_NE(log.find(part), std::string::npos) << part << "\n" << log;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        EXPECT_EQ(entry.path().filename().string().find(".checkpoint"), std::string::npos);
+
+    Job second = job_with_checkpoints("split");
+    second.resume = "w00000002";
+    second.run(folder);
+    EXPECT_EQ(second.status.code, ExitCode::done) << second.status.reason;
+    EXPECT_EQ(sets_in(folder), (Names{"w00000006", "w00000004"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lies, ALie,
+    testing::Values(Lie{"checksum", "its checksum differs",
+                        [](SavedPart& part) { part.file.crc32 ^= 1; }},
+                    Lie{"size", "bytes instead of", [](SavedPart& part) { part.file.bytes += 1; }},
+                    Lie{"another", "is missing", [](SavedPart& part) { part.file.name = "state"; }},
+                    Lie{"absolute", "is no name of a file in its folder",
+                        [](SavedPart& part) { part.file.name = "/etc/hostname"; }},
+                    Lie{"above", "is no name of a file in its folder",
+                        [](SavedPart& part) { part.file.name = "../" + part.file.name; }},
+                    Lie{"folder", "is no name of a file in its folder",
+                        [](SavedPart& part) { part.file.name = ".."; }},
+                    Lie{"nameless", "is no name of a file in its folder",
+                        [](SavedPart& part) { part.file.name = ""; }},
+                    Lie{"couplers", "coupler", [](SavedPart& part) { part.file.name = "coupler"; }},
+                    Lie{"manifest", "manifest.json",
+                        [](SavedPart& part) { part.file.name = "manifest.json"; }}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Checkpoint, WithoutAnySetThatVerifiesThereIsNoneAndTheRunGoesOn) {
+    const TestFolder folder("checkpoint-no-good-set");
+    Job job = job_with_checkpoints("split");
+    job.fluid_ranks = 2;
+    int count = 0;
+    job.from_fluid = [&](Bytes& bytes) {
+        Message message = unframe(bytes);
+        if (message.envelope.kind != Kind::saved) return true;
+        SavedPart part = decode<SavedPart>(message.payload);
+        if (part.file.name != "fluid.rank1") return true;
+        part.file.crc32 ^= 1, ++count;
+        bytes = frame({message.envelope, encode(part)});
+        return true;
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_EQ(count, 4);
+    EXPECT_TRUE(sets_in(folder).empty());
+    EXPECT_EQ(job.status.checkpoints.written, 0);
+    EXPECT_NE(text_of(folder.files().log).find("no checkpoint after window 6: fluid rank 1"),
+              std::string::npos);
 }
 
 /// No file may grow beyond so many bytes, as on a full disk.
