@@ -15,6 +15,7 @@ namespace turbidite {
 namespace {
 
 constexpr std::size_t longest_name = 100;
+constexpr int most_heard = 1024;  // rings per sleep: more than a socket queues
 
 int new_socket() {
     return ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
@@ -33,6 +34,27 @@ struct Address {
     sockaddr_un socket{};
     socklen_t length;
 };
+
+/// Whether there was a ring, and whether it counts: everybody on the host knows the name, but only
+/// programs of the same user, or the system's, belong to the job.
+struct Ring {
+    bool any = false, counts = false;
+};
+
+Ring next_ring(int bell) {
+    char rung = 0;
+    iovec place{&rung, 1};
+    alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))];
+    msghdr message{};
+    message.msg_iov = &place, message.msg_iovlen = 1;
+    message.msg_control = control, message.msg_controllen = sizeof control;
+    if (::recvmsg(bell, &message, MSG_DONTWAIT) < 0) return {};
+    const cmsghdr* head = CMSG_FIRSTHDR(&message);
+    if (head == nullptr || head->cmsg_type != SCM_CREDENTIALS) return {true, false};
+    ucred sender{};
+    std::memcpy(&sender, CMSG_DATA(head), sizeof sender);
+    return {true, sender.uid == ::geteuid() || sender.uid == 0};
+}
 
 timespec time_of(double seconds) {
     const double whole = std::floor(seconds);
@@ -53,8 +75,9 @@ Doorbell::~Doorbell() {
 bool Doorbell::hang(const std::string& name) {
     if (socket_ >= 0) return true;
     if (name.size() > longest_name) return false;
-    const int made = new_socket();
+    const int made = new_socket(), yes = 1;
     const Address address(name);
+    ::setsockopt(made, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
     if (::bind(made, address.get(), address.length) == 0) {
         socket_ = made;
         return true;
@@ -67,9 +90,13 @@ bool Doorbell::sleep(double seconds) {
     pollfd ring{socket_, POLLIN, 0};
     const timespec limit = time_of(seconds);
     if (::ppoll(&ring, 1, &limit, nullptr) <= 0) return false;
-    ssize_t heard = 0;
-    for (char rung = 0; heard >= 0;) heard = ::recv(socket_, &rung, 1, 0);  // several rings are one
-    return true;
+    bool rung = false;  // several rings are one
+    Ring ring_now{true, false};
+    for (int heard = 0; heard < most_heard && ring_now.any; ++heard) {
+        ring_now = next_ring(socket_);
+        rung = rung || ring_now.counts;
+    }
+    return rung;
 }
 
 void BellButton::ring() {

@@ -26,8 +26,9 @@ class Doorbell {
     /// already, or the name is longer than 100 characters. A bell keeps its first name.
     bool hang(const std::string& name);
 
-    /// Sleeps until somebody rings, `seconds` at most. Returns whether somebody has, also before
-    /// this call.
+    /// Sleeps until somebody rings, `seconds` at most. Returns whether a process of this user has,
+    /// also before this call; rings of others end the sleep and count for nothing. Returns however
+    /// often somebody rings.
     bool sleep(double seconds);
 
  private:

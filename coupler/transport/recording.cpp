@@ -7,7 +7,6 @@ namespace turbidite {
 namespace {
 
 constexpr std::int64_t magic = 0x6469627275745f31, version = 1;
-constexpr std::int64_t most_bytes = std::int64_t{1} << 40;  // a longer frame is damage
 
 void write_number(std::ofstream& out, std::int64_t number) {
     out.write(reinterpret_cast<const char*>(&number), sizeof number);
@@ -56,18 +55,22 @@ std::optional<Channel::Frame> RecordingChannel::try_receive() {
 }
 
 Recording::Recording(const std::filesystem::path& file) : in_(file, std::ios::binary) {
+    std::error_code none;
+    left_ = static_cast<std::int64_t>(std::filesystem::file_size(file, none));
     const auto first = read_number(in_), second = read_number(in_), ranks = read_number(in_);
     if (first != magic)
         throw Failure(ExitCode::bad_input, file.string() + " is not a recording of turbidite");
     if (second != version || !ranks || *ranks < 1)
         throw Failure(ExitCode::bad_input, file.string() + " was recorded by another version");
     peers_ = static_cast<int>(*ranks);
+    left_ -= 3 * static_cast<std::int64_t>(sizeof(std::int64_t));
 }
 
 std::optional<RecordedFrame> Recording::next() {
     const auto sent = read_number(in_), peer = read_number(in_), size = read_number(in_);
-    if (!size || *size < 0 || *size > most_bytes || *peer < 0 || *peer >= peers_)
-        return std::nullopt;
+    left_ -= 3 * static_cast<std::int64_t>(sizeof(std::int64_t));
+    if (!size || *size < 0 || *size > left_ || *peer < 0 || *peer >= peers_) return std::nullopt;
+    left_ -= *size;
     RecordedFrame frame{*sent != 0, static_cast<int>(*peer),
                         Bytes(static_cast<std::size_t>(*size))};
     in_.read(frame.bytes.data(), static_cast<std::streamsize>(*size));

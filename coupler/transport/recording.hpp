@@ -66,6 +66,7 @@ class Recording {
  private:
     std::ifstream in_;
     int peers_ = 0;
+    std::int64_t left_ = 0;  ///< bytes of the file that have not been read: no frame is longer
 };
 
 }  // namespace turbidite

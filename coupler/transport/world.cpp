@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <numeric>
 #include <string>
@@ -20,15 +21,22 @@
 namespace turbidite {
 namespace {
 
+constexpr const char* job_variable = "PMIX_NAMESPACE";  // PMIx names the jobs of a host
 constexpr int first_colour = 1000;  // private: 3 is YADE's, 1 EOF-Library's, small ones APPNUMs
 constexpr int announcement_tag = 1000;
 constexpr int intercomm_tag = 1010;  // + role
 
-/// Before the intercommunicator, whose other end may ring at once.
+/// Before the intercommunicator, whose other end may ring at once. Within a job nobody else has the
+/// name of this process; without mpirun there is no job, and names are not unique.
 void hang_doorbell() {
     int rank = 0;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    Doorbell::own().hang(bell_name(rank));
+    const std::string name = bell_name(rank);
+    if (Doorbell::own().hang(name) || std::getenv(job_variable) == nullptr) return;
+    std::fprintf(stderr,
+                 "turbidite: warning: another process has the doorbell @%s of this one (ss -xlp "
+                 "names it); this one looks for messages by itself, which takes longer\n",
+                 name.c_str());
 }
 
 }  // namespace
@@ -110,9 +118,8 @@ std::vector<int> world_ranks_of_peers(MPI_Comm intercomm) {
     return ranks;
 }
 
-// PMIx names the jobs of a host.
 std::string bell_name(int world_rank) {
-    const char* job = std::getenv("PMIX_NAMESPACE");
+    const char* job = std::getenv(job_variable);
     return std::string("turbidite/") + (job ? job : "") + "/" + std::to_string(world_rank);
 }
 

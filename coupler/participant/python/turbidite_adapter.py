@@ -141,7 +141,7 @@ class Reader:
         return struct.unpack('<d', self.take(8))[0]
 
     def text(self):
-        return bytes(self.take(self.integer())).decode()
+        return bytes(self.take(self.integer())).decode(errors='replace')
 
     def list(self, read):
         return [read() for _ in range(self.integer())]
@@ -156,7 +156,7 @@ def _integers(*values):
 
 
 def _text(text):
-    data = str(text).encode()
+    data = str(text).encode(errors='replace')          # surrogates, as in names of files that are not UTF-8
     return _integers(len(data)) + data
 
 
@@ -206,14 +206,17 @@ class _Dismissed(Exception):
 class _Doorbell:
     """Lets a process of the same host end our sleep, and us the coupler's (docs/protocol.md)."""
 
+    MOST_HEARD = 1024                                   # rings per sleep: more than a socket queues
+
     def __init__(self):
         self.name = '\0turbidite/' + os.environ.get('PMIX_NAMESPACE', '') + '/'
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         self.socket.setblocking(False)
         try:
             self.socket.bind(self.name + str(MPI.COMM_WORLD.rank))
-        except OSError:                                 # the name is taken: nobody can ring
-            pass
+        except OSError:                                 # nobody can ring
+            print(f'turbidite: warning: another process has the doorbell {self.name[1:]}{MPI.COMM_WORLD.rank} of this '
+                  'one; this one looks for messages by itself, which takes longer', file=sys.stderr, flush=True)
 
     def ring_coupler(self):
         try:
@@ -225,7 +228,7 @@ class _Doorbell:
         if not select.select([self.socket], [], [], seconds)[0]:
             return
         try:
-            while True:
+            for _ in range(self.MOST_HEARD):
                 self.socket.recv(1)                     # several rings are one
         except BlockingIOError:
             pass
@@ -368,6 +371,8 @@ class _Run:
         if len(parts) != self.local.size:
             raise ValueError(f'the checkpoint was written by {len(parts)} grains ranks; go on with the same grains.ranks')
         name, size, checksum = parts[self.local.rank]
+        if name in ('', '.', '..') or '/' in name:
+            raise ValueError(f'{name!r} is no name of a file in {folder}')
         with open(self.file(folder, name), 'rb') as file:
             state = file.read()
         if (len(state), zlib.crc32(state)) != (size, checksum):

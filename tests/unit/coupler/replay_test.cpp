@@ -4,6 +4,7 @@
 #include "coupler/replay/replay.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstring>
 
@@ -120,6 +121,38 @@ TEST_F(Replayed, ARecordingThatWasCutOffIsPlayedToItsEnd) {
     EXPECT_EQ(report.differences, 0);
 }
 
+/// As on a machine with a gigabyte, so that a faulty program asks in vain and does not get it.
+class LittleMemory {
+ public:
+    LittleMemory() {
+        getrlimit(RLIMIT_AS, &before_);
+        const rlimit little{1UL << 30, before_.rlim_max};
+        setrlimit(RLIMIT_AS, &little);
+    }
+    ~LittleMemory() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+    rlimit before_{};
+};
+
+// Half a terabyte is what a damaged length may say; the file has some kilobytes.
+TEST_F(Replayed, AFrameThatIsLongerThanTheFileEndsTheRecording) {
+    Recording whole(file("grains"));
+    int frames = 0;
+    while (whole.next()) ++frames;
+    ASSERT_GT(frames, 10);
+    const std::int64_t sent = 1, peer = 0, length = std::int64_t{1} << 39;
+    std::ofstream out(file("grains"), std::ios::binary | std::ios::app);
+    for (const std::int64_t number : {sent, peer, length})
+        out.write(reinterpret_cast<const char*>(&number), sizeof number);
+    out << "a few bytes" << std::flush;
+    const LittleMemory little;
+    Recording damaged(file("grains"));
+    int again = 0;
+    EXPECT_NO_THROW(while (damaged.next())++ again);
+    EXPECT_EQ(again, frames);
+}
+
 TEST_F(Replayed, AFailureOfTheParticipantIsItsOwn) {
     const Fault fault = [](const std::string& function, std::int64_t window) {
         if (function == "advance" && window == 2) throw std::runtime_error("no more grains");
@@ -130,6 +163,19 @@ TEST_F(Replayed, AFailureOfTheParticipantIsItsOwn) {
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code(), ExitCode::participant_failed);
         EXPECT_NE(std::string(failure.what()).find("no more grains"), std::string::npos);
+    }
+}
+
+TEST_F(Replayed, AFailureWithTheCodeOfSuccessIsAFailure) {
+    const Fault fault = [](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 2) throw Failure(ExitCode::done, "\x1b[2Jenough");
+    };
+    try {
+        grains_again(4.4995, 2, fault);
+        FAIL() << "nothing was thrown";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::participant_failed);
+        EXPECT_EQ(std::string(failure.what()).find('\x1b'), std::string::npos);
     }
 }
 
