@@ -104,7 +104,10 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     if (!status.statistics.contact_residuals.empty())
         record["contact"] = contact_table(status.statistics);
     record["ranks"] = rank_table(ranks);
-    write_whole(file, [&](std::ostream& out) { out << record.dump(2) << "\n"; });
+    // Paths need not be UTF-8.
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    write_whole_on_disk(
+        file, [&](std::ostream& out) { out << record.dump(2, ' ', false, replace) << "\n"; });
 }
 
 }  // namespace turbidite

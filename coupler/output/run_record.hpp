@@ -24,8 +24,8 @@ struct RunStatus {
     RunStatistics statistics;
 };
 
-/// Replaces run.json atomically. `ranks` identify themselves; empty if the start failed. Throws
-/// Failure when the disk is full.
+/// Replaces run.json atomically, and the disk has it. `ranks` identify themselves; empty if the
+/// start failed. Throws Failure when the disk is full.
 void write_run_record(const std::filesystem::path& file, const RunStatus& status,
                       const std::vector<Hello>& ranks);
 

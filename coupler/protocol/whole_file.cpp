@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/stored_file.hpp"
 
 namespace turbidite {
 namespace {
@@ -26,19 +27,41 @@ struct Part {
     }
 };
 
-}  // namespace
+Part part_of(const std::filesystem::path& file) {
+    return {file.string() + ".part"};
+}
 
-void write_whole(const std::filesystem::path& file,
-                 const std::function<void(std::ostream&)>& content) {
-    const Part part{file.string() + ".part"};
+void fill(const Part& part, const std::filesystem::path& file,
+          const std::function<void(std::ostream&)>& content) {
     if (!write(part.path, content))
         throw Failure(ExitCode::participant_failed,
                       "cannot write " + file.string() + ": is the disk full?");
+}
+
+void rename(const Part& part, const std::filesystem::path& file) {
     std::error_code error;
     std::filesystem::rename(part.path, file, error);
     if (error)
         throw Failure(ExitCode::participant_failed,
                       "cannot write " + file.string() + ": " + error.message());
+}
+
+}  // namespace
+
+void write_whole(const std::filesystem::path& file,
+                 const std::function<void(std::ostream&)>& content) {
+    const Part part = part_of(file);
+    fill(part, file, content);
+    rename(part, file);
+}
+
+void write_whole_on_disk(const std::filesystem::path& file,
+                         const std::function<void(std::ostream&)>& content) {
+    const Part part = part_of(file);
+    fill(part, file, content);
+    put_on_disk(part.path);
+    rename(part, file);
+    put_on_disk(std::filesystem::absolute(file).parent_path());
 }
 
 }  // namespace turbidite

@@ -15,4 +15,9 @@ namespace turbidite {
 void write_whole(const std::filesystem::path& file,
                  const std::function<void(std::ostream&)>& content);
 
+/// The same, and waits until the disk has the new content, under its name: after a power cut, too,
+/// there is either the old content or the new one.
+void write_whole_on_disk(const std::filesystem::path& file,
+                         const std::function<void(std::ostream&)>& content);
+
 }  // namespace turbidite

@@ -16,6 +16,7 @@
 #include "launcher/case/command_words.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/run_json.hpp"
+#include "launcher/job/run_on_disk.hpp"
 
 namespace turbidite {
 
@@ -169,6 +170,18 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
     return own_run_folder(order, case_name).folder;
 }
 
+namespace {
+
+void build_fluid(const Settings& settings, const RunFolder& folder) {
+    if (!settings.flag("fluid.enabled")) return;
+    write_fluid_case(settings, folder.fluid());
+    build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
+    if (settings.integer("fluid.ranks") > 1)
+        decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
+}
+
+}  // namespace
+
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command) {
     write_text(folder.initial_grains(), resolved.grains_csv);
@@ -178,11 +191,8 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     // After the files that it names: a folder with a case can be read, whenever this program ends.
     write_text(folder.resolved_case(), resolved.yaml);
     write_run_json(folder.record(), first_record(resolved, command));
-    if (!resolved.settings.flag("fluid.enabled")) return;
-    write_fluid_case(resolved.settings, folder.fluid());
-    build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
-    if (resolved.settings.integer("fluid.ranks") > 1)
-        decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
+    build_fluid(resolved.settings, folder);
+    put_run_on_disk(folder);
 }
 
 namespace {

@@ -33,7 +33,7 @@ OwnFolder own_run_folder(const RunOrder& order, const std::string& case_name);
 /// The same for a caller that needs no lock afterwards.
 RunFolder make_run_folder(const RunOrder& order, const std::string& case_name);
 
-/// Fills it. `command` is the launch line, kept in run.json.
+/// Fills it, and the disk has it. `command` is the launch line, kept in run.json.
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command);
 

@@ -14,7 +14,10 @@ nlohmann::ordered_json read_run_json(const std::filesystem::path& file) {
 }
 
 void write_run_json(const std::filesystem::path& file, const nlohmann::ordered_json& record) {
-    write_whole(file, [&](std::ostream& out) { out << record.dump(2) << "\n"; });
+    // Paths and arguments need not be UTF-8.
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    write_whole_on_disk(
+        file, [&](std::ostream& out) { out << record.dump(2, ' ', false, replace) << "\n"; });
 }
 
 }  // namespace turbidite

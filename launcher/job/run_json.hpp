@@ -11,7 +11,7 @@ namespace turbidite {
 /// An empty object if there is no readable file.
 nlohmann::ordered_json read_run_json(const std::filesystem::path& file);
 
-/// Replaces the file atomically; throws Failure (exit code 4) if that fails.
+/// Replaces the file atomically, and the disk has it; throws Failure (exit code 4) if that fails.
 void write_run_json(const std::filesystem::path& file, const nlohmann::ordered_json& record);
 
 }  // namespace turbidite

@@ -5,6 +5,7 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "launcher/job/run_json.hpp"
+#include "tests/call_trace.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {
@@ -97,6 +98,31 @@ TEST(PrepareRun, RunFolderLoadsToTheSameCase) {
     EXPECT_EQ(record.at("grains"), 7);
     EXPECT_EQ(record.at("windows"), 10);
     EXPECT_TRUE(record.at("exit_code").is_null());
+}
+
+// Before the job begins, and with it the first checkpoint: a power cut then leaves a folder with
+// which `resume` can do something.
+TEST(PrepareRun, TheDiskHasCaseGrainsAndMesh) {
+    const ScratchFolder scratch;
+    const ResolvedCase resolved = load_case(scratch.write(
+        "wet.yaml",
+        "domain: {size: [4, 4]}\ngrains: {count: 3, adapter: standalone-nscd}\n"
+        "fluid: {cells_per_diameter: 4, reynolds: 30, ranks: 2}\ntime: {step: 0.1, end: 1}\n"));
+    const trace::Recorder recorder;
+    const RunFolder folder = make_run_folder({.out = scratch.path() / "runs/mine"}, "wet");
+    prepare_run(resolved, folder, {"mpirun"});
+    auto there = trace::on_disk(recorder.calls());
+    std::vector<fs::path> needed{folder.resolved_case(), folder.record(), folder.root,
+                                 folder.root.parent_path(), scratch.path()};
+    for (const fs::path& tree : {folder.grains(), folder.fluid()}) {
+        needed.push_back(tree);
+        for (const auto& entry : fs::recursive_directory_iterator(tree)) needed.push_back(entry);
+    }
+    for (const char* file : {"grains/initial.csv", "fluid/constant/polyMesh/points",
+                             "fluid/processor1/constant/polyMesh/points", "fluid/0/U"})
+        EXPECT_TRUE(fs::exists(folder.root / file)) << file;
+    for (const fs::path& path : needed)
+        EXPECT_TRUE(there[path] == trace::version_of(path)) << path << " is not on the disk";
 }
 
 TEST(PrepareRun, MissingProgramsAreNamed) {
