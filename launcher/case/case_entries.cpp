@@ -2,13 +2,14 @@
 #include "launcher/case/case_entries.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <unordered_map>
 
 #include "launcher/case/file_names.hpp"
+#include "launcher/case/yaml_tree.hpp"
 
 namespace turbidite {
 namespace {
@@ -53,13 +54,10 @@ void flatten(const std::string& prefix, const YAML::Node& node, const Place& pla
 }
 
 void report_repeated(CaseEntries& result) {
-    for (std::size_t i = 0; i < result.entries.size(); ++i) {
-        const CaseEntry& entry = result.entries[i];
-        const auto end = result.entries.begin() + static_cast<std::ptrdiff_t>(i);
-        const auto first = std::find_if(result.entries.begin(), end, [&](const CaseEntry& other) {
-            return other.key == entry.key;
-        });
-        if (first == end) continue;
+    std::unordered_map<std::string, const CaseEntry*> firsts;
+    for (const CaseEntry& entry : result.entries) {
+        const CaseEntry* first = firsts.emplace(entry.key, &entry).first->second;
+        if (first == &entry) continue;
         result.problems.push_back(
             {.source = entry.source,
              .line = entry.line,
@@ -73,18 +71,17 @@ void report_repeated(CaseEntries& result) {
 
 void read_document(const std::string& text, const Place& place, CaseEntries& result) {
     try {
-        const YAML::Node document = YAML::Load(text);
+        const YAML::Node document = yaml_tree(text);
         if (!document.IsMap())
             result.problems.push_back(problem_at(place.source, 0, "contains no keys",
                                                  "A case is a list of `key: value` in groups.",
                                                  "See configs/ for examples."));
         else
             flatten("", document, place, result.entries);
-    } catch (const YAML::Exception& error) {
-        const int line = place.has_lines ? error.mark.line + 1 : 0;
-        result.problems.push_back(problem_at(place.source, line, "is not YAML: " + error.msg,
-                                             "A case is a list of `key: value` in groups.",
-                                             "Correct this line; indentation counts."));
+    } catch (const YamlFault& refused) {
+        result.problems.push_back(
+            problem_at(place.source, place.has_lines ? refused.line : 0, refused.fault,
+                       "A case is a list of `key: value` in groups.", refused.remedy));
     }
 }
 
@@ -120,6 +117,13 @@ void replace(const CaseEntry& entry, std::vector<CaseEntry>& entries) {
 }
 
 }  // namespace
+
+CaseEntries case_entries_of(const std::string& text, const std::string& source) {
+    CaseEntries result;
+    read_document(text, {source}, result);
+    report_repeated(result);
+    return result;
+}
 
 CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {

@@ -12,6 +12,9 @@
 
 namespace turbidite {
 
+/// Entries of a text, which messages call `source`.
+CaseEntries case_entries_of(const std::string& text, const std::string& source);
+
 /// Entries of the file, replaced by those of the overrides (`key=value`).
 CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides);

@@ -2,13 +2,16 @@
 #include "launcher/study/study_file.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
 
 #include "coupler/keys/case_error.hpp"
 #include "coupler/keys/nearest_name.hpp"
 #include "launcher/case/file_names.hpp"
+#include "launcher/case/yaml_tree.hpp"
 
 namespace turbidite {
 namespace {
@@ -122,6 +125,15 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
                     Complaints& complaints) {
     StudyPart part;
     part.name = name;
+    if (!is_folder_name(name))
+        complaints.add(node, "\"" + name + "\" is no name of a part",
+                       "It becomes a folder: letters, digits and . _ + -, with no point first.",
+                       "Choose another name.");
+    if (!node.IsMap()) {
+        complaints.add(node, name + " contains no keys", "A part is a map with a case.",
+                       "Write for example " + name + ": {case: avalanche-dry.yaml}.");
+        return part;
+    }
     const YAML::Node file = node["case"];
     if (!file.IsDefined() || !file.IsScalar()) {
         complaints.add(node, name + " has no case", "Every part needs a case file.",
@@ -157,25 +169,72 @@ std::string figures_of(const YAML::Node& node, Complaints& complaints) {
     return name;
 }
 
+fs::path out_of(const YAML::Node& node, const std::string& study, Complaints& complaints) {
+    if (!node.IsDefined()) return fs::path("runs") / study;
+    if (!node.IsScalar() || node.Scalar().empty())
+        complaints.add(node, "out: " + value_text(node) + " is no folder",
+                       "It is the folder of the run folders.",
+                       "Leave it out for runs/" + study + ".");
+    return node.Scalar();
+}
+
+CaseRefused refused(const std::string& source, const YamlFault& fault) {
+    return CaseRefused({problem_at(source, fault.line, fault.fault,
+                                   "A study names cases and sweeps.", fault.remedy)});
+}
+
 YAML::Node document(const fs::path& file) {
-    const std::string source = file.filename().string();
-    try {
-        const YAML::Node result = YAML::LoadFile(file.string());
-        if (result.IsMap()) return result;
-        throw CaseRefused(
-            {problem_at(source, 0, "contains no keys", "A study names cases and sweeps.",
-                        "See configs/ for examples.")});
-    } catch (const YAML::BadFile&) {
+    std::ifstream in(file);
+    if (is_folder(file) || !in)
         throw CaseRefused({problem_at(file.string(), 0, "cannot be read",
                                       "A study file (YAML) is needed.", "Check the path.")});
-    } catch (const YAML::Exception& error) {
-        throw CaseRefused({problem_at(source, error.mark.line + 1, "is not YAML: " + error.msg,
-                                      "A study names cases and sweeps.",
-                                      "Correct this line; indentation counts.")});
+    const YAML::Node result = yaml_tree({std::istreambuf_iterator<char>(in), {}});
+    if (!result.IsMap()) throw YamlFault{0, "contains no keys", "See configs/ for examples."};
+    return result;
+}
+
+void read_parts(const YAML::Node& parts, const fs::path& folder, Study& study,
+                Complaints& complaints) {
+    if (!parts.IsMap() || parts.size() == 0) {
+        complaints.add(parts, "parts contains no names", "It is a map of names, each with a case.",
+                       "Write for example parts: {column: {case: avalanche-dry.yaml}}.");
+        return;
+    }
+    for (const auto& item : parts) {
+        if (item.second.IsMap()) refuse_unknown_keys(item.second, part_keys, complaints);
+        study.parts.push_back(read_part(item.first.Scalar(), item.second, folder, complaints));
     }
 }
 
+Study study_of(const YAML::Node& root, const fs::path& file) {
+    Complaints complaints(file.filename().string());
+    Study study;
+    study.name = file.stem().string();
+    study.out = out_of(root["out"], study.name, complaints);
+    study.figures = figures_of(root["figures"], complaints);
+    const YAML::Node parts = root["parts"];
+    if (!parts.IsDefined()) {
+        std::vector<std::string> known = part_keys;
+        known.insert(known.end(), {"out", "figures"});
+        refuse_unknown_keys(root, known, complaints);
+        study.parts = {read_part(study.name, root, file.parent_path(), complaints)};
+    } else {
+        refuse_unknown_keys(root, {"out", "figures", "parts"}, complaints);
+        read_parts(parts, file.parent_path(), study, complaints);
+    }
+    study.problems = complaints.all();
+    return study;
+}
+
 }  // namespace
+
+bool is_folder_name(const std::string& name) {
+    const auto plain = [](char c) {
+        const auto letter = static_cast<unsigned char>(c);  // of UTF-8 above 127
+        return std::isalnum(letter) != 0 || letter > 127 || std::string("._+-").find(c) < 4;
+    };
+    return !name.empty() && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
+}
 
 bool is_study(const fs::path& file) {
     try {
@@ -187,34 +246,14 @@ bool is_study(const fs::path& file) {
 }
 
 Study read_study(const fs::path& file) {
-    const YAML::Node root = document(file);
-    Complaints complaints(file.filename().string());
-    Study study;
-    study.name = file.stem().string();
-    study.out =
-        root["out"].IsDefined() ? fs::path(root["out"].Scalar()) : fs::path("runs") / study.name;
-    study.figures = figures_of(root["figures"], complaints);
-    const YAML::Node parts = root["parts"];
-    if (!parts.IsDefined()) {
-        std::vector<std::string> known = part_keys;
-        known.insert(known.end(), {"out", "figures"});
-        refuse_unknown_keys(root, known, complaints);
-        study.parts = {read_part(study.name, root, file.parent_path(), complaints)};
-    } else {
-        refuse_unknown_keys(root, {"out", "figures", "parts"}, complaints);
-        if (!parts.IsMap() || parts.size() == 0)
-            complaints.add(parts, "parts contains no names",
-                           "It is a map of names, each with a case.",
-                           "Write for example parts: {column: {case: avalanche-dry.yaml}}.");
-        else
-            for (const auto& item : parts) {
-                if (item.second.IsMap()) refuse_unknown_keys(item.second, part_keys, complaints);
-                study.parts.push_back(
-                    read_part(item.first.Scalar(), item.second, file.parent_path(), complaints));
-            }
+    const std::string source = file.filename().string();
+    try {
+        return study_of(document(file), file);
+    } catch (const YamlFault& fault) {
+        throw refused(source, fault);
+    } catch (const YAML::Exception& error) {
+        throw refused(source, yaml_fault(error));
     }
-    study.problems = complaints.all();
-    return study;
 }
 
 }  // namespace turbidite

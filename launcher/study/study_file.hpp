@@ -61,6 +61,10 @@ struct Study {
 /// The file has `parts` or a `case`: it is a study and not a case. False when it cannot be read.
 bool is_study(const std::filesystem::path& file);
 
+/// Whether a part or a run may be called so: it becomes a folder, which must lie in that of the
+/// study, and which OpenFOAM must be able to read.
+bool is_folder_name(const std::string& name);
+
 /// Cases are not opened. What is wrong with the file goes into `problems`, so that plan_study can
 /// name it together with what is wrong with the cases; throws CaseRefused for a file that cannot be
 /// read at all.

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "launcher/case/case_entries.hpp"
 #include "launcher/case/disk_cost.hpp"
 #include "launcher/case/run_cost.hpp"
 
@@ -72,13 +73,17 @@ SweepAxis at_level(const SweepAxis& axis, const std::vector<std::string>& level)
     return axis;
 }
 
+const std::vector<std::string>& level_of(const StudyPart& part, bool quick) {
+    return quick ? part.quick : part.full;
+}
+
 std::vector<PlannedRun> runs_of(const StudyPart& part, bool quick) {
     std::vector<PlannedRun> runs = {{.part = part.name,
                                      .name = {},
                                      .case_file = part.case_file,
                                      .overrides = part.overrides,
                                      .values = {}}};
-    const std::vector<std::string>& level = quick ? part.quick : part.full;
+    const std::vector<std::string>& level = level_of(part, quick);
     runs[0].overrides.insert(runs[0].overrides.end(), level.begin(), level.end());
     for (const SweepAxis& axis : part.axes) runs = along(runs, at_level(axis, level), part);
     if (part.axes.empty()) runs[0].name = part.case_file.stem().string();
@@ -93,6 +98,34 @@ CaseProblem in_run(CaseProblem problem, const PlannedRun& run) {
 
 std::string text_of(const CaseProblem& p) {
     return fmt::format("{} {} {} {} {}", p.line, p.key, p.value, p.fault, p.allowed);
+}
+
+/// Names of cases and variants may have nothing that a folder can be called after.
+void check_name(const PlannedRun& run, std::vector<CaseProblem>& problems) {
+    if (is_folder_name(run.name)) return;
+    problems.push_back(
+        problem_at("part " + run.part, 0, "has a run called \"" + run.name + "\"",
+                   "It becomes a folder: letters, digits and . _ + -, with no point first.",
+                   "Choose other names of variants, or of the case file."));
+}
+
+/// Every run is resolved before the first one starts.
+constexpr double most_runs = 10000;
+
+double number_of_runs(const StudyPart& part, bool quick) {
+    double runs = 1.0;
+    for (const SweepAxis& axis : part.axes)
+        runs *= static_cast<double>(at_level(axis, level_of(part, quick)).points.size());
+    return runs;
+}
+
+void check_number(const Study& study, bool quick) {
+    double runs = 0.0;
+    for (const StudyPart& part : study.parts) runs += number_of_runs(part, quick);
+    if (runs <= most_runs) return;
+    throw CaseRefused({problem_at(study.name, 0, fmt::format("has {:g} runs", runs),
+                                  fmt::format("A study has {} runs at most.", most_runs),
+                                  "Sweep fewer values together, or write several studies.")});
 }
 
 void find_equal_names(const std::vector<PlannedRun>& runs, std::vector<CaseProblem>& problems) {
@@ -117,6 +150,7 @@ void require_quick(const Study& study, std::vector<CaseProblem>& problems) {
 
 std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides,
                                    bool quick) {
+    check_number(study, quick);
     std::vector<CaseProblem> problems = study.problems;
     if (quick) require_quick(study, problems);
     std::vector<PlannedRun> plan;
@@ -124,12 +158,16 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
         if (!part.case_file.empty())
             for (PlannedRun& run : runs_of(part, quick)) plan.push_back(std::move(run));
     find_equal_names(plan, problems);
+    for (const PlannedRun& run : plan) check_name(run, problems);
     std::set<std::string> told;
     for (PlannedRun& run : plan) {
         run.overrides.insert(run.overrides.end(), overrides.begin(), overrides.end());
         try {
             const ResolvedCase resolved = run.resolve();
             run.hash = resolved.settings.text("run.hash");
+            run.yaml = resolved.yaml;
+            for (const CaseEntry& entry : read_case_entries(run.case_file, run.overrides).entries)
+                run.given.push_back(entry.key);
             run.seconds = predicted_seconds(resolved);
             run.disk = predicted_disk(resolved);
         } catch (const CaseRefused& refused) {

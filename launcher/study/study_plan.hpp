@@ -19,9 +19,11 @@ struct PlannedRun {
     std::vector<std::string> overrides;
     /// (swept key, value), "variant" among them; in the order of the axes.
     std::vector<std::pair<std::string, std::string>> values;
-    std::string hash = {};  ///< of the resolved case
-    double seconds = 0.0;   ///< predicted (case/run_cost.hpp)
-    double disk = 0.0;      ///< predicted [GB] (case/disk_cost.hpp)
+    std::string hash = {};                ///< of the resolved case
+    std::string yaml = {};                ///< the resolved case
+    std::vector<std::string> given = {};  ///< keys that study, case file or command line name
+    double seconds = 0.0;                 ///< predicted (case/run_cost.hpp)
+    double disk = 0.0;                    ///< predicted [GB] (case/disk_cost.hpp)
 
     /// "column/compacity-0.785-seed-1": below the study's folder, and in messages.
     std::string path() const { return part + "/" + name; }

@@ -13,45 +13,29 @@
 namespace turbidite::mutation {
 namespace {
 
-const std::vector<std::string> odd_values = {"0",
-                                             "-1",
-                                             "1",
-                                             "2",
-                                             "0.5",
-                                             "-0.0",
-                                             "1e-300",
-                                             "1e300",
-                                             "1e9",
-                                             "1e19",
-                                             "nan",
-                                             ".nan",
-                                             "inf",
-                                             "-.inf",
-                                             "true",
-                                             "no",
-                                             "~",
-                                             "null",
-                                             "''",
-                                             "\"\"",
-                                             "[]",
-                                             "{}",
-                                             "[1]",
-                                             "[1, 2]",
-                                             "[-1, 5]",
-                                             "[nan, 1]",
-                                             "[1, 2, 3]",
-                                             "0x10",
-                                             "1_000",
-                                             "1,5",
-                                             "grains.csv",
-                                             "walls.csv",
-                                             "m",
-                                             "../..",
-                                             "/",
-                                             "2147483648",
-                                             "9223372036854775808",
-                                             "0.9069",
-                                             "3 4"};
+const std::vector<std::string> odd_values = {"0",           "-1",
+                                             "1",           "2",
+                                             "0.5",         "-0.0",
+                                             "1e-300",      "1e300",
+                                             "1e9",         "1e19",
+                                             "nan",         ".nan",
+                                             "inf",         "-.inf",
+                                             "true",        "no",
+                                             "~",           "null",
+                                             "''",          "\"\"",
+                                             "[]",          "{}",
+                                             "[1]",         "[1, 2]",
+                                             "[-1, 5]",     "[nan, 1]",
+                                             "[1, 2, 3]",   "[[1], {a: [2]}]",
+                                             "{a: 3}",      "{case: case.yaml}",
+                                             "&a [*a, *a]", "&b {c: 1}",
+                                             "*b",          "[*b, *b, *b]",
+                                             "0x10",        "1_000",
+                                             "1,5",         "grains.csv",
+                                             "walls.csv",   "m",
+                                             "../..",       "/",
+                                             "2147483648",  "9223372036854775808",
+                                             "0.9069",      "3 4"};
 
 /// The terminating zero is one of them.
 constexpr char odd_letters[] = "{}[],:#&*!|>'\"%@`-?. \t\n\r\x7f\xc3\xa9\xff";
@@ -157,7 +141,8 @@ void set_key(CaseText& text, Random& random) {
 
 void change_text(CaseText& text, Random& random) {
     std::string* const parts[] = {&text.yaml, &text.yaml, &text.yaml, &text.grains, &text.walls};
-    std::string& part = *pick(parts, random);
+    const bool of_study = !text.study.empty() && below(4, random) > 0;
+    std::string& part = of_study ? text.study : *pick(parts, random);
     switch (below(3, random)) {
         case 0:
             return change_letter(part, random);
@@ -171,8 +156,9 @@ void change_text(CaseText& text, Random& random) {
 }  // namespace
 
 std::string CaseText::all() const {
-    return fmt::format("--set {}\n--- case.yaml\n{}\n--- grains.csv\n{}\n--- walls.csv\n{}\n",
-                       fmt::join(set, " --set "), yaml, grains, walls);
+    return fmt::format(
+        "--set {}\n--- case.yaml\n{}\n--- grains.csv\n{}\n--- walls.csv\n{}\n--- study.yaml\n{}\n",
+        fmt::join(set, " --set "), yaml, grains, walls, study);
 }
 
 CaseText mutated(CaseText text, Random& random) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A case that was mutated at random is refused with code 2, or is valid and then means in its run
-// folder what it meant when it was checked. It never ends in another way, in a crash, or not at
-// all. TURBIDITE_MUTATIONS=100000 plays as many; a failure prints the case.
+// folder what it meant when it was checked; a study is refused, or has runs whose folders lie in
+// its own. They never end in another way, in a crash, or not at all. TURBIDITE_MUTATIONS=100000
+// plays as many, TURBIDITE_FIRST_MUTATION=N begins with number N; a failure prints case and number.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,10 +13,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "coupler/protocol/run_files.hpp"
 #include "launcher/case/case_file.hpp"
+#include "launcher/study/study_plan.hpp"
 #include "tests/mutation/mutate.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
@@ -25,7 +28,8 @@ namespace {
 using mutation::CaseText;
 
 constexpr long usual_mutations = 2000, per_process = 500;
-constexpr unsigned longest = 30;  // for one case [s]
+constexpr std::size_t largest_study = 1000;  // [bytes]: larger ones have a hundred runs
+constexpr unsigned longest = 30;             // for one case [s]
 
 const char* const grains_csv =
     "id,x,y,radius,shape,angle,vx,vy,spin,density,material,motion\n"
@@ -48,16 +52,59 @@ time: {step: 0.01, end: 1}
 output: {interval: 0.1, probes: [1, 1, 2, 2]}
 )";
 
+const char* const small_case =
+    "domain: {size: [6, 6]}\ngrains: {adapter: standalone-nscd, generator: lattice, region: [3, "
+    "2]}\n"
+    "fluid: {enabled: false}\ntime: {step: 0.01, end: 0.5}\noutput: {interval: 0.1}\n";
+const char* const every_kind_of_study = R"(
+out: runs/mutated
+parts:
+  column:
+    case: case.yaml
+    set: {time.end: 0.2, contact: {friction: 0.4}}
+    full: {output.interval: 0.05}
+    quick: {output.interval: 0.1, random.seed: 1}
+    variants: {nscd: {}, md: {grains.adapter: standalone-md}}
+    sweep: {grains.compacity: [0.8, 0.9], random.seed: [1, 2]}
+  alone: {case: case.yaml}
+)";
+
+/// A shipped study, whose cases would take minutes.
+std::string of_small_case(const std::string& study) {
+    return std::regex_replace(study, std::regex("case: [^ ,}\n]+"), "case: case.yaml");
+}
+
+bool is_study_text(const std::string& text) {
+    return text.find("domain:") == std::string::npos && text.find("case:") != std::string::npos;
+}
+
 std::vector<CaseText> starting_cases() {
     std::vector<CaseText> cases(4, CaseText{every_kind_of_key, grains_csv, walls_csv, {}});
+    cases.resize(7, {small_case, grains_csv, walls_csv, {}, every_kind_of_study});
     for (const auto& file : std::filesystem::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
         std::ifstream in(file.path());
         std::stringstream text;
         text << in.rdbuf();
-        if (file.path().extension() == ".yaml" && text.str().find("domain:") != std::string::npos)
+        if (file.path().extension() != ".yaml") continue;
+        if (is_study_text(text.str()) && text.str().size() < largest_study)
+            cases.push_back({small_case, grains_csv, walls_csv, {}, of_small_case(text.str())});
+        if (text.str().find("domain:") != std::string::npos)
             cases.push_back({text.str(), grains_csv, walls_csv, {}});
     }
     return cases;
+}
+
+std::string fault_of_study(const CaseText& text, const ScratchFolder& folder, long& valid) {
+    const Study study = read_study(folder.write("study.yaml", text.study));
+    const std::vector<PlannedRun> plan = plan_study(study, text.set);
+    ++valid;
+    for (const PlannedRun& run : plan) {
+        const std::filesystem::path path = run.path(), plain = path.lexically_normal();
+        if (path != plain || plain.is_absolute() || *plain.begin() == ".." || run.name.empty() ||
+            std::distance(plain.begin(), plain.end()) != 2)
+            return "a run goes to " + run.path();
+    }
+    return "";
 }
 
 /// What is wrong with how a case ended; empty if nothing is.
@@ -66,6 +113,7 @@ std::string fault_of(const CaseText& text, const ScratchFolder& folder, long& va
     folder.write("walls.csv", text.walls);
     const auto file = folder.write("case.yaml", text.yaml);
     try {
+        if (!text.study.empty()) return fault_of_study(text, folder, valid);
         const ResolvedCase checked = load_case(file, text.set);
         ++valid;
         folder.write("run/case.yaml", checked.yaml);
@@ -116,17 +164,22 @@ void limit_memory() {
     _exit(faults > 0 ? 1 : 0);
 }
 
+long number_from(const char* variable, long otherwise) {
+    const char* const given = std::getenv(variable);
+    return given ? std::atol(given) : otherwise;
+}
+
 TEST(MutatedCases, AreRefusedOrMeanWhatTheySay) {
-    const char* const wanted = std::getenv("TURBIDITE_MUTATIONS");
-    const long mutations = wanted ? std::atol(wanted) : usual_mutations;
+    const long mutations = number_from("TURBIDITE_MUTATIONS", usual_mutations);
+    const long start = number_from("TURBIDITE_FIRST_MUTATION", 0);
     const std::vector<CaseText> cases = starting_cases();
     ASSERT_GT(cases.size(), 8u);
     const ScratchFolder folder;
     const auto last = folder.path() / "last.txt";
     long valid = 0;
-    for (long first = 0; first < mutations; first += per_process) {
+    for (long done = 0; done < mutations; done += per_process) {
         const pid_t child = fork();
-        if (child == 0) play(first, std::min(per_process, mutations - first), cases, last);
+        if (child == 0) play(start + done, std::min(per_process, mutations - done), cases, last);
         int status = 0;
         ASSERT_EQ(waitpid(child, &status, 0), child);
         std::ifstream in(last);

@@ -128,6 +128,14 @@ Ruling command_has_words(const Settings& s) {
                      "Close every quote, and name a program."};
 }
 
+/// To mpirun it is the end of a program's arguments, quoted or not.
+Ruling command_is_one_program(const Settings& s) {
+    const auto words = command_words(s.text("grains.command"));
+    if (!words || !has(*words, ":")) return std::nullopt;
+    return Objection{"mpirun takes a word \":\" for the end of the program.",
+                     "Put the command with it into a script."};
+}
+
 Ruling ranks_are_supported(const Settings& s) {
     const GrainsAdapter& adapter = grains_adapter(s);
     if (s.integer("grains.ranks") <= adapter.most_ranks) return std::nullopt;
@@ -193,6 +201,7 @@ KeyGroup adapter_keys() {
                   {"grains.script", {"grains.adapter"}, script_has_a_yade},
                   {"grains.script", {}, script_is_python},
                   {"grains.command", {}, command_has_words},
+                  {"grains.command", {}, command_is_one_program},
                   {"grains.ranks", {"grains.adapter"}, ranks_are_supported},
                   {"grains.ranks", {"grains.adapter", "coupling.scheme"}, repeats_on_one_rank},
                   {"contact.law", {"grains.adapter"}, law_is_known},

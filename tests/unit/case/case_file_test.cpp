@@ -202,6 +202,60 @@ TEST_F(CaseFile, MissingFileAndBadYaml) {
     EXPECT_SAYS(text, "is not YAML");
 }
 
+std::string powers_of_ten(int count) {
+    std::string text = "a0: &a0 {k: 1}\n";
+    for (int n = 1; n <= count; ++n) {
+        const std::string name = "a" + std::to_string(n), of = "*a" + std::to_string(n - 1);
+        text += name + ": &" + name + " {";
+        for (char key = 'a'; key < 'k'; ++key) text += std::string(1, key) + ": " + of + ", ";
+        text += "}\n";
+    }
+    return text;
+}
+
+// 700 bytes that stand for ten million values.
+TEST_F(CaseFile, AliasesOfAliasesAreBounded) {
+    const std::string text = powers_of_ten(7);
+    EXPECT_LT(text.size(), 900u);
+    EXPECT_SAYS(refusal(text), "stands for more than 20000 values");
+    EXPECT_SAYS(refusal(text), "box.yaml line ");
+    EXPECT_SAYS(refusal("x: &x {y: *x}\n"), "is nested more than 100 levels deep");
+    EXPECT_SAYS(refusal("x: &x [1, *x]\n"), "is nested more than 100 levels deep");
+    EXPECT_SAYS(refusal("", {"x=&x [1, *x]"}), "is nested more than 100 levels deep");
+}
+
+TEST_F(CaseFile, FewAliasesAreWelcome) {
+    const Settings settings =
+        load("contact: {friction: &mu 0.25, materials: {steel: {friction: *mu}}}\n").settings;
+    EXPECT_EQ(settings.real("contact.materials.steel.friction"), 0.25);
+}
+
+TEST_F(CaseFile, ManyKeysAreComparedOnce) {
+    std::string text;
+    for (int n = 0; n < 9000; ++n) text += "k" + std::to_string(n) + ": 1\n";
+    const std::string refused = refusal(text + "k17: 2\n");
+    EXPECT_SAYS(refused, "k17 is given twice");
+    EXPECT_SAYS(refused, "It is already 1 in line 27.");
+}
+
+TEST_F(CaseFile, TextsAreUtf8AndDoNotControlTheTerminal) {
+    const std::string text = refusal("contact: {law: \"coul\xf6mb\"}\n");
+    EXPECT_SAYS(text, "box.yaml line 10: has the value \"coul\ufffdmb\"");
+    EXPECT_SAYS(text, "Save the file as UTF-8");
+    EXPECT_SAYS(refusal("contact: {law: \"\\e[31mred\"}\n"), "control characters");
+    EXPECT_SAYS(refusal("", {"contact.l\x1b[2J=1"}), "control characters");
+    EXPECT_EQ(refusal("# a comment in Latin-1: \xb5\n"), "");
+}
+
+TEST_F(CaseFile, ACommandIsOneProgram) {
+    const auto refusal_of = [&](const std::string& command) {
+        return refusal("", {"grains.adapter=external", "grains.command=\"" + command + "\""});
+    };
+    EXPECT_SAYS(refusal_of("code : sh -c 'x'"), "takes a word \":\" for the end of the program");
+    EXPECT_SAYS(refusal_of("code ':' -n 2 sh"), "Put the command with it into a script.");
+    EXPECT_EQ(refusal_of("code a:b 'c : d'"), "");
+}
+
 TEST_F(CaseFile, AMisspeltAdapterGetsTheNearest) {
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-nsdc"}), "Use yade-nscd.");
     EXPECT_SAYS(refusal("", {"grains.adapter=lamps-md"}), "Use lammps-md.");
