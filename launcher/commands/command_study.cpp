@@ -14,7 +14,9 @@
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/resume_run.hpp"
+#include "launcher/job/set_aside.hpp"
 #include "launcher/report/report_script.hpp"
+#include "launcher/study/other_defaults.hpp"
 #include "launcher/study/study_record.hpp"
 #include "launcher/study/study_turns.hpp"
 
@@ -30,6 +32,7 @@ struct StudyOptions {
     std::string out;
     bool dry_run = false;
     bool quick = false;
+    bool again = false;
 };
 
 /// How long the runs of a part take, from those that were played.
@@ -68,31 +71,81 @@ std::string duration(double seconds) {
                         : fmt::format("about {} h {:02} min", minutes / 60, minutes % 60);
 }
 
+/// `again`: those that are kept count as missing.
 std::vector<const PlannedRun*> missing_runs(const std::vector<PlannedRun>& plan,
-                                            const fs::path& out) {
+                                            const fs::path& out, bool again) {
     std::vector<const PlannedRun*> missing;
-    for (const PlannedRun& run : plan)
-        if (state_of(run, out) != RunState::done) missing.push_back(&run);
+    for (const PlannedRun& run : plan) {
+        const RunState state = state_of(run, out);
+        if (state != RunState::done && (again || state != RunState::kept)) missing.push_back(&run);
+    }
     return missing;
+}
+
+/// So that results of an earlier version do not pass for those of this one.
+void tell_kept(const std::vector<PlannedRun>& plan, const fs::path& out) {
+    std::size_t kept = 0;
+    for (const PlannedRun& run : plan) {
+        if (state_of(run, out) != RunState::kept) continue;
+        ++kept;
+        for (const std::string& change : *other_defaults(run, out / run.path()))
+            fmt::print(stderr, "turbidite: {} was played with {}\n", run.path(), change);
+    }
+    if (kept > 0)
+        fmt::print(stderr,
+                   "turbidite: {} done by a version with other defaults, and {} as {}; --again "
+                   "plays {} again and keeps the old {} beside the new\n",
+                   kept == 1 ? "one run was" : fmt::format("{} runs were", kept),
+                   kept == 1 ? "stays" : "stay", kept == 1 ? "it is" : "they are",
+                   kept == 1 ? "it" : "them", kept == 1 ? "one" : "ones");
 }
 
 bool asked_to_stop(ExitCode code) {
     return code == ExitCode::interrupted || code == ExitCode::terminated;
 }
 
-/// A run that was cut off goes on from its last whole checkpoint; any other starts afresh.
+void say(const std::string& text) {
+    fmt::print(stderr, "turbidite: {}\n", text);
+}
+
+/// What was there stays, under another name, unless nothing has been played in it.
+PreparedRun prepare_afresh(const PlannedRun& run, const fs::path& folder, const LaunchSite& site) {
+    const ResolvedCase resolved = run.resolve();
+    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    if (has_windows(folder))
+        say(fmt::format("{}: the run that was there is now {}", run.path(),
+                        set_aside(folder).string()));
+    return prepare(resolved, {.out = folder, .force = true}, site);
+}
+
+/// A run that was cut off goes on from its last whole checkpoint; any other starts afresh, and so
+/// does one whose folder does not allow to go on. Where something else is in the way, such as a
+/// full disk, the run stays as it is for the next call: throws Failure.
 PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const LaunchSite& site) {
     const fs::path folder = out / run.path();
-    const auto say = [](const std::string& text) { fmt::print(stderr, "turbidite: {}\n", text); };
-    if (state_of(run, out) == RunState::begun) try {
+    if (may_go_on(run, out)) try {
             if (auto resumed = prepare_resumption(folder, {}, site, say)) {
                 fmt::print("goes on after window {}, {:g} t_c\n", resumed->windows, resumed->time);
                 return std::move(resumed->run);
             }
         } catch (const Failure& failure) {
+            if (failure.code() != ExitCode::bad_input) throw;
             say(fmt::format("{}: it starts afresh: {}", run.path(), failure.what()));
         }
-    return prepare(run.resolve(), {.out = folder, .force = true}, site);
+    return prepare_afresh(run, folder, site);
+}
+
+/// Empty if it cannot be played now, which then was said.
+std::optional<PreparedRun> prepared_to_play(const PlannedRun& run, const fs::path& out,
+                                            const LaunchSite& site) {
+    try {
+        return prepare_to_play(run, out, site);
+    } catch (const Failure& failure) {
+        if (failure.code() == ExitCode::bad_input) throw;
+        say(fmt::format("{}: it stays as it is, and the next call tries again: {}", run.path(),
+                        failure.what()));
+        return std::nullopt;
+    }
 }
 
 void announce(const PlannedRun& run, const std::vector<PlannedRun>& plan, const StudyTurns& turns,
@@ -118,9 +171,13 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
         if (run == nullptr) return result;
         announce(*run, plan, turns, pace);
         const auto start = Clock::now();
-        const PreparedRun prepared = prepare_to_play(*run, out, site);
+        const std::optional<PreparedRun> prepared = prepared_to_play(*run, out, site);
         chosen.reset();
-        const JobOutcome outcome = play(prepared, site.programs);
+        if (!prepared) {
+            if (result == ExitCode::done) result = ExitCode::participant_failed;
+            continue;
+        }
+        const JobOutcome outcome = play(*prepared, site.programs);
         chosen = turns.lock();
         write_study_record(study, plan, out);
         if (asked_to_stop(outcome.code)) return outcome.code;
@@ -138,6 +195,8 @@ const char* word_of(const PlannedRun& run, const fs::path& out) {
             return "begun";
         case RunState::done:
             return "done";
+        case RunState::kept:
+            return "kept";
         case RunState::failed:
             return "failed";
     }
@@ -158,7 +217,7 @@ fs::path folder_of(const Study& study, const StudyOptions& options) {
 
 /// Table and figures, by the last to end. False if they cannot be written.
 bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs::path& out,
-              const StudyTurns& turns) {
+              const StudyTurns& turns, bool again) {
     const auto lock = turns.lock();
     if (const std::size_t others = turns.played_by_others()) {
         fmt::print(
@@ -168,7 +227,7 @@ bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs:
         return true;
     }
     if (!write_study_results(out, find_programs())) return false;
-    const std::size_t left = missing_runs(plan, out).size();
+    const std::size_t left = missing_runs(plan, out, again).size();
     fmt::print("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
                plan.size() - left, plan.size(), out.string(),
                study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
@@ -180,26 +239,28 @@ int run_study(const StudyOptions& options) {
     const Study study = read_study(options.file);
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     const fs::path out = folder_of(study, options);
-    const std::vector<const PlannedRun*> missing = missing_runs(plan, out);
+    const std::vector<const PlannedRun*> missing = missing_runs(plan, out, options.again);
     fmt::print("{}: {} runs, {} of them done, folder {}{}\n", study.name, plan.size(),
                plan.size() - missing.size(), out.string(),
                missing.empty() ? "" : ", to do: " + forecast_text(missing));
+    if (!options.again) tell_kept(plan, out);
     if (const std::string lack = lack_of_disk(predicted_disk(missing), out); !lack.empty())
-        fmt::print(stderr, "turbidite: {}\n", lack);
+        say(lack);
     if (options.dry_run) {
         list(plan, out);
         return static_cast<int>(ExitCode::done);
     }
     fs::create_directories(out);
-    StudyTurns turns(plan, out);
+    StudyTurns turns(plan, out, options.again);
     {
         const auto lock = turns.lock();
         write_study_record(study, plan, out);
     }
     const ExitCode code = play_missing(study, plan, out, turns);
     std::fflush(nullptr);
-    return conclude(study, plan, out, turns) ? static_cast<int>(code)
-                                             : static_cast<int>(ExitCode::participant_failed);
+    return conclude(study, plan, out, turns, options.again)
+               ? static_cast<int>(code)
+               : static_cast<int>(ExitCode::participant_failed);
 }
 
 }  // namespace
@@ -214,6 +275,9 @@ CommandAction declare_study(CLI::App& app) {
     app.add_option("--out", options->out, "folder of the run folders; default: the study's `out`")
         ->type_name("DIR");
     app.add_flag("--dry-run", options->dry_run, "list the runs and which of them are done");
+    app.add_flag("--again", options->again,
+                 "play runs again that a version with other defaults has done; the old ones are "
+                 "kept beside the new");
     app.add_flag("--quick", options->quick,
                  "the keys of `quick` instead of those of `full`; results in <out>-quick");
     return [options] { return run_study(*options); };

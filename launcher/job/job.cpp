@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
@@ -20,7 +21,7 @@ namespace turbidite {
 namespace {
 
 constexpr int cannot_start = 127;
-constexpr int grace_seconds = 5;  // between SIGTERM, which mpirun passes on, and SIGKILL
+constexpr std::chrono::seconds grace{5};  // between SIGTERM, which mpirun passes on, and SIGKILL
 
 sigset_t watched_signals() {
     sigset_t set;
@@ -110,9 +111,10 @@ bool has_ended(pid_t child) {
 
 void end_session(pid_t child, const BlockedSignals& signals) {
     kill(-child, SIGTERM);
-    const std::time_t deadline = std::time(nullptr) + grace_seconds;
+    using Clock = std::chrono::steady_clock;  // a clock that is set would shorten or stretch it
+    const auto deadline = Clock::now() + grace;
     const timespec tick{0, 100'000'000};
-    while (!has_ended(child) && std::time(nullptr) < deadline)
+    while (!has_ended(child) && Clock::now() < deadline)
         sigtimedwait(&signals.set(), nullptr, &tick);
 }
 

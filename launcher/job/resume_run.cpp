@@ -13,6 +13,8 @@
 #include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/job/run_json.hpp"
+#include "launcher/job/run_on_disk.hpp"
+#include "launcher/job/set_aside.hpp"
 
 namespace turbidite {
 namespace {
@@ -72,26 +74,37 @@ bool may_change(const std::string& key) {
     return false;
 }
 
-std::string value_of(const Settings& settings, const std::string& key) {
-    return settings.has(key) ? settings.text(key) : "nothing";
+/// Named by an override, itself or with its group.
+bool is_given(const std::string& key, const std::vector<std::string>& overrides) {
+    return std::any_of(overrides.begin(), overrides.end(), [&](const std::string& text) {
+        const std::string name = text.substr(0, text.find('='));
+        return key == name || begins_with(key, name + ".");
+    });
 }
 
-/// "contact.friction is 0.5, in the checkpoint 0.3", one line per key.
-std::string forbidden_changes(const Settings& now, const Settings& then) {
+/// "contact.friction is 0.5, in the checkpoint 0.3", one line per key. A setting that one of the
+/// two does not have at all is one that only the version of the other knows, and has its default
+/// there.
+std::string forbidden_changes(const Settings& now, const Settings& then,
+                              const std::vector<std::string>& overrides) {
     std::string lines;
-    const auto compare = [&](const std::string& key) {
-        const std::string line = fmt::format("\n  {} is {}, in the checkpoint {}", key,
-                                             value_of(now, key), value_of(then, key));
-        const bool known = lines.find(line) != std::string::npos;
-        if (value_of(now, key) != value_of(then, key) && !may_change(key) && !known) lines += line;
-    };
-    for (const auto& entry : now.entries()) compare(entry.first);
-    for (const auto& entry : then.entries()) compare(entry.first);
+    for (const auto& [key, value] : now.entries()) {
+        const bool known = then.has(key);
+        if (may_change(key) || (known ? value == then.text(key) : !is_given(key, overrides)))
+            continue;
+        lines += fmt::format("\n  {} is {}, in the checkpoint {}", key, value,
+                             known ? then.text(key) : "nothing");
+    }
+    for (const auto& [key, value] : then.entries())
+        if (!now.has(key) && !may_change(key) && is_given(key, overrides))
+            lines += fmt::format("\n  {} is nothing, in the checkpoint {}", key, value);
     return lines;
 }
 
-void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const Chosen& chosen) {
-    const std::string changes = forbidden_changes(resolved.settings, chosen.manifest.settings);
+void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const Chosen& chosen,
+                   const std::vector<std::string>& overrides) {
+    const std::string changes =
+        forbidden_changes(resolved.settings, chosen.manifest.settings, overrides);
     if (!changes.empty())
         throw refused(folder.root, fmt::format("cannot go on as another case:{}", changes),
                       fmt::format("These keys may change: {}. For all others start a new run, with "
@@ -212,6 +225,22 @@ PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& fo
     return {folder, std::move(lock), line, rank_names(resolved.settings), resolved.settings};
 }
 
+/// All windows of the case are done, and the coupler has said so.
+bool is_complete(const RunFolder& folder, const ResolvedCase& resolved) {
+    const auto record = read_run_json(folder.record());
+    const auto done = record.find("windows_done");
+    return record.value("status", "") == "done" && done != record.end() &&
+           *done == resolved.settings.integer("run.windows");
+}
+
+/// To start from the beginning would cost what a run without checkpoints has written.
+void require_no_windows(const RunFolder& folder) {
+    if (has_windows(folder.root))
+        throw refused(folder.root, "has windows that are done, but no checkpoint to go on from",
+                      "Start it afresh in another folder, with turbidite run CASE, or add --from "
+                      "DIR for its grains.");
+}
+
 }  // namespace
 
 const std::vector<std::string>& keys_that_may_change() {
@@ -243,9 +272,9 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     const std::optional<Chosen> chosen = choose(folder, sets, say);
     const ResolvedCase resolved = load_run_folder(folder.root, overrides);
     require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
-    if (chosen) check_changes(folder, resolved, *chosen);
-    if (chosen && chosen->manifest.windows == resolved.settings.integer("run.windows"))
-        return std::nullopt;
+    if (chosen) check_changes(folder, resolved, *chosen, overrides);
+    if (is_complete(folder, resolved)) return std::nullopt;
+    if (!chosen) require_no_windows(folder);
     remove_requests(folder);
     put_aside(folder.logs());
     if (fs::exists(folder.recordings())) put_aside(folder.recordings());
@@ -259,6 +288,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
     write_record(resolved, folder, chosen->manifest.windows, line);
+    put_run_on_disk(folder);
     return Resumed{{folder, lock, line, rank_names(resolved.settings), resolved.settings},
                    chosen->manifest.windows,
                    chosen->manifest.time};

@@ -20,8 +20,10 @@ struct Resumed {
 /// Makes the folder ready; empty if its run is complete. `say` gets a line for a damaged checkpoint
 /// that is passed over. Throws Failure (bad input) for a folder that is no run, is in use, has no
 /// whole checkpoint among those it has, or for overrides of keys that a run may not change.
+/// Settings that only this version knows, or only that of the checkpoint, are no change.
 ///
-/// A folder in which no checkpoint was written yet is prepared again and starts from the beginning.
+/// A folder in which no checkpoint was written yet is prepared again and starts from the beginning,
+/// unless it has windows that are done.
 std::optional<Resumed> prepare_resumption(const std::filesystem::path& folder,
                                           const std::vector<std::string>& overrides,
                                           const LaunchSite& site,

@@ -7,8 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <thread>
 #include <utility>
+
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
@@ -28,9 +31,17 @@ struct Attempt {
     int descriptor;
 };
 
+/// A folder whose lock cannot be looked at may be in use.
+Failure cannot_open(const std::filesystem::path& path) {
+    return Failure(ExitCode::bad_input,
+                   "cannot open " + path.string() + ": " + std::strerror(errno) +
+                       "\n  It tells whether a run uses the folder. Make it readable and writable, "
+                       "or use another folder.\nNothing was started. Exit code 2.");
+}
+
 Attempt attempt(const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT, 0644);
-    if (descriptor < 0) return {Try::without_locks, descriptor};
+    if (descriptor < 0) throw cannot_open(path);
     const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     if (!locked && errno != EWOULDBLOCK) return {Try::without_locks, descriptor};
     if (locked && is_current(descriptor, path)) return {Try::taken, descriptor};
@@ -56,7 +67,8 @@ std::shared_ptr<RunLock> RunLock::take(const std::filesystem::path& folder,
 
 bool RunLock::is_held(const std::filesystem::path& folder) {
     const int descriptor = ::open((folder / file).c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return false;
+    if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return false;
+    if (descriptor < 0) throw cannot_open(folder / file);
     const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     ::close(descriptor);
     return held;

@@ -16,11 +16,12 @@ class RunLock {
     static constexpr std::chrono::seconds for_the_killed{3};
 
     /// Null if another process has the folder, which must exist, and keeps it for all of
-    /// `patience`. Where the file system knows no locks, the folder counts as free.
+    /// `patience`. Where the file system knows no locks, the folder counts as free. Throws Failure
+    /// (bad input) if the file cannot be opened.
     static std::shared_ptr<RunLock> take(const std::filesystem::path& folder,
                                          std::chrono::seconds patience = for_the_killed);
 
-    /// Whether another process has the folder now; false if it does not exist.
+    /// Whether another process has the folder now; false if it does not exist. Throws as above.
     static bool is_held(const std::filesystem::path& folder);
 
     /// Name of the file in a run folder.

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/study/study_record.hpp"
 
+#include <optional>
+
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "launcher/case/run_folder.hpp"
 #include "launcher/job/run_json.hpp"
+#include "launcher/study/other_defaults.hpp"
 
 namespace turbidite {
 namespace {
 
+using Record = nlohmann::ordered_json;
+
 nlohmann::ordered_json run_entry(const PlannedRun& run, const std::filesystem::path& out) {
     const RunFolder folder{out / run.path()};
-    const nlohmann::ordered_json record = read_run_json(folder.record());
+    const Record record = read_run_json(folder.record());
     const RunState state = state_of(run, out);
     nlohmann::ordered_json values = nlohmann::ordered_json::object();
     for (const auto& [key, value] : run.values) values[key] = value;
@@ -23,25 +28,53 @@ nlohmann::ordered_json run_entry(const PlannedRun& run, const std::filesystem::p
             {"error", state == RunState::failed ? record.value("error", "") : ""}};
 }
 
-/// Not ended by a word of its own: it has no exit code, or that of a request to stop.
-bool was_cut_off(const nlohmann::ordered_json& record) {
+/// The exit code, if it has ended by a word of its own.
+std::optional<ExitCode> end_of(const Record& record) {
     const auto code = record.find("exit_code");
-    if (code == record.end() || !code->is_number_integer()) return true;
-    const int value = code->get<int>();
-    return value == static_cast<int>(ExitCode::interrupted) ||
-           value == static_cast<int>(ExitCode::terminated);
+    if (code == record.end() || !code->is_number_integer()) return std::nullopt;
+    return static_cast<ExitCode>(code->get<int>());
+}
+
+std::int64_t count_in(const Record& record, const char* name) {
+    const auto count = record.find(name);
+    return count != record.end() && count->is_number_integer() ? count->get<std::int64_t>() : -1;
+}
+
+bool is_whole(const Record& record) {
+    return record.value("status", "") == "done" &&
+           count_in(record, "windows_done") == count_in(record, "windows");
+}
+
+/// Killed, stopped on request, or said to be done before its last window.
+bool was_cut_off(const Record& record) {
+    const std::optional<ExitCode> end = end_of(record);
+    return !end || *end == ExitCode::interrupted || *end == ExitCode::terminated ||
+           *end == ExitCode::done;
+}
+
+bool has_checkpoint(const std::filesystem::path& folder) {
+    return !CheckpointSets(folder).names().empty();
 }
 
 }  // namespace
 
 RunState state_of(const PlannedRun& run, const std::filesystem::path& out) {
     const std::filesystem::path folder = out / run.path();
-    const nlohmann::ordered_json record = read_run_json(RunFolder{folder}.record());
-    if (record.value("case_hash", "") != run.hash) return RunState::missing;
-    const std::string status = record.value("status", "");
-    if (status == "done") return RunState::done;
-    if (was_cut_off(record) && !CheckpointSets(folder).names().empty()) return RunState::begun;
-    return status == "prepared" ? RunState::missing : RunState::failed;
+    const Record record = read_run_json(RunFolder{folder}.record());
+    const bool same = record.value("case_hash", "") == run.hash;
+    if (!same && (record.empty() || !other_defaults(run, folder))) return RunState::missing;
+    if (is_whole(record)) return same ? RunState::done : RunState::kept;
+    if (was_cut_off(record) && has_checkpoint(folder)) return RunState::begun;
+    return record.value("status", "") == "prepared" ? RunState::missing : RunState::failed;
+}
+
+bool may_go_on(const PlannedRun& run, const std::filesystem::path& out) {
+    const RunState state = state_of(run, out);
+    if (state == RunState::begun) return true;
+    const std::filesystem::path folder = out / run.path();
+    const auto end = end_of(read_run_json(RunFolder{folder}.record()));
+    const bool by_chance = end == ExitCode::participant_failed || end == ExitCode::stalled;
+    return state == RunState::failed && by_chance && has_checkpoint(folder);
 }
 
 void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,

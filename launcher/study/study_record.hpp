@@ -11,12 +11,17 @@
 
 namespace turbidite {
 
-enum class RunState { missing, begun, done, failed };
+enum class RunState { missing, begun, done, kept, failed };
 
-/// By the run folder alone. Where its case is the planned one: `done` when run.json says so,
-/// `begun` when it was killed or stopped on request and has a checkpoint to go on from, `failed`
-/// when it ended otherwise.
+/// By the run folder alone. Where its case is the planned one: `done` when run.json says so, and
+/// that all windows are; `begun` when it was killed or stopped on request and has a checkpoint to
+/// go on from; `failed` when it ended otherwise. `kept`: done, and the planned one but for the
+/// defaults of the version that played it (other_defaults.hpp).
 RunState state_of(const PlannedRun& run, const std::filesystem::path& out);
+
+/// Whether a run has a checkpoint from which it may go on: it has begun, or a program of it has
+/// failed or stalled, which need not happen again.
+bool may_go_on(const PlannedRun& run, const std::filesystem::path& out);
 
 /// Throws Failure (exit code 4) when it cannot be written.
 void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,

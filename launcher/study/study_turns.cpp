@@ -17,8 +17,8 @@ constexpr std::chrono::minutes for_the_others{20};
 
 }  // namespace
 
-StudyTurns::StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out)
-    : plan_(&plan), out_(std::move(out)) {
+StudyTurns::StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out, bool again)
+    : plan_(&plan), out_(std::move(out)), again_(again) {
     for (const PlannedRun& run : plan)
         if (state_of(run, out_) == RunState::failed) had_failed_.insert(&run);
 }
@@ -37,6 +37,7 @@ bool StudyTurns::is_to_come(const PlannedRun& run) const {
     if (given_.count(&run) > 0) return false;
     const RunState state = state_of(run, out_);
     return state == RunState::missing || state == RunState::begun ||
+           (state == RunState::kept && again_) ||
            (state == RunState::failed && had_failed_.count(&run) > 0);
 }
 

@@ -18,7 +18,8 @@ namespace turbidite {
 class StudyTurns {
  public:
     /// `plan` must outlive it. `out`: the study's folder, which must exist.
-    StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out);
+    /// `again`: those that are kept (RunState) are to come as well.
+    StudyTurns(const std::vector<PlannedRun>& plan, std::filesystem::path out, bool again = false);
 
     /// Keeps the others from choosing and writing as long as it lives. Throws Failure (exit code 2)
     /// if another keeps it for minutes.
@@ -40,6 +41,7 @@ class StudyTurns {
 
     const std::vector<PlannedRun>* plan_;
     std::filesystem::path out_;
+    bool again_;
     std::set<const PlannedRun*> given_;
     std::set<const PlannedRun*> had_failed_;
 };

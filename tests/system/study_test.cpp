@@ -156,6 +156,128 @@ TEST_F(StudyRuns, KilledThreeTimesItGivesTheSameTable) {
     EXPECT_EQ(table("s").size(), 4u);
 }
 
+// What another version has done with other defaults is hours of work, and its results.
+TEST_F(StudyRuns, RunsOfAnotherVersionStayUnlessTheyAreAskedForAgain) {
+    scratch.write("frictions.yaml", "{case: column.yaml, sweep: {random.seed: [1, 2]}}");
+    ASSERT_EQ(study("").code, 0);
+    // As if rolling_friction had been 0.1 by default when seed-1 was played.
+    const fs::path run = scratch.path() / "s/frictions/seed-1";
+    std::string resolved = text(run / "case.yaml");
+    const std::string now = "  rolling_friction: 0", then = "  rolling_friction: 0.1";
+    ASSERT_NE(resolved.find(now), std::string::npos);
+    resolved.replace(resolved.find(now), now.size(), then);
+    scratch.write("s/frictions/seed-1/case.yaml", resolved);
+    nlohmann::json record = nlohmann::json::parse(text(run / "run.json"));
+    record["case_hash"] = "of another version";
+    scratch.write("s/frictions/seed-1/run.json", record.dump());
+    scratch.write("s/frictions/seed-1/mine.txt", "notes");
+    const auto before = written("seed-1");
+
+    EXPECT_SAYS(study("--dry-run").out, "kept ");
+    const Answer kept = study("");
+    EXPECT_EQ(kept.code, 0) << kept.err;
+    EXPECT_SAYS(kept.out, "2 runs, 2 of them done");
+    EXPECT_SAYS(kept.err, "frictions/seed-1 was played with contact.rolling_friction: 0.1, now 0");
+    EXPECT_SAYS(kept.err, "--again");
+    EXPECT_EQ(written("seed-1"), before);
+
+    const auto other = written("seed-2");
+    const Answer again = study("--again");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_SAYS(again.err, "the run that was there is now " + run.string() + "-old-1");
+    EXPECT_SAYS(again.out, "2 of 2 runs done");
+    EXPECT_EQ(text(run.string() + "-old-1/mine.txt"), "notes");
+    EXPECT_EQ(written("seed-1-old-1"), before);
+    EXPECT_NE(written("seed-1"), before);
+    EXPECT_EQ(written("seed-2"), other);
+    EXPECT_EQ(study("").err, "");
+}
+
+TEST_F(StudyRuns, ARunOfAnotherCaseIsPutAside) {
+    scratch.write("frictions.yaml", "{case: column.yaml, sweep: {random.seed: [1]}}");
+    ASSERT_EQ(study("").code, 0);
+    const auto before = written("seed-1");
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, sweep: {random.seed: [1]}, set: {contact.friction: 0.1}}");
+    const Answer answer = study("");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.err, "frictions/seed-1: the run that was there is now ");
+    EXPECT_EQ(written("seed-1-old-1"), before);
+}
+
+class StudyGoesOn : public StudyRuns {
+ protected:
+    const fs::path run = scratch.path() / "s/frictions/seed-1";
+    std::vector<std::string> whole;
+
+    /// A run that was killed, by its record, after its last checkpoint but one.
+    void SetUp() override {
+        StudyRuns::SetUp();
+        scratch.write(
+            "frictions.yaml",
+            "{case: column.yaml, sweep: {random.seed: [1]}, set: {checkpoint.windows: 10}}");
+        ASSERT_EQ(study("").code, 0);
+        whole = history();
+        fs::remove_all(run / "checkpoints/w00000050");
+        ASSERT_TRUE(fs::exists(run / "checkpoints/w00000040"));
+        nlohmann::json record = nlohmann::json::parse(text(run / "run.json"));
+        record["status"] = "prepared", record["exit_code"] = nullptr, record["windows_done"] = 0;
+        scratch.write("s/frictions/seed-1/run.json", record.dump());
+    }
+
+    std::vector<std::string> history() const { return lines_of_history("s/frictions/seed-1"); }
+
+    /// Of the settings in its manifest.
+    void change_settings(const std::function<void(nlohmann::ordered_json&)>& change) const {
+        const fs::path file = run / "checkpoints/w00000040/manifest.json";
+        auto manifest = nlohmann::ordered_json::parse(text(file));
+        change(manifest["settings"]);
+        std::ofstream(file) << manifest.dump(2);
+    }
+};
+
+TEST_F(StudyGoesOn, WithSettingsThatOnlyOneVersionKnows) {
+    change_settings([](nlohmann::ordered_json& settings) {
+        settings["run.of_an_earlier_version"] = "1";
+        settings["contact.of_an_earlier_version"] = "1";
+        settings.erase("contact.rolling_friction");
+        settings.erase("run.slip_tolerance");
+    });
+    const Answer answer = study("");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.out, "goes on after window 40,");
+    EXPECT_FALSE(fs::exists(run.string() + "-old-1"));
+    EXPECT_EQ(history(), whole);
+}
+
+TEST_F(StudyGoesOn, AndPutsAsideWhatCannotGoOn) {
+    change_settings([](nlohmann::ordered_json& settings) { settings["contact.friction"] = "0.7"; });
+    const Answer answer = study("");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.err, "it starts afresh: ");
+    EXPECT_SAYS(answer.err, "contact.friction is 0.3, in the checkpoint 0.7");
+    EXPECT_SAYS(answer.err, "frictions/seed-1: the run that was there is now ");
+    EXPECT_TRUE(fs::exists(run.string() + "-old-1/checkpoints/w00000040/manifest.json"));
+    EXPECT_EQ(history(), whole);
+}
+
+// A disk that is full, here a folder where a file is to be written: the next call may find it
+// empty.
+TEST_F(StudyGoesOn, AndLeavesWhatSomethingElseIsInTheWayOf) {
+    scratch.write("s/frictions/seed-1/run.json.part/x", "");
+    const Answer blocked = study("");
+    EXPECT_EQ(blocked.code, 4) << blocked.out << blocked.err;
+    EXPECT_SAYS(blocked.err,
+                "frictions/seed-1: it stays as it is, and the next call tries again: ");
+    EXPECT_TRUE(fs::exists(run / "checkpoints/w00000040"));
+    EXPECT_FALSE(fs::exists(run.string() + "-old-1"));
+    fs::remove_all(run / "run.json.part");
+    const Answer answer = study("");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.out, "goes on after window 40,");
+    EXPECT_EQ(history(), whole);
+}
+
 // Two processes share a study: every run is played once, both play some, at least once both at the
 // same time, and the last to end writes the table of all.
 TEST_F(StudyRuns, TwoAtOnceShareTheRuns) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "launcher/study/other_defaults.hpp"
 #include "launcher/study/study_plan.hpp"
 #include "launcher/study/study_record.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
@@ -120,6 +121,65 @@ parts:
     EXPECT_SAYS(text, "4 errors");
 }
 
+TEST_F(StudyTest, PartsThatAreNoMapsAreRefusedWithLines) {
+    const std::string text = refusal(R"(
+parts:
+  a: 3
+  b: [column.yaml]
+  c:
+  d: {case: [column.yaml]}
+)");
+    EXPECT_SAYS(text, "study.yaml line 3: a contains no keys");
+    EXPECT_SAYS(text, "study.yaml line 4: b contains no keys");
+    EXPECT_SAYS(text, "c contains no keys");
+    EXPECT_SAYS(text, "study.yaml line 6: d has no case");
+    EXPECT_SAYS(text, "4 errors");
+}
+
+TEST_F(StudyTest, NothingIsReadThatIsNoStudy) {
+    for (const char* text : {"3", "[1]", "", "parts: [1]", "{[a]: 3}", "out: [a]", "{case: {a: 1}}",
+                             "{case: column.yaml, set: 3}", "{case: column.yaml, sweep: [1]}",
+                             "{case: column.yaml, variants: {a: 3}}", "{case: column.yaml, out: }",
+                             "{case: column.yaml, set: {a: &x [*x]}}"})
+        EXPECT_SAYS(refusal(text), "nothing was started. Exit code 2.") << text;
+}
+
+// A part called "../x", or a run "..", would be played in somebody else's folder.
+TEST_F(StudyTest, FoldersOfRunsLieInTheFolderOfTheStudy) {
+    for (const char* name : {"../x", "a/b", "/tmp", "..", ".", "''", "a b", "it's", ".hidden"})
+        EXPECT_SAYS(refusal("parts: {\"" + std::string(name == std::string("''") ? "" : name) +
+                            "\": {case: column.yaml}}"),
+                    "is no name of a part")
+            << name;
+    for (const char* name : {"..", ".", "///", "  "})
+        EXPECT_SAYS(refusal("{case: column.yaml, variants: {\"" + std::string(name) +
+                            "\": {time.end: 0.5}}}"),
+                    "has a run called \"")
+            << name;
+    EXPECT_EQ(plan("parts: {a-b_c+1.5: {case: column.yaml}}").at(0).path(), "a-b_c+1.5/column");
+}
+
+TEST_F(StudyTest, AliasesOfAliasesAreBounded) {
+    std::string text = "a0: &a0 {k: 1}\n";
+    for (int n = 1; n <= 8; ++n) {
+        const std::string name = "a" + std::to_string(n), of = "*a" + std::to_string(n - 1);
+        text += name + ": &" + name + " {";
+        for (char key = 'a'; key < 'k'; ++key) text += std::string(1, key) + ": " + of + ", ";
+        text += "}\n";
+    }
+    EXPECT_SAYS(refusal("case: column.yaml\nset: *a8\n" + text), "is not YAML");
+    EXPECT_SAYS(refusal(text + "case: column.yaml\nset: *a8\n"), "more than 20000 values");
+}
+
+// Ten lists of ten values are two hundred bytes and ten thousand million runs.
+TEST_F(StudyTest, TheNumberOfRunsIsBounded) {
+    std::string text = "case: column.yaml\nsweep:\n";
+    for (int n = 0; n < 10; ++n)
+        text += "  k" + std::to_string(n) + ": [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]\n";
+    EXPECT_SAYS(refusal(text), "has 1e+10 runs");
+    EXPECT_SAYS(refusal(text), "10000 runs at most");
+}
+
 TEST_F(StudyTest, WhatIsWrongWithFileAndCasesIsNamedTogether) {
     const std::string text = refusal(R"(
 parts:
@@ -199,7 +259,11 @@ TEST_F(StudyTest, ARunIsDoneWhenItsCaseIsThePlannedOne) {
     const auto leave = [&](const PlannedRun& run, const std::string& hash, const char* status) {
         std::filesystem::create_directories(scratch.path() / run.path());
         std::ofstream(scratch.path() / run.path() / "run.json")
-            << nlohmann::json{{"case_hash", hash}, {"status", status}, {"error", "why"}};
+            << nlohmann::json{{"case_hash", hash},
+                              {"status", status},
+                              {"error", "why"},
+                              {"windows", 100},
+                              {"windows_done", 100}};
     };
     leave(runs[0], runs[0].hash, "done");
     leave(runs[1], "another case", "done");
@@ -234,6 +298,101 @@ TEST_F(StudyTest, ARunThatWasCutOffHasBegun) {
          {nlohmann::json(nullptr), nlohmann::json(130), nlohmann::json(143)})
         EXPECT_EQ(state(code), RunState::begun) << code;
     EXPECT_EQ(state(6), RunState::failed);
+}
+
+TEST_F(StudyTest, DoneMeansThatAllWindowsAreDone) {
+    const auto run = plan("{case: column.yaml, sweep: {random.seed: [1]}}").at(0);
+    const std::filesystem::path folder = scratch.path() / run.path();
+    std::filesystem::create_directories(folder);
+    const auto state = [&](const nlohmann::json& windows, const nlohmann::json& done) {
+        std::ofstream(folder / "run.json") << nlohmann::json{{"case_hash", run.hash},
+                                                             {"status", "done"},
+                                                             {"exit_code", 0},
+                                                             {"windows", windows},
+                                                             {"windows_done", done}};
+        return state_of(run, scratch.path());
+    };
+    EXPECT_EQ(state(100, 100), RunState::done);
+    EXPECT_EQ(state(100, 57), RunState::failed);
+    EXPECT_EQ(state(100, nullptr), RunState::failed);
+    std::filesystem::create_directories(folder / "checkpoints/w00000040");
+    EXPECT_EQ(state(100, 57), RunState::begun) << "it goes on";
+}
+
+// Out of memory, a node that failed, a file server that was away: the next time may be better.
+TEST_F(StudyTest, ARunThatFailedByChanceMayGoOn) {
+    const auto run = plan("{case: column.yaml, sweep: {random.seed: [1]}}").at(0);
+    const std::filesystem::path folder = scratch.path() / run.path();
+    std::filesystem::create_directories(folder / "checkpoints/w00000040");
+    for (const int code : {3, 4, 5, 6}) {
+        std::ofstream(folder / "run.json")
+            << nlohmann::json{{"case_hash", run.hash}, {"status", "failed"}, {"exit_code", code}};
+        EXPECT_EQ(state_of(run, scratch.path()), RunState::failed);
+        EXPECT_EQ(may_go_on(run, scratch.path()), code == 4 || code == 5) << code;
+    }
+    std::filesystem::remove_all(folder / "checkpoints");
+    EXPECT_FALSE(may_go_on(run, scratch.path()));
+}
+
+/// A run that another version of the program has done: the resolved case in its folder is the
+/// planned one after these changes.
+class OtherVersion : public StudyTest {
+ protected:
+    PlannedRun run;
+
+    void SetUp() override {
+        StudyTest::SetUp();
+        run = plan("{case: column.yaml, sweep: {random.seed: [1]}}").at(0);
+    }
+
+    void leave(const std::vector<std::pair<std::string, std::string>>& changes) {
+        std::string text = run.yaml;
+        for (const auto& [from, to] : changes) {
+            const auto at = text.find(from);
+            ASSERT_NE(at, std::string::npos) << from << "\n" << text;
+            text.replace(at, from.size(), to);
+        }
+        scratch.write(run.path() + "/case.yaml", text);
+        scratch.write(run.path() + "/run.json", nlohmann::json{{"case_hash", "of that version"},
+                                                               {"status", "done"},
+                                                               {"exit_code", 0},
+                                                               {"windows", 100},
+                                                               {"windows_done", 100}}
+                                                    .dump());
+    }
+
+    RunState state() const { return state_of(run, scratch.path()); }
+    std::string changes() const {
+        std::string text;
+        const auto found = other_defaults(run, scratch.path() / run.path());
+        for (const std::string& change : found.value_or(std::vector<std::string>{"another case"}))
+            text += change + "\n";
+        return text;
+    }
+};
+
+TEST_F(OtherVersion, RunsWithOtherDefaultsAreKept) {
+    leave({{"  rolling_friction: 0", "  rolling_friction: 0.125"}});
+    EXPECT_EQ(state(), RunState::kept);
+    EXPECT_SAYS(changes(), "contact.rolling_friction: 0.125, now 0 by default");
+}
+
+TEST_F(OtherVersion, RunsWithMoreOrFewerKeysAreKept) {
+    leave({{"  rolling_friction: 0", "  an_old_key: 7"}});
+    EXPECT_EQ(state(), RunState::kept);
+    EXPECT_SAYS(changes(), "contact.an_old_key: 7, now nothing by default");
+    EXPECT_SAYS(changes(), "contact.rolling_friction: nothing, now 0 by default");
+}
+
+TEST_F(OtherVersion, RunsOfAnotherCaseAreMissing) {
+    leave({{"  friction: 0.3", "  friction: 0.4"}});  // which column.yaml gives
+    EXPECT_EQ(state(), RunState::missing);
+    leave({{"  seed: 1", "  seed: 2"}});  // which the study gives
+    EXPECT_EQ(state(), RunState::missing);
+    leave({{"fingerprint ", "fingerprint f"}});
+    EXPECT_EQ(state(), RunState::missing) << "other grains";
+    leave({{"contact:", "contact: ["}});
+    EXPECT_EQ(state(), RunState::missing) << "unreadable";
 }
 
 TEST_F(StudyTest, IsToldFromACase) {

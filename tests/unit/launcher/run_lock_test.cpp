@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/run_lock.hpp"
+
+#include <gtest/gtest.h>
+
+#include "coupler/protocol/failure.hpp"
+#include "launcher/job/set_aside.hpp"
+#include "tests/unit/case/scratch_folder.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(RunLock, IsHeldByOne) {
+    const ScratchFolder scratch;
+    EXPECT_FALSE(RunLock::is_held(scratch.path()));
+    {
+        const auto lock = RunLock::take(scratch.path());
+        ASSERT_NE(lock, nullptr);
+        EXPECT_TRUE(RunLock::is_held(scratch.path()));
+        EXPECT_EQ(RunLock::take(scratch.path(), std::chrono::seconds(0)), nullptr);
+    }
+    EXPECT_FALSE(RunLock::is_held(scratch.path()));
+    EXPECT_FALSE(RunLock::is_held(scratch.path() / "nowhere"));
+}
+
+// A link to itself cannot be opened by anybody, whatever rights they have.
+TEST(RunLock, ThatCannotBeOpenedIsNoFreeFolder) {
+    const ScratchFolder scratch;
+    fs::create_symlink(RunLock::file, scratch.path() / RunLock::file);
+    for (const bool take : {true, false}) try {
+            take ? void(RunLock::take(scratch.path())) : void(RunLock::is_held(scratch.path()));
+            ADD_FAILURE() << "it counted as free";
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.code(), ExitCode::bad_input);
+            const std::string text = failure.what();
+            EXPECT_NE(text.find("cannot open " + (scratch.path() / RunLock::file).string()),
+                      std::string::npos)
+                << text;
+        }
+}
+
+TEST(SetAside, KeepsEverythingUnderTheFirstFreeName) {
+    const ScratchFolder scratch;
+    scratch.write("run/history.csv", "a");
+    scratch.write("run-old-1/history.csv", "b");
+    const fs::path run = scratch.path() / "run", aside = scratch.path() / "run-old-2";
+    EXPECT_EQ(set_aside(run), aside);
+    EXPECT_FALSE(fs::exists(run));
+    EXPECT_TRUE(fs::exists(aside / "history.csv"));
+    EXPECT_FALSE(fs::exists(aside / RunLock::file));
+    scratch.write("run/history.csv", "c");
+    const auto lock = RunLock::take(run);
+    EXPECT_THROW(set_aside(run), Failure) << "a run uses it";
+    EXPECT_TRUE(fs::exists(run / "history.csv"));
+}
+
+TEST(SetAside, WindowsAreRowsAfterTheFirstOrLaterCheckpoints) {
+    const ScratchFolder scratch;
+    const auto has = [&](const char* run) { return has_windows(scratch.path() / run); };
+    EXPECT_FALSE(has("nowhere"));
+    scratch.write("start/history.csv", "step,time\n0,0\n");
+    fs::create_directories(scratch.path() / "start/checkpoints/w00000000");
+    EXPECT_FALSE(has("start"));
+    scratch.write("rows/history.csv", "step,time\n0,0\n10,0.1\n");
+    EXPECT_TRUE(has("rows"));
+    fs::create_directories(scratch.path() / "set/checkpoints/w00000010");
+    EXPECT_TRUE(has("set"));
+}
+
+}  // namespace
+}  // namespace turbidite
