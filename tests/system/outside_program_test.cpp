@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A grains program of somebody else that is wrong about itself: whether its state is on the disk,
+// and in which letters it speaks. It runs without a fluid, a window in less than a millisecond.
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Grains that fall freely. `lies` after so many states: their checksums are told wrongly from then
+/// on. `bytes`: gives up in window 3 with bytes that are no UTF-8. `colours`: with letters for a
+/// terminal. `taken`: somebody else has its doorbell.
+const char* const free_fall = R"(import os, socket, sys, zlib
+if sys.argv[1] == 'taken':
+    thief = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    thief.bind('\0turbidite/' + os.environ['PMIX_NAMESPACE'] + '/' + os.environ['OMPI_COMM_WORLD_RANK'])
+    if len(sys.argv) > 3:
+        thief.set_inheritable(True)
+        os.execv(sys.argv[2], sys.argv[2:])
+import numpy, turbidite_adapter as turbidite
+
+class Zlib:
+    saved = 0
+    def crc32(self, state):
+        return zlib.crc32(state) ^ (1 if sys.argv[1] == 'lies' and self.saved > int(sys.argv[2]) else 0)
+
+turbidite.zlib = Zlib()
+
+class Mine:
+    name, version, host_code = 'mine', '1', 'Python'
+    def initialise(self, settings, shapes, grains):
+        self.grains, self.g = grains, settings.real('run.gravity')
+        return turbidite.Motion(grains)
+    def advance(self, window, responses):
+        if window.index == 3 and sys.argv[1] == 'bytes':
+            turbidite._text = lambda text: turbidite._integers(len(b'ev\xe9nement')) + b'ev\xe9nement'
+            raise ValueError('not this text')
+        if window.index == 3 and sys.argv[1] == 'colours':
+            print('\033[2J\033]0;mine\007all is well', flush=True)
+            raise ValueError('\033[31mred')
+        self.grains['velocity'][:, 1] -= self.g * window.step
+        return turbidite.Motion(self.grains)
+    def apply_kick(self, window, kicks):
+        self.grains['position'] += window.step * self.grains['velocity']
+        return turbidite.Motion(self.grains)
+    def save(self):
+        turbidite.zlib.saved += 1
+        return self.grains.tobytes()
+    def restore(self, state):
+        self.grains = numpy.frombuffer(state, turbidite.GRAIN).copy()
+
+turbidite.run_grains(Mine(), sys.argv[-1])
+)";
+
+class OutsideProgram : public ShellTest {
+ protected:
+    void SetUp() override {
+        scratch.write("mine.py", free_fall);
+        scratch.write(
+            "fall.yaml",
+            "domain: {size: [8, 40]}\n"
+            "grains: {adapter: external, command: /usr/bin/python3 mine.py honest, count: 6}\n"
+            "fluid: {enabled: false}\n"
+            "time: {step: 0.01, end: 0.5}\n"
+            "output: {interval: 0.05}\n"
+            "checkpoint: {windows: 10, keep: 2}\n"
+            "limits: {penetration: 10, stall_soft: 5, stall_hard: 20}\n");
+    }
+
+    Answer run(const std::string& how, const std::string& more = "") const {
+        return shell("timeout 60 " TURBIDITE_PROGRAM
+                     " run fall.yaml --out run --force --set "
+                     "'grains.command=/usr/bin/python3 mine.py " +
+                     how + "' " + more);
+    }
+    Answer resume(const std::string& options = "") const {
+        return shell("timeout 60 " TURBIDITE_PROGRAM " resume run " + options);
+    }
+    std::vector<std::string> sets() const {
+        std::vector<std::string> names;
+        std::error_code none;
+        for (const auto& set : fs::directory_iterator(run_folder() / "checkpoints", none))
+            names.push_back(set.path().filename());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(OutsideProgram, StatesThatAreNotWhatItSaysTakeNoGoodOnesAway) {
+    const Answer answer = run("lies 2");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.out, "warning: no checkpoint after window 50: grains rank 0: ");
+    EXPECT_SAYS(answer.out, "grains.rank0 is damaged: its checksum differs");
+    EXPECT_SAYS(answer.out, "The last one is checkpoints/w00000010.");
+    EXPECT_EQ(sets(), (Names{"w00000000", "w00000010"}));
+    EXPECT_EQ(record().at("checkpoints").at("written"), 2);
+    const Answer done = resume();
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_SAYS(done.out, "is complete");
+    const auto whole = lines_of_history("run");
+    // Its first two states are good in every part of the run.
+    const Answer on = resume("--set time.end=0.6 --set checkpoint.keep=3");
+    EXPECT_EQ(on.code, 0) << on.err;
+    EXPECT_SAYS(on.out, "goes on after window 10, 0.1 t_c");
+    EXPECT_EQ(sets(), (Names{"w00000010", "w00000020", "w00000030"}));
+    const auto longer = lines_of_history("run");
+    ASSERT_EQ(longer.size(), whole.size() + 2);
+    EXPECT_TRUE(std::equal(whole.begin(), whole.end(), longer.begin()));
+}
+
+TEST_F(OutsideProgram, WithoutAGoodStateNothingIsLostByResuming) {
+    const Answer answer = run("lies 0");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_SAYS(answer.out, "There is none yet.");
+    EXPECT_TRUE(sets().empty());
+    const std::string history = text(run_folder() / "history.csv");
+    EXPECT_SAYS(resume().out, "is complete");
+    const Answer longer = resume("--set time.end=0.6");
+    EXPECT_EQ(longer.code, 2) << longer.out;
+    EXPECT_SAYS(longer.err, "has windows that are done, but no checkpoint to go on from");
+    EXPECT_EQ(text(run_folder() / "history.csv"), history);
+}
+
+TEST_F(OutsideProgram, ARunThatWasKilledAfterItsLastCheckpointIsRecordedAsDone) {
+    ASSERT_EQ(run("honest").code, 0);
+    const auto whole = lines_of_history("run");
+    nlohmann::json killed = record();
+    killed["status"] = "prepared", killed["exit_code"] = nullptr;
+    scratch.write("run/run.json", killed.dump());
+    const Answer answer = resume();
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(record().at("status"), "done");
+    EXPECT_EQ(record().at("windows_done"), 50);
+    EXPECT_EQ(lines_of_history("run"), whole);
+}
+
+TEST_F(OutsideProgram, BytesThatAreNoTextKeepErrorCodeAndRecord) {
+    const Answer answer = run("bytes");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "ev\ufffdnement");
+    EXPECT_EQ(record().at("exit_code"), 4);
+    EXPECT_SAYS(record().at("error").get<std::string>(), "ev\ufffdnement");
+    EXPECT_EQ(record().at("windows_done"), 3);
+}
+
+TEST_F(OutsideProgram, ControlCharactersDoNotReachTheTerminal) {
+    const Answer answer = run("colours");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "ValueError: \ufffd[31mred");
+    EXPECT_SAYS(answer.err, "Last lines of logs/grains.log");
+    EXPECT_SAYS(answer.err, "]0;mine\ufffdall is well");
+    for (const char letter : {'\033', '\007'})
+        EXPECT_EQ((answer.out + answer.err).find(letter), std::string::npos) << answer.err;
+}
+
+// Another user of the host may take the name of a doorbell first. It costs time, and is told.
+TEST_F(OutsideProgram, ADoorbellThatIsTakenIsTold) {
+    const std::string warning = "turbidite: warning: another process has the doorbell ";
+    const Answer python = run("taken");
+    EXPECT_EQ(python.code, 0) << python.err;
+    EXPECT_SAYS(text(run_folder() / "logs/grains.log"), warning);
+    const Answer cpp = run("taken " TURBIDITE_BUILD_DIR "/bin/turbidite-grains");
+    EXPECT_EQ(cpp.code, 0) << cpp.err;
+    EXPECT_SAYS(text(run_folder() / "logs/grains.log"), warning);
+    ASSERT_EQ(run("honest").code, 0);
+    EXPECT_EQ(text(run_folder() / "logs/grains.log").find(warning), std::string::npos);
+}
+
+}  // namespace
+}  // namespace turbidite
