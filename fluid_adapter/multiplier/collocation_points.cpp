@@ -258,6 +258,29 @@ void PointPlacement::find_pairs(const CellGrid& grid, const std::vector<Immersed
     }
 }
 
+/// Drops the points of grain a within `reach` of wall b or of any of its images: of a wall that is
+/// longer than half a period the one with the nearest middle need not be the nearest.
+void PointPlacement::keep_off_wall(const CellGrid& grid, const std::vector<ImmersedGrain>& grains,
+                                   int a, int b, const Eigen::Vector3d& apart, double reach) {
+    const ImmersedGrain& wall = grains[b];
+    const double outer = grains[a].radius + wall.radius + reach;
+    const Eigen::Matrix3d to_body = wall.orientation.transpose();
+    const auto most = [&](int axis) {
+        return grid.cyclic(axis) ? static_cast<int>(outer / grid.length(axis) + 0.5) : 0;
+    };
+    for (int i = -most(0); i <= most(0); ++i)
+        for (int j = -most(1); j <= most(1); ++j) {
+            const Eigen::Vector3d from_image =
+                apart + Eigen::Vector3d(i * grid.length(0), j * grid.length(1), 0.0);
+            if (from_image.norm() > outer) continue;
+            for (int c = first_[a]; c < first_[a + 1]; ++c)
+                if (candidates_[c].fate != Fate::near_wall &&
+                    wall.shape->least_distance(to_body * (from_image + candidates_[c].arm),
+                                               wall.radius) <= reach)
+                    candidates_[c].fate = Fate::near_wall;
+        }
+}
+
 void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a,
                              int b) {
     const double size = std::max(local_size_[a], local_size_[b]);
@@ -265,6 +288,7 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
     const double reach = size * (is_wall ? rules_.wall_distance : rules_.spacing);
     const double outer = grains[b].radius + reach;
     const Eigen::Vector3d apart = grid.nearest_image(grains[a].position - grains[b].position);
+    if (is_wall) return keep_off_wall(grid, grains, a, b, apart, reach);
     const Eigen::Matrix3d to_body = grains[b].orientation.transpose();
     for (int c = first_[a]; c < first_[a + 1]; ++c) {
         Candidate& candidate = candidates_[c];
@@ -272,8 +296,6 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
         if (candidate.fate == Fate::near_wall || from_b.squaredNorm() > outer * outer) continue;
         const Eigen::Vector3d in_b = to_body * from_b;
         if (grains[b].shape->least_distance(in_b, grains[b].radius) > reach) continue;
-        if (is_wall) candidate.fate = Fate::near_wall;
-        if (is_wall) continue;
         if (grains[b].shape->contains(in_b, grains[b].radius)) candidate.fate = Fate::inside_grain;
         if (candidate.fate == Fate::inside_grain) continue;
         for (int other = first_[b]; other < first_[b + 1]; ++other)

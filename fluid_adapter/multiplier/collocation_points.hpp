@@ -10,7 +10,7 @@
 //
 // Outward interpolation constrains fluid beyond the surface, so that the drag is that of a grain
 // larger by about a tenth of a cell: for a square array (Sangani & Acrivos 1982, area fraction 0.2,
-// D/16) it came out 4.0 % high (docs/validation.md), as published for such points. `fluid.hydrodynamic_radius` can
+// D/16) it came out 4.0 % high (docs/validation.md). `fluid.hydrodynamic_radius` can
 // calibrate this.
 //
 // The rules, in this order. Rules 1-3 are applied to all candidates, not to those that survive an
@@ -126,6 +126,8 @@ class PointPlacement {
     void find_pairs(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void apply_wall_rule(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b);
+    void keep_off_wall(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b,
+                       const Eigen::Vector3d& apart, double reach);
     void collect_boundary(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                           CollocationPoints& points);
     void collect_ring(const FluidField& field, const ImmersedGrain& grain, int g,

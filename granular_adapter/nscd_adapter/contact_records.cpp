@@ -35,7 +35,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     ContactRecord record;
     record.b = bodies.id[point.b];
     if (point.wall >= 0)
-        record.wall = engine.walls()[static_cast<std::size_t>(point.wall)].key;
+        record.wall = engine.walls_of_points()[static_cast<std::size_t>(point.wall)].key;
     else
         record.a = bodies.id[point.a];
     record.feature = point.feature;

@@ -85,7 +85,7 @@ std::optional<Overlap> ContactHost::overlap() const {
 
 std::vector<ContactForce> ContactHost::contacts() const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
-    const std::vector<nscd::Wall>& walls = std::as_const(*engine_).walls();
+    const std::vector<nscd::Wall>& walls = engine_->walls_of_points();
     const auto& points = engine_->points();
     std::vector<ContactForce> result;
     for (std::size_t k = 0; k < points.size(); ++k) {

@@ -370,8 +370,9 @@ std::vector<InnerWall> make_walls(Settings& settings, const Packing& grains,
     }
     InnerWalls read = read_walls_csv(file);
     if (read.problems.empty())
-        read.problems = check_walls(read.walls, grains, forms, file.filename().string(),
-                                    std::max(overlap_of(settings), touching_tolerance));
+        read.problems =
+            check_walls(read.walls, grains, forms, packing_box(settings), file.filename().string(),
+                        std::max(overlap_of(settings), touching_tolerance));
     if (settings.flag("fluid.enabled"))
         for (CaseProblem& problem :
              check_thickness(read.walls, file.filename().string(),

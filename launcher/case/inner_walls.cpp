@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "launcher/case/csv_table.hpp"
@@ -83,8 +84,39 @@ void check_together(CsvTable& table, const char* one, const char* other) {
                  csv_form().sentence, "Add the other.");
 }
 
+/// How far the images of a wall are that may reach grains in the box, the wall itself included.
+std::vector<Point2> image_shifts(const InnerWall& wall, const PackingBox& box) {
+    const auto most = [](bool periodic, double from, double to, double length) {
+        return periodic ? 1 + static_cast<int>(std::max(std::abs(from), std::abs(to)) / length) : 0;
+    };
+    const int across = most(box.periodic_x, wall.from[0], wall.to[0], box.width);
+    const int up = most(box.periodic_y, wall.from[1], wall.to[1], box.height);
+    std::vector<Point2> shifts;
+    for (int i = -across; i <= across; ++i)
+        for (int j = -up; j <= up; ++j) shifts.push_back({i * box.width, j * box.height});
+    return shifts;
+}
+
 Point2 middle(const InnerWall& wall) {
     return {0.5 * (wall.from[0] + wall.to[0]), 0.5 * (wall.from[1] + wall.to[1])};
+}
+
+std::vector<PlacedOutline> images(const InnerWall& wall, const PackingBox& box) {
+    const auto sum = [](const Point2& p, const Point2& q) {
+        return Point2{p[0] + q[0], p[1] + q[1]};
+    };
+    std::vector<PlacedOutline> plates;
+    for (const Point2& shift : image_shifts(wall, box))
+        plates.push_back(
+            {sum(middle(wall), shift), 0.0, {sum(wall.from, shift), sum(wall.to, shift)}});
+    return plates;
+}
+
+double smallest_gap(const std::vector<PlacedOutline>& plates, const PlacedOutline& grain) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const PlacedOutline& plate : plates)
+        smallest = std::min(smallest, surface_gap(plate, grain));
+    return smallest;
 }
 
 }  // namespace
@@ -131,14 +163,14 @@ std::string walls_csv(const std::vector<InnerWall>& walls) {
 }
 
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
-                                     const GrainForms& forms, const std::string& source,
-                                     double tolerance) {
+                                     const GrainForms& forms, const PackingBox& box,
+                                     const std::string& source, double tolerance) {
     std::vector<CaseProblem> problems;
     for (const InnerWall& wall : walls) {
-        const PlacedOutline plate{middle(wall), 0.0, {wall.from, wall.to}};
+        const std::vector<PlacedOutline> plates = images(wall, box);
         for (const PlacedGrain& grain : grains) {
             const double gap =
-                surface_gap(plate, placed_outline(grain, forms)) - 0.5 * wall.thickness;
+                smallest_gap(plates, placed_outline(grain, forms)) - 0.5 * wall.thickness;
             if (gap >= -tolerance || problems.size() >= most_problems) continue;
             problems.push_back(
                 {.source = source,

@@ -42,9 +42,11 @@ InnerWalls read_walls_csv(const std::filesystem::path& file);
 /// Writes every column; reading it back gives the same walls.
 std::string walls_csv(const std::vector<InnerWall>& walls);
 
-/// Reports grains that a plate cuts at the start by more than `tolerance` [D].
+/// Reports grains that a plate, or its image across cyclic sides, cuts at the start by more than
+/// `tolerance` [D].
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
-                                     const GrainForms& forms, const std::string& source,
+                                     const GrainForms& forms, const PackingBox& box,
+                                     const std::string& source,
                                      double tolerance = touching_tolerance);
 
 /// The fluid passes through plates thinner than this [cells].

@@ -28,8 +28,10 @@ void disc_corner(const WallView& view, double end, std::vector<ContactPoint>& po
     const Vec3 corner = view.wall.point + end * tangent;
     const Vec3 offset = view.bodies.position[view.body] - corner;
     const double distance = norm(offset), radius = view.bodies.radius[view.body];
-    if (!(distance - radius < view.alert) || distance == 0.0) return;
-    const Vec3 normal = (1.0 / distance) * offset;
+    if (!(distance - radius < view.alert)) return;
+    // A disc whose centre is the corner may leave along the wall.
+    const Vec3 normal =
+        distance > 0.0 ? (1.0 / distance) * offset : std::copysign(1.0, end) * tangent;
     points.push_back({-1, view.body, view.wall_index, end > 0.0 ? 1 : 2, distance - radius, normal,
                       Vec3{}, -radius * normal});
 }

@@ -8,6 +8,7 @@
 
 #include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
 #include "granular_adapter/nscd/detection/reach.hpp"
+#include "granular_adapter/nscd/detection/wall_images.hpp"
 #include "granular_adapter/nscd/engine/engine_state.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/vec3.hpp"
@@ -101,7 +102,9 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
                        approach_bound(bodies_, walls_, bodies_.twist, corners, dt),
                        laws_.law().range()});
     check_periods(bodies_.radius, settings_.box);
-    points_ = detection_.points(bodies_, walls_, settings_.gravity, reach_, alert_share);
+    placed_walls_ = placed_walls(reach_);
+    points_ = detection_.points(bodies_, placed_walls_, settings_.gravity, reach_, alert_share);
+    if (placed_walls_.size() > walls_.size()) name_images(placed_walls_, points_);
     keys_.clear();
     keys_.reserve(points_.size());
     deepest_ = 0.0;
@@ -111,9 +114,25 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
     }
 }
 
+/// Whether a body that crosses a side may touch another image of a wall than before.
+bool Engine::may_meet_images() const {
+    const PeriodicBox& box = settings_.box;
+    return (box.repeats(0) || box.repeats(1)) &&
+           std::any_of(walls_.begin(), walls_.end(),
+                       [](const Wall& wall) { return std::isfinite(wall.half_length); });
+}
+
+/// The walls, and what a body that looks `reach` beyond its surface may see of their images.
+std::vector<Wall> Engine::placed_walls(double reach) const {
+    double largest = 0.0;
+    for (const double radius : bodies_.radius) largest = std::max(largest, radius);
+    return with_images(walls_, bodies_, settings_.box, reach + (1.0 + 2.0 * alert_share) * largest);
+}
+
 /// Sets up the contact problem of these points under the laws, and the initial guess.
 void Engine::pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt) {
-    problem_ = laws_.pose({points_, keys_, bodies_, walls_}, free, std::move(mobilities), dt);
+    problem_ =
+        laws_.pose({points_, keys_, bodies_, placed_walls_}, free, std::move(mobilities), dt);
     guess_ = memory_.guesses(keys_, dt);
 }
 
@@ -136,8 +155,9 @@ SolverResult Engine::solve(double dt) {
 /// body's radius, among contacts that would end with an overlap.
 double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                           double dt) {
-    const std::vector<double> found = gap_shortfalls(
-        {points_, problem_.contacts, bodies_, walls_, velocities, dt}, detection_.polygons());
+    const std::vector<double> found =
+        gap_shortfalls({points_, problem_.contacts, bodies_, placed_walls_, velocities, dt},
+                       detection_.polygons());
     double largest = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         Contact& contact = problem_.contacts[k];
@@ -165,13 +185,13 @@ void Engine::move(double dt, const std::vector<Twist>& velocities) {
 }
 
 double Engine::max_penetration() const {
-    return detection_.deepest_overlap(bodies_, walls_);
+    return detection_.deepest_overlap(bodies_, placed_walls(0.0));
 }
 
 double Engine::max_penetration_after_move() const {
-    // Bodies moved farther than the last step detected, or some were removed: all pairs must be
-    // tested.
-    if (!(moved_ <= reach_)) return max_penetration();
+    // Bodies moved farther than the last step detected, some were removed, or one may have crossed
+    // a side and touch another image of a plate: all pairs must be tested.
+    if (!(moved_ <= reach_) || may_meet_images()) return max_penetration();
     return detection_.deepest_overlap(bodies_, walls_, points_);
 }
 
@@ -226,7 +246,7 @@ void Engine::take_memory(SavedMemory memory) {
 
 ContactKey Engine::key(const ContactPoint& point) const {
     if (point.wall >= 0)
-        return {walls_[static_cast<std::size_t>(point.wall)].key, bodies_.id[point.b], 1,
+        return {placed_walls_[static_cast<std::size_t>(point.wall)].key, bodies_.id[point.b], 1,
                 point.feature};
     return {bodies_.id[point.a], bodies_.id[point.b], 0, point.feature};
 }
@@ -235,7 +255,7 @@ ContactKey Engine::key(const ContactPoint& point) const {
 /// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
     memory_.remember(keys_, result.impulses, dt);
-    laws_.find_states({points_, keys_, bodies_, walls_}, result.impulses);
+    laws_.find_states({points_, keys_, bodies_, placed_walls_}, result.impulses);
     impulses_ = laws_.felt(result.impulses);
     solution_ = std::move(result.impulses);
     bodies_.twist = std::move(result.velocities);

@@ -73,6 +73,9 @@ class Engine {
     const std::vector<Wall>& walls() const { return walls_; }
     /// Hosts may change a wall's motion between two steps.
     std::vector<Wall>& walls() { return walls_; }
+    /// The walls of the last step's contact points: walls(), and behind them the images of plates
+    /// across periodic sides.
+    const std::vector<Wall>& walls_of_points() const { return placed_walls_; }
     const EngineSettings& settings() const { return settings_; }
 
     /// Replaces the surfaces, for a host that knows its materials late; laws and contact memory are
@@ -135,6 +138,8 @@ class Engine {
     void restore_memory(const std::vector<char>& state);
 
  private:
+    std::vector<Wall> placed_walls(double reach) const;
+    bool may_meet_images() const;
     void detect(const std::vector<Twist>& free, double dt);
     void pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt);
     SolverResult solve(double dt);
@@ -150,6 +155,7 @@ class Engine {
     EngineSettings settings_;
     Detection detection_;
     std::vector<Wall> walls_;
+    std::vector<Wall> placed_walls_;  // with_images of the last detection
     ContactLaws laws_;
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;

@@ -72,6 +72,44 @@ TEST(CollocationPoints, AGrainAcrossACyclicSideHasAllItsPoints) {
     }
 }
 
+/// A point interpolates from cells further out than itself, also when the grain has turned.
+TEST(CollocationPoints, StencilsReachOutwardsHoweverTheGrainHasTurned) {
+    MemoryField field(64, 64, Side::wall);
+    for (const double angle : {0.0, 1.0, 1.7, 3.1, 4.5}) {
+        ImmersedGrain grain = disc(1, 2.013, 2.007);
+        grain.orientation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        const CollocationPoints points = place(field, {grain});
+        ASSERT_EQ(boundary_points(points, 0), full_ring);
+        for (int p = 0; p < full_ring; ++p) {
+            const StencilBox& box = points.box[p];
+            const double out_x = h * (0.5 * (box.low_x + box.high_x) + 0.5) - 2.013,
+                         out_y = h * (0.5 * (box.low_y + box.high_y) + 0.5) - 2.007;
+            EXPECT_GE(std::abs(out_x), std::abs(points.arm_x[p]) - 1e-9) << angle;
+            EXPECT_GE(std::abs(out_y), std::abs(points.arm_y[p]) - 1e-9) << angle;
+        }
+    }
+}
+
+/// A plate of 3.9 D below a disc, in a period of 4 D: the same points are dropped wherever the disc
+/// is, also where the two ends of the plate are below it.
+TEST(CollocationPoints, PointsNearAnyImageOfAWallAreDropped) {
+    MemoryField field(64, 64, Side::cyclic);
+    const double half = 1.95, thick = 0.0625, radius = half + thick;
+    const auto outline = make_shape(
+        {"polygon",
+         {1.0, -thick / radius, 1.0, thick / radius, -1.0, thick / radius, -1.0, -thick / radius}});
+    ImmersedGrain plate;
+    plate.id = -5;
+    plate.shape = outline.get();
+    plate.radius = std::hypot(radius, thick);
+    plate.position = {2.0, 1.0, 0.0};
+    plate.has_boundary_points = false;
+    const int expected = place(field, {disc(1, 2.0, 1.6), plate}).dropped.near_wall;
+    EXPECT_GT(expected, 3);
+    for (const double x : {0.0, 3.5, 3.75})
+        EXPECT_EQ(place(field, {disc(1, x, 1.6), plate}).dropped.near_wall, expected) << x;
+}
+
 TEST(CollocationPoints, PointsNearAWallAreDropped) {
     MemoryField field(64, 64, Side::wall);
     // The disc touches the floor: points with 8 h + 8 h sin(angle) < 2 h are dropped, that is
