@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "coupler/keys/gone_keys.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/keys/nearest_name.hpp"
 
@@ -121,6 +123,12 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
     if (is_group(table, entry.key)) {
         problem.fault = "is a group of keys, not a key";
         problem.allowed = "Write its keys below it, indented.";
+        return problem;
+    }
+    if (std::string why = why_gone(entry.key); !why.empty()) {
+        problem.fault = "is no longer a key";
+        problem.allowed = std::move(why);
+        problem.remedy = "Remove it.";
         return problem;
     }
     const KeySpec& nearest = *find_key(table, nearest_name(entry.key, names_of(table)));

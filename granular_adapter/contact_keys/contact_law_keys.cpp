@@ -33,19 +33,6 @@ Ruling sliding_holds_less(const Settings& s) {
         "Increase it."};
 }
 
-// With restitution e an impact adds energy unless theta <= 1/(1 + e).
-Ruling theta_makes_no_energy(const Settings& s) {
-    const double e =
-        std::max(s.real("contact.restitution"), s.real("contact.restitution_tangential"));
-    const double most = 1.0 / (1.0 + e);
-    if (s.real("contact.theta") <= most * (1.0 + 1e-12)) return std::nullopt;
-    return Objection{
-        fmt::format(
-            "With a restitution e = {}, impacts create energy if theta is above 1/(1 + e) = {}.",
-            real_text(e), real_text(most)),
-        "Use 0.5, which is valid for every restitution."};
-}
-
 Ruling moreau_has_one_restitution(const Settings& s) {
     if (s.text("contact.impact") != "moreau" || s.real("contact.restitution_tangential") == 0.0)
         return std::nullopt;
@@ -205,9 +192,6 @@ KeyGroup contact_law_keys() {
                  .idle = without_bonds},
             },
         .rules = {{"contact.static_friction", {"contact.friction"}, sliding_holds_less},
-                  {"contact.theta",
-                   {"contact.restitution", "contact.restitution_tangential"},
-                   theta_makes_no_energy},
                   {"contact.restitution_tangential",
                    {"contact.impact"},
                    moreau_has_one_restitution},

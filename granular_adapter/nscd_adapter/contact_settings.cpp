@@ -102,7 +102,6 @@ void take_adhesion(const Settings& settings, nscd::EngineSettings& result) {
 nscd::EngineSettings contact_settings(const Settings& settings) {
     nscd::EngineSettings result;
     const double velocity = settings.real("run.velocity_scale");
-    result.theta = settings.real("contact.theta");
     result.surfaces = {surface(settings)};
     take(settings, "contact.law", result.law.friction);
     take(settings, "contact.impact", result.law.impact);

@@ -37,8 +37,8 @@ std::vector<T> vector_of(const python::object& list, Read read) {
     return result;
 }
 
-/// contact.* from {"theta": "0.5", ...}, checked like those of a case file, with defaults filled
-/// in.
+/// contact.* from {"tolerance": "1e-3", ...}, checked like those of a case file, with defaults
+/// filled in.
 Settings checked_settings(const python::dict& options) {
     CaseEntries entries;
     const python::list items = options.items();

@@ -49,15 +49,6 @@ std::optional<Objection> unfit(const Settings& s, const std::string& group) {
                                      "static_friction = {}, friction = {}.",
                                      sticking, sliding),
                          "Increase static_friction."};
-    const double e = std::max(
-        given(s, group + ".restitution", fallback(s, "restitution")),
-        given(s, group + ".restitution_tangential", fallback(s, "restitution_tangential")));
-    const double most = 1.0 / (1.0 + e);
-    if (s.real("contact.theta") > most * (1.0 + 1e-12))
-        return Objection{fmt::format("With a restitution e = {}, impacts create energy if theta is "
-                                     "above 1/(1 + e) = {}, but contact.theta = {}.",
-                                     e, most, s.text("contact.theta")),
-                         "Use contact.theta: 0.5, which is valid for every restitution."};
     return std::nullopt;
 }
 
@@ -93,7 +84,7 @@ void check_materials(const Settings& settings, CaseEntries& entries) {
                             adapters_that([](const GrainsAdapter& a) { return a.materials; }))};
         else if (!pair.empty())
             objection = unknown_material(pair, names);
-        if (!objection && settings.has("contact.theta")) objection = unfit(settings, group);
+        if (!objection && settings.has("contact.law")) objection = unfit(settings, group);
         if (objection) object(key, *objection, settings, entries);
     }
 }

@@ -85,10 +85,10 @@ TEST_F(LawsInRuns, ALawThatLacksAParameterIsRefusedByName) {
     scratch.write("case.yaml", the_case);
     const Answer answer = shell(std::string(TURBIDITE_PROGRAM) +
                                 " check case.yaml --set contact.adhesion=cohesion "
-                                "--set contact.theta=0.7 --set contact.friction=-1");
+                                "--set contact.solver=jacobi --set contact.friction=-1");
     EXPECT_EQ(answer.code, 2);
     for (const char* said :
-         {"contact.adhesion_shear is missing", "contact.theta = 0.7", "contact.friction = -1"})
+         {"contact.adhesion_shear is missing", "contact.solver = jacobi", "contact.friction = -1"})
         EXPECT_SAYS(answer.err, said);
 }
 

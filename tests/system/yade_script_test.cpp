@@ -32,7 +32,7 @@ O.bodies.append(turbidite_contact.disc((4, 1, 7), 0.5, material=0, fixed=True))
 O.bodies[31].state.vel, O.bodies[31].state.angVel = Vector3(0.25, 0, 0), Vector3(0, 0, 3)
 O.bodies.append([utils.wall(0, 1, material=1), utils.wall(0, 0, material=1), utils.wall(6.5, 0, material=1)])
 O.dt = 4e-3
-O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0), theta=0.5)
+O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0))
 O.run(400, True)
 with open('states.txt', 'w') as file:
     for body in (O.bodies[i] for i in range(32)):

@@ -2,7 +2,7 @@
 """Rigid grains by non-smooth contact dynamics in your own YADE script, without coupling:
 
     import turbidite_contact
-    O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0), theta=0.5)
+    O.engines = turbidite_contact.engines(gravity=(0, -9.81, 0))
 
 docs/yade.md explains which bodies, materials and forces are supported, and how results reach YADE's tools.
 """
@@ -28,7 +28,7 @@ def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
     gravity  [m/s2], in the plane: no z component
     show     interval in steps at which O.interactions and O.forces show the contacts (0: never); recorders that
              read them must run at multiples of it, after these engines
-    contact  theta, tolerance, iterations, law, solver, ...: the keys of `turbidite keys` in the group contact,
+    contact  tolerance, iterations, law, solver, ...: the keys of `turbidite keys` in the group contact,
              in SI units, except friction, which is that of the bodies' materials
 
     Engines that add forces (O.forces.addF) belong after the first of the list, all others after the last.

@@ -342,10 +342,12 @@ class Refusals(SceneTest):
             turbidite_contact.engines(gravity=(0, 0, -9.81))
         with self.assertRaisesRegex(turbidite_contact.Refused, 'frictionAngle'):
             turbidite_contact.engines(friction=0.3)
-        with self.assertRaisesRegex(RuntimeError, 'contact.theta = 0.2'):
-            turbidite_contact.engines(theta=0.2)
-        with self.assertRaisesRegex(RuntimeError, '(?s)contact.thera.*Did you mean contact.theta'):
-            turbidite_contact.engines(thera=0.5)
+        with self.assertRaisesRegex(RuntimeError, 'contact.tolerance = 2'):
+            turbidite_contact.engines(tolerance=2)
+        with self.assertRaisesRegex(RuntimeError, 'contact.theta is no longer a key'):
+            turbidite_contact.engines(theta=0.5)
+        with self.assertRaisesRegex(RuntimeError, '(?s)contact.tolerence.*Did you mean contact.tolerance'):
+            turbidite_contact.engines(tolerence=0.5)
 
     def test_an_error_ends_the_run(self):
         body = self.scene()

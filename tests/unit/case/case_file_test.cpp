@@ -130,12 +130,13 @@ TEST_F(CaseFile, GroupGivenAValue) {
 
 TEST_F(CaseFile, AllErrorsAtOnce) {
     const std::string text =
-        refusal("contact:\n  friction: -0.3\n  theta: 0.2\nlimits: {stall: 3}\n", {"time.step=0"});
+        refusal("contact:\n  friction: -0.3\n  recovery_fraction: 1.2\nlimits: {stall: 3}\n",
+                {"time.step=0"});
     EXPECT_SAYS(text,
                 "box.yaml line 11: contact.friction = -0.3\n  A friction coefficient must be "
                 "zero or positive. Use 0 for smooth grains.");
-    EXPECT_SAYS(text, "box.yaml line 12: contact.theta = 0.2");
-    EXPECT_SAYS(text, "It must be a number from 0.5 up to 1.");
+    EXPECT_SAYS(text, "box.yaml line 12: contact.recovery_fraction = 1.2");
+    EXPECT_SAYS(text, "It must be a number from 0 up to 1");
     EXPECT_SAYS(text, "limits.stall is unknown");
     EXPECT_SAYS(text, "--set: time.step = 0");
     EXPECT_SAYS(text, "4 errors, nothing was started. Exit code 2.");

@@ -56,8 +56,8 @@ TEST_F(IdleKeys, AreNamedWithTheReason) {
         {{"contact.restitution_speed=0.1"}, "contact.restitution_speed has no effect"},
         {{"contact.md_overlap=0.01"},
          "contact.md_overlap has no effect with grains.adapter: yade-nscd"},
-        {{"grains.adapter=yade-md", "contact.theta=0.6"},
-         "contact.theta has no effect with grains.adapter: yade-md"},
+        {{"grains.adapter=yade-md", "contact.tolerance=0.01"},
+         "contact.tolerance has no effect with grains.adapter: yade-md"},
         {{"scales.compacity=0.1"}, "scales.compacity has no effect with scales.kind: avalanche"},
         {{"scales.viscosity=0.1"}, "scales.viscosity has no effect without scales.kind: physical"},
         // Also if the value is the default, since it was given on purpose.

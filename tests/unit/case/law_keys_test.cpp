@@ -70,15 +70,12 @@ TEST_F(LawKeys, ValuesOutOfRange) {
                 "contact.static_friction = 0.2");
 }
 
-// theta <= 1/(1 + e); 1/2 is valid for every e.
-TEST_F(LawKeys, ThetaThatWouldCreateEnergy) {
-    EXPECT_EQ(refusal({"contact.restitution=1"}), "");
-    EXPECT_EQ(refusal({"contact.restitution=0.6", "contact.theta=0.625"}), "");
-    const std::string text = refusal({"contact.restitution=0.6", "contact.theta=0.63"});
-    EXPECT_SAYS(text, "contact.theta = 0.63");
-    EXPECT_SAYS(text, "1/(1 + e) = 0.625");
-    EXPECT_SAYS(refusal({"contact.restitution_tangential=0.6", "contact.theta=0.63"}),
-                "contact.theta = 0.63");
+// The scheme's theta drops out of the motion of q (theta_scheme.hpp).
+TEST_F(LawKeys, AThetaIsToldWhyItWent) {
+    const std::string text = refusal({"contact.theta=0.5"});
+    EXPECT_SAYS(text, "contact.theta is no longer a key");
+    EXPECT_SAYS(text, "It changed nothing");
+    EXPECT_EQ(text.find("Did you mean"), std::string::npos) << text;
 }
 
 TEST_F(LawKeys, MoreauHasOneRestitution) {

@@ -85,7 +85,6 @@ TEST_F(RichCase, RowsThatMakeNoSenseAreRefused) {
 TEST_F(RichCase, MaterialsMustFitTogether) {
     EXPECT_SAYS(refusal("", {"contact.pairs.steel-glass.friction=0.1"}),
                 "There is no material glass; there are default, rubber, steel.");
-    EXPECT_SAYS(refusal("", {"contact.theta=0.9"}), "theta is above 1/(1 + e)");
     EXPECT_SAYS(refusal("", {"contact.law=static-dynamic", "contact.static_friction=0.5"}),
                 "contact.materials.rubber.");
     EXPECT_SAYS(refusal("", {"contact.materials.steel.restitution=2"}),

@@ -16,7 +16,6 @@ namespace turbidite {
 /// Keys required by every contact case.
 inline void set_contact_keys(Settings& settings) {
     settings.set("contact.friction", 0.3);
-    settings.set("contact.theta", 0.5);
     settings.set("contact.tolerance", 1e-10);
     settings.set("contact.iterations", std::int64_t{100000});
     settings.set("contact.recovery_fraction", 0.2);
