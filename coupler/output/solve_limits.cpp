@@ -30,7 +30,16 @@ std::string multiplier_sentence(const RunStatistics& s, const SolveLimits& limit
         s.maxima.fluid->slip, limits.slip);
 }
 
+std::string once_corrected_sentence(const RunStatistics& s, const SolveLimits& limits) {
+    return fmt::format(
+        "in {} of {} windows viscosity with rigid grains used up its {} iterations "
+        "(fluid.splitting_iterations) or broke down. Allow more iterations, or use a smaller "
+        "time.step.",
+        s.maxima.fluid->unconverged_splitting_windows, s.windows_done, limits.splitting.iterations);
+}
+
 std::string splitting_sentence(const RunStatistics& s, const SolveLimits& limits) {
+    if (limits.corrects_once) return once_corrected_sentence(s, limits);
     return fmt::format(
         "in {} of {} windows pressure or viscosity with rigid grains used up its {} iterations "
         "(fluid.splitting_iterations) or broke down; rms divergence up to {:.1e} u_c/D, {:g} "
@@ -57,6 +66,8 @@ SolveLimits solve_limits(const Settings& settings) {
     limits.multipliers =
         limit(settings, "fluid.multiplier_iterations", "fluid.multiplier_tolerance");
     limits.splitting = limit(settings, "fluid.splitting_iterations", "fluid.splitting_tolerance");
+    limits.corrects_once = settings.has("fluid.splitting") &&
+                           settings.text("fluid.splitting") == "explicit-multiplier";
     limits.joint = limit(settings, "coupling.iterations", "coupling.tolerance");
     if (settings.has("run.slip_tolerance")) limits.slip = settings.real("run.slip_tolerance");
     return limits;

@@ -17,11 +17,12 @@ struct SolveLimit {
 };
 
 struct SolveLimits {
-    SolveLimit contact;      ///< contact.iterations, contact.tolerance (natural map, scaled)
-    SolveLimit splitting;    ///< fluid.splitting_iterations, fluid.splitting_tolerance [u_c/D]
-    SolveLimit multipliers;  ///< fluid.multiplier_iterations, fluid.multiplier_tolerance [u_c]
-    SolveLimit joint;        ///< coupling.iterations, coupling.tolerance [u_c]
-    double slip = 0.0;       ///< run.slip_tolerance [u_c]
+    SolveLimit contact;          ///< contact.iterations, contact.tolerance (natural map, scaled)
+    SolveLimit splitting;        ///< fluid.splitting_iterations, fluid.splitting_tolerance [u_c/D]
+    bool corrects_once = false;  ///< explicit-multiplier, which has no such tolerance
+    SolveLimit multipliers;      ///< fluid.multiplier_iterations, fluid.multiplier_tolerance [u_c]
+    SolveLimit joint;            ///< coupling.iterations, coupling.tolerance [u_c]
+    double slip = 0.0;           ///< run.slip_tolerance [u_c]
 };
 
 /// Limits whose keys the case does not have stay 0: their solves do not occur in it.

@@ -38,25 +38,38 @@ void CoupledStep::place_grains(const CollocationPoints& points) {
 /// enough where viscosity reaches less than a cell per window, and stagnates at nu dt/h2 = 3.
 double CoupledStep::slip_reduction() const {
     constexpr double little_viscosity = 0.2;  // nu dt/h2
-    return step_.viscosity() * dt_ < little_viscosity * step_.cell_area() ? 1e-2 : 1e-3;
+    return viscous_number() < little_viscosity ? 1e-2 : 1e-3;
+}
+
+/// nu dt/h2
+double CoupledStep::viscous_number() const {
+    return step_.viscosity() * dt_ / step_.cell_area();
+}
+
+bool CoupledStep::one_viscous_iteration_will_do() const {
+    return viscous_number() <= 0.05;
 }
 
 /// The predicted f is explicit in time: it has the shortest waves 8 nu dt/h2 times too strong, of
 /// which at most half may remain. One iteration leaves a twentieth up to nu dt/h2 = 0.05.
-IterationLimit CoupledStep::one_viscous_correction() const {
-    const double a = step_.viscosity() * dt_ / step_.cell_area();
-    if (a <= 0.05) return {1, 0.0, 0.1};
-    return {200, 0.0, std::min(0.1, 0.5 / (8.0 * a))};
+IterationLimit CoupledStep::one_viscous_correction(int most) const {
+    if (one_viscous_iteration_will_do()) return {1, 0.0, 0.1};
+    return {most, 0.0, std::min(0.1, 0.5 / (8.0 * viscous_number()))};
 }
 
 CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& given) {
     CoupledLimits limits = given;
-    if (!limits.iterated) limits.viscosity = one_viscous_correction();
+    if (!limits.iterated) limits.viscosity = one_viscous_correction(given.viscosity.most);
     limits.viscosity.slip_reduction = limits.pressure.slip_reduction = slip_reduction();
     CoupledReport report;
     // Each disturbs the other: solved is what needs no iteration any more.
     while (correct_viscosity(grains, limits, report) && correct_pressure(grains, limits, report))
         if (!limits.iterated) break;
+    const auto met = [](const IterationResult& result, bool to_tolerance) {
+        return !result.broke_down && (result.converged || !to_tolerance);
+    };
+    report.converged = met(report.viscosity, limits.iterated || !one_viscous_iteration_will_do()) &&
+                       met(report.pressure, limits.iterated);
     return report;
 }
 

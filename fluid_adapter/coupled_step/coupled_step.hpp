@@ -22,8 +22,8 @@
 namespace turbidite {
 
 struct CoupledLimits {
-    /// To the tolerances. Otherwise one iteration of pressure, and viscosity to a tenth of what was
-    /// missing.
+    /// To the tolerances. Otherwise one iteration of pressure, and viscosity, within its limit of
+    /// iterations, to a tenth of what was missing.
     bool iterated = false;
     IterationLimit viscosity;  ///< tolerance: rms of the missing viscous acceleration [m/s2]
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
@@ -33,6 +33,7 @@ struct CoupledReport {
     IterationResult viscosity, pressure;  ///< residuals as in CoupledLimits
     MultiplierResult slip;                ///< if iterated
     int corrections = 0;                  ///< of viscosity
+    bool converged = true;                ///< what was asked for was reached
 };
 
 class CoupledStep {
@@ -66,8 +67,10 @@ class CoupledStep {
  private:
     bool correct_viscosity(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
     bool correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
+    double viscous_number() const;
+    bool one_viscous_iteration_will_do() const;
     double slip_reduction() const;
-    IterationLimit one_viscous_correction() const;
+    IterationLimit one_viscous_correction(int most) const;
     void add_impulses(double sign, RowsOfTwo& u);
 
     BoxStep& step_;

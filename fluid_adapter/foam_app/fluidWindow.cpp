@@ -14,8 +14,10 @@ namespace {
 CoupledLimits coupled_limits(const Settings& settings) {
     const RunValues run = run_values(settings);
     CoupledLimits limits;
-    if (splitting_of(settings) != Splitting::implicit_multiplier) return limits;
+    if (!corrects_with_rigid_grains(settings)) return limits;
     const auto most = static_cast<int>(settings.integer("fluid.splitting_iterations"));
+    limits.viscosity.most = most;
+    if (splitting_of(settings) != Splitting::implicit_multiplier) return limits;
     limits.iterated = true;
     const double rate = settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter;
     limits.viscosity = {most, rate * run.velocity};
@@ -178,12 +180,8 @@ void FluidWindow::note(const CoupledReport& result) {
     splitting.viscous_iterations += result.viscosity.iterations;
     splitting.divergence = result.pressure.residual;
     splitting.viscous_residual = result.viscosity.residual;
-    splitting.converged =
-        splitting.converged && !result.pressure.broke_down && !result.viscosity.broke_down;
-    if (!coupled_limits_.iterated) return;
-    splitting.converged =
-        splitting.converged && result.pressure.converged && result.viscosity.converged;
-    report_.multiplier_residual = result.slip.residual;
+    splitting.converged = splitting.converged && result.converged;
+    if (coupled_limits_.iterated) report_.multiplier_residual = result.slip.residual;
 }
 
 /// Accumulates the results of all solves of a window.

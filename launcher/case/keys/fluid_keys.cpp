@@ -219,6 +219,10 @@ std::string without_iterated_splitting(const Settings& s) {
     return unless(is(s, "fluid.splitting", "implicit-multiplier"), s,
                   "unless fluid.splitting is implicit-multiplier");
 }
+std::string without_rigid_grains(const Settings& s) {
+    return unless(!is(s, "fluid.splitting", "marchuk-yanenko"), s,
+                  "with fluid.splitting: marchuk-yanenko");
+}
 bool rows_stretch(const Settings& s) {
     return is(s, "fluid.enabled", "true") && s.has("fluid.stretch_ratio") &&
            s.real("fluid.stretch_ratio") > 1.0;
@@ -340,8 +344,8 @@ std::vector<KeySpec> flow_keys() {
          .fallback = "200",
          .range = {.lower = 1.0, .upper = 10000.0},
          .help = "largest number of iterations of pressure, and of viscosity, per contact "
-                 "solve",
-         .idle = without_iterated_splitting},
+                 "solve; explicit-multiplier: of viscosity",
+         .idle = without_rigid_grains},
         {.name = "fluid.acceleration",
          .type = KeyType::real_list,
          .unit = "u_c/t_c",
@@ -361,7 +365,7 @@ std::vector<KeySpec> multiplier_keys() {
          .type = KeyType::real,
          .fallback = "1",
          .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
-         .help = "radius of the rigid disc in the fluid over that of the grain",
+         .help = "size of the rigid body in the fluid over that of the grain, whatever its shape",
          .idle = without_fluid},
         {.name = "fluid.points",
          .type = KeyType::choice,

@@ -73,6 +73,13 @@ CoupledReport play(Tank& tank, CoupledStep& coupled, const CoupledLimits& limits
     return report;
 }
 
+/// explicit-multiplier, with at most so many iterations of viscosity.
+CoupledLimits corrected_once(int most = 200) {
+    CoupledLimits limits;
+    limits.viscosity.most = most;
+    return limits;
+}
+
 double energy(Tank& tank) {
     double sum = 0.0;
     for (int axis = 0; axis < 2; ++axis)
@@ -91,9 +98,10 @@ TEST_P(Windows, ThatAreCorrectedOnceAreStable) {
     const double begin = energy(tank);
     double before = begin;
     for (int window = 0; window < 50; ++window) {
-        const CoupledReport report = play(tank, coupled, {}, transport);
+        const CoupledReport report = play(tank, coupled, corrected_once(), transport);
         EXPECT_EQ(report.pressure.iterations, 1);
         EXPECT_GE(report.viscosity.iterations, 1);
+        EXPECT_TRUE(report.converged);
         const double now = energy(tank);
         if (window > 0) {
             ASSERT_LT(now, std::max(1.05 * before, 1e-4 * begin)) << "window " << window;
@@ -114,7 +122,7 @@ TEST(Window, CorrectedOnceFollowsTheSolved) {
     limits.viscosity = {400, 1e-4};
     limits.pressure = {400, 1e-5};
     for (int window = 0; window < 10; ++window) {
-        play(once, coupled_once, {}, transport);
+        play(once, coupled_once, corrected_once(), transport);
         EXPECT_TRUE(play(solved, coupled_solved, limits, transport).pressure.converged);
     }
     double largest = 0.0, difference = 0.0;
@@ -136,7 +144,7 @@ TEST_P(Windows, WithTransportOfSecondOrderAreStable) {
     const double begin = energy(tank);
     double before = begin;
     for (int window = 0; window < 50; ++window) {
-        play(tank, coupled, {}, move);
+        play(tank, coupled, corrected_once(), move);
         const double now = energy(tank);
         if (window > 0) {
             ASSERT_LT(now, std::max(1.05 * before, 1e-4 * begin)) << "window " << window;
@@ -188,6 +196,17 @@ TEST(Window, OfSecondOrderDependsLessOnTheStep) {
                 second[1]);
     EXPECT_LT(second[0], 0.5 * first[0]);
     EXPECT_GT(second[0] / second[1], 2.5);
+}
+
+/// nu dt/h2 = 64: two iterations are too few, and the report says so.
+TEST(Window, CorrectedOnceTellsThatViscosityUsedUpItsIterations) {
+    for (const int most : {2, 200}) {
+        Tank tank({Side::wall}, 100.0);
+        CoupledStep coupled(tank.step);
+        const CoupledReport report = play(tank, coupled, corrected_once(most), transport);
+        EXPECT_EQ(report.converged, most == 200);
+        EXPECT_EQ(report.viscosity.iterations == most, most == 2);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Viscosities, Windows, testing::Values(0.01, 0.3, 5.0, 100.0),
