@@ -38,6 +38,7 @@ void add(ContactReport& total, const ContactReport& share) {
     total.residual = largest_given(total.residual, share.residual);
     total.quad = largest_given(total.quad, share.quad);
     total.max = largest_given(total.max, share.max);
+    total.contact_violation = largest_given(total.contact_violation, share.contact_violation);
     total.converged = total.converged && share.converged;
     total.max_penetration = largest(total.max_penetration, share.max_penetration);
     total.removed += share.removed;

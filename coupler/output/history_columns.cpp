@@ -180,6 +180,11 @@ const std::vector<Column> columns = {
      }},
     {"contact_work", [](Cell c) { return work(c, &GrainWork::contacts); }},
     {"fluid_work", [](Cell c) { return c.row.fluid ? work(c, &GrainWork::fluid) : std::string(); }},
+    {"contact_violation",
+     [](Cell c) {
+         const auto& violation = c.row.state->report.contact_violation;
+         return violation ? number(*violation / c.run.velocity) : std::string();
+     }},
 };
 
 template <class Part>

@@ -48,6 +48,7 @@ nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
                                     {"fluid_balance", fluid.balance},
                                     {"divergence", fluid.divergence},
                                     {"unconverged_windows", maxima.unconverged_windows}};
+    if (maxima.contact_violation) table["contact_violation"] = *maxima.contact_violation;
     if (maxima.fluid) {
         table["final_divergence"] = fluid.final_divergence;
         table["courant"] = fluid.courant;

@@ -52,6 +52,9 @@ void RunStatistics::take_in(const WindowResult& result) {
     ++windows_done;
     maxima.penetration =
         std::max(maxima.penetration, result.state.report.max_penetration / diameter_);
+    if (const auto violation = result.state.report.contact_violation)
+        maxima.contact_violation =
+            largest(maxima.contact_violation.value_or(0.0), *violation / velocity_);
     if (result.grain_balance)
         maxima.grain_balance = std::max(maxima.grain_balance, result.grain_balance->defect);
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;

@@ -13,10 +13,10 @@ namespace turbidite {
 /// Major versions must be equal; the smaller of the two minor versions applies, down to
 /// `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 7;
+inline constexpr std::int32_t protocol_minor = 8;
 
-/// The oldest supported minor version: since then checkpoints have messages of their own.
-inline constexpr std::int32_t oldest_minor = 7;
+/// The oldest supported minor version: since then a ContactReport has the contact violation.
+inline constexpr std::int32_t oldest_minor = 8;
 
 enum class Role : std::int32_t { coupler = 0, fluid = 1, grains = 2 };
 
@@ -58,8 +58,8 @@ struct Expectation {
     std::int32_t dimension = 2;
     std::int32_t ranks = 1;
     std::string case_hash;
-    std::string scheme;              ///< run.scheme, for messages
-    bool effective_inertia = false;  ///< the scheme's order contains a FreeResponse
+    std::string scheme;                   ///< run.scheme, for messages
+    bool effective_inertia = false;       ///< the scheme's order contains a FreeResponse
     bool restores_within_window = false;  ///< the scheme repeats windows of the grains
     std::vector<std::string> shapes;
 };

@@ -112,6 +112,9 @@ struct ContactReport {
     /// Quad and Max: the change by one more update of every contact (nscd/problem/residual.hpp).
     std::optional<double> quad;
     std::optional<double> max;
+    /// With the state: how far the velocities at the end of the window are from the contact
+    /// conditions, max |min(u_n + b_n, W_nn r_n)| over the contact points [m/s].
+    std::optional<double> contact_violation = {};
 };
 
 /// Bits of ContactRecord::status; none set: sticking.

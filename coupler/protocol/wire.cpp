@@ -178,6 +178,7 @@ constexpr auto visit_contact_report = [](auto& code, auto& r) {
     code(r.contacts), code(r.iterations), maybe(code, r.residual, plain), code(r.converged);
     code(r.max_penetration), code(r.removed), code(r.wall_seconds);
     maybe(code, r.quad, plain), maybe(code, r.max, plain);
+    maybe(code, r.contact_violation, plain);
 };
 
 constexpr auto visit_contact = [](auto& code, auto& c) {

@@ -59,6 +59,7 @@ NumberTable contact_report(const ContactReport& report) {
     entry("residual", report.residual);
     entry("converged", report.converged ? 1.0 : 0.0);
     entry("largest overlap", report.max_penetration);
+    entry("contact violation", report.contact_violation);
     entry("removed grains", static_cast<double>(report.removed));
     return table;
 }

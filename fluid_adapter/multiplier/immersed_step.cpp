@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "fluid_adapter/multiplier/splitting.hpp"
 
@@ -97,7 +98,7 @@ void ImmersedStep::take(const std::vector<GrainState>& states, const Window& win
     for (const ImmersedGrain& plate : plates_.bodies(window.time, window.step))
         grains_.push_back(plate);
     contact_impulses_.assign(grains_.size(), Planar::Zero());
-    mismatch_.assign(grains_.size(), 0.0);
+    pushed_ = false;
     placement_.place(field_, grains_, points_);
 }
 
@@ -151,11 +152,15 @@ MultiplierSettings ImmersedStep::continued() const {
 MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {
     changes_.assign(grains_.size(), Planar::Zero());
     solved_.assign(grains_.size(), Planar::Zero());
+    std::vector<std::uint8_t> received(states_, 0);
     for (const GrainState& state : with_contacts) {
         const auto at = index_.find(state.id);
         if (at == index_.end())
             throw std::runtime_error("contact impulses were received for grain " +
                                      std::to_string(state.id) + ", which is not in this window");
+        if (std::exchange(received[at->second], 1) != 0)
+            throw std::runtime_error("contact impulses were received twice for grain " +
+                                     std::to_string(state.id));
         const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
@@ -165,13 +170,9 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         throw std::runtime_error("contact impulses were received for " +
                                  std::to_string(with_contacts.size()) +
                                  " grains, but the window has " + std::to_string(states_));
+    pushed_ = true;
     flow_.push(changes_);
-    const MultiplierResult result = uzawa_cg(flow_, continued(), work_);
-    for (std::size_t g = 0; g < states_; ++g) {
-        const Planar off = flow_.motions()[g] - solved_[g];
-        mismatch_[g] = off.head<2>().norm() + grains_[g].radius * std::abs(off.z());
-    }
-    return result;
+    return uzawa_cg(flow_, continued(), work_);
 }
 
 /// True on exactly one rank: the owner of the cell that contains the centre or, for a grain leaving
@@ -197,12 +198,20 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
     return responses;
 }
 
+/// Of what is sent, whatever has changed the motions since the contacts were solved.
+double ImmersedStep::mismatch(std::size_t g) const {
+    if (!pushed_) return 0.0;
+    const double radius = grains_[g].radius / run_.hydrodynamic_radius;
+    const Planar off = flow_.motions()[g] - solved_[g];
+    return off.head<2>().norm() + radius * std::abs(off.z());
+}
+
 /// A grain of prescribed motion moves as it did, whatever the impulses, and has no inertia to send.
 FreeResponse ImmersedStep::response(std::size_t g) const {
     Planar free = flow_.motions()[g];
     FreeResponse response;
     response.id = grains_[g].id;
-    response.mismatch = mismatch_[g];
+    response.mismatch = mismatch(g);
     if (!grains_[g].prescribed) {
         const Eigen::Matrix3d& inertia = system_.effective_inertia()[g];
         free -= inertia.llt().solve(contact_impulses_[g]);

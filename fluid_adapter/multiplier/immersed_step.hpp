@@ -47,7 +47,8 @@ class ImmersedStep {
     /// unless there is exactly one entry for each grain taken.
     MultiplierResult push(const std::vector<GrainState>& with_contacts);
 
-    /// Responses of the grains whose centre this rank owns. Mismatches are those of the last push.
+    /// Responses of the grains whose centre this rank owns. Mismatches are between the
+    /// velocities sent and those of the last push.
     std::vector<FreeResponse> responses() const;
 
     /// Writes u into the field; last call of a window.
@@ -78,6 +79,7 @@ class ImmersedStep {
     void prescribe(const Window& window);
     bool answers_for(std::size_t grain) const;
     FreeResponse response(std::size_t g) const;
+    double mismatch(std::size_t g) const;
 
     FluidField& field_;
     std::vector<std::shared_ptr<const Shape>> shapes_;
@@ -95,7 +97,7 @@ class ImmersedStep {
     std::vector<Planar> contact_impulses_;  // J, contained in the present motions
     std::vector<Planar> changes_;
     std::vector<Planar> solved_;  // velocities that came with the last contact impulses
-    std::vector<double> mismatch_;
+    bool pushed_ = false;         // contacts have been solved in this window
     PointPlacement placement_;
     CollocationPoints points_;
     SaddleOperator system_;

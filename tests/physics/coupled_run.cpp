@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "coupler/shapes/disc.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "fluid_adapter/multiplier/splitting.hpp"
 #include "tests/run_settings.hpp"
 
 namespace turbidite {
@@ -40,6 +40,8 @@ void set_run_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("run.walls", setup.walls);
     settings.set("run.grain_motions", setup.grain_motions);
     settings.set("domain.left_profile", setup.left_profile);
+    settings.set("run.probes", setup.probes);
+    settings.set("output.fields", setup.fields);
 }
 
 void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
@@ -56,7 +58,7 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.multiplier_tolerance", setup.tolerance);
     settings.set("fluid.multiplier_iterations", setup.multiplier_iterations);
     settings.set("fluid.splitting", setup.splitting);
-    settings.set("fluid.splitting_tolerance", 1e-4);
+    settings.set("fluid.splitting_tolerance", setup.splitting_tolerance);
     settings.set("fluid.splitting_iterations", std::int64_t{200});
     settings.set("fluid.transport_scheme", setup.transport_scheme);
     settings.set("fluid.time_scheme", setup.time_scheme);
@@ -68,7 +70,6 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
 
 void set_contact_values(Settings& settings) {
     settings.set("contact.friction", 0.3);
-    settings.set("contact.theta", 0.5);
     settings.set("contact.tolerance", 1e-3);
     settings.set("contact.iterations", std::int64_t{2000});
     settings.set("contact.recovery_fraction", 0.2);
@@ -126,14 +127,15 @@ TemporaryFolder::~TemporaryFolder() {
 CoupledRun::CoupledRun(const CoupledSetup& setup, std::vector<GrainState> grains)
     : setup_(setup), fluid_(prepared(folder_.path(), setup)), grains_(std::move(grains)) {
     const Settings settings = settings_of(setup);
-    const ShapeTable shapes = {ShapeRecord{"disc", {}}};
+    const ShapeTable shapes = {setup.shape};
     for (std::size_t g = 0; g < grains_.size(); ++g) grains_[g].id = static_cast<GrainId>(g) + 1;
     fluid_.initialise(settings, shapes);
     grains_ = contact_.initialise(settings, shapes, grains_).grains;
 }
 
 ImmersedBody CoupledRun::body() const {
-    return immersed_body(Disc(), 0.5, setup_.density_ratio, 1.0, setup_.hydrodynamic_radius);
+    return immersed_body(*make_shape(setup_.shape), 0.5, setup_.density_ratio, 1.0,
+                         setup_.hydrodynamic_radius);
 }
 
 void CoupledRun::advance(bool write_output) {
@@ -141,13 +143,41 @@ void CoupledRun::advance(bool write_output) {
                         write_output};
     before_ = grains_;
     fluid_.advance(window);
+    if (corrects_with_rigid_grains(settings_of(setup_)))
+        solve_jointly(window);
+    else
+        solve_split(window);
+    answer_ = fluid_.impose(window);
+    const Motion state = contact_.apply_kick(window, answer_.kicks);
+    grains_ = state.grains;
+    contact_violation_ = state.report.contact_violation.value();
+    ++window_;
+}
+
+void CoupledRun::solve_split(const Window& window) {
     const Motion motion = contact_.advance(window, {});
     between_ = motion.grains;
     contacts_ += motion.report.contacts;
     fluid_.correct(window, between_);
-    answer_ = fluid_.impose(window);
-    grains_ = contact_.apply_kick(window, answer_.kicks).grains;
-    ++window_;
+}
+
+void CoupledRun::solve_jointly(const Window& window) {
+    constexpr int most_rounds = 50;
+    fluid_.let_fall(window, grains_);
+    std::vector<FreeResponse> responses = fluid_.respond();
+    std::int64_t contacts = 0;
+    for (rounds_ = 0; rounds_ == 0 || mismatch_ > setup_.joint_tolerance; ++rounds_) {
+        if (rounds_ == most_rounds) throw std::runtime_error("contacts and fluid do not agree");
+        const Motion motion = contact_.advance(window, responses);
+        between_ = motion.grains;
+        contacts = motion.report.contacts;
+        fluid_.correct(window, between_);
+        responses = fluid_.respond();
+        mismatch_ = 0.0;
+        for (const FreeResponse& response : responses)
+            mismatch_ = std::max(mismatch_, response.mismatch);
+    }
+    contacts_ += contacts;
 }
 
 void resume_after_three(CoupledRun& straight, CoupledRun& resumed) {

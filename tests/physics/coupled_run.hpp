@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fluid and contact adapters in one process, called in the order of the `split` scheme, without hub
-// or messages. Run units: D = u_c = rho_f = 1.
+// Fluid and contact adapters in one process, without hub or messages, called in the order that
+// cases have with the splitting: that of `split`, or of `joint` where pressure and viscosity are
+// corrected with rigid grains. Run units: D = u_c = rho_f = 1.
 #pragma once
 
 #include <array>
@@ -17,11 +18,13 @@
 namespace turbidite {
 
 struct CoupledSetup {
+    ShapeRecord shape{"disc", {}};     ///< of all grains
     double width = 4.0, height = 4.0;  ///< [D]
     std::string left = "wall", right = "wall", bottom = "wall", top = "wall";
     std::string wall_motions, inflow_motions;  ///< as run.wall_motions
     std::string walls, grain_motions;          ///< as run.walls, run.grain_motions
     std::string left_profile = "uniform";
+    std::string probes, fields;  ///< as run.probes, output.fields
     double reynolds = 100.0;
     double step = 0.01;
     int windows = 1000;
@@ -31,6 +34,8 @@ struct CoupledSetup {
     double acceleration_x = 0.0;  ///< uniform force on the fluid over rho_f
     std::string points = "interior+boundary";
     double tolerance = 1e-4;
+    double splitting_tolerance = 1e-4;
+    double joint_tolerance = 1e-4;  ///< as coupling.tolerance
     std::int64_t multiplier_iterations = 200;
     double hydrodynamic_radius = 1.0;
     std::string transport_scheme = "Gauss limitedLinearV 1";
@@ -51,7 +56,7 @@ CoupledSetup with_sides(const Sides& sides);
 
 Settings settings_of(const CoupledSetup& setup);
 
-/// A disc of diameter 1.
+/// A grain of the setup's shape with R = 1/2.
 GrainState disc_at(const CoupledSetup& setup, double x, double y, double vx = 0.0, double vy = 0.0);
 
 /// An empty folder, removed at the end.
@@ -76,15 +81,25 @@ class CoupledRun {
     const CoupledSetup& setup() const { return setup_; }
     const std::filesystem::path& folder() const { return folder_.path(); }
     FoamAdapter& fluid() { return fluid_; }
-    const std::vector<GrainState>& before() const { return before_; }    ///< U^n
-    const std::vector<GrainState>& between() const { return between_; }  ///< U^{n+4/5}
-    const std::vector<GrainState>& grains() const { return grains_; }    ///< U^{n+1}
+    const std::vector<GrainState>& before() const { return before_; }  ///< U^n
+    /// U^{n+4/5}; under `joint` of the last contact solve
+    const std::vector<GrainState>& between() const { return between_; }
+    const std::vector<GrainState>& grains() const { return grains_; }  ///< U^{n+1}
     const Kicks& answer() const { return answer_; }
     /// With an impulse, summed over all windows.
     std::int64_t contacts() const { return contacts_; }
     ImmersedBody body() const;
+    /// Under `joint`: contact solves of the last window, and the largest mismatch that the fluid
+    /// told after the last of them.
+    int rounds() const { return rounds_; }
+    double mismatch() const { return mismatch_; }
+    /// ContactReport::contact_violation of the last window.
+    double contact_violation() const { return contact_violation_; }
 
  private:
+    void solve_split(const Window& window);
+    void solve_jointly(const Window& window);
+
     CoupledSetup setup_;
     TemporaryFolder folder_;
     FoamAdapter fluid_;
@@ -92,6 +107,8 @@ class CoupledRun {
     std::vector<GrainState> before_, between_, grains_;
     Kicks answer_;
     std::int64_t window_ = 0, contacts_ = 0;
+    int rounds_ = 0;
+    double mismatch_ = 0.0, contact_violation_ = 0.0;
 };
 
 /// Plays three windows of one, another course of the other, and restores the state of the first in

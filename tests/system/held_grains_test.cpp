@@ -163,7 +163,7 @@ grains: {adapter: standalone-nscd, file: grains.csv, density_ratio: 1.5}
 fluid: {reynolds: 400, cells_per_diameter: 8, splitting: explicit-multiplier}
 contact: {friction: 0.3}
 time: {step: 0.02, end: 8}
-output: {interval: 1}
+output: {interval: 0.5}
 )";
 
 // Grains sink onto the inclined plates of a funnel and slide down, on the film of fluid that is
@@ -184,7 +184,9 @@ TEST_F(HeldGrains, PlatesHoldGrainsAndFluidUnderEverySchemeAndHost) {
             << changes;
         const std::vector<double> x = centres("00000400");
         ASSERT_EQ(x.size(), 18u) << changes;
-        EXPECT_NEAR(x[9], 3.0, 1e-9) << changes;  // four periods of the motion
+        EXPECT_NEAR(x[9], 3.0, 1e-9) << changes;                    // four periods of the motion
+        EXPECT_NEAR(centres("00000025")[9], 3.3, 1e-9) << changes;  // a quarter of one
+        EXPECT_NEAR(centres("00000075")[9], 2.7, 1e-9) << changes;
         for (const int k : {0, 2}) EXPECT_GT(x[3 * k + 1], 3.5) << changes;
         each.push_back(x);
     }

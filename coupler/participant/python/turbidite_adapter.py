@@ -46,7 +46,7 @@ _note_start('MPI_Init')                # which this import calls
 atexit.register(_note_start, 'end')    # the first one registered is the last one called
 from mpi4py import MPI
 
-PROTOCOL = (1, 7)
+PROTOCOL = (1, 8)
 GRAINS = 2                          # the role
 FIRST_COLOUR, ANNOUNCEMENT_TAG, INTERCOMM_TAG, FRAME_TAG = 1000, 1000, 1010, 7
 MAGIC = 0x7469646962727574          # "turbidit"
@@ -174,7 +174,7 @@ def _encode_motion(motion):
         _integers(motion.contacts, motion.iterations), _maybe(motion.residual),
         _integers(motion.converged), struct.pack('<d', motion.max_penetration),
         _integers(motion.removed), struct.pack('<d', motion.wall_seconds),
-        _maybe(None), _maybe(None),                     # quad, max
+        _maybe(None), _maybe(None), _maybe(None),       # quad, max, contact violation
         _integers(0)))                                  # single contacts: not sent
 
 

@@ -195,6 +195,10 @@ double Engine::max_penetration_after_move() const {
     return detection_.deepest_overlap(bodies_, walls_, points_);
 }
 
+double Engine::contact_violation() const {
+    return nscd::contact_violation(problem_, solution_, bodies_.twist);
+}
+
 void Engine::keep(const std::vector<std::uint8_t>& mask) {
     bodies_.keep(mask);
     forget_step();

@@ -110,6 +110,10 @@ class Engine {
     /// Bodies and walls must be where move() and keep() left them.
     double max_penetration_after_move() const;
 
+    /// How far the bodies' present velocities are from the contact conditions of the last step
+    /// (residual.hpp) [m/s].
+    double contact_violation() const;
+
     /// Contact points of the last step, and the impulses on the bodies there. With an attractive
     /// law a normal impulse may be negative.
     const std::vector<ContactPoint>& points() const { return points_; }

@@ -2,6 +2,7 @@
 #include "granular_adapter/nscd/problem/residual.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
@@ -136,6 +137,17 @@ double natural_map_residual(const ContactProblem& problem, const Delassus& w,
     for (std::size_t k = 0; k < r.size(); ++k)
         map.add(problem.contacts[k], w.block(k), r[k], biased_velocity(problem.contacts[k], v));
     return map.residual(floor);
+}
+
+double contact_violation(const ContactProblem& problem, const Impulses& r,
+                         const std::vector<Twist>& v) {
+    const Delassus w(problem);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        const double u = biased_velocity(problem.contacts[k], v).n;
+        largest = std::max(largest, std::abs(std::min(u, w.block(k).nn * r[k].n)));
+    }
+    return largest;
 }
 
 ChangeMeasures change_measures(const ContactProblem& problem, const Impulses& r) {

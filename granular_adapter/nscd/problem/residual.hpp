@@ -17,6 +17,13 @@
 // A packing that converges slowly satisfies both far from the solution: they are for comparison
 // only.
 //
+// The contact violation tells how far other velocities v, such as those that a fluid has corrected,
+// are from the Signorini condition with these impulses, as the velocity
+//
+//     max |min(u_n, W_nn r_n)|,    u = H^T v + b
+//
+// which for a loaded contact is |u_n| and for any other what closes it too fast, -u_n.
+//
 // With rolling resistance the natural map projects n, t and roll on |r_t| <= mu r_n, |m| <= rho r_n
 // (rolling_contact.hpp). Moments are divided, and spins multiplied, by sqrt(W_nn/W_rr).
 #pragma once
@@ -30,6 +37,10 @@ struct Block;
 
 /// Residual of the natural map, >= 0; zero for a problem without contacts.
 double natural_map_residual(const ContactProblem& problem, const Impulses& r);
+
+/// How far v is from the Signorini condition with the impulses r [m/s].
+double contact_violation(const ContactProblem& problem, const Impulses& r,
+                         const std::vector<Twist>& v);
 
 /// The part of sum |r|^2 due to rounding alone [(N s)^2].
 double rounding_floor(const ContactProblem& problem);

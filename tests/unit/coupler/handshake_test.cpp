@@ -70,11 +70,11 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
 // A report of the fluid without its mean velocity would be malformed.
 TEST(Handshake, AVersionWithAnotherReportIsRefused) {
     Hello old = fitting();
-    old.protocol_minor = 6;
+    old.protocol_minor = 7;
     const auto sentences = mismatches(old, expected());
     ASSERT_EQ(sentences.size(), 1u);
     EXPECT_EQ(sentences[0],
-              "grains rank 0: protocol version is 1.6, the case needs 1.7 or later (rebuild the "
+              "grains rank 0: protocol version is 1.7, the case needs 1.8 or later (rebuild the "
               "adapter)");
 }
 

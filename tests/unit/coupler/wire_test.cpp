@@ -32,7 +32,7 @@ GrainState grain() {
 TEST(Wire, MotionComesBackBitForBit) {
     Motion motion;
     motion.grains = {grain(), grain()};
-    motion.report = {41, 12, awkward, false, tiny, 2, 0.25, 1e-5, awkward};
+    motion.report = {41, 12, awkward, false, tiny, 2, 0.25, 1e-5, awkward, tiny};
     const auto back = decode<Motion>(encode(motion));
     ASSERT_EQ(back.grains.size(), 2u);
     const GrainState& a = motion.grains[1];
@@ -58,6 +58,7 @@ TEST(Wire, MotionComesBackBitForBit) {
     EXPECT_EQ(back.report.wall_seconds, 0.25);
     EXPECT_EQ(back.report.quad, 1e-5);
     EXPECT_EQ(back.report.max, awkward);
+    EXPECT_EQ(back.report.contact_violation, tiny);
     EXPECT_FALSE(back.contacts) << "not told is not the same as none";
 }
 
@@ -103,6 +104,7 @@ TEST(Wire, WhatAnAdapterDoesNotHaveStaysEmpty) {
     const auto back = decode<Motion>(encode(motion));
     EXPECT_FALSE(back.report.residual);
     EXPECT_FALSE(back.report.quad);
+    EXPECT_FALSE(back.report.contact_violation);
     EXPECT_EQ(back.report.max, 0.5);
 }
 

@@ -196,6 +196,68 @@ TEST(ImmersedStep, NamesAGrainThatTheWindowDidNotBeginWith) {
     }
 }
 
+TEST(ImmersedStep, NamesAGrainThatIsSentTwiceInsteadOfAnother) {
+    Scene scene;
+    scene.five.take_free(neighbours(), window);
+    scene.five.solve();
+    std::vector<GrainState> pushed = after_contacts(neighbours(), scene.five.responses());
+    pushed[2] = pushed[0];
+    try {
+        scene.five.push(pushed);
+        FAIL() << "the impulse on grain 3 is lost";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("twice for grain 1"), std::string::npos)
+            << error.what();
+    }
+}
+
+/// Whatever changes the motions after the contact solve, such as pressure with rigid grains.
+TEST(ImmersedStep, TellsTheMismatchOfTheVelocitiesThatItSends) {
+    Scene scene;
+    const std::vector<GrainState> grains = {grain(4, 3.013, 3.007, {0.1, -0.5, 0.0})};
+    scene.five.take_free(grains, window);
+    scene.five.solve();
+    const auto pushed = after_contacts(grains, scene.five.responses());
+    scene.five.push(pushed);
+    EXPECT_LT(scene.five.responses()[0].mismatch, 1e-9);
+    scene.five.flow().push({Planar(0.02, 0.01, 0.0)});
+    MultiplierWorkspace work;
+    uzawa_cg(scene.five.flow(), scene.five.continued(), work);
+    const double told = scene.five.responses()[0].mismatch;
+    scene.five.impose();
+    const Kick kick = scene.five.kicks()[0];
+    const double off = std::hypot(kick.velocity[0] - pushed[0].velocity[0],
+                                  kick.velocity[1] - pushed[0].velocity[1]) +
+                       0.5 * std::abs(kick.angular_velocity[2] - pushed[0].angular_velocity[2]);
+    EXPECT_GT(off, 1e-3);
+    EXPECT_NEAR(told, off, 1e-12);
+}
+
+/// Of a grain with R_h the fluid sees the similar body of that size, whatever its shape: it covers
+/// (R_h/R)^2 of the area, and takes the mass of that much fluid from M.
+TEST(ImmersedStep, TheHydrodynamicRadiusShrinksEveryShape) {
+    const std::vector<ShapeRecord> shapes = {
+        {"disc", {}}, {"triangle", {}}, {"polygon", {0.8, 0.6, -0.8, 0.6, -0.8, -0.6, 0.8, -0.6}}};
+    for (const ShapeRecord& shape : shapes) {
+        std::array<double, 2> covered{}, mass{};
+        for (const int shrunk : {0, 1}) {
+            MemoryField field(192, 192, Side::wall, 1.0 / 32.0);
+            Settings with = settings();
+            with.set("fluid.hydrodynamic_radius", shrunk == 1 ? 0.7 : 1.0);
+            with.set("fluid.points", std::string("interior"));
+            ImmersedStep five(field, with, {shape});
+            five.take_free({grain(1, 3.013, 3.007)}, window);
+            covered[shrunk] = static_cast<double>(five.points().interior.size()) / (32.0 * 32.0);
+            mass[shrunk] = five.grains()[0].effective_mass;
+        }
+        const double area = make_shape(shape)->volume(0.5);
+        EXPECT_NEAR(covered[0], area, 0.05 * area) << shape.kind;
+        EXPECT_NEAR(covered[1], 0.49 * area, 0.05 * area) << shape.kind;
+        EXPECT_NEAR(mass[0], 0.5 * area, 1e-12) << shape.kind;  // rho_s = 1.5
+        EXPECT_NEAR(mass[1], (1.5 - 0.49) * area, 1e-12) << shape.kind;
+    }
+}
+
 TEST(ImmersedStep, UnknownPointsListTheKnown) {
     Settings wrong = settings(1e-4);
     wrong.set("fluid.points", std::string("surface"));
