@@ -149,6 +149,9 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
     EXPECT_EQ(cells["contact_residual"], "");
     EXPECT_EQ(cells["contact_quad"], "");
     EXPECT_EQ(cells["contact_max"], "0.5");
+    EXPECT_EQ(cells["contact_violation"], "");
+    state.report.contact_violation = 0.25;
+    EXPECT_EQ(written(row, test_settings())["contact_violation"], "0.25");
     EXPECT_EQ(cells["contacts"], "0");
     EXPECT_EQ(cells["unconverged"], "1");
     EXPECT_EQ(cells["wall_step"], "0.375000");

@@ -224,6 +224,27 @@ TEST(Engine, FallingLatticeCountsAsSolved) {
     for (const Vec3& impulse : engine.bodies().contact_impulse) EXPECT_LT(norm(impulse), 1e-12);
 }
 
+// A disc on the floor, pressed by g dt m, and one 0.002 above it: b = 0.2, no impulse. What is off
+// is the velocity that the floor should stop, or the impulse that nothing presses, as a velocity.
+TEST(Engine, ContactViolationIsThatOfTheVelocitiesAtTheEnd) {
+    Engine engine(scenes::exact(0.0), scenes::discs, {scenes::floor(0.0)});
+    engine.bodies().add(scenes::disc(1, 0.0, 0.5));
+    engine.bodies().add(scenes::disc(2, 3.0, 0.502));
+    engine.step(0.01);
+    EXPECT_LT(engine.contact_violation(), 1e-12);
+    const auto with = [&](double first, double second) {
+        engine.bodies().twist[0].velocity = {0.7, first, 0.0};
+        engine.bodies().twist[1].velocity = {-0.7, second, 0.0};
+        return engine.contact_violation();
+    };
+    EXPECT_NEAR(with(-0.3, 0.0), 0.3, 1e-12);
+    EXPECT_NEAR(with(0.004, 0.0), 0.004, 1e-12);
+    EXPECT_NEAR(with(0.5, 0.0), 0.01, 1e-12);
+    EXPECT_NEAR(with(0.0, -0.2), 0.0, 1e-12);
+    EXPECT_NEAR(with(0.0, -0.5), 0.3, 1e-12);
+    EXPECT_NEAR(with(0.0, 0.5), 0.0, 1e-12);
+}
+
 TEST(Engine, RefusesBadSettings) {
     EngineSettings settings;
     settings.theta = 0.4;

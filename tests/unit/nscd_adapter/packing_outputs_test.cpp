@@ -129,6 +129,7 @@ TEST(PackingOutputs, StressAndPoresOfALatticeAtRest) {
     EXPECT_EQ(cells["unconverged"], "0");
     EXPECT_LT(std::stod(cells["contact_quad"]), 1e-6);
     EXPECT_GE(std::stod(cells["contact_max"]), std::stod(cells["contact_quad"]));
+    EXPECT_LT(std::stod(cells["contact_violation"]), 1e-6);
     EXPECT_EQ(row(folder, 1)["coordination"], "") << "no contacts are known at t = 0";
 }
 
@@ -165,6 +166,7 @@ TEST(PackingOutputs, UnconvergedWindowsAreNotHidden) {
     const auto record = nlohmann::json::parse(text_of(folder.files().record));
     EXPECT_EQ(record["contact"]["unconverged_windows"], 4);
     EXPECT_GT(record["contact"]["residual_p95"], 1e-9);
+    EXPECT_GT(record["maxima"]["contact_violation"], 1e-9);
     EXPECT_GE(record["contact"]["residual_max"], record["contact"]["residual_p95"]);
     const std::string log = text_of(folder.files().log);
     EXPECT_NE(log.find("in 4 of 4 windows the contact solver used up its 1 sweeps"),
