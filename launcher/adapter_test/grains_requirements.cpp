@@ -10,14 +10,13 @@
 #include <numbers>
 
 #include "launcher/adapter_test/altered_recording.hpp"
+#include "launcher/adapter_test/contact_requirements.hpp"
 #include "launcher/adapter_test/partner.hpp"
-#include "launcher/case/run_folder.hpp"
 
 namespace turbidite {
 namespace {
 
-constexpr double deepest_overlap = 0.05;  // [D]
-constexpr double at_rest = 0.02;          // [u_c]
+constexpr double at_rest = 0.02;  // [u_c]
 
 // Far from each other and from all sides; ids are identifiers, in no order.
 const std::string apart =
@@ -95,6 +94,8 @@ Finding lands(const Candidate& candidate, const std::filesystem::path& folder) {
                 fmt::format("grains sink into the floor: mean height {:.3g} D", height)};
     if (!(speed < at_rest))
         return {Grade::failed, fmt::format("grains are not at rest: mean speed {:.2g} u_c", speed)};
+    if (const Overlap overlap = judge_overlap(trial); overlap.finding.grade == Grade::failed)
+        return overlap.finding;
     return {Grade::met, fmt::format("at rest at {:.4g} D, grain_balance {:.0e}", height,
                                     trial.maximum("grain_balance"))};
 }
@@ -103,10 +104,10 @@ Finding collides(const Candidate& candidate, const std::filesystem::path& folder
     const Trial trial = play_trial(
         candidate, {"collision", two_in_a_row, {"time.end=0.5", "fluid.enabled=false"}}, folder);
     if (!trial.done()) return failure_of(trial.outcome);
-    const double overlap = *std::max_element(trial.history.at("max_penetration").begin(),
-                                             trial.history.at("max_penetration").end());
-    if (!(overlap <= deepest_overlap))
-        return {Grade::failed, fmt::format("grains overlap by {:.3g} D", overlap)};
+    const Overlap overlap = judge_overlap(trial);
+    if (overlap.finding.grade == Grade::failed) return overlap.finding;
+    if (!(overlap.deepest <= deepest_overlap))
+        return {Grade::failed, fmt::format("grains overlap by {:.3g} D", overlap.deepest)};
     // Both have the same speed; without a contact they keep 1 u_c along x.
     const double fall = trial.last("mean_velocity_y"), speed = trial.last("mean_speed");
     const double along = std::sqrt(std::max(0.0, speed * speed - fall * fall));
@@ -121,8 +122,8 @@ Finding loses_grains(const Candidate& candidate, const std::filesystem::path& fo
         candidate,
         {"leaving", near_a_side, {"time.end=1", "domain.right=free", "fluid.enabled=false"}},
         folder);
-    if (trial.outcome.code == ExitCode::participant_failed && trial.history.empty())
-        return {Grade::not_supported, "refuses free sides: " + trial.outcome.error};
+    if (const auto words = refusal_of(trial))
+        return {Grade::not_supported, "refuses free sides: " + *words};
     if (!trial.done()) return failure_of(trial.outcome);
     const double left = trial.last("grains");
     if (left != 2.0)
@@ -161,16 +162,15 @@ Finding repeats_windows(const Candidate& candidate, const std::filesystem::path&
     return judge_agreement(trial, "advance does not go back to t^n, or the impulse is not held");
 }
 
-/// The run on one rank and on two; the second with a recording of the grains.
+/// The run on one rank and on two.
 Finding same_on_two_ranks(const Candidate& candidate, const std::string& name,
                           const std::string& grains, const std::filesystem::path& folder) {
-    auto [finding, shared] =
-        moves_alike(candidate, {name + "-", grains, {"time.end=0.6"}},
-                    {"grains.ranks=2", "coupling.recording=grains"}, round_off, folder);
+    auto [finding, shared] = moves_alike(candidate, {name + "-", grains, {"time.end=0.6"}},
+                                         {"grains.ranks=2"}, round_off, folder);
     if (!shared.done()) return finding;
     if (finding.grade == Grade::failed)
         finding.text += ". A program for one rank refuses grains.ranks = 2 in initialise";
-    const auto moved = grains_that_moved(RunFolder{shared.root}.recording("grains"));
+    const auto moved = grains_that_moved(shared.recording);
     finding.text += fmt::format(", {} grains changed their rank", moved.size());
     return finding;
 }
@@ -194,6 +194,10 @@ const std::vector<Requirement>& grains_requirements() {
         {"repeats a window (sub-iterated)", repeats_windows, true},
         {"lands and comes to rest", lands, false},
         {"collides and keeps momentum", collides, false},
+        {"slides into rolling", slides_into_rolling, true},
+        {"collides with friction", collides_with_friction, true},
+        {"respects held and driven grains", respects_held_grains, true},
+        {"reports its contacts", reports_contacts, true},
         {"announces grains that leave", loses_grains, true},
         {"moves the same on two ranks", migrates, true},
         {"refuses messages out of order", keeps_order, false},

@@ -50,6 +50,7 @@ std::vector<std::string> overrides_of(const Candidate& candidate, const TrialCas
                "grains.command=" + command_text({find_programs().partner(), "grains"})};
     else
         all = {"grains.adapter=" + candidate.adapter};
+    all.push_back(std::string("coupling.recording=") + role_name(candidate.side));
     if (candidate.side == Role::grains && !candidate.words.empty())
         all.push_back("grains.command=" + command_text(candidate.words));
     all.insert(all.end(), trial.overrides.begin(), trial.overrides.end());
@@ -102,12 +103,17 @@ JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
     return end;
 }
 
-Trial played(const PreparedRun& prepared, const Settings& settings, const std::string& name) {
+Trial played(const PreparedRun& prepared, const Candidate& candidate, const Settings& settings,
+             const std::string& name) {
     const JobEnd end = start(prepared.line, prepared.folder, name);
     JobOutcome outcome = settle_outcome(prepared.folder, end, prepared.ranks);
     if (outcome.code != ExitCode::done) outcome.log_tail = last_words(prepared.folder, outcome);
-    return {outcome, read_history(prepared.folder.history()), maxima_of(prepared.folder), settings,
-            prepared.folder.root};
+    return {outcome,
+            read_history(prepared.folder.history()),
+            maxima_of(prepared.folder),
+            settings,
+            prepared.folder.root,
+            prepared.folder.recording(role_name(candidate.side))};
 }
 
 }  // namespace
@@ -131,7 +137,7 @@ Trial play_trial(const Candidate& candidate, const TrialCase& trial,
     const ResolvedCase resolved = load_case(root / "trial.yaml", overrides_of(candidate, trial));
     const PreparedRun prepared = prepare(resolved, {root / "run", true}, site_for(candidate));
     if (trial.stop_at_once) write(prepared.folder.stop(), "143\n");
-    return played(prepared, resolved.settings, trial.name);
+    return played(prepared, candidate, resolved.settings, trial.name);
 }
 
 std::optional<Trial> resume_trial(const Candidate& candidate, const TrialCase& trial,
@@ -142,7 +148,7 @@ std::optional<Trial> resume_trial(const Candidate& candidate, const TrialCase& t
     const auto silent = [](const std::string&) {};
     const auto resumed = prepare_resumption(run.root, changes, site_for(candidate), silent);
     if (!resumed) throw Failure(ExitCode::participant_failed, "the trial was complete");
-    return played(resumed->run, load_run_folder(run.root).settings, trial.name);
+    return played(resumed->run, candidate, load_run_folder(run.root).settings, trial.name);
 }
 
 JobOutcome replay_trial(const Candidate& candidate, const TrialCase& trial, const std::string& as,

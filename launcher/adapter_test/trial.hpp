@@ -35,7 +35,8 @@ struct Trial {
     std::map<std::string, std::vector<double>> history;  ///< by column; empty cells are NaN
     std::map<std::string, double> maxima;                ///< of run.json
     Settings settings;
-    std::filesystem::path root;  ///< its run folder
+    std::filesystem::path root;       ///< its run folder
+    std::filesystem::path recording;  ///< of the program under test
 
     bool done() const { return outcome.code == ExitCode::done; }
     double last(const std::string& column) const;

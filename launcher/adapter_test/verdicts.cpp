@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "launcher/adapter_test/altered_recording.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/adapter_test/trial_recording.hpp"
 
 namespace turbidite {
 namespace {
@@ -36,6 +36,15 @@ Finding failure_of(const JobOutcome& outcome) {
     const std::string tail = outcome.log_tail.empty() ? "" : "\n" + outcome.log_tail;
     return {Grade::failed, fmt::format("ended with code {}: {}{}", static_cast<int>(outcome.code),
                                        outcome.error, tail)};
+}
+
+// An exception is a refusal. What the Python module tells of sys.exit is none: nobody has said why.
+std::optional<std::string> refusal_of(const Trial& trial) {
+    if (trial.outcome.code != ExitCode::participant_failed || !trial.history.empty())
+        return std::nullopt;
+    const auto words = failure_told(trial.recording);
+    if (!words || words->empty() || words->rfind("SystemExit", 0) == 0) return std::nullopt;
+    return trial.outcome.error;
 }
 
 Finding within(double error, double limit, const std::string& what) {
@@ -78,8 +87,8 @@ OnTwoRanks moves_alike(const Candidate& candidate, TrialCase trial,
     const Trial alone = play_trial(candidate, trial, folder);
     if (!alone.done()) return {failure_of(alone.outcome), alone};
     const Trial shared = play_trial(candidate, two, folder);
-    if (shared.outcome.code == ExitCode::participant_failed && shared.history.empty())
-        return {{Grade::not_supported, "refuses two ranks: " + shared.outcome.error}, shared};
+    if (const auto words = refusal_of(shared))
+        return {{Grade::not_supported, "refuses two ranks: " + *words}, shared};
     if (!shared.done()) return {failure_of(shared.outcome), shared};
     const double error = worst(
         alone, shared,
@@ -108,10 +117,14 @@ Finding goes_on_alike(const Candidate& candidate, TrialCase trial,
     trial.overrides.push_back("time.end=1"), parts.overrides.push_back("time.end=0.45");
     const Trial whole = play_trial(candidate, trial, folder);
     if (!whole.done()) return failure_of(whole.outcome);
-    if (const Trial first = play_trial(candidate, parts, folder); !first.done())
-        return failure_of(first.outcome);
+    const Trial first = play_trial(candidate, parts, folder);
+    if (!first.done()) return failure_of(first.outcome);
+    if (!capabilities_of(first.recording).saves_state)
+        return {Grade::not_supported, "save and restore are not claimed"};
+    if (const std::string fault = save_fault(first.recording); !fault.empty())
+        return {Grade::failed, "saves_state is claimed and not kept: " + fault};
     const std::optional<Trial> second = resume_trial(candidate, parts, {"time.end=1"}, folder);
-    if (!second) return {Grade::not_supported, "save and restore are not claimed"};
+    if (!second) return {Grade::failed, "saves_state is claimed, and there is no checkpoint"};
     if (!second->done()) return failure_of(second->outcome);
     const std::string column = different_column(whole, *second);
     if (!column.empty())
@@ -121,9 +134,7 @@ Finding goes_on_alike(const Candidate& candidate, TrialCase trial,
 
 Finding refuses_disorder(const Candidate& candidate, TrialCase trial, Kind kind,
                          const std::filesystem::path& folder) {
-    const std::string role = role_name(candidate.side);
     trial.name = "disorder";
-    trial.overrides.push_back("coupling.recording=" + role);
     const Trial recorded = play_trial(candidate, trial, folder);
     if (!recorded.done()) return failure_of(recorded.outcome);
     std::string said;
@@ -131,8 +142,7 @@ Finding refuses_disorder(const Candidate& candidate, TrialCase trial, Kind kind,
         const bool out = alteration == Alteration::left_out;
         const std::string name = out ? "left-out" : "repeated";
         const auto altered = folder / trial.name / (name + ".frames");
-        alter_recording(RunFolder{recorded.root}.recording(role), altered, kind, altered_window,
-                        alteration);
+        alter_recording(recorded.recording, altered, kind, altered_window, alteration);
         const JobOutcome outcome = replay_trial(candidate, trial, name, altered, folder);
         // What the program itself says begins with this (coupler/replay).
         if (outcome.error.find("ended the run: ") == std::string::npos)

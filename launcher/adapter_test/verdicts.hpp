@@ -3,6 +3,7 @@
 // Verdicts on trials, and those that are the same for grains and fluid.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,14 @@ struct Finding {
 };
 
 inline constexpr double round_off = 1e-9;
+inline constexpr double deepest_overlap = 0.05;  ///< that grains may come to [D]
 
 /// The trial ended where it should not.
 Finding failure_of(const JobOutcome& outcome);
+
+/// What the program said when it refused the case of a trial before the first window, as one does
+/// that does not support it; empty if it ran, crashed, left, or called exit.
+std::optional<std::string> refusal_of(const Trial& trial);
 
 /// "velocity differs by 1e-12, allowed 1e-9".
 Finding within(double error, double limit, const std::string& what);
