@@ -40,6 +40,10 @@ class Springs : public GrainsAdapter {
                 throw std::runtime_error("springs supports four walls only");
         if (s.integer("grains.ranks") > 1)  // contacts with grains of other ranks are not found
             throw std::runtime_error("springs runs on one rank only: grains.ranks");
+        if (s.real("contact.friction") > 0)
+            throw std::runtime_error("springs knows no friction: contact.friction");
+        for (const GrainState& g : grains)
+            if (g.prescribed) throw std::runtime_error("springs moves free grains only: motion");
         run = run_values(s);
         omega = s.real("run.md_frequency"), damping = s.real("run.md_damping");
         substeps = s.integer("run.md_substeps");

@@ -15,6 +15,8 @@ class Springs:
         sides = (settings.text('domain.' + side) for side in ('left', 'right', 'bottom', 'top'))
         if any(side != 'wall' for side in sides) or grains['prescribed'].any():
             raise ValueError('springs.py supports free grains between four walls only')
+        if settings.real('contact.friction') > 0:
+            raise ValueError('springs.py knows no friction: contact.friction')
         if settings.integer('grains.ranks') > 1:                    # contacts with grains of other ranks are not found
             raise ValueError('springs.py runs on one rank only: grains.ranks')
         self.grains, self.size = grains, (settings.real('run.size_x'), settings.real('run.size_y'))

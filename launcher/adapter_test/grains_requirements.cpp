@@ -104,16 +104,16 @@ Finding collides(const Candidate& candidate, const std::filesystem::path& folder
     const Trial trial = play_trial(
         candidate, {"collision", two_in_a_row, {"time.end=0.5", "fluid.enabled=false"}}, folder);
     if (!trial.done()) return failure_of(trial.outcome);
-    const Overlap overlap = judge_overlap(trial);
-    if (overlap.finding.grade == Grade::failed) return overlap.finding;
-    if (!(overlap.deepest <= deepest_overlap))
-        return {Grade::failed, fmt::format("grains overlap by {:.3g} D", overlap.deepest)};
     // Both have the same speed; without a contact they keep 1 u_c along x.
     const double fall = trial.last("mean_velocity_y"), speed = trial.last("mean_speed");
     const double along = std::sqrt(std::max(0.0, speed * speed - fall * fall));
     if (!(along < 0.5))
         return {Grade::failed,
                 fmt::format("two grains that met at 1 u_c go on with {:.2g} u_c", along)};
+    const Overlap overlap = judge_overlap(trial);
+    if (overlap.finding.grade == Grade::failed) return overlap.finding;
+    if (!(overlap.deepest <= deepest_overlap))
+        return {Grade::failed, fmt::format("grains overlap by {:.3g} D", overlap.deepest)};
     return within(std::abs(trial.last("mean_velocity_x")), round_off, "momentum along the contact");
 }
 

@@ -49,6 +49,29 @@ class AdapterKit : public ShellTest {
             EXPECT_NEAR(mine[i], reference[i], tolerance) << i;
     }
 
+    Answer judge(const std::string& command) const {
+        return shell("timeout 120 " TURBIDITE_PROGRAM " adapter-test -- " + command);
+    }
+
+    /// And refuses what it cannot do in words.
+    void expect_conforms(const std::string& command) const {
+        const Answer answer = judge(command);
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, "-     slides into rolling                 refuses friction: ");
+        EXPECT_SAYS(answer.out, "-     respects held and driven grains     refuses grains with a");
+        EXPECT_SAYS(answer.out, "\nconforms\n");
+    }
+
+    /// As documented: nothing else is missing.
+    void expect_touches_nothing(const std::string& command) const {
+        const Answer answer = judge(command);
+        EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, "FAILS lands and comes to rest");
+        EXPECT_SAYS(answer.out, "FAILS collides and keeps momentum");
+        EXPECT_SAYS(answer.out, "-     collides with friction              refuses friction: ");
+        EXPECT_SAYS(answer.out, "\n2 requirements are not met\n");
+    }
+
     /// The run that has just been played, in two parts.
     void expect_goes_on(const std::string& command, const std::string& more = "") const {
         const std::vector<double> whole = fall("run");
@@ -67,6 +90,9 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
                                cmake + " --build mine/build");
     ASSERT_EQ(build.code, 0) << build.out << build.err;
     ASSERT_EQ(run("", "reference").code, 0);
+    expect_conforms("mine/build/springs");
+    expect_conforms("/usr/bin/python3 mine/springs.py");
+    expect_touches_nothing("mine/build/falling");
     expect_settled(run_external("mine/build/springs"), "springs", 1e-3);
     expect_goes_on("mine/build/springs");
     expect_settled(run_external("/usr/bin/python3 mine/springs.py"), "springs-py", 1e-3);
@@ -75,6 +101,56 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
     expect_settled(run_external("mine/build/falling", "--set limits.penetration=10"), "falling-c",
                    0.05);
     expect_goes_on("mine/build/falling", "--set limits.penetration=10");
+}
+
+// The package of a program that is not built with CMake: every header stands for itself, flags come
+// from pkg-config, and a folder that was moved is found.
+TEST_F(AdapterKit, ThePackageIsWholeAndWorksWithPkgConfig) {
+    const Answer install =
+        shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --prefix there && mv there prefix");
+    ASSERT_EQ(install.code, 0) << install.err;
+    const Answer headers = shell(
+        "cd prefix/include && find . -name '*.hpp' -o -name '*.h' | xargs -P 2 -I {} sh -c "
+        "'echo \"#include <{}>\" | g++ -std=c++17 -I . -I turbidite -fsyntax-only -x c++ "
+        "$(pkg-config --cflags mpi-c) - || exit 1; echo {} stands for itself'");
+    EXPECT_EQ(headers.code, 0) << headers.err;
+    for (const char* name : {"participant/conversation.hpp", "participant/turbidite.h",
+                             "protocol/records.hpp", "transport/world_isolation.hpp"})
+        EXPECT_SAYS(headers.out, std::string(name) + " stands for itself");
+
+    const std::string flags =
+        "$(PKG_CONFIG_PATH=prefix/lib/pkgconfig pkg-config --cflags --libs turbidite)";
+    const Answer build =
+        shell("cp prefix/share/turbidite/examples/* . && g++ -std=c++17 springs.cpp -o springs " +
+              flags + " && cc falling.c -o falling " + flags + " -lm");
+    ASSERT_EQ(build.code, 0) << build.out << build.err;
+    for (const std::string program : {"springs", "falling"}) {
+        const Answer answer = run_external(program, "--set time.end=0.1");
+        EXPECT_EQ(answer.code, 0) << program << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, "grains rank 0  " + program);
+    }
+}
+
+// The library of the guide, preloaded into a program that believes it owns the world.
+TEST_F(AdapterKit, TheInstalledIsolationDividesTheWorld) {
+    scratch.write("owner.c",
+                  "#include <mpi.h>\n#include <stdio.h>\n"
+                  "int main(int argc, char** argv) {\n"
+                  "    int size;\n"
+                  "    MPI_Init(&argc, &argv);\n"
+                  "    MPI_Comm_size(MPI_COMM_WORLD, &size);\n"
+                  "    printf(\"a world of %d\\n\", size);\n"
+                  "    return MPI_Finalize();\n"
+                  "}\n");
+    ASSERT_EQ(shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --prefix prefix && mpicc "
+                                  "owner.c -o owner")
+                  .code,
+              0);
+    const Answer answer = shell(
+        "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; timeout 60 mpirun "
+        "--oversubscribe -n 3 sh -c 'TURBIDITE_ROLE=$((OMPI_COMM_WORLD_RANK / 2)) "
+        "LD_PRELOAD=$PWD/prefix/lib/libturbidite_world_isolation.so exec ./owner' | sort");
+    EXPECT_EQ(answer.out, "a world of 1\na world of 2\na world of 2\n") << answer.err;
 }
 
 TEST_F(AdapterKit, CheckSaysWhetherTheProgramIsThere) {

@@ -24,9 +24,10 @@ TEST_P(ShippedAdapter, Conforms) {
     EXPECT_SAYS(answer.out, "\nconforms\n");
     for (const char* requirement :
          {"falls freely without a fluid", "settles in a linear drag (split)",
-          "lands and comes to rest", "collides and keeps momentum", "announces grains that leave",
-          "refuses messages out of order", "ends in order on a stop request", "repeats itself",
-          "goes on from a checkpoint"})
+          "lands and comes to rest", "collides and keeps momentum", "slides into rolling",
+          "collides with friction", "respects held and driven grains", "reports its contacts",
+          "announces grains that leave", "refuses messages out of order",
+          "ends in order on a stop request", "repeats itself", "goes on from a checkpoint"})
         EXPECT_SAYS(answer.out, std::string("ok    ") + requirement);
     const bool springs = name.ends_with("-md"), ranks = name == "lammps-md";
     const auto grade = [](bool can) { return std::string(can ? "ok    " : "-     "); };
@@ -89,12 +90,43 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"NeverGoesBack", "broken-grains 'never goes back'", "repeats a window",
                       "does not go back to t^n"},
         BrokenProgram{"NoFloor", "careless grains", "lands and comes", "sink into the floor"},
-        BrokenProgram{"NoContacts", "broken-grains none", "collides", "two grains that met"},
-        BrokenProgram{"WrongImpulseDry", "broken-grains 'wrong impulse'", "collides",
+        BrokenProgram{"GoesHalf", "contact-grains 'goes half'", "falls freely", "position"},
+        BrokenProgram{"NeverRests", "contact-grains 'never rests'", "lands and comes",
+                      "grains are not at rest: mean speed 0.09"},
+        BrokenProgram{"NoContacts", "broken-grains none", "collides and", "two grains that met"},
+        BrokenProgram{"Soft", "contact-grains soft", "collides and", "grains overlap by 0.1 D"},
+        BrokenProgram{"HidesOverlap", "contact-grains 'hides overlap'", "collides and",
+                      "and max_penetration says 0 D"},
+        BrokenProgram{"HidesOverlapWithAWall", "contact-grains 'hides overlap'", "lands and comes",
+                      "and max_penetration says 0 D"},
+        BrokenProgram{"OneSided", "contact-grains one-sided", "collides and",
+                      "momentum along the contact differs"},
+        BrokenProgram{"Slippery", "contact-grains slippery", "slides into",
+                      "velocity of a disc that slides differs"},
+        BrokenProgram{"Rough", "contact-grains rough", "slides into",
+                      "the tangential impulse is 0.6 of the normal one"},
+        BrokenProgram{"NoSpin", "contact-grains 'no spin'", "slides into",
+                      "velocity of a disc that slides differs"},
+        BrokenProgram{"SlipsPast", "contact-grains slippery", "collides with",
+                      "friction over normal impulse of two discs that slip differs"},
+        BrokenProgram{"RoughPair", "contact-grains rough", "collides with",
+                      "the tangential impulse is 0.24 of the normal one"},
+        BrokenProgram{"OneSpin", "contact-grains 'one spin'", "collides with",
+                      "angular momentum over friction impulse, in D, differs by 5.0e-01"},
+        BrokenProgram{"OneSidedFriction", "contact-grains one-sided", "collides with",
+                      "momentum of two discs differs"},
+        BrokenProgram{"MovesAll", "contact-grains 'moves all'", "respects held", "grain"},
+        BrokenProgram{"HalfRecords", "contact-grains 'half records'", "reports its",
+                      "the sum of its contacts, in weights, differs by 5.0e-01"},
+        BrokenProgram{"WrongImpulseDry", "broken-grains 'wrong impulse'", "collides and",
                       "M dU = M g dt + J_c fails most for grain"},
         BrokenProgram{"WrongImpulseInTheState", "broken-grains 'wrong impulse'", "lands and comes",
                       "its contact impulses those of the motion"},
         BrokenProgram{"KeepsAll", "broken-grains none", "announces grains", "3 grains at the end"},
+        BrokenProgram{"ExitsWithFreeSides", "contact-grains 'exits with free sides'",
+                      "announces grains", "grains rank 0 ended with status 1"},
+        BrokenProgram{"CrashesOnTwoRanks", "contact-grains 'crashes on two ranks'",
+                      "moves the same", "was ended by signal 6"},
         BrokenProgram{"DeafRank", "broken-grains 'second rank is deaf'", "moves the same",
                       "velocities of the state must be those of the kicks"},
         BrokenProgram{"Careless", "careless grains", "refuses messages",
@@ -102,6 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"FailsAtTheEnd", "broken-grains 'fails at the end'", "ends in order",
                       "no more windows"},
         BrokenProgram{"Noisy", "broken-grains noisy", "repeats itself", "differs between two"},
+        BrokenProgram{"CannotSave", "contact-grains 'cannot save'", "goes on from",
+                      "saves_state is claimed and not kept: there is no room for the state"},
         BrokenProgram{"ForgetsDigits", "broken-grains 'forgets digits'", "goes on from",
                       "mean_position_x differs from that of a run in one part"}),
     [](const auto& info) { return info.param.name; });
@@ -129,6 +163,37 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"Noisy", "broken-fluid noisy", "repeats itself", "differs between two"},
         BrokenProgram{"Forgets", "broken-fluid forgets", "goes on from", "in one part"}),
     [](const auto& info) { return info.param.name; });
+
+/// A program of another kind than the shipped ones, which refuses in words what it cannot do.
+TEST_F(AdapterTest, AnHonestProgramConforms) {
+    const Answer honest = judge("-- " BROKEN_PROGRAMS "contact-grains none");
+    EXPECT_EQ(honest.code, 0) << honest.out << honest.err;
+    EXPECT_SAYS(honest.out, "ok    slides into rolling");
+    EXPECT_SAYS(honest.out, "-     announces grains that leave         refuses free sides: ");
+    EXPECT_SAYS(honest.out, "-     moves the same on two ranks         refuses two ranks: ");
+    EXPECT_SAYS(honest.out, "\nconforms\n");
+
+    const Answer refused =
+        judge("--only ction -- " BROKEN_PROGRAMS "contact-grains 'refuses friction'");
+    EXPECT_EQ(refused.code, 0) << refused.out << refused.err;
+    EXPECT_SAYS(refused.out, "-     collides with friction              refuses friction: ");
+    EXPECT_SAYS(refused.out, "no friction: contact.friction");
+}
+
+// sys.exit in a program in Python is told by the library, not by the program.
+TEST_F(AdapterTest, AnExitIsNoRefusal) {
+    scratch.write("mine.py",
+                  "import sys, turbidite_adapter as turbidite\n"
+                  "class Mine:\n"
+                  "    name, version, host_code = 'mine', '1', 'Python'\n"
+                  "    def initialise(self, settings, shapes, grains): sys.exit(0)\n"
+                  "    advance = apply_kick = None\n"
+                  "turbidite.run_grains(Mine(), sys.argv[-1])\n");
+    const Answer answer = judge("--only friction -- /usr/bin/python3 mine.py");
+    EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "FAILS collides with friction");
+    EXPECT_SAYS(answer.out, "SystemExit: 0");
+}
 
 // The log goes with the temporary folder.
 TEST_F(AdapterTest, ShowsTheLogOfAProgramThatDoesNotStart) {
