@@ -72,6 +72,15 @@ std::string not_finite(const std::initializer_list<std::pair<const char*, double
     return "";
 }
 
+/// The first number that is not finite, or below zero where it counts or measures something.
+std::string negative(const std::initializer_list<std::pair<const char*, double>> numbers) {
+    for (const auto& [name, value] : numbers) {
+        if (!std::isfinite(value)) return fmt::format("{} is not finite: {}", name, value);
+        if (value < 0.0) return fmt::format("{} is {}, not a number from 0 on", name, value);
+    }
+    return "";
+}
+
 std::string fault_of(const GrainState& grain) {
     if (const std::string fault = not_finite(grain, grain_fields); !fault.empty()) return fault;
     if (!(grain.radius > 0.0) || !std::isfinite(grain.radius))
@@ -86,8 +95,17 @@ std::string fault_of(const GrainState& grain) {
 }
 
 std::string fault_of(const ContactRecord& contact) {
-    const std::string fault = not_finite(contact, contact_fields);
-    return fault.empty() ? not_finite({{"gap", contact.gap}, {"length", contact.length}}) : fault;
+    if (const std::string fault = not_finite(contact, contact_fields); !fault.empty()) return fault;
+    if (const std::string fault = not_finite({{"gap", contact.gap}, {"length", contact.length}});
+        !fault.empty())
+        return fault;
+    double norm = 0.0;
+    for (const double part : contact.normal) norm += part * part;
+    if (!(std::abs(norm - 1.0) <= unit_tolerance))
+        return fmt::format("normal is no unit vector: ({})", fmt::join(contact.normal, ", "));
+    if (contact.wall < 0 && contact.a >= contact.b)
+        return fmt::format("a is grain {}, but b is the grain with the larger id", contact.a);
+    return negative({{"length", contact.length}});
 }
 
 std::string fault_of(const ContactReport& report) {
@@ -95,8 +113,33 @@ std::string fault_of(const ContactReport& report) {
          {std::pair{"contacts", report.contacts}, std::pair{"iterations", report.iterations},
           std::pair{"removed", report.removed}})
         if (count < 0) return fmt::format("number of {} is {}", name, count);
-    return not_finite(
+    return negative(
         {{"max_penetration", report.max_penetration}, {"wall_seconds", report.wall_seconds}});
+}
+
+std::string fault_of(const SplittingReport& report) {
+    return negative({{"number of pressure iterations", double(report.pressure_iterations)},
+                     {"number of viscous iterations", double(report.viscous_iterations)},
+                     {"remaining divergence", report.divergence},
+                     {"viscous residual", report.viscous_residual}});
+}
+
+std::string fault_of(const FluidReport& report) {
+    const std::string fault =
+        negative({{"number of multiplier iterations", double(report.multiplier_iterations)},
+                  {"multiplier residual", report.multiplier_residual},
+                  {"divergence", report.divergence},
+                  {"final divergence", report.final_divergence},
+                  {"momentum defect", report.momentum_defect},
+                  {"Courant number", report.courant},
+                  {"wall_seconds", report.wall_seconds}});
+    if (!fault.empty()) return fault;
+    if (!finite(report.mean_velocity))
+        return fmt::format("mean velocity is not finite: ({})",
+                           fmt::join(report.mean_velocity, ", "));
+    if (!finite(report.probes))
+        return fmt::format("probes are not finite: ({})", fmt::join(report.probes, ", "));
+    return report.splitting ? fault_of(*report.splitting) : "";
 }
 
 std::string fault_of(const FreeResponse& response) {
@@ -148,9 +191,8 @@ void Arrival::check(int rank, const Kicks& share) const {
     for (const Kick& kick : share.kicks)
         if (const std::string fault = not_finite(kick, kick_fields); !fault.empty())
             refuse(rank, fmt::format("kick for grain {}: {}", kick.id, fault), no_fault_of_others);
-    if (const std::string fault = not_finite({{"wall_seconds", share.report.wall_seconds}});
-        !fault.empty())
-        refuse(rank, "report: " + fault, against_protocol);
+    if (const std::string fault = fault_of(share.report); !fault.empty())
+        refuse(rank, "report: " + fault, no_fault_of_others);
 }
 
 void Arrival::check(int rank, const std::vector<FreeResponse>& share) const {

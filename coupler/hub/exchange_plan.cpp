@@ -45,29 +45,14 @@ void add(ContactReport& total, const ContactReport& share) {
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
 }
 
-std::string name_of(const ContactRecord& contact) {
-    const std::string first = contact.wall < 0 ? "grain " + std::to_string(contact.a)
-                                               : "wall " + std::to_string(contact.wall);
-    return "the contact of " + first + " and grain " + std::to_string(contact.b) + " (point " +
-           std::to_string(contact.feature) + ")";
-}
-
 std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>& shares) {
-    const auto tells = [](const Motion& share) { return share.contacts.has_value(); };
-    if (std::none_of(shares.begin(), shares.end(), tells)) return std::nullopt;
-    if (!std::all_of(shares.begin(), shares.end(), tells))
-        throw PhysicsRefused("only some grains ranks sent their contacts");
-    std::vector<ContactRecord> all;
-    for (const Motion& share : shares)
-        all.insert(all.end(), share.contacts->begin(), share.contacts->end());
-    std::sort(all.begin(), all.end(), contact_before);
-    const auto twice = std::adjacent_find(
-        all.begin(), all.end(),
-        [](const ContactRecord& x, const ContactRecord& y) { return !contact_before(x, y); });
-    if (twice != all.end())
-        throw PhysicsRefused(
-            name_of(*twice) +
-            " was sent twice; only the rank that owns the second grain may report it");
+    std::optional<std::vector<ContactRecord>> all;
+    for (const Motion& share : shares) {
+        if (!share.contacts) continue;
+        if (!all) all.emplace();
+        all->insert(all->end(), share.contacts->begin(), share.contacts->end());
+    }
+    if (all) std::sort(all->begin(), all->end(), contact_before);
     return all;
 }
 
@@ -99,7 +84,6 @@ Motion ExchangePlan::gather(std::vector<Motion> shares) {
     Motion all = joined(shares);
     if (const auto twice = index_.follow(all.grains))
         throw PhysicsRefused("grain " + std::to_string(*twice) + " was sent twice");
-    if (all.contacts) demand_owned(*all.contacts);
     return all;
 }
 
@@ -109,13 +93,6 @@ void ExchangePlan::remember_owners(const std::vector<Motion>& shares) {
     std::size_t grains = 0;
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         owner_.resize(grains += shares[rank].grains.size(), static_cast<int>(rank));
-}
-
-void ExchangePlan::demand_owned(const std::vector<ContactRecord>& contacts) const {
-    for (const ContactRecord& contact : contacts)
-        for (const GrainId id : {contact.b, contact.wall < 0 ? contact.a : contact.b})
-            if (index_.place(id) == GrainIndex::nowhere)
-                throw PhysicsRefused(name_of(contact) + " names an unknown grain");
 }
 
 std::vector<MotionShare> ExchangePlan::by_place(const Motion& motion) const {

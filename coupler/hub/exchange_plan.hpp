@@ -20,9 +20,8 @@ class ExchangePlan {
     ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period);
 
     /// Merges what the grains ranks sent into one list and remembers which rank owns which grain.
-    /// Contacts are in the order of contact_before, whatever the number of ranks. Throws
-    /// PhysicsRefused when an id or a contact occurs twice, a contact names an unknown grain, or
-    /// only some ranks report contacts.
+    /// Contacts (checked by hub/contact_check) are in the order of contact_before, whatever the
+    /// number of ranks. Throws PhysicsRefused when an id occurs twice.
     Motion gather(std::vector<Motion> shares);
 
     /// How often `gather` had to find the places of the grains anew.
@@ -41,7 +40,6 @@ class ExchangePlan {
 
  private:
     void remember_owners(const std::vector<Motion>& shares);
-    void demand_owned(const std::vector<ContactRecord>& contacts) const;
     template <class Record>
     std::vector<int> owners_of(const std::vector<Record>& records) const;
     [[noreturn]] void refuse_missing(const std::vector<bool>& answered) const;

@@ -46,8 +46,8 @@ void GrainRoster::remember(const std::vector<Motion>& shares) {
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const GrainState& grain : shares[rank].grains) {
             places_.emplace(grain.id, present_.size());
-            present_.push_back(
-                {grain.id, grain.shape, grain.radius, grain.density, static_cast<int>(rank)});
+            present_.push_back({grain.id, grain.shape, grain.material, grain.prescribed,
+                                grain.radius, grain.density, static_cast<int>(rank)});
         }
 }
 
@@ -81,6 +81,18 @@ GrainRoster::Seen GrainRoster::tally(const Shares& shares, const Arrival& arriva
     return seen;
 }
 
+std::string GrainRoster::Entry::difference(const GrainState& grain) const {
+    const auto instead = [](const char* quantity, auto now, auto known) {
+        return fmt::format("{} {:.10g} instead of {:.10g}", quantity, static_cast<double>(now),
+                           static_cast<double>(known));
+    };
+    if (grain.shape != shape) return instead("shape", grain.shape, shape);
+    if (grain.material != material) return instead("material", grain.material, material);
+    if (grain.prescribed != prescribed) return instead("prescribed", grain.prescribed, prescribed);
+    if (!keeps(radius, grain.radius)) return instead("radius", grain.radius, radius);
+    return instead("density", grain.density, density);
+}
+
 void GrainRoster::check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const {
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const GrainState& grain : shares[rank].grains) {
@@ -88,11 +100,9 @@ void GrainRoster::check_bodies(const std::vector<Motion>& shares, const Arrival&
             if (known.is_the_same_body(grain)) continue;
             arrival.refuse(
                 static_cast<int>(rank),
-                fmt::format("grain {} has shape {}, radius {:.10g} and density {:.10g}, in the "
-                            "population {}, {:.10g} and {:.10g}",
-                            grain.id, grain.shape, grain.radius, grain.density, known.shape,
-                            known.radius, known.density),
-                "A grain keeps its shape, radius and density.");
+                fmt::format("grain {} has {}, the population's", grain.id, known.difference(grain)),
+                "A grain keeps its shape, material, radius and density, and whether its "
+                "motion is prescribed.");
         }
 }
 
@@ -114,12 +124,21 @@ void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& sha
                    every_grain_once);
 }
 
-void GrainRoster::check(const std::vector<Motion>& shares, const Arrival& arrival) {
-    if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) return;
+std::vector<Leaver> GrainRoster::check(const std::vector<Motion>& shares, const Arrival& arrival) {
+    if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) return {};
     const Seen seen = tally(shares, arrival);
     check_bodies(shares, arrival);
     check_missing(seen, shares, arrival);
+    std::vector<Leaver> gone = leavers(seen);
     remember(shares);
+    return gone;
+}
+
+std::vector<Leaver> GrainRoster::leavers(const Seen& seen) const {
+    std::vector<Leaver> gone;
+    for (std::size_t at = 0; at < seen.size(); ++at)
+        if (seen[at] == nobody) gone.push_back({present_[at].id, present_[at].rank});
+    return gone;
 }
 
 template <class Shares>

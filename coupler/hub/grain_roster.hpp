@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -12,14 +13,20 @@
 
 namespace turbidite {
 
+/// A grain that has left the run, and the grains rank that had it.
+struct Leaver {
+    GrainId id = 0;
+    int rank = 0;
+};
+
 class GrainRoster {
  public:
     explicit GrainRoster(const std::vector<GrainState>& population);
 
     /// Checks the grains of `motion` or `state`; those that a `state` reports as removed leave the
-    /// run. Throws PhysicsRefused naming the sender and the first grain that is unknown, sent
-    /// twice, missing, or of another shape, radius or density than in the population.
-    void check(const std::vector<Motion>& shares, const Arrival& arrival);
+    /// run, and are returned. Throws PhysicsRefused naming the sender and the first grain that is
+    /// unknown, sent twice, missing, or not the body that it is in the population.
+    std::vector<Leaver> check(const std::vector<Motion>& shares, const Arrival& arrival);
 
     /// Checks the fluid's answers, one for every grain. Throws like the other.
     void check(const std::vector<Kicks>& shares, const Arrival& arrival) const;
@@ -29,6 +36,7 @@ class GrainRoster {
     void resume(const std::vector<Motion>& shares) { remember(shares); }
 
     std::size_t size() const { return present_.size(); }
+    bool has(GrainId id) const { return places_.count(id) > 0; }
 
  private:
     /// To the round-off of a host that keeps masses, or diameters.
@@ -36,14 +44,18 @@ class GrainRoster {
 
     struct Entry {
         GrainId id = 0;
-        std::int32_t shape = 0;
+        std::int32_t shape = 0, material = 0;
+        bool prescribed = false;
         double radius = 0.0, density = 0.0;
         int rank = 0;  ///< the grains rank that sent it when the order last changed
 
         bool is_the_same_body(const GrainState& grain) const {
-            return grain.shape == shape && keeps(radius, grain.radius) &&
+            return grain.shape == shape && grain.material == material &&
+                   grain.prescribed == prescribed && keeps(radius, grain.radius) &&
                    keeps(density, grain.density);
         }
+        /// "shape 3 instead of 0": what is not the same.
+        std::string difference(const GrainState& grain) const;
         bool fits(const GrainState& grain) const {
             return grain.id == id && is_the_same_body(grain);
         }
@@ -62,6 +74,7 @@ class GrainRoster {
     void check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const;
     void check_missing(const Seen& seen, const std::vector<Motion>& shares,
                        const Arrival& arrival) const;
+    std::vector<Leaver> leavers(const Seen& seen) const;
     void remember(const std::vector<Motion>& shares);
     template <class Shares>
     void check_answers(const Shares& shares, const Arrival& arrival) const;

@@ -78,7 +78,8 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
       watch_(links_, settings_.stall_soft, settings_.stall_hard,
              [this](const std::string& text) { progress_.say(text); }),
       roster_(case_.population),
-      kick_rule_(settings_.run, case_.shapes),
+      kick_rule_(settings_.run, case_.shapes, case_.population),
+      motion_rule_(case_.settings, case_.shapes, case_.population),
       order_(scheme),
       scheme_(scheme.make(case_.settings)),
       ledger_(settings_, [this](const std::string& text) { progress_.say(text); }),
@@ -161,7 +162,8 @@ CouplerState Hub::state() {
 }
 
 Cast Hub::cast() {
-    return {grains_, fluid_ ? &*fluid_ : nullptr, watch_, *plan_, roster_, kick_rule_};
+    return {grains_,     fluid_ ? &*fluid_ : nullptr, watch_, *plan_, roster_, kick_rule_,
+            motion_rule_};
 }
 
 RunStatus Hub::run() {
@@ -236,7 +238,11 @@ void Hub::start() {
     plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
     checkpoints_.meet_participants();
     Cast everybody = cast();
-    Motion initial = receive_grains(Kind::state, -1, everybody);
+    const Capabilities& can = grains_.hello(0).capabilities;
+    motion_rule_.expect_substeps(can.native_substeps);
+    motion_rule_.expect_responses(
+        expectation(Role::grains, case_.settings, case_.shapes, order_).effective_inertia);
+    Motion initial = receive_start(everybody);
     if (case_.resumed)
         go_on_from(*case_.resumed);
     else

@@ -93,6 +93,7 @@ class Hub {
     std::optional<ExchangePlan> plan_;
     GrainRoster roster_;
     KickRule kick_rule_;
+    MotionRule motion_rule_;
     SchemeEntry order_;
     std::unique_ptr<Scheme> scheme_;
     Ledger ledger_;

@@ -70,8 +70,12 @@ GrainBalance found(const Balance& linear, const Balance& angular, GrainBalance::
 
 }  // namespace
 
-KickRule::KickRule(const RunValues& run, const ShapeTable& shapes)
-    : bodies_(run, shapes), gravity_(run.gravity) {}
+KickRule::KickRule(const RunValues& run, const ShapeTable& shapes,
+                   const std::vector<GrainState>& population)
+    : bodies_(run, shapes), gravity_(run.gravity) {
+    for (const GrainState& grain : population)
+        if (grain.prescribed) given_.insert(grain.id);
+}
 
 const ImmersedBody& KickRule::body_of(const GrainState& grain) {
     const bool same = last_body_ && grain.shape == last_.shape && grain.radius == last_.radius &&
@@ -115,7 +119,7 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         at = before_.place(kick.id, at + 1);
         at_contact = contact_.place(kick.id, at_contact + 1);
         const GrainState& grain = before.grains.at(at);
-        if (grain.prescribed) continue;
+        if (has_given_motion(grain.id)) continue;
         const GrainState& with_contact = contact.grains.at(at_contact);
         const ImmersedBody& immersed = body_of(grain);
         const Eigen::Vector3d spin_change = change(grain.angular_velocity, kick.angular_velocity);
@@ -138,7 +142,7 @@ GrainBalance KickRule::balance(const Motion& before, const Motion& after, double
     for (const GrainState& now : after.grains) {  // those that have left are no longer known
         at = before_.place(now.id, at + 1);
         const GrainState& grain = before.grains.at(at);
-        if (grain.prescribed) continue;
+        if (has_given_motion(grain.id)) continue;
         const ImmersedBody& body = body_of(grain);
         const Eigen::Vector3d spin_change = change(grain.angular_velocity, now.angular_velocity);
         // M dU - M g dt - J_c; the same for the spin, divided by R
@@ -162,7 +166,7 @@ GrainBalance KickRule::with_state(GrainBalance so_far, const std::vector<Kick>& 
         at_state = state_.place(kick.id, at_state + 1);
         if (at_state == GrainIndex::nowhere) continue;  // it has left
         const GrainState& now = state.grains[at_state];
-        if (now.prescribed) continue;
+        if (has_given_motion(now.id)) continue;
         const GrainState& then = contact.grains.at(at_contact);
         if (same_velocities(kick, now) && same_impulses(then, now)) continue;
         const ImmersedBody& body = body_of(now);

@@ -14,6 +14,8 @@
 #pragma once
 
 #include <optional>
+#include <unordered_set>
+#include <vector>
 
 #include "coupler/output/window_result.hpp"
 #include "coupler/protocol/grain_index.hpp"
@@ -23,7 +25,10 @@ namespace turbidite {
 
 class KickRule {
  public:
-    KickRule(const RunValues& run, const ShapeTable& shapes);
+    /// Grains with a given motion are those that `population` calls prescribed, whatever a message
+    /// says.
+    KickRule(const RunValues& run, const ShapeTable& shapes,
+             const std::vector<GrainState>& population);
 
     /// Fills force and torque. `before` is the state at t^n. Throws PhysicsRefused for a kick of an
     /// unknown grain.
@@ -44,8 +49,10 @@ class KickRule {
  private:
     /// Valid until the next call. Grains that follow each other are often of one kind.
     const ImmersedBody& body_of(const GrainState& grain);
+    bool has_given_motion(GrainId id) const { return !given_.empty() && given_.count(id) > 0; }
 
     ImmersedBodies bodies_;
+    std::unordered_set<GrainId> given_;
     GrainState last_;  ///< of the last call
     std::optional<ImmersedBody> last_body_;
     double gravity_;

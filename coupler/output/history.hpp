@@ -26,6 +26,7 @@ struct Row {
     const JointReport* joint = nullptr;      ///< null under other schemes
     std::optional<SinceRow> since;           ///< empty before the first window
     std::optional<double> grain_balance;     ///< GrainBalance::defect
+    std::optional<double> motion_defect;     ///< MotionDefect::defect [m]
 };
 
 /// Means over the grains, in run units.

@@ -46,7 +46,7 @@ template <class Code>
 void visit_statistics(Code& code, RunStatistics& statistics) {
     RunMaxima& maxima = statistics.maxima;
     code(statistics.windows_done), code(maxima.penetration), code(maxima.grain_balance);
-    code(maxima.unconverged_windows);
+    code(maxima.motion_defect), code(maxima.unconverged_windows);
     visit_maybe(code, maxima.contact_violation, [](auto& c, auto& violation) { c(violation); });
     visit_maybe(code, maxima.fluid, [](auto& c, auto& fluid) { visit_fluid(c, fluid); });
     visit_maybe(code, maxima.joint, [](auto& c, auto& joint) { visit_joint(c, joint); });

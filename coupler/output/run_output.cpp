@@ -92,6 +92,7 @@ Row RunOutput::row() const {
         for (std::size_t i = 0; i < 3; ++i) row.fluid_force[i] += kick.force[i];
     row.joint = last_.joint ? &*last_.joint : nullptr;
     if (last_.grain_balance) row.grain_balance = last_.grain_balance->defect;
+    if (last_.motion_defect) row.motion_defect = last_.motion_defect->defect;
     row.since = since_row_;
     return row;
 }

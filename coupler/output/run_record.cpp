@@ -47,7 +47,8 @@ nlohmann::ordered_json maxima_table(const RunMaxima& maxima) {
                                     {"grain_balance", maxima.grain_balance},
                                     {"fluid_balance", fluid.balance},
                                     {"divergence", fluid.divergence},
-                                    {"unconverged_windows", maxima.unconverged_windows}};
+                                    {"unconverged_windows", maxima.unconverged_windows},
+                                    {"motion_defect", maxima.motion_defect}};
     if (maxima.contact_violation) table["contact_violation"] = *maxima.contact_violation;
     if (maxima.fluid) {
         table["final_divergence"] = fluid.final_divergence;

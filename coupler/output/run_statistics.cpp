@@ -57,6 +57,9 @@ void RunStatistics::take_in(const WindowResult& result) {
             largest(maxima.contact_violation.value_or(0.0), *violation / velocity_);
     if (result.grain_balance)
         maxima.grain_balance = std::max(maxima.grain_balance, result.grain_balance->defect);
+    if (result.motion_defect)
+        maxima.motion_defect =
+            std::max(maxima.motion_defect, result.motion_defect->defect / diameter_);
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
     contact_residuals.take_in(result.motion.report);
     if (maxima.fluid) take_in(result.kicks.report);

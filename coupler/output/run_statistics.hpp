@@ -72,6 +72,7 @@ struct JointMaxima {
 struct RunMaxima {
     double penetration = 0.0;    ///< [D]
     double grain_balance = 0.0;  ///< GrainBalance::defect
+    double motion_defect = 0.0;  ///< MotionDefect::defect [D]
     /// ContactReport::contact_violation; empty for codes that do not tell it [u_c].
     std::optional<double> contact_violation;
     std::int64_t unconverged_windows = 0;  ///< contact solves that did not reach their tolerance

@@ -31,12 +31,20 @@ struct GrainBalance {
     double largest = 0.0;  ///< of all terms [kg m/s]
 };
 
+/// How far a grain ended from where the velocity it moves with takes it, turns on its
+/// circumference (hub/motion_rule).
+struct MotionDefect {
+    double defect = 0.0;  ///< [m]
+    GrainId worst = 0;
+};
+
 struct WindowResult {
     Motion motion;  ///< after step 4
     Kicks kicks;    ///< after step 5; empty in dry runs
     Motion state;   ///< at t^{n+1}
     std::optional<JointReport> joint = {};
     std::optional<GrainBalance> grain_balance = {};
+    std::optional<MotionDefect> motion_defect = {};
 };
 
 }  // namespace turbidite

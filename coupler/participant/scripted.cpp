@@ -18,6 +18,12 @@ Vec3 plus(const Vec3& a, double s, const Vec3& b) {
     return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
 
+/// In the plane: about z.
+void turn(Quaternion& q, double angle) {
+    const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
+    q = {c * q[0] - s * q[3], 0.0, 0.0, c * q[3] + s * q[0]};
+}
+
 double distance(const Vec3& a, const Vec3& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
@@ -112,6 +118,7 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
         }
         const Vec3& carrier = answered_ ? contact_velocities_[i] : grain.velocity;
         grain.position = plus(grain.position, window.step, carrier);
+        turn(grain.orientation, window.step * grain.angular_velocity[2]);
         const double overlap = floor_ - (grain.position[1] - grain.radius);
         motion_.report.max_penetration = std::max(motion_.report.max_penetration, overlap);
     }

@@ -166,6 +166,7 @@ TEST_F(AdapterKit, CheckSaysWhetherTheProgramIsThere) {
 /// A Python adapter whose grains fall freely, with a fault in window 3.
 const char* const faulty = R"(import os, sys
 if sys.argv[1] == 'import': import no_such_module
+import numpy
 import turbidite_adapter as turbidite
 
 class Mine:
@@ -188,6 +189,10 @@ class Mine:
         self.grains['velocity'] = kicks['velocity']
         self.grains['angular_velocity'] = kicks['angular_velocity']
         self.grains['position'] += window.step * self.grains['velocity']
+        half = 0.5 * window.step * self.grains['angular_velocity'][:, 2]
+        w, z = self.grains['orientation'][:, 0].copy(), self.grains['orientation'][:, 3].copy()
+        self.grains['orientation'][:, 0] = numpy.cos(half) * w - numpy.sin(half) * z
+        self.grains['orientation'][:, 3] = numpy.cos(half) * z + numpy.sin(half) * w
         fault, sent = sys.argv[1] if window.index == 3 else '', self.grains.copy()
         if fault == 'state_impulse': sent['contact_impulse'][4, 0] = 1
         if fault == 'state_velocity': sent['velocity'][4, 0] = 1

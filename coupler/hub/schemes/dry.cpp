@@ -14,7 +14,7 @@ class Dry final : public Scheme {
         cast.grains.send_all(Kind::window, window);
         cast.grains.send_all(Kind::kick, Kicks{});
         WindowResult result;
-        result.state = receive_grains(Kind::state, window.index, cast);
+        receive_state(window, before, cast, result);
         result.motion.report = result.state.report;
         result.motion.report.wall_seconds = 0.0;  // counted once, in the state
         result.grain_balance = cast.kick_rule.balance(before, result.state, window.step);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "coupler/hub/arrival.hpp"
+#include "coupler/hub/contact_check.hpp"
 #include "coupler/protocol/largest.hpp"
 
 namespace turbidite {
@@ -17,6 +18,18 @@ std::vector<Record> receive(ParticipantLink& from, const Arrival& arrival, Cast&
     std::vector<Record> shares = from.take<Record>(arrival.kind());
     for (int rank = 0; rank < from.ranks(); ++rank) arrival.check(rank, shares[rank]);
     return shares;
+}
+
+struct Grains {
+    Motion motion;
+    std::vector<Leaver> leavers;
+};
+
+Grains receive_grains(const Arrival& arrival, Cast& cast) {
+    auto shares = receive<Motion>(cast.grains, arrival, cast);
+    std::vector<Leaver> leavers = cast.roster.check(shares, arrival);
+    check_contacts(shares, cast.roster, arrival);
+    return {cast.plan.gather(std::move(shares)), std::move(leavers)};
 }
 
 /// All ranks of a fluid solve together and find the same.
@@ -57,15 +70,26 @@ Kicks merged(const std::vector<Kicks>& shares) {
 
 }  // namespace
 
-Motion receive_grains(Kind kind, std::int64_t window, Cast& cast) {
-    const Arrival arrival(cast.grains, kind, window);
-    auto shares = receive<Motion>(cast.grains, arrival, cast);
-    cast.roster.check(shares, arrival);
-    return cast.plan.gather(std::move(shares));
+Motion receive_start(Cast& cast) {
+    const Arrival arrival(cast.grains, Kind::state, -1);
+    Grains received = receive_grains(arrival, cast);
+    cast.motion_rule.check_start(received.leavers, {received.motion, cast.plan.owners(), arrival});
+    return std::move(received.motion);
 }
 
-Motion receive_motion(const Window& window, Cast& cast) {
-    return receive_grains(Kind::motion, window.index, cast);
+Motion receive_motion(const Window& window, const Motion& before, Cast& cast) {
+    const Arrival arrival(cast.grains, Kind::motion, window.index);
+    Motion motion = receive_grains(arrival, cast).motion;
+    cast.motion_rule.check_motion(window, before, {motion, cast.plan.owners(), arrival});
+    return motion;
+}
+
+void receive_state(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {
+    const Arrival arrival(cast.grains, Kind::state, window.index);
+    Grains received = receive_grains(arrival, cast);
+    result.state = std::move(received.motion);
+    result.motion_defect = cast.motion_rule.check_state(
+        window, before, result, received.leavers, {result.state, cast.plan.owners(), arrival});
 }
 
 std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast) {
@@ -77,12 +101,12 @@ std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast) {
     return responses;
 }
 
-std::vector<FreeResponse> play_contact_round(const Window& window,
+std::vector<FreeResponse> play_contact_round(const Window& window, const Motion& before,
                                              const std::vector<std::vector<FreeResponse>>& inputs,
                                              Cast& cast, WindowResult& result) {
     cast.grains.send_each(Kind::contact_input, inputs);
     const ContactReport so_far = result.motion.report;
-    result.motion = receive_motion(window, cast);
+    result.motion = receive_motion(window, before, cast);
     result.motion.report.iterations += so_far.iterations;
     result.motion.report.wall_seconds += so_far.wall_seconds;
     cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
@@ -108,7 +132,7 @@ void finish_window(const Window& window, const Motion& before, Cast& cast, Windo
     // While the grains move.
     const GrainBalance balance =
         cast.kick_rule.balance(result.kicks.kicks, before, result.motion, window.step);
-    result.state = receive_grains(Kind::state, window.index, cast);
+    receive_state(window, before, cast, result);
     result.grain_balance =
         cast.kick_rule.with_state(balance, result.kicks.kicks, result.motion, result.state);
 }

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Exchanges shared by the schemes. Every message is checked here, once, before it is used: its
-// numbers (hub/arrival.hpp) and its grains (hub/grain_roster.hpp).
+// numbers (hub/arrival.hpp), its grains (hub/grain_roster.hpp), its contacts
+// (hub/contact_check.hpp), and where it says that the grains are (hub/motion_rule.hpp).
 #pragma once
 
 #include "coupler/hub/schemes/scheme.hpp"
 
 namespace turbidite {
 
-/// Waits for the grains' `motion` or `state`. `window` is negative at the start.
-Motion receive_grains(Kind kind, std::int64_t window, Cast& cast);
+/// Waits for the grains' state at t = 0.
+Motion receive_start(Cast& cast);
 
-/// Waits for the contact velocities of all grains.
-Motion receive_motion(const Window& window, Cast& cast);
+/// Waits for the contact velocities of all grains. `before` is the state at t^n, here and below.
+Motion receive_motion(const Window& window, const Motion& before, Cast& cast);
+
+/// Waits for the state at t^{n+1}. Fills state and motion defect of `result`, whose motion is that
+/// of the window; it has no grains without a fluid.
+void receive_state(const Window& window, const Motion& before, Cast& cast, WindowResult& result);
 
 /// Waits for the responses of all grains to contact impulses.
 std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast);
@@ -20,7 +25,7 @@ std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast);
 /// One round of a scheme that repeats its contact solves: `inputs` to the grains, by rank, their
 /// motion to the fluid. Fills the motion of `result`, whose iterations and times add up, and counts
 /// the round in its `joint`; returns the responses.
-std::vector<FreeResponse> play_contact_round(const Window& window,
+std::vector<FreeResponse> play_contact_round(const Window& window, const Motion& before,
                                              const std::vector<std::vector<FreeResponse>>& inputs,
                                              Cast& cast, WindowResult& result);
 

@@ -42,7 +42,7 @@ class Joint final : public Scheme {
         WindowResult result;
         result.joint = JointReport{};
         Responses responses = receive_responses(window, cast);
-        do responses = play_round(window, std::move(responses), cast, result);
+        do responses = play_round(window, before, std::move(responses), cast, result);
         while (!result.joint->converged && result.joint->rounds < most_rounds_);
         send_accept(cast);
         finish_window(window, before, cast, result);
@@ -51,10 +51,10 @@ class Joint final : public Scheme {
 
  private:
     /// One contact solve and the fluid's response.
-    Responses play_round(const Window& window, Responses responses, Cast& cast,
-                         WindowResult& result) const {
-        Responses corrected =
-            play_contact_round(window, cast.plan.by_owner(std::move(responses)), cast, result);
+    Responses play_round(const Window& window, const Motion& before, Responses responses,
+                         Cast& cast, WindowResult& result) const {
+        Responses corrected = play_contact_round(
+            window, before, cast.plan.by_owner(std::move(responses)), cast, result);
         JointReport& report = *result.joint;
         report.mismatch = largest_mismatch(corrected);
         report.converged = report.mismatch <= tolerance_;

@@ -13,6 +13,7 @@
 #include "coupler/hub/exchange_plan.hpp"
 #include "coupler/hub/grain_roster.hpp"
 #include "coupler/hub/kick_rule.hpp"
+#include "coupler/hub/motion_rule.hpp"
 #include "coupler/hub/watch.hpp"
 #include "coupler/output/window_result.hpp"
 
@@ -26,6 +27,7 @@ struct Cast {
     ExchangePlan& plan;
     GrainRoster& roster;
     KickRule& kick_rule;
+    MotionRule& motion_rule;
 };
 
 class Scheme {

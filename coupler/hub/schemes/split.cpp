@@ -16,7 +16,7 @@ class Split final : public Scheme {
         cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
         cast.grains.send_all(Kind::window, window);  // step 4 begins
         WindowResult result;
-        result.motion = receive_motion(window, cast);
+        result.motion = receive_motion(window, before, cast);
         cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
         send_accept(cast);
         finish_window(window, before, cast, result);

@@ -95,7 +95,7 @@ class SubIterated final : public Scheme {
         QuasiNewton iteration;
         std::vector<Responses> inputs(static_cast<std::size_t>(cast.grains.ranks()));
         for (;;) {
-            const Responses corrected = play_contact_round(window, inputs, cast, result);
+            const Responses corrected = play_contact_round(window, before, inputs, cast, result);
             const Eigen::VectorXd off = disagreement(result.motion, corrected);
             JointReport& report = *result.joint;
             report.mismatch = largest_of(off);

@@ -118,6 +118,8 @@ TEST_F(Distrust, AGrainSentTwice) {
 }
 
 TEST_F(Distrust, AGrainThatReturns) {
+    job.settings.set("domain.top", std::string("free"));  // at which all grains are
+    job.settings.set("run.size_y", 5.3);
     int removed = 0;
     job.from_grains = [&](Bytes& bytes) {
         Message message = unframe(bytes);
@@ -135,22 +137,21 @@ TEST_F(Distrust, AGrainThatReturns) {
 
 TEST_F(Distrust, AnotherShape) {
     grains_send(Kind::motion, [](Motion& m) { grain_100(m).shape = 3; });
-    expect_end(
-        ExitCode::physics_refused,
-        {"grains rank 0 (scripted", "grain 100 has shape 3, radius", "in the population 0, "});
+    expect_end(ExitCode::physics_refused,
+               {"grains rank 0 (scripted", "grain 100 has shape 3 instead of 0, the population's"});
 }
 
 // Balances would not notice: they believe the density that comes with the velocity.
 TEST_F(Distrust, AnotherDensity) {
     grains_send(Kind::motion, [](Motion& m) { grain_100(m).density *= 2.0; });
-    expect_end(ExitCode::physics_refused, {"grain 100 has shape 0, radius", "and density",
-                                           "A grain keeps its shape, radius and density"});
+    expect_end(ExitCode::physics_refused, {"grain 100 has density 3 instead of 1.5",
+                                           "A grain keeps its shape, material, radius"});
 }
 
 TEST_F(Distrust, AnotherRadius) {
     grains_send(Kind::state, [](Motion& m) { grain_100(m).radius *= 1.0 + 1e-6; });
     expect_end(ExitCode::physics_refused,
-               {"grain 100 has shape 0, radius", "\"state\" of window 3"});
+               {"grain 100 has radius 0.5000005 instead of 0.5", "\"state\" of window 3"});
 }
 
 struct Spoilt {

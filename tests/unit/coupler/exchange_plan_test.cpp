@@ -99,17 +99,6 @@ TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
     EXPECT_FALSE(plan.gather({{{grain(1, 0)}, {}}, {{grain(2, 1)}, {}}}).contacts);
 }
 
-TEST(ExchangePlan, DuplicateUnknownOrPartialContactsAreRefused) {
-    ExchangePlan plan({}, 0.0, {});
-    const std::vector<ContactRecord> one = {contact(1, 2)};
-    const auto gather = [&](Motion first, Motion second) { plan.gather({first, second}); };
-    const Motion left{{grain(1, 0)}, {}, one}, right{{grain(2, 1)}, {}, one};
-    EXPECT_THROW(gather(left, right), PhysicsRefused);
-    EXPECT_THROW(gather(left, {{grain(2, 1)}, {}}), PhysicsRefused);
-    EXPECT_THROW(gather(left, {{grain(3, 1)}, {}, std::vector<ContactRecord>{}}), PhysicsRefused);
-    EXPECT_NO_THROW(gather(left, {{grain(2, 1)}, {}, std::vector<ContactRecord>{}}));
-}
-
 // An adapter without a residual leaves it to the others; if no adapter has one, it stays empty.
 TEST(ExchangePlan, EmptyMeasuresStayEmpty) {
     ExchangePlan plan({}, 0.0, {});

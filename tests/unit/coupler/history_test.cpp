@@ -26,7 +26,7 @@ TEST(History, HeaderIsTheContract) {
                   "fabric_anisotropy,fabric_angle,sigma_xx,sigma_xy,sigma_yy,mean_normal_force,"
                   "sliding_share,flow_x,flow_y,fluid_force_x,fluid_force_y,pressure_iterations,"
                   "viscous_iterations,remaining_divergence,viscous_residual,potential_energy,"
-                  "contact_work,fluid_work,contact_violation"),
+                  "contact_work,fluid_work,contact_violation,motion_defect"),
               0u);
 }
 
@@ -136,7 +136,7 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
          {"contacts", "contact_iterations", "contact_residual", "contact_quad", "contact_max",
           "unconverged", "coordination", "loose_grains", "fabric_anisotropy", "fabric_angle",
           "sigma_xx", "sigma_xy", "sigma_yy", "mean_normal_force", "sliding_share", "contact_work",
-          "fluid_work", "contact_violation"})
+          "fluid_work", "contact_violation", "motion_defect"})
         EXPECT_EQ(cells.at(name), "") << name;
     EXPECT_EQ(cells["pore_volume"], "0") << "grains, but no pores between them";
     ContactReport report;

@@ -13,7 +13,7 @@ constexpr double step = 0.01;
 // One disc, R = 0.5, rho_s = 1.5, rho_f = 1: M = 1.5 pi/4, m_f = pi/4, M_eff = M_sub = pi/8, I_f =
 // pi/32.
 struct OneDisc {
-    KickRule rule{run_values(test_settings()), {{"disc", {}}}};
+    KickRule rule{run_values(test_settings()), {{"disc", {}}}, test_population()};
     Motion before, contact;
     std::vector<Kick> kicks = std::vector<Kick>(1);
 
@@ -88,9 +88,34 @@ TEST(KickRule, TheStateMustBeThatOfTheKicksAndTheContacts) {
 
     const GrainBalance worse{0.1, 7, GrainBalance::Rule::wet, 0.5};
     EXPECT_EQ(disc.rule.with_state(worse, disc.kicks, disc.contact, state).worst, 7);
+}
 
-    state.grains[0].prescribed = true;
-    EXPECT_EQ(disc.rule.with_state(good, disc.kicks, disc.contact, state).defect, 0.0);
+// Whose motion is given, the population says: no message can take a grain out of the balances.
+TEST(KickRule, AGrainThatCallsItselfPrescribedIsBalancedAllTheSame) {
+    OneDisc disc;
+    disc.before.grains[0].prescribed = disc.contact.grains[0].prescribed = true;
+    disc.contact.grains[0].contact_impulse[0] = 0.01;
+    disc.kicks[0].velocity = disc.before.grains[0].velocity;
+    disc.rule.complete(disc.kicks, disc.before, step);
+    EXPECT_GT(disc.rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 0.1);
+    EXPECT_GT(disc.rule.balance(disc.before, disc.contact, step).defect, 0.1);
+    Motion state = disc.contact;
+    state.grains[0].contact_impulse[0] = 0.0;
+    const GrainBalance good{0.0, 0, GrainBalance::Rule::wet, 0.5};
+    EXPECT_NEAR(disc.rule.with_state(good, disc.kicks, disc.contact, state).defect, 0.01 / 0.5,
+                1e-15);
+}
+
+TEST(KickRule, AGrainThatThePopulationPrescribesIsLeftOut) {
+    OneDisc disc;
+    std::vector<GrainState> population = test_population();
+    population[0].prescribed = true;
+    KickRule rule(run_values(test_settings()), {{"disc", {}}}, population);
+    disc.contact.grains[0].contact_impulse[0] = 0.01;
+    disc.kicks[0].velocity = disc.before.grains[0].velocity;
+    rule.complete(disc.kicks, disc.before, step);
+    EXPECT_EQ(rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 0.0);
+    EXPECT_EQ(rule.balance(disc.before, disc.contact, step).defect, 0.0);
 }
 
 }  // namespace

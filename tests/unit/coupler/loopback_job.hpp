@@ -23,6 +23,7 @@ inline constexpr double drag = 0.3;
 
 struct Job {
     Settings settings = test_settings();
+    std::vector<GrainState> population = test_population();
     int grains_ranks = 1, fluid_ranks = 1;
     Fault grains_fault, fluid_fault;
     LoopbackChannel::Hook to_grains;
@@ -75,7 +76,7 @@ struct Job {
                     &grains_recorded.emplace(*grains, recordings / "grains.frames");
                 to_fluid_program = &fluid_recorded.emplace(*fluid, recordings / "fluid.frames");
             }
-            Hub hub({settings, {{"disc", {}}}, test_population(), resumption(folder)},
+            Hub hub({settings, {{"disc", {}}}, population, resumption(folder)},
                     folder.files(), *to_grains_program, wet ? to_fluid_program : nullptr,
                     scheme ? *scheme : find_scheme(settings.text("run.scheme")));
             status = hub.run();

@@ -26,10 +26,10 @@ class Twice final : public Scheme {
         cast.fluid->send_all(Kind::window, window);
         cast.grains.send_all(Kind::window, window);
         WindowResult result;
-        result.motion = receive_motion(window, cast);
+        result.motion = receive_motion(window, before, cast);
         cast.grains.send_each(Kind::contact_input,
                               cast.plan.by_owner(responses_to(window, result.motion, cast)));
-        result.motion = receive_motion(window, cast);
+        result.motion = receive_motion(window, before, cast);
         responses_to(window, result.motion, cast);
         send_accept(cast);
         finish_window(window, before, cast, result);

@@ -49,10 +49,12 @@ class HoldingGrains final : public ScriptedGrains {
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override {
         for (std::size_t i = 0; i < held_.size(); ++i) {
             GrainState& grain = motion_.grains[i];
-            grain.position[1] += window.step * grain.velocity[1];
+            const double with_contact = grain.velocity[1];
             for (const Kick& kick : kicks)
                 if (kick.id == grain.id)
                     grain.velocity = kick.velocity, held_[i] = kick.multiplier_impulse[1];
+            const bool touched = grain.contact_impulse[1] > 0.0;
+            grain.position[1] += window.step * (touched ? with_contact : grain.velocity[1]);
         }
         return motion_;
     }
