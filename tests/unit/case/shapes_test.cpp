@@ -220,6 +220,22 @@ TEST_F(WallsFile, GrainsThatAWallCutsAreNamed) {
                 "wall 1 cuts grain 9 at (3, 3.2) by 0.3 D");
 }
 
+// The image of the wall's end is at (0, 3): sqrt(0.3^2 + 0.2^2) = 0.5 - 0.1394 from the centre.
+TEST_F(WallsFile, GrainsThatAnImageCutsAreNamed) {
+    folder.write("grains.csv", "id,x,y\n9,0.3,3.2\n");
+    folder.write("walls.csv", "id,x1,y1,x2,y2\n1,8,3,10,3\n");
+    std::vector<std::string> set = {"domain.walls_file=walls.csv", "domain.size=[10,20]",
+                                    "domain.left=cyclic", "domain.right=cyclic"};
+    EXPECT_SAYS(refusal("grains: {file: grains.csv, adapter: standalone-nscd}\n", set),
+                "wall 1 cuts grain 9 at (0.3, 3.2) by 0.1394 D");
+    for (const std::string adapter : {"yade-md", "lammps-md", "standalone-md"}) {
+        const std::string text =
+            refusal("grains: {file: grains.csv, adapter: " + adapter + "}\n", set);
+        EXPECT_SAYS(text, "need a contact-dynamics adapter, not " + adapter);
+        EXPECT_SAYS(text, adapter + " does not support cyclic sides");
+    }
+}
+
 TEST_F(WallsFile, IsForContactEnginesWithOrWithoutAFluid) {
     folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0.001,8,0.001\n");
     const std::vector<std::string> wet = {"domain.walls_file=walls.csv", "fluid.enabled=true",

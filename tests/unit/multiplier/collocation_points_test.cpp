@@ -94,14 +94,12 @@ TEST(CollocationPoints, StencilsReachOutwardsHoweverTheGrainHasTurned) {
 /// is, also where the two ends of the plate are below it.
 TEST(CollocationPoints, PointsNearAnyImageOfAWallAreDropped) {
     MemoryField field(64, 64, Side::cyclic);
-    const double half = 1.95, thick = 0.0625, radius = half + thick;
-    const auto outline = make_shape(
-        {"polygon",
-         {1.0, -thick / radius, 1.0, thick / radius, -1.0, thick / radius, -1.0, -thick / radius}});
+    const double radius = std::hypot(1.95, 0.0625), a = 1.95 / radius, b = 0.0625 / radius;
+    const auto outline = make_shape({"polygon", {a, -b, a, b, -a, b, -a, -b}});
     ImmersedGrain plate;
     plate.id = -5;
     plate.shape = outline.get();
-    plate.radius = std::hypot(radius, thick);
+    plate.radius = radius;
     plate.position = {2.0, 1.0, 0.0};
     plate.has_boundary_points = false;
     const int expected = place(field, {disc(1, 2.0, 1.6), plate}).dropped.near_wall;
