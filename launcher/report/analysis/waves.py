@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Waves on a granular flow (Topin et al. 2011, section 3.2): crests in front of troughs.
+"""Waves on a granular flow: crests in front of troughs, while the grains move essentially horizontally (Topin et al. 2011,
+section 3.2: "in this last regime, fluid recirculations are observed leading to the formation of waves at the surface of
+the granular flow"). Before that a block that slides as a whole leaves a trough behind it, which is no wave.
 
 The height of the flow is its solid area per length of floor, in columns of 4 D, so that single grains in the liquid above
-it count for little; a grain is spread evenly over its width. Followed to the right from its highest column, the height of a heap only falls; where it rises
-again, by more than the lowest height so far, there is a crest.
+it count for little; a grain is spread evenly over its width. Followed to the right from its highest column, the height of
+a heap only falls; where it rises again, by more than the lowest height so far, there is a crest.
 """
 import numpy as np
 
-from analysis import snapshots
+from analysis import phases, snapshots
 
 WIDTH = 4.0        # D
 LEAST_CREST = 1.0  # D of solid: a lower one is the roughness of a heap
@@ -27,8 +29,9 @@ def crest(heights):
 
 
 def largest_crest(run):
-    """Of all snapshots of an avalanche [D]; None without any."""
-    there = snapshots.snapshots(run)
-    if not run.is_avalanche() or not there:
+    """Of the snapshots in which an avalanche flows horizontally [D]; None without any."""
+    if not run.is_avalanche() or not snapshots.snapshots(run):
         return None
-    return max(crest(thickness(run, one)) for one in there)
+    flat = {one.time for one in phases.moments(run) if one.is_flat()}
+    crests = [crest(thickness(run, one)) for one in snapshots.snapshots(run) if one.time in flat]
+    return max(crests, default=None)

@@ -337,19 +337,40 @@ def dense_is_slower(runs):
 
 
 def falls_in_three_phases(runs):
-    found = [phases.phases(run) for run in runs.of('run-out', compacity=LOOSE)]
+    """What is missing may still come as long as the grains move."""
+    there = runs.of('run-out', compacity=LOOSE)
+    found = [phases.phases(run) for run in there]
     if not found or any(one is None for one in found):
         return None
-    return '; '.join(one.text for one in found), all(one.complete for one in found)
+    text = '; '.join(one.text for one in found)
+    if all(one.complete for one in found):
+        return text, True
+    return text, None if any(findings.rest_time(run) is None for run in there) else False
 
 
 def no_wave_on_the_dense_one(runs):
-    """Beside the loose one, on which the same measure has to find waves."""
-    loose, dense = (runs.numbers(waves.largest_crest, 'run-out', compacity=phi) for phi in (LOOSE, DENSE))
+    """Beside the loose one, on which the same measure has to find waves. That there is none can be said of a flow that has
+    come to rest."""
+    loose, dense = (runs.of('run-out', compacity=phi) for phi in (LOOSE, DENSE))
     if not loose or not dense:
         return None
-    text = f'crests up to {spread(dense)} D (dense) and {spread(loose)} D (loose) above the trough behind them'
-    return text, max(dense) < waves.LEAST_CREST <= min(loose)
+    text = f'loose: {"; ".join(map(told_wave, loose))}; dense: {"; ".join(map(told_wave, dense))}'
+    if any(map(has_wave, dense)):
+        return text, False
+    if not all(map(has_wave, loose)):
+        return text, None if any(findings.rest_time(run) is None for run in loose) else False
+    return text, None if any(findings.rest_time(run) is None for run in dense) else True
+
+
+def has_wave(run):
+    return (waves.largest_crest(run) or 0.0) >= waves.LEAST_CREST
+
+
+def told_wave(run):
+    crest = waves.largest_crest(run)
+    if crest is None:
+        return f'it has not flowed horizontally by {run.column("mean_speed")[0][-1]:.3g} t_c'
+    return f'crests of up to {crest:.2g} D while it flows horizontally'
 
 
 def wave_breaks(runs):

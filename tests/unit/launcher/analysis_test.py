@@ -138,10 +138,10 @@ class WrittenDeposits(RunFolderTest):
 
 
 class Waves(unittest.TestCase):
-    def thick(self, *columns):
-        """One of this many D of solid in each column of 4 D."""
+    def thick(self, *columns, steep=0.0):
+        """So many grains of one D2 in each column of 4 D, which move to the right and, if steep, down."""
         places = [[4.0 * i + 0.5 + k % 4, 0.5 + k // 4] for i, count in enumerate(columns) for k in range(count)]
-        one = snapshot(places)
+        one = snapshot(places, len(places) * [[1.0, -steep]])
         one.areas = np.ones(len(places))
         return one
 
@@ -154,9 +154,19 @@ class Waves(unittest.TestCase):
     def test_a_crest_stands_over_the_trough_behind_it(self):
         self.assertEqual(waves.crest(np.array([1.0, 5.0, 2.0, 2.5, 1.0, 3.5, 0.0])), 2.5)
 
+    def shots(self, *those):
+        for time, one in enumerate(those):
+            one.time = float(time)
+        return with_snapshots(run(), *those)
+
     def test_the_largest_of_all_times_counts(self):
-        data = with_snapshots(run(), self.thick(12, 4, 0), self.thick(12, 4, 8), self.thick(8, 4, 6))
+        data = self.shots(self.thick(12, 4, 0), self.thick(12, 4, 8), self.thick(8, 4, 6))
         self.assertEqual(waves.largest_crest(data), 1.0)
+
+    def test_a_trough_behind_a_block_that_slides_down_is_no_wave(self):
+        data = self.shots(self.thick(12, 4, 8, steep=1.0), self.thick(8, 4, 6))
+        self.assertEqual(waves.largest_crest(data), 0.5)
+        self.assertIsNone(waves.largest_crest(self.shots(self.thick(12, 4, 8, steep=1.0))))
         self.assertIsNone(waves.largest_crest(with_snapshots(run())))
 
 

@@ -218,6 +218,13 @@ class Statements(unittest.TestCase):
         self.assertEqual([row[5] for row in rows], ['D/16, pores opened to 0.8 R, explicit-multiplier',
                                                     "D/8, R_h = R, as in the paper's Eq. 10, marchuk-yanenko"])
 
+    def test_what_has_not_come_may_come_while_grains_move(self):
+        moving = run_out(speed=0.1)
+        self.assertIsNone(result('no_wave_on_the_dense_one', moving))
+        self.assertIsNone(result('falls_in_three_phases', run_out(speed=0.1, flat=False)))
+        self.assertTrue(result('falls_in_three_phases', moving))
+        self.assertIs(result('no_wave_on_the_dense_one', run_out(speed=0.1, dense_wave=True)), False)
+
     def test_what_still_falls_has_no_verdict(self):
         falling = dry(at=lambda phi: 14.0, part='dry-rest')
         self.assertIsNone(result('dry_decreases_to_zero', falling))
