@@ -88,13 +88,13 @@ std::string checkpoint_rules(const Settings& settings) {
 std::string checkpoint_line(const Settings& settings) {
     const std::string rules = checkpoint_rules(settings);
     if (rules.empty())
-        return "  checkpoints: only when asked for; without one an interrupted run starts again\n";
+        return "  checkpoints: only when asked for; without one an interrupted run cannot go on\n";
     std::string text = fmt::format("  checkpoints: {}, the newest {} are kept\n", rules,
                                    settings.integer("checkpoint.keep"));
     if (settings.text("grains.adapter") == "external")
         text +=
             "    if the grains program saves and restores its state (turbidite adapter-test says "
-            "whether it does);\n    if not, there are none, and an interrupted run starts again\n";
+            "whether it does);\n    if not, there are none, and an interrupted run cannot go on\n";
     return text;
 }
 

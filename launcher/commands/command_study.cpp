@@ -88,7 +88,8 @@ void tell_kept(const std::vector<PlannedRun>& plan, const fs::path& out) {
     for (const PlannedRun& run : plan) {
         if (state_of(run, out) != RunState::kept) continue;
         ++kept;
-        for (const std::string& change : *other_defaults(run, out / run.path()))
+        const auto changes = other_defaults(run, out / run.path());
+        for (const std::string& change : changes.value_or(std::vector<std::string>{}))
             fmt::print(stderr, "turbidite: {} was played with {}\n", run.path(), change);
     }
     if (kept > 0)

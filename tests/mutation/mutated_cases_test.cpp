@@ -13,7 +13,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "coupler/protocol/run_files.hpp"
@@ -28,8 +27,7 @@ namespace {
 using mutation::CaseText;
 
 constexpr long usual_mutations = 2000, per_process = 500;
-constexpr std::size_t largest_study = 1000;  // [bytes]: larger ones have a hundred runs
-constexpr unsigned longest = 30;             // for one case [s]
+constexpr unsigned longest = 30;  // for one case [s]
 
 const char* const grains_csv =
     "id,x,y,radius,shape,angle,vx,vy,spin,density,material,motion\n"
@@ -65,18 +63,9 @@ parts:
     full: {output.interval: 0.05}
     quick: {output.interval: 0.1, random.seed: 1}
     variants: {nscd: {}, md: {grains.adapter: standalone-md}}
-    sweep: {grains.compacity: [0.8, 0.9], random.seed: [1, 2]}
+    sweep: {grains.compacity: [0.8, 0.9], random.seed: [1]}
   alone: {case: case.yaml}
 )";
-
-/// A shipped study, whose cases would take minutes.
-std::string of_small_case(const std::string& study) {
-    return std::regex_replace(study, std::regex("case: [^ ,}\n]+"), "case: case.yaml");
-}
-
-bool is_study_text(const std::string& text) {
-    return text.find("domain:") == std::string::npos && text.find("case:") != std::string::npos;
-}
 
 std::vector<CaseText> starting_cases() {
     std::vector<CaseText> cases(4, CaseText{every_kind_of_key, grains_csv, walls_csv, {}});
@@ -85,10 +74,7 @@ std::vector<CaseText> starting_cases() {
         std::ifstream in(file.path());
         std::stringstream text;
         text << in.rdbuf();
-        if (file.path().extension() != ".yaml") continue;
-        if (is_study_text(text.str()) && text.str().size() < largest_study)
-            cases.push_back({small_case, grains_csv, walls_csv, {}, of_small_case(text.str())});
-        if (text.str().find("domain:") != std::string::npos)
+        if (file.path().extension() == ".yaml" && text.str().find("domain:") != std::string::npos)
             cases.push_back({text.str(), grains_csv, walls_csv, {}});
     }
     return cases;
