@@ -18,6 +18,9 @@ constexpr double rolling_tolerance = 0.03;  // [u_c]
 // Less than a third of the ratio of tangential to normal velocity, so that two discs still slip
 // when they part, also if they bounce: mu < v_t/(6 v_n) at a restitution of one.
 constexpr double glancing_friction = 0.12;
+// Springs whose dashpot is not part of the Coulomb limit push harder in an impact without
+// restitution: YADE's 2.2 times, sliding contacts of every code as Coulomb says (docs/md.md).
+constexpr double with_a_dashpot = 2.5;
 // The normal turns while springs act, by a few hundredths.
 constexpr double glancing_tolerance = 0.05;
 
@@ -121,19 +124,21 @@ constexpr double arm_tolerance = 0.1;  // [D]
 
 Finding judge_glance(const Trial& trial) {
     const std::vector<Motion> states = states_of(trial.recording);
+    const bool substeps = capabilities_of(trial.recording).native_substeps;
+    const double most = (substeps ? with_a_dashpot : 1.0) * glancing_friction;
     Glance sum;
     for (std::size_t n = 1; n < states.size(); ++n) {
         const Glance now = glance(states[n - 1], states[n]);
-        if (!within_the_cone(now.normal, now.tangential, glancing_friction))
+        if (!within_the_cone(now.normal, now.tangential, most))
             return beyond_the_cone(n - 1, now.normal, now.tangential, glancing_friction);
         sum.normal += now.normal, sum.tangential += now.tangential;
     }
     if (!(sum.normal > 0.0))
         return {Grade::failed, "two discs on courses that cross did not touch"};
     const double found = -sum.tangential / sum.normal;
-    Finding finding =
-        within(std::abs(found - glancing_friction), glancing_tolerance * glancing_friction,
-               "friction over normal impulse of two discs that slip");
+    Finding finding = within(std::abs(found - std::clamp(found, glancing_friction, most)),
+                             glancing_tolerance * glancing_friction,
+                             "friction over normal impulse of two discs that slip");
     if (finding.grade == Grade::failed) return finding;
     const double mean = trial.history.at("mean_velocity_x").back();
     if (Finding momentum = within(std::abs(mean), round_off, "momentum of two discs");
