@@ -45,6 +45,9 @@ NumberTable grains(const std::vector<GrainState>& states) {
         entry("contact angular impulse", grain.contact_angular_impulse);
         entry("announced impulse", grain.announced_impulse);
         entry("announced angular impulse", grain.announced_angular_impulse);
+        entry("shape", grain.shape);
+        entry("material", grain.material);
+        entry("prescribed", grain.prescribed ? 1.0 : 0.0);
         entry("radius", grain.radius);
         entry("density", grain.density);
     }
@@ -61,6 +64,8 @@ NumberTable contact_report(const ContactReport& report) {
     entry("largest overlap", report.max_penetration);
     entry("contact violation", report.contact_violation);
     entry("removed grains", static_cast<double>(report.removed));
+    entry("Quad", report.quad);
+    entry("Max", report.max);
     return table;
 }
 
@@ -68,9 +73,17 @@ NumberTable contacts(const std::vector<ContactRecord>& records) {
     NumberTable table{"contact of grain", {}, {}, {}};
     for (const ContactRecord& contact : records) {
         Entry entry(table, contact.b);
+        entry("other grain", contact.wall < 0 ? static_cast<double>(contact.a) : NAN);
+        entry("wall", contact.wall);
+        entry("feature", contact.feature);
+        entry("status", contact.status);
         entry("gap", contact.gap);
+        entry("length", contact.length);
+        entry("point", contact.point);
         entry("normal", contact.normal);
+        entry("branch", contact.branch);
         entry("impulse", contact.impulse);
+        entry("rolling impulse", contact.rolling_impulse);
     }
     return table;
 }
@@ -87,13 +100,30 @@ NumberTable kicks_table(const std::vector<Kick>& kicks) {
     return table;
 }
 
+/// Of a fluid without one all are NaN.
+void splitting(Entry& entry, const std::optional<SplittingReport>& report) {
+    const auto number = [&](auto value) {
+        return report ? std::optional<double>(value(*report)) : std::nullopt;
+    };
+    using Report = SplittingReport;
+    entry("pressure iterations", number([](const Report& r) { return r.pressure_iterations; }));
+    entry("viscous iterations", number([](const Report& r) { return r.viscous_iterations; }));
+    entry("remaining divergence", number([](const Report& r) { return r.divergence; }));
+    entry("viscous residual", number([](const Report& r) { return r.viscous_residual; }));
+    entry("splitting converged", number([](const Report& r) { return r.converged ? 1.0 : 0.0; }));
+}
+
 NumberTable fluid_report(const FluidReport& report) {
     NumberTable table{"report", {}, {}, {}};
     Entry entry(table, -1);
     entry("multiplier iterations", static_cast<double>(report.multiplier_iterations));
     entry("multiplier residual", report.multiplier_residual);
+    entry("multipliers converged", report.multipliers_converged ? 1.0 : 0.0);
     entry("divergence", report.divergence);
+    entry("divergence after step 5", report.final_divergence);
+    entry("momentum defect", report.momentum_defect);
     entry("Courant number", report.courant);
+    splitting(entry, report.splitting);
     entry("mean velocity", report.mean_velocity);
     for (std::size_t k = 0; k < report.probes.size(); ++k)
         entry("probe value " + std::to_string(k), report.probes[k]);

@@ -35,6 +35,48 @@ TEST_F(Replay, EachSideRepeatsItselfToTheBit) {
     EXPECT_NE(none.err.find("coupling.recording"), std::string::npos) << none.err;
 }
 
+// A program that has changed since: grains that fall a little faster from window 6 on.
+TEST_F(Replay, WhatDiffersIsToldAndGivesExitCodeOne) {
+    const auto write_program = [&](const std::string& extra) {
+        scratch.write(
+            "mine.py",
+            "import sys, turbidite_adapter as turbidite\n"
+            "class Mine:\n"
+            "    name, version, host_code = 'mine', '1', 'Python'\n"
+            "    def initialise(self, settings, shapes, grains):\n"
+            "        self.grains, self.g = grains, settings.real('run.gravity')\n"
+            "        return turbidite.Motion(grains)\n"
+            "    def advance(self, window, responses):\n"
+            "        g = self.g" +
+                extra +
+                "\n"
+                "        self.grains['velocity'][:, 1] -= g * window.step\n"
+                "        return turbidite.Motion(self.grains)\n"
+                "    def apply_kick(self, window, kicks):\n"
+                "        self.grains['position'] += window.step * self.grains['velocity']\n"
+                "        return turbidite.Motion(self.grains)\n"
+                "turbidite.run_grains(Mine(), sys.argv[-1])\n");
+    };
+    write_program("");
+    scratch.write("fall.yaml",
+                  "domain: {size: [8, 8]}\n"
+                  "grains: {adapter: external, command: /usr/bin/python3 mine.py, count: 3}\n"
+                  "fluid: {enabled: false}\n"
+                  "coupling: {recording: grains}\n"
+                  "time: {step: 0.01, end: 0.1}\n"
+                  "output: {interval: 0.1}\n");
+    const Answer recorded = turbidite("run fall.yaml --out run");
+    ASSERT_EQ(recorded.code, 0) << recorded.err;
+    EXPECT_EQ(turbidite("replay run --out same").code, 0);
+
+    write_program(" * (1 if window.index < 6 else 1.001)");
+    const Answer other = turbidite("replay run --out other");
+    EXPECT_EQ(other.code, 1) << other.out << other.err;
+    EXPECT_SAYS(other.out, "\"state\" of window 6, rank 0: grain ");
+    EXPECT_SAYS(other.out, " instead of -0.07");
+    EXPECT_TRUE(std::filesystem::exists(scratch.path() / "other/differences"));
+}
+
 TEST_F(Replay, OfAResumedRunBeginsWithItsCheckpoint) {
     const std::string run = "run " TURBIDITE_SOURCE_DIR
                             "/configs/quickstart.yaml --set time.end=0.3 --set "

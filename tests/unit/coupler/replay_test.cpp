@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "coupler/protocol/message.hpp"
+#include "coupler/replay/record_numbers.hpp"
 #include "tests/unit/coupler/loopback_job.hpp"
 
 namespace turbidite {
@@ -110,6 +111,79 @@ TEST_F(Replayed, WhatDiffersIsNamed) {
     EXPECT_GT(fluid.differences, 0);
     EXPECT_NE(fluid.first.front().find("response of grain 10"), std::string::npos)
         << fluid.first.front();
+}
+
+/// The numbers of all tables of a message, NaN as -1.
+std::vector<double> numbers(Kind kind, Bytes payload) {
+    std::vector<double> all;
+    for (const NumberTable& table : numbers_of({{kind, 0, 0, 0}, std::move(payload)}))
+        for (const double number : table.numbers) all.push_back(std::isnan(number) ? -1.0 : number);
+    return all;
+}
+
+/// What changes one number of a record must change one that is compared.
+template <class Record>
+struct Change {
+    const char* what;
+    void (*make)(Record&);
+};
+
+TEST(RecordNumbers, EveryNumberOfAContactIsCompared) {
+    const Change<ContactRecord> changes[] = {
+        {"a", [](ContactRecord& c) { c.a = 5; }},
+        {"b", [](ContactRecord& c) { c.b = 5; }},
+        {"wall", [](ContactRecord& c) { c.wall = 2; }},
+        {"feature", [](ContactRecord& c) { c.feature = 1; }},
+        {"status", [](ContactRecord& c) { c.status = ContactStatus::rolling; }},
+        {"gap", [](ContactRecord& c) { c.gap = -0.1; }},
+        {"length", [](ContactRecord& c) { c.length = 0.1; }},
+        {"point", [](ContactRecord& c) { c.point[1] = 0.1; }},
+        {"normal", [](ContactRecord& c) { c.normal[0] = 1.0; }},
+        {"branch", [](ContactRecord& c) { c.branch[0] = 1.0; }},
+        {"impulse", [](ContactRecord& c) { c.impulse[1] = 1.0; }},
+        {"rolling impulse", [](ContactRecord& c) { c.rolling_impulse[2] = 1.0; }}};
+    const auto compared = [](const ContactRecord& contact) {
+        Motion state;
+        state.contacts = {contact};
+        const NumberTable table = numbers_of({{Kind::state, 0, 0, 0}, encode(state)}).back();
+        auto all = numbers(Kind::state, encode(state));
+        all.push_back(static_cast<double>(table.ids.at(0)));
+        return all;
+    };
+    for (const auto& change : changes) {
+        ContactRecord contact;
+        contact.a = 3, contact.b = 4;
+        const auto before = compared(contact);
+        change.make(contact);
+        EXPECT_NE(compared(contact), before) << change.what;
+    }
+}
+
+TEST(RecordNumbers, EveryNumberOfAFluidReportIsCompared) {
+    const Change<FluidReport> changes[] = {
+        {"iterations", [](FluidReport& r) { r.multiplier_iterations = 3; }},
+        {"residual", [](FluidReport& r) { r.multiplier_residual = 0.1; }},
+        {"converged", [](FluidReport& r) { r.multipliers_converged = false; }},
+        {"divergence", [](FluidReport& r) { r.divergence = 0.1; }},
+        {"final divergence", [](FluidReport& r) { r.final_divergence = 0.1; }},
+        {"momentum defect", [](FluidReport& r) { r.momentum_defect = 0.1; }},
+        {"Courant number", [](FluidReport& r) { r.courant = 0.1; }},
+        {"mean velocity", [](FluidReport& r) { r.mean_velocity[1] = 0.1; }},
+        {"no splitting", [](FluidReport& r) { r.splitting.reset(); }},
+        {"pressure", [](FluidReport& r) { r.splitting->pressure_iterations = 1; }},
+        {"viscosity", [](FluidReport& r) { r.splitting->viscous_iterations = 1; }},
+        {"remaining divergence", [](FluidReport& r) { r.splitting->divergence = 0.1; }},
+        {"viscous residual", [](FluidReport& r) { r.splitting->viscous_residual = 0.1; }},
+        {"splitting converged", [](FluidReport& r) { r.splitting->converged = false; }},
+        {"probe", [](FluidReport& r) { r.probes[1] = 0.1; }}};
+    for (const auto& change : changes) {
+        Kicks kicks;
+        kicks.report.splitting.emplace();
+        kicks.report.probes = {1.0, 2.0};
+        const auto before = numbers(Kind::kicks, encode(kicks));
+        change.make(kicks.report);
+        EXPECT_NE(numbers(Kind::kicks, encode(kicks)), before) << change.what;
+    }
 }
 
 TEST_F(Replayed, ARecordingThatWasCutOffIsPlayedToItsEnd) {
