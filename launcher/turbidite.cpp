@@ -13,7 +13,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "launcher/case/wrapped_text.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/commands/terminal_width.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {

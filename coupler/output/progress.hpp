@@ -16,7 +16,8 @@ namespace turbidite {
 
 class Progress {
  public:
-    /// `terminal`: standard output is a terminal (TURBIDITE_PROGRESS=terminal).
+    /// `terminal`: standard output is a terminal whose lines can be rewritten
+    /// (TURBIDITE_PROGRESS=terminal).
     Progress(const std::filesystem::path& log, bool terminal, const RunValues& run);
 
     /// A line of its own, on screen and in the log.

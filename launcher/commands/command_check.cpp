@@ -8,7 +8,7 @@
 #include "launcher/case/run_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/commands/terminal_width.hpp"
+#include "launcher/job/terminal.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/prepare_run.hpp"
 #include "launcher/study/study_plan.hpp"

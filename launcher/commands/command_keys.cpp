@@ -10,7 +10,7 @@
 #include "launcher/case/key_reference.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/key_schema.hpp"
-#include "launcher/commands/terminal_width.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {

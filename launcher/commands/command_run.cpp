@@ -8,7 +8,7 @@
 #include "launcher/case/disk_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/commands/terminal_width.hpp"
+#include "launcher/job/terminal.hpp"
 #include "launcher/job/play_run.hpp"
 
 namespace turbidite {

@@ -15,6 +15,7 @@
 #include "coupler/protocol/whole_file.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/run_json.hpp"
+#include "launcher/job/terminal.hpp"
 #include "launcher/report/report_script.hpp"
 
 namespace turbidite {
@@ -106,7 +107,7 @@ PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const L
 JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     const RunFolder& folder = prepared.folder;
     std::fflush(nullptr);
-    ::setenv("TURBIDITE_PROGRESS", isatty(STDOUT_FILENO) ? "terminal" : "plain", 1);
+    ::setenv("TURBIDITE_PROGRESS", rewrites_lines() ? "terminal" : "plain", 1);
     const JobEnd end = run_job({.arguments = prepared.line,
                                 .error_log = folder.log("mpirun"),
                                 .request_stop = [&](int s) { return request_stop(folder, s); },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/commands/terminal_width.hpp"
+#include "launcher/job/terminal.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -10,6 +10,11 @@
 #include "launcher/case/wrapped_text.hpp"
 
 namespace turbidite {
+
+bool rewrites_lines() {
+    const char* kind = std::getenv("TERM");
+    return isatty(STDOUT_FILENO) != 0 && (kind == nullptr || std::string(kind) != "dumb");
+}
 
 int terminal_width() {
     winsize size{};

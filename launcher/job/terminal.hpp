@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What standard output can do. The report's scripts ask the same of standard error
+// (report/working.py).
 #pragma once
 
 #include <string>
 
 namespace turbidite {
+
+/// True for a terminal that can go back to the start of a line and clear it: TERM=dumb cannot.
+bool rewrites_lines();
 
 /// Columns of the terminal at stdout, or of COLUMNS, from 40 to 120; 80 if neither is known.
 int terminal_width();
