@@ -3,21 +3,10 @@
 // A program that ends before the run is over, quietly or not, before MPI_Init or in the middle:
 // within seconds the job is gone, and one message tells who, how, when, and where its log is.
 #include "tests/failure/failing_fluid.hpp"
+#include "tests/failure/stopwatch.hpp"
 
 namespace turbidite {
 namespace {
-
-constexpr double longest = 10.0;  // [s] from the end of a program to the end of the job
-
-class Stopwatch {
- public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
- private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 int count(const std::string& text, const std::string& part) {
     int found = 0;
@@ -64,10 +53,23 @@ INSTANTIATE_TEST_SUITE_P(Ends, EndBeforeMpi,
                              return std::string("Status") + std::string(info.param.fault).back();
                          });
 
+// One message with who, how, program, host, process, log, phase and window, and the last words. The
+// five windows before the end take a fraction of a second.
 TEST_P(EarlyEnd, IsToldWithPhaseAndWindow) {
+    const Stopwatch watch;
     const Answer answer = run_with(GetParam().fault);
+    EXPECT_LT(watch.seconds(), longest_with_report);
     expect_one_message(answer);
-    EXPECT_SAYS(answer.err, "; it was due to send \"kicks\", window 5");
+    const auto start = answer.err.find("The run failed: ");
+    const std::string message = answer.err.substr(start, answer.err.find('\n', start) - start);
+    char host[256] = {};
+    gethostname(host, sizeof host - 1);
+    EXPECT_SAYS(message, "The run failed: fluid rank 0 " + std::string(GetParam().how));
+    EXPECT_SAYS(message, std::string(", host ") + host + ", pid ");
+    EXPECT_SAYS(message, "log " + (run_folder() / "logs/fluid.log").string());
+    EXPECT_SAYS(message, "; it was due to send \"kicks\", window 5");
+    EXPECT_SAYS(answer.err, "Last lines of logs/fluid.log:\n");
+    EXPECT_SAYS(answer.err, "    now comes " + std::string(GetParam().fault) + "\n");
     expect_good_output_is_kept(ExitCode::participant_failed);
 }
 
@@ -75,7 +77,9 @@ INSTANTIATE_TEST_SUITE_P(Ends, EarlyEnd,
                          ::testing::Values(End{"_exit-0", "ended with status 0"},
                                            End{"_exit-3", "ended with status 3"},
                                            End{"exit-0", "ended with status 0"},
-                                           End{"segfault", "was ended by signal 11"}),
+                                           End{"segfault", "was ended by signal 11"},
+                                           End{"terminate", "was ended by signal 6"},
+                                           End{"mpi-abort", "ended with status 77"}),
                          [](const auto& info) {
                              std::string name = info.param.fault;
                              for (char& c : name)

@@ -2,12 +2,15 @@
 //
 // faulty_fluid -case RUN/fluid, in place of turbidite-fluid: a scripted fluid with the fault named
 // by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, throw, or an end: _exit-0, _exit-3,
-// exit-0, segfault. Before MPI_Init: early-0, early-3, early-hang.
+// exit-0, segfault, mpi-abort, terminate, finalize, loop; what it has to say before such an
+// end goes to its log. Before MPI_Init: early-0, early-3, early-hang.
+#include <mpi.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -33,6 +36,11 @@ class FaultyFluid final : public ScriptedFluid {
         if (fault_ == "nan") kicks.kicks.at(0).velocity[0] = not_a_number;
         if (fault_ == "divergence") kicks.report.divergence = not_a_number;
         if (fault_ == "unsolved") kicks.report.multipliers_converged = false;
+        if (window.index == faulty_window) std::fprintf(stderr, "now comes %s\n", fault_.c_str());
+        if (fault_ == "mpi-abort") PMPI_Abort(MPI_COMM_WORLD, 77);
+        if (fault_ == "terminate") std::terminate();
+        if (fault_ == "finalize") PMPI_Finalize();
+        if (fault_ == "loop") spin();
         if (fault_ == "_exit-0") _exit(0);
         if (fault_ == "_exit-3") _exit(3);
         if (fault_ == "exit-0") std::exit(0);
@@ -42,6 +50,12 @@ class FaultyFluid final : public ScriptedFluid {
     }
 
  private:
+    [[noreturn]] static void spin() {
+        for (volatile bool more = true; more;) {
+        }
+        std::abort();
+    }
+
     static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
     std::string fault_;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The disk becomes full during a run: a 1 MB file system in its own mount namespace, which ends
-// with the shell that created it.
+// The disk becomes full during a run.
 #include "tests/failure/failing_run.hpp"
+#include "tests/failure/small_disk.hpp"
 
 namespace turbidite {
 namespace {
@@ -11,21 +11,14 @@ class FullDisk : public FailingRun {
  protected:
     void SetUp() override {
         FailingRun::SetUp();
-        std::filesystem::create_directory(scratch.path() / "disk");
-        if (on_small_disk("true").code != 0) GTEST_SKIP() << "no right to mount a file system";
-    }
-
-    Answer on_small_disk(const std::string& line) const {
-        const std::string unshare = geteuid() == 0 ? "unshare -m" : "unshare -rm";
-        return shell(unshare + " sh -c 'mount -t tmpfs -o size=1m tmpfs disk && { " + line +
-                     "; }'");
+        if (shell(on_small_disk("true")).code != 0) GTEST_SKIP() << no_small_disk;
     }
 };
 
 TEST_F(FullDisk, IsReportedAndGoodDataIsKept) {
-    const Answer answer = on_small_disk("timeout 100 " TURBIDITE_PROGRAM
-                                        " run small.yaml --out disk/run; echo code $?; "
-                                        "cp -r disk/run/run.json disk/run/history.csv .");
+    const Answer answer =
+        shell(on_small_disk("timeout 100 " TURBIDITE_PROGRAM " run small.yaml --out disk/run; "
+                            "echo code $?; cp -r disk/run/run.json disk/run/history.csv ."));
     EXPECT_SAYS(answer.out, "code 4\n");
     EXPECT_SAYS(answer.err, "The run failed: ");
     EXPECT_SAYS(answer.err, "is the disk full?");

@@ -2,6 +2,7 @@
 //
 // Each program of a run is killed without a message, as when memory runs out.
 #include "tests/failure/failing_run.hpp"
+#include "tests/failure/stopwatch.hpp"
 
 namespace turbidite {
 namespace {
@@ -19,7 +20,9 @@ TEST_P(KilledParticipant, IsNamedAndNothingIsLeft) {
     const auto victim = processes(GetParam().program);
     ASSERT_EQ(victim.size(), 1u);
     kill(victim[0], SIGKILL);
+    const Stopwatch watch;
     const Answer answer = end_of(run);
+    EXPECT_LT(watch.seconds(), longest_with_report);
     EXPECT_EQ(answer.code, 4);
     EXPECT_SAYS(answer.err, std::string("The run failed: ") + GetParam().name);
     expect_nothing_left();
@@ -50,6 +53,23 @@ TEST_F(FailingRun, AnMpirunThatStaysAfterACrashIsKilled) {
     EXPECT_EQ(answer.code, 4);
     EXPECT_SAYS(answer.err, "mpirun has not ended within limits.stall_hard = 3 s and is killed");
     EXPECT_SAYS(answer.err, "The run failed: grains rank 0 was ended by signal 9");
+    expect_nothing_left();
+    expect_good_output_is_kept(ExitCode::participant_failed);
+}
+
+// As an operator would end a job whose `turbidite` is on another terminal: mpirun passes it on to
+// the ranks and ends them.
+TEST_F(FailingRun, SigTermToMpirunEndsTheJobInOrder) {
+    const pid_t run = start(4);
+    const auto mpirun = processes("mpirun");
+    ASSERT_EQ(mpirun.size(), 1u);
+    kill(mpirun[0], SIGTERM);
+    const Stopwatch watch;
+    const Answer answer = end_of(run);
+    EXPECT_LT(watch.seconds(), longest_with_report);
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "The run failed: ");
+    EXPECT_SAYS(answer.err, "was ended by signal 15");
     expect_nothing_left();
     expect_good_output_is_kept(ExitCode::participant_failed);
 }

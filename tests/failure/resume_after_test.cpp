@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/failure/failing_run.hpp"
+#include "tests/failure/small_disk.hpp"
 
 namespace turbidite {
 namespace {
@@ -107,6 +108,22 @@ TEST_F(ResumeAfter, AProgramIsKilled) {
         EXPECT_SAYS(answer.err, "turbidite resume " + run_folder().string());
         expect_resumed_to_the_end();
     }
+}
+
+// The disk becomes full, is made larger, and the run goes on from the last whole set.
+TEST_F(ResumeAfter, AFullDisk) {
+    if (shell(on_small_disk("true")).code != 0) GTEST_SKIP() << no_small_disk;
+    const Answer answer = shell(on_small_disk(
+        "timeout 100 " TURBIDITE_PROGRAM
+        " run small.yaml --out disk/run --set checkpoint.windows=10; echo code $?; "
+        "mount -o remount,size=100m disk; timeout 60 " TURBIDITE_PROGRAM
+        " resume disk/run; echo then code $?; mkdir -p run; cp disk/run/history.csv run"));
+    EXPECT_SAYS(answer.err, "is the disk full?");
+    EXPECT_SAYS(answer.out, "\ncode 4\n");
+    EXPECT_SAYS(answer.out, " goes on after window ");
+    EXPECT_EQ(answer.out.find(" goes on after window 0 "), std::string::npos) << answer.out;
+    EXPECT_SAYS(answer.out, "\nthen code 0\n");
+    EXPECT_EQ(lines_of_history("run"), whole_) << answer.err;
 }
 
 TEST_F(ResumeAfter, SignalsOfABatchSystem) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A program of a run stops answering: the others must not wait for ever.
-#include "tests/failure/failing_run.hpp"
+#include "tests/failure/failing_fluid.hpp"
+#include "tests/failure/stopwatch.hpp"
 
 namespace turbidite {
 namespace {
@@ -27,6 +28,26 @@ TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Roles, SilentPartner, ::testing::Values("fluid", "grains"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// It works and works, or has left MPI by itself and waits there for the others.
+class BusyPartner : public FailingFluid, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(BusyPartner, EndsTheRunWithTheWaitForTable) {
+    const Stopwatch watch;
+    const Answer answer = run_with(GetParam());
+    EXPECT_LT(watch.seconds(), 3.0 + longest_with_report);  // limits.stall_hard
+    EXPECT_EQ(answer.code, 5) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "nothing from fluid rank 0 (");
+    EXPECT_SAYS(answer.err, "/logs/fluid.log) for 3 s");
+    EXPECT_SAYS(answer.err, "is due to send \"kicks\", window 5, for 3 s");
+    EXPECT_SAYS(answer.err, "grains rank 0 (host ");
+    EXPECT_SAYS(answer.err, "waits for the coupler's");
+    expect_nothing_left();
+    expect_good_output_is_kept(ExitCode::stalled);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, BusyPartner, ::testing::Values("loop", "finalize"),
                          [](const auto& info) { return std::string(info.param); });
 
 // The participants give up after 1.5 times limits.stall_hard; the host code must not hang when it
