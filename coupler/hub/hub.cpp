@@ -101,7 +101,15 @@ RunOutput Hub::make_output() const {
 void Hub::play(const Window& window) {
     WindowResult result = scheme_->play(window, output_.state(), cast());
     ledger_.check(window, result);
+    const auto fluid = output_.statistics().maxima.fluid;
     output_.record(window, std::move(result), watch_.take_waited());
+    if (fluid) warn_of_courant(fluid->courant);
+}
+
+/// Once in a run, where it crosses the limit; the end of the run tells the largest.
+void Hub::warn_of_courant(double before) {
+    const std::string sentence = first_large_courant(before, output_.statistics(), settings_.run);
+    if (!sentence.empty()) progress_.say("turbidite: warning: " + sentence);
 }
 
 /// Output and checkpoint of a window. A row out of turn, at the end of this part of the run, is no
@@ -184,8 +192,9 @@ RunStatus Hub::run() {
     status_.checkpoints = {checkpoints_.written(), checkpoints_.seconds()};
     status_.statistics = output_.statistics();
     check_end();
-    for (const std::string& sentence : unconverged_sentences(status_.statistics, settings_.solves))
-        progress_.say("turbidite: " + sentence);
+    status_.warnings = run_warnings(status_.statistics, settings_.solves, settings_.run);
+    for (const RunWarning& warning : status_.warnings)
+        progress_.say("turbidite: warning: " + warning.text);
     end_and_record();
     return status_;
 }

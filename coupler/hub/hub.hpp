@@ -66,6 +66,7 @@ class Hub {
     void go_on_from(const Resumption& earlier);
     void play_windows();
     void play(const Window& window);
+    void warn_of_courant(double before);
     void finish(const Window& window, bool out_of_turn, bool save);
     void write_output(const Window& window);
     Window window(std::int64_t index, bool written) const;

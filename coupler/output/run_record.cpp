@@ -71,6 +71,13 @@ nlohmann::ordered_json contact_table(const RunStatistics& statistics) {
             {"residual_max", statistics.contact_residuals.largest()}};
 }
 
+nlohmann::ordered_json warning_list(const std::vector<RunWarning>& warnings) {
+    auto list = nlohmann::ordered_json::array();
+    for (const RunWarning& warning : warnings)
+        list.push_back({{"about", warning.about}, {"text", warning.text}});
+    return list;
+}
+
 /// The last of the parts of a run, if `turbidite` keeps a list of them.
 void end_part(nlohmann::ordered_json& record, const RunStatus& status) {
     if (!record.contains("parts") || record["parts"].empty()) return;
@@ -102,6 +109,7 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["checkpoints"] = {{"written", status.checkpoints.written},
                              {"seconds", status.checkpoints.seconds}};
     end_part(record, status);
+    record["warnings"] = warning_list(status.warnings);
     record["maxima"] = maxima_table(status.statistics.maxima);
     if (!status.statistics.contact_residuals.empty())
         record["contact"] = contact_table(status.statistics);

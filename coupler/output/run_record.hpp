@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupler/output/run_statistics.hpp"
+#include "coupler/output/run_warnings.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/hello.hpp"
 
@@ -22,6 +23,7 @@ struct RunStatus {
         double seconds = 0.0;
     } checkpoints;  ///< of this part of the run
     RunStatistics statistics;
+    std::vector<RunWarning> warnings;
 };
 
 /// Replaces run.json atomically, and the disk has it. `ranks` identify themselves; empty if the

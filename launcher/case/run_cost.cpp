@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <limits>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "coupler/shapes/shape.hpp"
@@ -24,6 +27,11 @@ constexpr FluidRates explicit_splitting{85e-9, 380e-9};
 constexpr FluidRates implicit_splitting{300e-9, 1500e-9};
 constexpr double second_order = 1.3;   // of the cells
 constexpr double busiest_share = 1.6;  // of the covered cells, over an equal one: grains settle
+
+// Where all fluid ranks of a window meet, and how long one waits for its turn on a core that it
+// shares [s]. Measured as 3 to 16 ranks on two cores, to a factor of two.
+constexpr double meetings = 100.0;
+constexpr double time_slice = 0.1e-3;
 
 // Seconds per window and grain.
 constexpr double disc_contacts = 4e-6;
@@ -74,13 +82,21 @@ FluidRates rates(const Settings& settings) {
     return paper_splitting;
 }
 
-double fluid_time(const ResolvedCase& resolved) {
+/// More ranks than cores share no more work, and whenever they meet the last one has to wait until
+/// the others have had their turn on its core.
+double turns(const ResolvedCase& resolved, double cores) {
+    const auto ranks = static_cast<double>(resolved.settings.integer("fluid.ranks"));
+    return ranks > cores ? meetings * time_slice * (ranks - cores) / cores : 0.0;
+}
+
+double fluid_time(const ResolvedCase& resolved, double cores) {
     const Settings& settings = resolved.settings;
     if (!settings.flag("fluid.enabled")) return 0.0;
     const auto [cell, covered] = rates(settings);
     const bool stages = settings.text("fluid.time_scheme") == "second-order";
-    const auto ranks = static_cast<double>(settings.integer("fluid.ranks"));
-    return cell * (stages ? second_order : 1.0) * fluid_cells(settings) / ranks +
+    const double ranks = std::min(cores, static_cast<double>(settings.integer("fluid.ranks")));
+    return turns(resolved, cores) +
+           cell * (stages ? second_order : 1.0) * fluid_cells(settings) / ranks +
            covered * covered_cells(resolved) * std::min(1.0, busiest_share / ranks);
 }
 
@@ -123,8 +139,30 @@ double WindowForecast::seconds() const {
     return (side_by_side ? std::max(fluid, grains) : fluid + grains) + coupler + messages;
 }
 
-WindowForecast forecast_window(const ResolvedCase& resolved) {
-    return {.fluid = fluid_time(resolved),
+double cores_for_a_job() {
+    for (const char* nodes : {"SLURM_JOB_NUM_NODES", "SLURM_NNODES", "PBS_NUM_NODES"})
+        if (const char* given = std::getenv(nodes); given != nullptr && std::atoi(given) > 1)
+            return std::numeric_limits<double>::infinity();
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
+std::string ranks_warning(const ResolvedCase& resolved, double cores) {
+    const Settings& settings = resolved.settings;
+    if (!settings.flag("fluid.enabled")) return "";
+    const auto ranks = static_cast<double>(settings.integer("fluid.ranks"));
+    if (ranks <= cores) return "";
+    ResolvedCase fewer = resolved;
+    fewer.settings.set("fluid.ranks", fmt::format("{:.0f}", cores));
+    return fmt::format(
+        "fluid.ranks = {:.0f} on {:.0f} cores: ranks beyond the cores wait for each other, and a "
+        "window takes {:.2g} times as long as with {:.0f}. Use fluid.ranks = {:.0f} or fewer here.",
+        ranks, cores,
+        forecast_window(resolved, cores).seconds() / forecast_window(fewer, cores).seconds(), cores,
+        cores);
+}
+
+WindowForecast forecast_window(const ResolvedCase& resolved, double cores) {
+    return {.fluid = fluid_time(resolved, cores),
             .grains = grains_time(resolved),
             .coupler = checks * count(resolved),
             .messages = handover * messages_in_turn(resolved),

@@ -11,7 +11,7 @@
 
 namespace turbidite {
 
-/// Wall time of one window [s], by what it goes to, on a core per rank.
+/// Wall time of one window [s], by what it goes to.
 struct WindowForecast {
     double fluid = 0.0;
     double grains = 0.0;
@@ -23,7 +23,14 @@ struct WindowForecast {
     double seconds() const;
 };
 
-WindowForecast forecast_window(const ResolvedCase& resolved);
+/// Cores for the ranks of a job that is started here; as many as are asked for in a batch job of
+/// several nodes, whose cores are not those of this machine.
+double cores_for_a_job();
+
+WindowForecast forecast_window(const ResolvedCase& resolved, double cores = cores_for_a_job());
+
+/// A sentence where the fluid has more ranks than there are cores; otherwise empty.
+std::string ranks_warning(const ResolvedCase& resolved, double cores = cores_for_a_job());
 
 /// Wall time of the whole run [s], with its start.
 double predicted_seconds(const ResolvedCase& resolved);

@@ -9,6 +9,7 @@
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/command_words.hpp"
+#include "launcher/case/courant_forecast.hpp"
 #include "launcher/case/disk_cost.hpp"
 #include "launcher/case/mesh_cost.hpp"
 #include "launcher/case/run_cost.hpp"
@@ -113,6 +114,8 @@ std::string case_summary(const ResolvedCase& resolved) {
     text += forecast_line(resolved);
     text += md_line(settings);
     text += checkpoint_line(settings);
+    for (const std::string& warning : {courant_warning(resolved), ranks_warning(resolved)})
+        if (!warning.empty()) text += "  warning: " + warning + "\n";
     for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
     return text;
 }

@@ -72,7 +72,8 @@ def rest(run):
     since = findings.rest_time(run)
     time, speed = run.column('mean_speed')
     if since is not None:
-        return f'At rest from t = {since:.4g} t_c on (the mean speed stays below {part}).'
+        return (f'At rest from t = {since:.4g} t_c on (the mean speed stays below {part}).'
+                + ''.join(f' This depends on the time step: {warning["text"]}' for warning in run.warnings('courant')))
     if len(speed) and speed.max() > 0.0:
         return (f'Not at rest at the end, t = {time[-1]:.4g} t_c: the mean speed is '
                 f'{100 * speed[-1] / speed.max():.3g} % of its maximum.')

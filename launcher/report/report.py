@@ -79,6 +79,8 @@ def add_status(page, run):
     text = (f'Status: {status}' + (f', exit code {code}' if code is not None else '')
             + (f': {error}' if error else ''))
     page.paragraph(text, '' if status == 'done' else 'bad')
+    for warning in run.warnings():
+        page.paragraph(f'Warning: {warning["text"]}', 'bad')
 
 
 def add_sequence(page, run):

@@ -61,6 +61,10 @@ class RunData:
         words += ['--from', self.record['from']] if self.record.get('from') else []
         return shlex.join(words)
 
+    def warnings(self, about=None):
+        """Those of run.json, or those about one thing: 'solves', 'courant'."""
+        return [warning for warning in self.record.get('warnings', []) if about in (None, warning['about'])]
+
     def column(self, name):
         """The rows of the history that contain a quantity: times [t_c] and values."""
         if self.history is None or name not in self.history:

@@ -345,5 +345,60 @@ TEST_F(Interrupted, BySigtermEndsAfterOneMoreWindow) {
     expect_history_and_report_to_the_last_window();
 }
 
+// What is right in every single window and wrong as a whole.
+TEST_F(CommandLine, AStepThatIsTooLargeIsToldBeforeAndAfterTheRun) {
+    const std::string check = TURBIDITE_PROGRAM " check " + quickstart;
+    const Answer usual = shell(check);
+    EXPECT_EQ(usual.code, 0) << usual.err;
+    EXPECT_EQ(usual.out.find("warning: the Courant"), std::string::npos) << usual.out;
+    const Answer large = shell(check + " --set time.step=0.5");
+    EXPECT_EQ(large.code, 0) << large.err;
+    EXPECT_SAYS(large.out, "warning: the Courant number will be 3.5 or more. ");
+    EXPECT_SAYS(large.out, "Use time.step = 0.2 or less.");
+    const Answer run = shell(TURBIDITE_PROGRAM " run " + quickstart +
+                             " --set time.step=0.5 --set time.end=10 --set "
+                             "grains.adapter=standalone-nscd --out run");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_SAYS(run.out, "turbidite: warning: the Courant number is ");
+    EXPECT_SAYS(run.out, "turbidite: warning: the Courant number was up to ");
+    EXPECT_EQ(record().at("warnings").at(0).at("about"), "courant");
+}
+
+TEST_F(CommandLine, RanksBeyondTheCoresAreForecastAsSlower) {
+    const auto cores = std::to_string(sysconf(_SC_NPROCESSORS_ONLN));
+    const auto more = std::to_string(8 * sysconf(_SC_NPROCESSORS_ONLN));
+    const std::string check = TURBIDITE_PROGRAM " check " + quickstart + " --set fluid.ranks=";
+    const Answer enough = shell(check + cores), many = shell(check + more);
+    EXPECT_EQ(enough.out.find("warning: "), std::string::npos) << enough.out;
+    EXPECT_EQ(many.code, 0) << many.err;
+    EXPECT_SAYS(many.out, "warning: fluid.ranks = " + more + " on " + cores + " cores: ");
+    EXPECT_SAYS(many.out, "times as long as with " + cores);
+}
+
+// A terminal that can only print: TERM=dumb, as in editors and logs of terminals.
+TEST_F(CommandLine, ADumbTerminalGetsPlainLines) {
+    scratch.write("terminal.py",
+                  "import os, pty, sys\n"
+                  "sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))\n");
+    scratch.write("fall.yaml",
+                  "domain: {size: [8, 8]}\n"
+                  "grains: {adapter: standalone-nscd, count: 3}\n"
+                  "fluid: {enabled: false}\n"
+                  "time: {step: 0.01, end: 1}\n"
+                  "output: {interval: 0.5}\n");
+    const auto on_terminal = [&](const std::string& kind) {
+        return shell("TERM=" + kind +
+                     " timeout 60 /usr/bin/python3 terminal.py " TURBIDITE_PROGRAM
+                     " run fall.yaml --force --out run");
+    };
+    const Answer dumb = on_terminal("dumb"), able = on_terminal("xterm");
+    EXPECT_EQ(dumb.code, 0) << dumb.out << dumb.err;
+    EXPECT_SAYS(dumb.out, "0.5/1 t_c  fall ");
+    EXPECT_SAYS(dumb.out, "1.0/1 t_c  fall ");
+    EXPECT_EQ(dumb.out.find('\033'), std::string::npos) << dumb.out;
+    EXPECT_EQ(able.code, 0) << able.out << able.err;
+    EXPECT_SAYS(able.out, "\r\033[K1.0/1 t_c  fall ");
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -5,6 +5,7 @@
 #include "launcher/case/run_cost.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "launcher/case/mesh_cost.hpp"
 #include "tests/unit/case/case_test.hpp"
@@ -25,8 +26,9 @@ class RunCost : public CaseTest {
     ResolvedCase of(const std::vector<std::string>& overrides = {}) const {
         return load("", overrides);
     }
+    /// With a core for every rank.
     WindowForecast window(const std::vector<std::string>& overrides = {}) const {
-        return forecast_window(of(overrides));
+        return forecast_window(of(overrides), 64.0);
     }
 };
 
@@ -55,6 +57,32 @@ TEST_F(RunCost, RanksShareTheFluidButNotEvenly) {
     const double shared = window({"fluid.ranks=4"}).fluid;
     EXPECT_LT(shared, alone);
     EXPECT_GT(shared, alone / 4.0);
+}
+
+// Sixteen ranks on two cores took 15 times as long as two.
+TEST_F(RunCost, RanksBeyondTheCoresCostTime) {
+    const ResolvedCase two = of({"fluid.ranks=2"}), sixteen = of({"fluid.ranks=16"});
+    EXPECT_LT(forecast_window(two, 2.0).seconds(), forecast_window(of(), 2.0).seconds());
+    EXPECT_GT(forecast_window(of({"fluid.ranks=4"}), 2.0).seconds(),
+              forecast_window(two, 2.0).seconds());
+    EXPECT_GT(forecast_window(sixteen, 2.0).seconds(), 5.0 * forecast_window(two, 2.0).seconds());
+    EXPECT_LT(forecast_window(sixteen, 16.0).seconds(), forecast_window(two, 16.0).seconds());
+
+    EXPECT_EQ(ranks_warning(two, 2.0), "");
+    EXPECT_EQ(ranks_warning(sixteen, 16.0), "");
+    EXPECT_EQ(ranks_warning(of({"fluid.ranks=16", "fluid.enabled=false"}), 2.0), "");
+    const std::string warning = ranks_warning(sixteen, 2.0);
+    EXPECT_EQ(warning.find("fluid.ranks = 16 on 2 cores: "), 0u) << warning;
+    EXPECT_NE(warning.find("Use fluid.ranks = 2 or fewer"), std::string::npos) << warning;
+}
+
+// The cores of a batch job of several nodes are not those of the machine that asks.
+TEST_F(RunCost, CoresOfABatchJobAreNotCountedHere) {
+    EXPECT_GE(cores_for_a_job(), 1.0);
+    EXPECT_LT(cores_for_a_job(), 1e6);
+    ::setenv("SLURM_JOB_NUM_NODES", "4", 1);
+    EXPECT_EQ(ranks_warning(of({"fluid.ranks=16"})), "");
+    ::unsetenv("SLURM_JOB_NUM_NODES");
 }
 
 TEST_F(RunCost, GrainsGrowWithTheirNumberAndWhatTheyNeed) {

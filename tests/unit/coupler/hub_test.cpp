@@ -372,6 +372,53 @@ TEST(HubMultipliers, WindowsThatStopAtTheLimitAreCountedAndReported) {
         << log;
 }
 
+/// These Courant numbers, window by window.
+LoopbackChannel::Hook courant_numbers(std::vector<double> numbers) {
+    return [numbers](Bytes& bytes) {
+        const Message message = unframe(bytes);
+        if (message.envelope.kind != Kind::kicks) return true;
+        auto kicks = decode<Kicks>(message.payload);
+        kicks.report.courant = numbers.at(static_cast<std::size_t>(message.envelope.window));
+        bytes = frame({message.envelope, encode(kicks)});
+        return true;
+    };
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+TEST(HubCourant, ALargeOneIsToldOnceDuringTheRunAndInTheRecord) {
+    const TestFolder folder("hub-courant");
+    Job job;
+    job.from_fluid = courant_numbers({0.1, 1.0, 2.5, 2.0, 4.6, 3.0});
+    job.run(folder);
+    ASSERT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    const std::string log = text_of(folder.files().log);
+    EXPECT_EQ(occurrences(log, "warning: the Courant number is 2.5 in window 2. "), 1u) << log;
+    EXPECT_EQ(occurrences(log, "warning: the Courant number is "), 1u) << log;
+    EXPECT_EQ(occurrences(log, "warning: the Courant number was up to 4.6. "), 1u) << log;
+    const auto warnings =
+        nlohmann::json::parse(std::ifstream(folder.path() / "run.json"))["warnings"];
+    ASSERT_EQ(warnings.size(), 1u) << warnings;
+    EXPECT_EQ(warnings[0]["about"], "courant");
+    const std::string text = warnings[0]["text"];
+    EXPECT_NE(text.find("depends on the time step"), std::string::npos) << text;
+    EXPECT_NE(text.find("Use time.step = 0.00"), std::string::npos) << text;
+}
+
+TEST(HubCourant, ASmallOneIsNot) {
+    const TestFolder folder("hub-courant-small");
+    Job job;
+    job.from_fluid = courant_numbers({0.1, 0.9, 0.5, 0.5, 0.5, 0.5});
+    job.run(folder);
+    EXPECT_EQ(text_of(folder.files().log).find("warning: the Courant"), std::string::npos);
+    const auto record = nlohmann::json::parse(std::ifstream(folder.path() / "run.json"));
+    EXPECT_TRUE(record["warnings"].empty()) << record;
+}
+
 TEST(HubMultipliers, ThreeConsecutiveWindowsEndTheRun) {
     const TestFolder folder("hub-multipliers-refused");
     Job job;

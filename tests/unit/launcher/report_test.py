@@ -137,6 +137,23 @@ class Report(RunFolderTest):
         self.assertIn('10 windows took 1 s, 100 ms each: fluid 0.6 s (60 ms per window); grains 0.1 s '
                       '(10 ms per window); rest 0.3 s', page)
 
+    def test_a_courant_number_beyond_the_limit_is_said_where_grains_rest(self):
+        self.write_all()
+        history = self.folder / 'history.csv'
+        history.write_text(history.read_text().replace(
+            '\n10,1,-0.2,0.2,2.9', '\n5,0.5,-0.2,0.2,2.95,,,,,\n10,1,0,0,2.9'))
+        rests = typeset('At rest from t = 1 t_c on')
+        page = self.make()
+        self.assertIn(rests, page)
+        self.assertNotIn('depends on the time step', page)
+        record = self.folder / 'run.json'
+        record.write_text(json.dumps(dict(json.loads(record.read_text()), warnings=[
+            {'about': 'courant', 'text': 'the Courant number was up to 4.6. Use time.step = 0.1.'}])))
+        page = self.make()
+        self.assertIn('Warning: the Courant number was up to 4.6.', page)
+        said = page[page.index(rests):]
+        self.assertIn('This depends on the time step: the Courant number was up to 4.6.', said[:300])
+
     def test_one_output_only(self):
         self.write_all()
         self.write('history.csv', 'step,time,mean_velocity_y,mean_speed\n0,0,0,0\n')
