@@ -113,8 +113,9 @@ std::string fault_of(const ContactReport& report) {
          {std::pair{"contacts", report.contacts}, std::pair{"iterations", report.iterations},
           std::pair{"removed", report.removed}})
         if (count < 0) return fmt::format("number of {} is {}", name, count);
-    return negative(
-        {{"max_penetration", report.max_penetration}, {"wall_seconds", report.wall_seconds}});
+    return negative({{"max_penetration", report.max_penetration},
+                     {"wall_seconds", report.wall_seconds},
+                     {"contact_violation", report.contact_violation.value_or(0.0)}});
 }
 
 std::string fault_of(const SplittingReport& report) {
