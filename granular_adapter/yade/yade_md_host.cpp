@@ -48,6 +48,7 @@ YadeMdHost::YadeMdHost(python::object scene, std::string yade_version)
 void YadeMdHost::create(const Settings& settings, const ShapeTable&, const nscd::Bodies& bodies) {
     ids_ = ids_of(scene_.attr("create")(settings_dict(settings), grain_list(bodies)));
     fetch_bodies(bodies.size());
+    exchange_.write(bodies);  // their orientations too, which the scene does not set
     radii_ = bodies.radius;
     borders_ = lay_borders(settings);
     stride_ = std::max<std::int64_t>(

@@ -137,7 +137,9 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"CannotSave", "contact-grains 'cannot save'", "goes on from",
                       "saves_state is claimed and not kept: there is no room for the state"},
         BrokenProgram{"ForgetsDigits", "broken-grains 'forgets digits'", "goes on from",
-                      "mean_position_x differs from that of a run in one part"}),
+                      "mean_velocity_x differs from that of a run in one part"},
+        BrokenProgram{"ForgetsPlaces", "broken-grains 'forgets places'", "goes on from",
+                      "positions and orientations of the start of the window"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -149,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"WrongImpulse", "broken-fluid 'wrong impulse'", "balances momentum",
                       "grain_balance"},
         BrokenProgram{"MovesAll", "broken-fluid 'moves all'", "respects a given",
-                      "a grain that is driven with 0.5 u_c"},
+                      "instead of the given (0.5, 0, 0)"},
         BrokenProgram{"WrongResponse", "broken-fluid 'wrong response'", "answers with",
                       "the motion under joint and split differs"},
         BrokenProgram{"WantsAllGrains", "broken-fluid 'wants all grains'", "lets grains",

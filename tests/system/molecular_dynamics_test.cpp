@@ -124,6 +124,16 @@ TEST_F(MolecularDynamics, ASettlingDiscMovesAsUnderContactDynamics) {
     }
 }
 
+// Discs turn as well, from the angle that the case gives: the fluid's points turn with them.
+TEST_F(MolecularDynamics, ASpinningDiscBeginsAtItsAngleInEveryHost) {
+    wet("[4, 5]", "", "0.1");
+    scratch.write("grains.csv", "id,x,y,angle,spin\n1,2.03,3.4,0.4,2\n");
+    for (const std::string adapter : {"yade-md", "lammps-md", "standalone-md"}) {
+        play("md", " --force --set grains.adapter=" + adapter);
+        EXPECT_LT(maxima.at("motion_defect"), 1e-12) << adapter;
+    }
+}
+
 // Three discs above each other at rest: they compress their springs and stay, and their forces
 // balance in every window with output, in which YADE's forces are summed body by body.
 // An inflow is a wall for the grains.

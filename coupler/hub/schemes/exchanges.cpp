@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/schemes/exchanges.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "coupler/hub/arrival.hpp"
@@ -57,6 +62,36 @@ void add(FluidReport& total, const FluidReport& share) {
     total.mean_velocity = share.mean_velocity;  // these are the same on all ranks
     total.probes = share.probes;
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
+}
+
+/// A grain whose motion is given moves in the fluid as in `contact`, which was checked: to the
+/// round-off of its way in a window.
+void check_given_motions(const std::vector<Kicks>& shares, const Motion& contact, double step,
+                         const Arrival& arrival) {
+    std::unordered_map<GrainId, const GrainState*> given;
+    for (const GrainState& grain : contact.grains)
+        if (grain.prescribed) given.emplace(grain.id, &grain);
+    if (given.empty()) return;
+    const auto apart = [](const Vec3& a, const Vec3& b) {
+        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    };
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+        for (const Kick& kick : shares[rank].kicks) {
+            const auto at = given.find(kick.id);
+            if (at == given.end()) continue;
+            const GrainState& grain = *at->second;
+            const double off = apart(kick.velocity, grain.velocity) +
+                               grain.radius * apart(kick.angular_velocity, grain.angular_velocity);
+            if (off * step <= 1e-9 * grain.radius) continue;
+            arrival.refuse(
+                static_cast<int>(rank),
+                fmt::format("kick for grain {}: velocity ({}) and angular velocity ({}) instead of "
+                            "the given ({}) and ({})",
+                            kick.id, fmt::join(kick.velocity, ", "),
+                            fmt::join(kick.angular_velocity, ", "), fmt::join(grain.velocity, ", "),
+                            fmt::join(grain.angular_velocity, ", ")),
+                "The case gives the motion of this grain: no fluid changes it.");
+        }
 }
 
 Kicks merged(const std::vector<Kicks>& shares) {
@@ -122,6 +157,7 @@ void finish_window(const Window& window, const Motion& before, Cast& cast, Windo
     const Arrival arrival(*cast.fluid, Kind::kicks, window.index);
     const auto shares = receive<Kicks>(*cast.fluid, arrival, cast);
     cast.roster.check(shares, arrival);
+    check_given_motions(shares, result.motion, window.step, arrival);
     result.kicks = merged(shares);
     cast.kick_rule.complete(result.kicks.kicks, before, window.step);
 

@@ -59,6 +59,8 @@ class BrokenGrains final : public ScriptedGrains {
     void restore(const SavedState& state) override {
         ScriptedGrains::restore(state);
         if (fault_ == "forgets digits")
+            for (GrainState& grain : motion_.grains) grain.velocity[0] += 1e-8;
+        if (fault_ == "forgets places")
             for (GrainState& grain : motion_.grains) grain.position[0] += 1e-6;
     }
 

@@ -213,6 +213,78 @@ TEST_F(Distrust, AKickThatIsNotFiniteIsTheFaultOfTheFluid) {
                 "angular velocity is not finite: (0, 0, nan)", "in \"kicks\" of window 3"});
 }
 
+struct SpoiltReport {
+    const char* name;
+    Change<FluidReport> spoil;
+    const char* says;
+};
+class DistrustFluid : public Distrust, public testing::WithParamInterface<SpoiltReport> {};
+
+TEST_P(DistrustFluid, IsToldAsTheFaultOfTheFluid) {
+    fluid_sends([&](Kicks& k) { GetParam().spoil(k.report); });
+    expect_end(ExitCode::physics_refused, {"fluid rank 0 (scripted-fluid, host ", "): report: ",
+                                           GetParam().says, "in \"kicks\" of window 3"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Quantities, DistrustFluid,
+    testing::Values(
+        SpoiltReport{"Courant", [](FluidReport& r) { r.courant = NAN; },
+                     "Courant number is not finite: nan"},
+        SpoiltReport{"NegativeCourant", [](FluidReport& r) { r.courant = -1.0; },
+                     "Courant number is -1, not a number from 0 on"},
+        SpoiltReport{"MeanVelocity", [](FluidReport& r) { r.mean_velocity[1] = INFINITY; },
+                     "mean velocity is not finite: (0, inf, 0)"},
+        SpoiltReport{"Probes",
+                     [](FluidReport& r) {
+                         r.probes = {1.0, NAN, 0.0};
+                     },
+                     "probes are not finite: (1, nan, 0)"},
+        SpoiltReport{"Divergence", [](FluidReport& r) { r.divergence = NAN; },
+                     "divergence is not finite: nan"},
+        SpoiltReport{"FinalDivergence", [](FluidReport& r) { r.final_divergence = INFINITY; },
+                     "final divergence is not finite: inf"},
+        SpoiltReport{"MomentumDefect", [](FluidReport& r) { r.momentum_defect = -1e-3; },
+                     "momentum defect is -0.001, not a number from 0 on"},
+        SpoiltReport{"Slip", [](FluidReport& r) { r.multiplier_residual = NAN; },
+                     "multiplier residual is not finite: nan"},
+        SpoiltReport{"Iterations", [](FluidReport& r) { r.multiplier_iterations = -1; },
+                     "number of multiplier iterations is -1"},
+        SpoiltReport{"Splitting", [](FluidReport& r) { r.splitting.emplace().divergence = NAN; },
+                     "remaining divergence is not finite: nan"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST_F(Distrust, AKickThatMovesAHeldGrainIsTheFaultOfTheFluid) {
+    job.population[0].prescribed = true;
+    fluid_sends([](Kicks& k) {
+        if (!k.kicks.empty() && k.kicks[0].id == 100) k.kicks[0].velocity[1] = -0.1;
+    });
+    expect_end(ExitCode::physics_refused,
+               {"fluid rank 0 (scripted-fluid, host ", "kick for grain 100: velocity (0, -0.1, 0)",
+                "instead of the given (0, 0, 0)", "in \"kicks\" of window 3"});
+}
+
+// With two ranks a contact may be told by both, or by one that should have been silent.
+TEST_F(Distrust, AContactThatTwoRanksTell) {
+    job.from_grains = changed<Motion>(Kind::state, 3, [](Motion& m) {
+        ContactRecord contact;
+        contact.a = 100, contact.b = 102;
+        contact.normal = {1.0, 0.0, 0.0};
+        m.contacts.emplace({contact});
+    });
+    expect_end(ExitCode::physics_refused,
+               {"grains rank 1 (scripted, host ",
+                "the contact of grain 100 and grain 102 (point 0) was sent twice, first by rank 0",
+                "in \"state\" of window 3"});
+}
+
+TEST_F(Distrust, ContactsOfSomeRanksOnly) {
+    grains_send(Kind::state, [](Motion& m) { m.contacts.emplace(); });
+    job.settings.set("run.output_every", std::int64_t{100});
+    expect_end(ExitCode::physics_refused,
+               {"grains rank 1 (scripted, host ", "no contacts were sent, but other ranks"});
+}
+
 TEST_F(Distrust, AGrainWithoutAKick) {
     fluid_sends([](Kicks& k) { k.kicks.clear(); });
     expect_end(ExitCode::physics_refused,
