@@ -60,7 +60,7 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_EQ(turbidite("help run").out, turbidite("run --help").out);
     EXPECT_SAYS(turbidite("run --help").out, "--force");
     EXPECT_SAYS(turbidite("keys").out, "| `contact.friction` |");
-    EXPECT_SAYS(turbidite("keys contact").out, "\ncontact.theta");
+    EXPECT_SAYS(turbidite("keys contact").out, "\ncontact.solver");
     EXPECT_SAYS(turbidite("keys contact --markdown").out, "| `contact.friction` |");
     const auto schema = nlohmann::json::parse(turbidite("keys --schema").out);
     const auto& contact = schema.at("properties").at("contact").at("properties");
