@@ -469,7 +469,8 @@ def momentum_closes(runs):
 
 
 def fluid_momentum_closes(runs):
-    return largest_defect(runs, lambda run: findings.largest(run, 'fluid_balance', 'fluid_balance'), FLUID_MOMENTUM)
+    return largest_defect(runs, lambda run: findings.largest(run, 'fluid_balance', 'fluid_balance') if run.is_wet() else None,
+                          FLUID_MOMENTUM)
 
 
 STATEMENTS = [
