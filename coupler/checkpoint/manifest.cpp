@@ -9,7 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int format = 1;
+// 2: maxima of the motion and of contacts in the part of the coupler.
+constexpr int format = 2;
 
 Json file_json(const StoredFile& file) {
     return {{"name", file.name}, {"bytes", file.bytes}, {"crc32", file.crc32}};
