@@ -38,9 +38,9 @@ TEST_P(BusyPartner, EndsTheRunWithTheWaitForTable) {
     const Answer answer = run_with(GetParam());
     EXPECT_LT(watch.seconds(), 3.0 + longest_with_report);  // limits.stall_hard
     EXPECT_EQ(answer.code, 5) << answer.out << answer.err;
-    EXPECT_SAYS(answer.err, "nothing from fluid rank 0 (");
+    EXPECT_SAYS(answer.err, "no \"kicks\" from fluid rank 0 (");
     EXPECT_SAYS(answer.err, "/logs/fluid.log) for 3 s");
-    EXPECT_SAYS(answer.err, "is due to send \"kicks\", window 5, for 3 s");
+    EXPECT_SAYS(answer.err, "is due to send \"kicks\", window 5, round 1, for 3 s");
     EXPECT_SAYS(answer.err, "grains rank 0 (host ");
     EXPECT_SAYS(answer.err, "waits for the coupler's");
     expect_nothing_left();
