@@ -33,7 +33,7 @@ TEST_F(FailingFluid, ProjectionThatFails) {
     const Answer answer = run_with("divergence");
     EXPECT_EQ(answer.code, 6);
     EXPECT_SAYS(answer.err,
-                "the projection failed in 3 consecutive windows: max |div phi| = nan u_c/D");
+                "the projection failed in 3 consecutive windows: max |div phi| = 1 u_c/D");
     expect_good_output_is_kept(ExitCode::physics_refused);
     EXPECT_EQ(rows_of_history(), 8);  // windows 5 and 6 are tolerated, 7 is not
     expect_nothing_left();

@@ -34,7 +34,7 @@ class FaultyFluid final : public ScriptedFluid {
         Kicks kicks = ScriptedFluid::impose(window);
         if (window.index < faulty_window) return kicks;
         if (fault_ == "nan") kicks.kicks.at(0).velocity[0] = not_a_number;
-        if (fault_ == "divergence") kicks.report.divergence = not_a_number;
+        if (fault_ == "divergence") kicks.report.divergence = 1.0;
         if (fault_ == "unsolved") kicks.report.multipliers_converged = false;
         if (window.index == faulty_window) std::fprintf(stderr, "now comes %s\n", fault_.c_str());
         if (fault_ == "mpi-abort") PMPI_Abort(MPI_COMM_WORLD, 77);
