@@ -12,7 +12,7 @@ import turbidite_adapter as turbidite
 CONTACT = turbidite._record('a#', 'b#', 'wall#', 'feature#', 'status#', 'gap', 'length', ('point', 3), ('normal', 3),
                             ('branch', 3), ('impulse', 3), ('rolling_impulse', 3))
 REPORT = turbidite._record('contacts#', 'iterations#', 'has_residual#', 'converged#', 'max_penetration', 'removed#',
-                           'wall_seconds', 'has_quad#', 'has_max#', 'has_contacts#')   # without the optional values
+                           'wall_seconds', 'has_quad#', 'has_max#', 'has_violation#', 'has_contacts#')   # without the optional values
 FRAME = ('magic', 'kind', 'window', 'iteration', 'sequence', 'length')
 KINDS = {'hello': (turbidite.HELLO, -1), 'start': (turbidite.STATE, -1), 'motion': (turbidite.MOTION, 3),
          'state': (turbidite.STATE, 3)}
