@@ -53,7 +53,7 @@ class ContactResiduals {
 /// Over the windows of a run with a fluid.
 struct FluidMaxima {
     double divergence = 0.0;        ///< after step 1 [u_c/D]
-    double final_divergence = 0.0;  ///< after step 5, of windows with output [u_c/D]
+    double final_divergence = 0.0;  ///< after step 5, of outputs in turn [u_c/D]
     double courant = 0.0;
     double balance = 0.0;                  ///< FluidReport::momentum_defect
     double slip = 0.0;                     ///< rms over the points at the end of a solve [u_c]
@@ -100,6 +100,7 @@ class RunStatistics {
     void take_in(const JointReport& report);
 
     double diameter_ = 1.0, velocity_ = 1.0;  ///< D [m], u_c [m/s]
+    std::int64_t output_every_ = 1;           ///< windows
 };
 
 }  // namespace turbidite
