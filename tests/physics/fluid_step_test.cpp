@@ -195,7 +195,7 @@ double fastest(const CoupledSetup& setup, int windows) try {
     return INFINITY;
 }
 
-TEST(ExplicitTransport, IsBoundedWithTheDefaultSchemeAndNotWithCentralOnes) {
+TEST(ExplicitTransport, InFirstOrderIsBoundedWithTheLimitedSchemeAndNotWithCentralOnes) {
     EXPECT_LT(fastest(stream_beyond_the_limit("Gauss limitedLinearV 1"), 150), 1.5);
     EXPECT_GT(fastest(stream_beyond_the_limit("Gauss linear"), 150), 10.0);
     EXPECT_GT(fastest(stream_beyond_the_limit("Gauss cubic"), 150), 10.0);

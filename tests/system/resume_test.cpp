@@ -108,8 +108,9 @@ INSTANTIATE_TEST_SUITE_P(
                 " --set grains.adapter=standalone-nscd --set fluid.splitting=explicit-multiplier"},
         Variant{"ImplicitMultiplier",
                 " --set grains.adapter=standalone-nscd --set fluid.splitting=implicit-multiplier"},
-        Variant{"SecondOrder",
-                " --set grains.adapter=standalone-nscd --set fluid.time_scheme=second-order"},
+        Variant{"FirstOrder",
+                " --set grains.adapter=standalone-nscd --set fluid.time_scheme=first-order --set "
+                "'fluid.transport_scheme=Gauss limitedLinearV 1'"},
         Variant{"OwnSolversOfTheFluid",
                 " --set grains.adapter=standalone-nscd --set fluid.pressure_solver=PCG --set "
                 "fluid.pressure_tolerance=1e-9"},
@@ -178,8 +179,10 @@ INSTANTIATE_TEST_SUITE_P(
     Ranks, EveryDecomposition,
     testing::Values(
         OtherRanks{"Split", " --set coupling.scheme=split", 1e-7},
-        OtherRanks{"SecondOrder",
-                   " --set coupling.scheme=split --set fluid.time_scheme=second-order", 1e-7},
+        OtherRanks{"FirstOrder",
+                   " --set coupling.scheme=split --set fluid.time_scheme=first-order --set "
+                   "'fluid.transport_scheme=Gauss limitedLinearV 1'",
+                   1e-7},
         OtherRanks{"ExplicitMultiplier", " --set fluid.splitting=explicit-multiplier", 1e-4}),
     [](const auto& info) { return std::string(info.param.name); });
 

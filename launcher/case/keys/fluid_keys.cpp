@@ -86,7 +86,8 @@ Ruling scheme_is_stable(const Settings& s) {
                     "nu/u^2, and jets between grains reach u = {:.0f} to {:.0f} u_c: at most 2/(36 "
                     "Re) = {:.3g} t_c, but time.step = {}.",
                     usual_peak, highest_peak, *limit, s.text("time.step")),
-        "Use Gauss limitedLinearV 1, which stays bounded, or a smaller step."};
+        "Use fluid.time_scheme: second-order, Gauss limitedLinearV 1, which stays bounded, or a "
+        "smaller step."};
 }
 
 // Step 5 needs a halo of three layers (halo_layers in foamFluidField.cpp), and a rank should have
@@ -405,13 +406,13 @@ std::vector<KeySpec> scheme_keys() {
     return {
         {.name = "fluid.transport_scheme",
          .type = KeyType::text,
-         .fallback = "Gauss limitedLinearV 1",
-         .help = "OpenFOAM scheme of div(phi,U); central ones in first order need a step "
-                 "below 2/(36 Re)",
+         .fallback = "Gauss LUST grad(U)",
+         .help = "OpenFOAM scheme of div(phi,U); in first order central ones need a step below "
+                 "2/(36 Re), and Gauss limitedLinearV 1 stays bounded at any",
          .idle = without_fluid},
         {.name = "fluid.time_scheme",
          .type = KeyType::choice,
-         .fallback = "first-order",
+         .fallback = "second-order",
          .choices = {{"first-order",
                       "explicit transport and implicit viscosity by Euler's "
                       "methods, as in the paper"},

@@ -383,39 +383,59 @@ TEST_F(CaseFile, AnUnknownTransportSchemeIsAnsweredWithTheNearest) {
 }
 
 /// 2 nu/u^2 at u = 6 u_c, where jets of settling clouds begin: 2/(36 Re) = 0.00154 t_c at Re = 36.
-TEST_F(CaseFile, CentralTransportIsRefusedBeyondItsStep) {
+TEST_F(CaseFile, CentralTransportInFirstOrderIsRefusedBeyondItsStep) {
     const std::string scheme = "fluid.transport_scheme=Gauss linear";
-    EXPECT_EQ(refusal("", {scheme, "time.step=0.0015"}), "");
-    const std::string text = refusal("", {scheme, "time.step=0.0016"});
+    const std::string first_order = "fluid.time_scheme=first-order";
+    EXPECT_EQ(refusal("", {scheme, first_order, "time.step=0.0015"}), "");
+    const std::string text = refusal("", {scheme, first_order, "time.step=0.0016"});
     EXPECT_SAYS(text, "fluid.transport_scheme = Gauss linear");
     EXPECT_SAYS(text, "2/(36 Re) = 0.00154 t_c");
     EXPECT_SAYS(text, "time.step = 0.0016");
-    EXPECT_SAYS(text, "Use Gauss limitedLinearV 1");
-    EXPECT_EQ(refusal("", {"time.step=0.0016"}), "");
-    EXPECT_EQ(refusal("", {scheme, "time.step=0.0016", "fluid.enabled=false"}), "");
-    EXPECT_EQ(refusal("", {scheme, "time.step=0.0016", "fluid.time_scheme=second-order"}), "");
+    EXPECT_SAYS(text, "Use fluid.time_scheme: second-order, Gauss limitedLinearV 1");
+    EXPECT_EQ(refusal("", {first_order, "time.step=0.0016",
+                           "fluid.transport_scheme=Gauss limitedLinearV 1"}),
+              "");
+    EXPECT_EQ(refusal("", {scheme, first_order, "time.step=0.0016", "fluid.enabled=false"}), "");
+    EXPECT_EQ(refusal("", {scheme, "time.step=0.0016"}), "");
 }
 
 // Sub-steps of 2/3 of a cell at 6 u_c: 0.00154 t_c with 72 cells per diameter, whatever the window.
-TEST_F(CaseFile, CentralTransportMayTakeAnyStepWhereItIsCutFinely) {
+TEST_F(CaseFile, CentralTransportInFirstOrderMayTakeAnyStepWhereItIsCutFinely) {
     const std::string scheme = "fluid.transport_scheme=Gauss linear";
-    EXPECT_EQ(refusal("", {scheme, "time.step=0.05", "fluid.cells_per_diameter=75"}), "");
-    EXPECT_SAYS(refusal("", {scheme, "time.step=0.05", "fluid.cells_per_diameter=70"}),
-                "unstable for steps above");
+    const std::string first_order = "fluid.time_scheme=first-order";
+    EXPECT_EQ(refusal("", {scheme, first_order, "time.step=0.05", "fluid.cells_per_diameter=75"}),
+              "");
+    EXPECT_SAYS(
+        refusal("", {scheme, first_order, "time.step=0.05", "fluid.cells_per_diameter=70"}),
+        "unstable for steps above");
 }
 
-TEST_F(CaseFile, TransportIsNotedBeyondTheStepOfFasterJets) {
-    const auto notes = [&](const std::string& scheme, const std::string& step) {
+TEST_F(CaseFile, TransportInFirstOrderIsNotedBeyondTheStepOfFasterJets) {
+    const auto notes = [&](const std::string& scheme, const std::string& step,
+                           const std::string& order = "first-order") {
         std::string all;
         for (const std::string& note :
-             load("", {"fluid.transport_scheme=Gauss " + scheme, "time.step=" + step}).notes)
+             load("", {"fluid.transport_scheme=Gauss " + scheme, "time.step=" + step,
+                       "fluid.time_scheme=" + order})
+                 .notes)
             all += note + "\n";
         return all;
     };
     EXPECT_SAYS(notes("QUICK", "0.0016"), "fluid.transport_scheme = Gauss QUICK");
     EXPECT_EQ(notes("QUICK", "0.0015").find("fluid.transport_scheme"), std::string::npos);
+    EXPECT_EQ(notes("QUICK", "0.0016", "second-order").find("fluid.transport_scheme"),
+              std::string::npos);
     EXPECT_SAYS(notes("linear", "0.0015"), "2/(64 Re) = 0.000868 t_c");
     EXPECT_EQ(notes("linear", "0.0008").find("fluid.transport_scheme"), std::string::npos);
+}
+
+// The fallback of the scheme is not one for first order: who names only the order is told.
+TEST_F(CaseFile, FirstOrderAloneIsTold) {
+    std::string notes;
+    for (const std::string& note : load("", {"fluid.time_scheme=first-order"}).notes)
+        notes += note + "\n";
+    EXPECT_SAYS(notes, "Gauss limitedLinearV 1 stays bounded");
+    EXPECT_EQ(load("").settings.text("fluid.time_scheme"), "second-order");
 }
 
 TEST_F(CaseFile, EndAndStep) {
@@ -500,6 +520,17 @@ TEST_F(CaseFile, TheSchemeFollowsTheAdapter) {
     EXPECT_EQ(scheme({"coupling.scheme=split"}), "split");
     EXPECT_EQ(load_case(quickstart, {}).settings.text("run.scheme"), "joint");
     EXPECT_EQ(load_case(quickstart, {"fluid.enabled=false"}).settings.text("run.scheme"), "dry");
+}
+
+/// They reproduce the paper's fluid, whatever the default is.
+TEST_F(CaseFile, ThePapersCasesNameItsTransport) {
+    for (const char* name :
+         {"sedimentation-discs", "sedimentation-triangles", "avalanche", "avalanche-closed"}) {
+        const Settings settings =
+            load_case(std::string(TURBIDITE_SOURCE_DIR "/configs/") + name + ".yaml", {}).settings;
+        EXPECT_EQ(settings.text("fluid.time_scheme"), "first-order") << name;
+        EXPECT_EQ(settings.text("fluid.transport_scheme"), "Gauss limitedLinearV 1") << name;
+    }
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(RunCost, SplittingsAndTimeSchemesDiffer) {
     const double carried = window({"fluid.splitting=explicit-multiplier"}).fluid;
     EXPECT_GT(carried, paper);
     EXPECT_GT(window({"fluid.splitting=implicit-multiplier"}).fluid, carried);
-    EXPECT_GT(window({"fluid.time_scheme=second-order"}).fluid, paper);
+    EXPECT_LT(window({"fluid.time_scheme=first-order"}).fluid, paper);
 }
 
 // The covered cells are not spread evenly: grains settle in the lower ranks.
