@@ -34,13 +34,13 @@ class FluidisedBed : public ShellTest {
 };
 
 TEST_F(FluidisedBed, IsLiftedByAFastStreamAndStandsInASlowOne) {
-    const Columns fast = play("0.15"), slow = play("0.02");
+    const Columns fast = play("0.15"), slow = play("0.02", "standalone-nscd", "32");
     const double start = fast.at("mean_position_y").front();
     EXPECT_GT(fast.at("mean_position_y").back(), 1.3 * start);
-    // The loose lattice compacts and stands.
-    EXPECT_LT(slow.at("mean_position_y").back(), start);
-    EXPECT_GT(slow.at("mean_position_y").back(), 0.85 * start);
-    EXPECT_LT(slow.at("mean_speed").back(), 0.02);
+    // The loose lattice collapses by a tenth, which takes 24 t_c since liquid has to leave, and
+    // stands.
+    EXPECT_NEAR(slow.at("mean_position_y").back(), 0.895 * start, 0.02 * start);
+    EXPECT_LT(slow.at("mean_speed").back(), 1e-3);
     EXPECT_GT(slow.at("coordination").back(), 2.5);  // carried by contacts
     EXPECT_LT(fast.at("coordination").back(), slow.at("coordination").back() - 0.5);
     // The liquid leaves through the top: the same flux through every height.
