@@ -21,7 +21,7 @@ domain: {size: [5, 6]}
 grains: {adapter: standalone-nscd, count: 7, region: [5, 2.5], density_ratio: 0.5}
 fluid: {reynolds: 150, cells_per_diameter: 8, hydrodynamic_radius: 0.85}
 coupling: {scheme: joint}
-time: {step: 0.01, end: 30}
+time: {step: 0.01, end: 80}
 output: {interval: 1}
 )";
 
@@ -59,13 +59,13 @@ TEST_F(LightGrains, OfTheFluidsDensityStayWhereTheyAre) {
     EXPECT_EQ(run.at("mean_position_y").back(), 3.0);
 }
 
-// What sinks at 1.5 rises at 0.5: the cloud leaves the floor and gathers under the top.
-TEST_F(LightGrains, RiseAndGatherUnderTheTop) {
+// What sinks at 1.5 rises at 0.5: the cloud leaves the floor and comes to rest under the top.
+TEST_F(LightGrains, RiseAndComeToRestUnderTheTop) {
     const Columns run = history("cloud.yaml");
     EXPECT_LT(run.at("mean_position_y").front(), 2.5);
     EXPECT_GT(run.at("mean_position_y").back(), 4.5);
-    EXPECT_GT(run.at("contacts").back(), 6.0);
-    EXPECT_LT(run.at("mean_speed").back(), 0.05);
+    EXPECT_GT(run.at("contacts").back(), 10.0);
+    EXPECT_LT(run.at("mean_speed").back(), 1e-3);
     EXPECT_LT(record().at("maxima").at("penetration").get<double>(), 1e-4);
     EXPECT_LT(record().at("maxima").at("grain_balance").get<double>(), 1e-10);
     EXPECT_LT(record().at("maxima").at("fluid_balance").get<double>(), 1e-6);
