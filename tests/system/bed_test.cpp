@@ -80,6 +80,7 @@ TEST_F(BedUnderJoint, OnTwoFluidRanksItIsTheSameBed) {
     const std::string start = " --set time.end=1.25 --set fluid.multiplier_tolerance=1e-9";
     const Columns one = play(start + " --set fluid.ranks=1");
     const Columns two = play(start + " --set fluid.ranks=2");
+    EXPECT_TRUE(std::filesystem::exists(run_folder() / "fluid/processor1"));
     expect_sound();
     ASSERT_EQ(two.at("time").size(), one.at("time").size());
     EXPECT_GT(one.at("contacts").back(), 1.3 * grains);
