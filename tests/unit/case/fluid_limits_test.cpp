@@ -68,9 +68,9 @@ TEST_F(FluidLimits, AMeshBeyondTheMemoryIsRefusedWithBoth) {
         sets.push_back(set);
         return refusal("", sets);
     };
-    EXPECT_SAYS(with("limits.memory=60"), "The mesh of 100 million cells takes about 75.1 GB");
+    EXPECT_SAYS(with("limits.memory=60"), "The mesh of 100 million cells takes about 83.1 GB");
     EXPECT_SAYS(with("limits.memory=60"), "there are 60 GB (limits.memory)");
-    EXPECT_EQ(with("limits.memory=80"), "");
+    EXPECT_EQ(with("limits.memory=90"), "");
     EXPECT_SAYS(with("domain.size=[1e6, 1e6]"), "OpenFOAM counts up to 5e+08");
     EXPECT_EQ(refusal("", {"fluid.enabled=false", "domain.size=[1e4, 1e4]"}), "");
 }
