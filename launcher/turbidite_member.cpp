@@ -20,14 +20,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include "coupler/output/run_record.hpp"
 #include "coupler/protocol/run_files.hpp"
 #include "coupler/protocol/start_record.hpp"
+#include "coupler/protocol/whole_file.hpp"
 #include "launcher/case/run_folder.hpp"
 
 namespace {
@@ -57,11 +56,6 @@ int world_rank() {
     for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
         if (const char* rank = std::getenv(name)) return std::atoi(rank);
     return 0;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::filesystem::path log_of(const Member& member) {
@@ -135,7 +129,7 @@ std::string end_text(const Member& member, int status, pid_t child) {
 
 /// `before`: the record when the program was started; that of an earlier run does not count.
 int exit_code(const Member& member, int status, pid_t child, const std::string& before) {
-    const bool over = text_of(member.record()) != before && has_verdict(member.record());
+    const bool over = read_whole(member.record()) != before && has_verdict(member.record());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
     if (over || asked_to_end) return code;
     if (!write_first_end(member.run,
@@ -149,7 +143,7 @@ int exit_code(const Member& member, int status, pid_t child, const std::string& 
 int play(const Member& member) {
     // A batch system's, which mpirun passes on: the coupler heeds it, all others go on.
     for (const int signal : {SIGUSR1, SIGUSR2}) ::signal(signal, SIG_IGN);
-    const std::string before = text_of(member.record());
+    const std::string before = read_whole(member.record());
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
     if (child == 0) become(member);

@@ -28,6 +28,10 @@ std::string advice(const CaseProblem& problem) {
 
 }  // namespace
 
+void append(CaseProblems& problems, CaseProblems more) {
+    for (CaseProblem& problem : more) problems.push_back(std::move(problem));
+}
+
 CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
                        const std::string& allowed, const std::string& remedy) {
     return {.source = source,
@@ -39,7 +43,7 @@ CaseProblem problem_at(const std::string& source, int line, const std::string& f
             .remedy = remedy};
 }
 
-std::string format_problems(const std::vector<CaseProblem>& problems) {
+std::string format_problems(const CaseProblems& problems) {
     std::string text;
     for (const CaseProblem& problem : problems)
         text += fmt::format("{}{}\n  {}\n", place(problem), statement(problem), advice(problem));
@@ -48,7 +52,7 @@ std::string format_problems(const std::vector<CaseProblem>& problems) {
                                              problems.size(), problems.size() == 1 ? "" : "s");
 }
 
-CaseRefused::CaseRefused(std::vector<CaseProblem> problems)
+CaseRefused::CaseRefused(CaseProblems problems)
     : Failure(ExitCode::bad_input, format_problems(problems)), problems_(std::move(problems)) {}
 
 }  // namespace turbidite

@@ -21,21 +21,25 @@ struct CaseProblem {
     std::string remedy;   ///< a sentence
 };
 
+/// What is wrong with a case; empty if it may start.
+using CaseProblems = std::vector<CaseProblem>;
+void append(CaseProblems& problems, CaseProblems more);
+
 /// A problem with a place in a file rather than with a key.
 CaseProblem problem_at(const std::string& source, int line, const std::string& fault,
                        const std::string& allowed, const std::string& remedy);
 
 /// The text shown on stderr; ends with "N errors, nothing was started. Exit code 2."
-std::string format_problems(const std::vector<CaseProblem>& problems);
+std::string format_problems(const CaseProblems& problems);
 
 /// Exit code 2 with every problem found; what() is format_problems.
 class CaseRefused : public Failure {
  public:
-    explicit CaseRefused(std::vector<CaseProblem> problems);
-    const std::vector<CaseProblem>& problems() const { return problems_; }
+    explicit CaseRefused(CaseProblems problems);
+    const CaseProblems& problems() const { return problems_; }
 
  private:
-    std::vector<CaseProblem> problems_;
+    CaseProblems problems_;
 };
 
 }  // namespace turbidite

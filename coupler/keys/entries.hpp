@@ -23,7 +23,7 @@ struct CaseEntry {
 
 struct CaseEntries {
     std::vector<CaseEntry> entries;
-    std::vector<CaseProblem> problems;
+    CaseProblems problems;  ///< of reading them
 
     const CaseEntry* find(const std::string& key) const;
 };

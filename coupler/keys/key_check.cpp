@@ -137,7 +137,7 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
 }
 
 void check_entry(const KeyTable& table, const CaseEntry& entry, Settings& settings,
-                 std::vector<CaseProblem>& problems) {
+                 CaseProblems& problems) {
     const KeySpec* key = find_key(table, entry.key);
     if (key == nullptr) return problems.push_back(unknown_key(table, entry));
     if (entry.is_null && key->need == Need::optional) return;
@@ -182,16 +182,16 @@ bool is_needed(const KeySpec& key, const Settings& settings) {
 
 }  // namespace
 
-Settings check_keys(const KeyTable& table, CaseEntries& entries) {
-    Settings settings;
+CheckedKeys check_keys(const KeyTable& table, const CaseEntries& entries) {
+    CheckedKeys checked;
     const std::string source = entries.entries.empty() ? "" : entries.entries.front().source;
     for (const CaseEntry& entry : entries.entries)
-        check_entry(table, entry, settings, entries.problems);
-    fill_defaults(table, entries, settings);
+        check_entry(table, entry, checked.settings, checked.problems);
+    fill_defaults(table, entries, checked.settings);
     for (const KeySpec& key : table)
-        if (is_needed(key, settings) && entries.find(key.name) == nullptr)
-            entries.problems.push_back(missing_key(source, key));
-    return settings;
+        if (is_needed(key, checked.settings) && entries.find(key.name) == nullptr)
+            checked.problems.push_back(missing_key(source, key));
+    return checked;
 }
 
 }  // namespace turbidite

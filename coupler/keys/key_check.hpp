@@ -9,7 +9,10 @@
 
 namespace turbidite {
 
-/// Problems are appended to entries.problems.
-Settings check_keys(const KeyTable& table, CaseEntries& entries);
+struct CheckedKeys {
+    Settings settings;  ///< without the keys that were refused
+    CaseProblems problems;
+};
+CheckedKeys check_keys(const KeyTable& table, const CaseEntries& entries);
 
 }  // namespace turbidite

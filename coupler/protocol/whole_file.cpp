@@ -2,6 +2,7 @@
 #include "coupler/protocol/whole_file.hpp"
 
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "coupler/protocol/failure.hpp"
@@ -47,6 +48,11 @@ void rename(const Part& part, const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::string read_whole(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
 
 void write_whole(const std::filesystem::path& file,
                  const std::function<void(std::ostream&)>& content) {

@@ -6,8 +6,12 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <string>
 
 namespace turbidite {
+
+/// The content, byte for byte; empty if there is no file that can be read.
+std::string read_whole(const std::filesystem::path& file);
 
 /// Writes to a file beside `file` (name + ".part") and renames it: a reader sees either the old or
 /// the new content, never a part of it. On failure throws Failure (participant failed) naming

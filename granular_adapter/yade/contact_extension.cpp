@@ -49,9 +49,9 @@ Settings checked_settings(const python::dict& options) {
         entry.value = python::extract<std::string>(items[i][1]);
         entries.entries.push_back(entry);
     }
-    Settings settings = check_keys(contact_key_table(), entries);
-    std::vector<CaseProblem> ours;
-    for (const CaseProblem& problem : entries.problems)
+    auto [settings, problems] = check_keys(contact_key_table(), entries);
+    CaseProblems ours;
+    for (const CaseProblem& problem : problems)
         if (problem.key.rfind("contact.", 0) == 0) ours.push_back(problem);
     if (!ours.empty()) throw CaseRefused(ours);
     // The units of the keys in SI: m/s, m, N.

@@ -69,25 +69,27 @@ std::vector<IdleKeys> idle_keys(const Settings& settings, const CaseEntries& ent
 
 }  // namespace
 
-void object(const std::string& key, const Objection& objection, const Settings& settings,
-            CaseEntries& entries) {
+CaseProblem problem_with(const std::string& key, const Objection& objection,
+                         const Settings& settings, const CaseEntries& entries) {
     const CaseEntry* entry = entries.find(key);
-    entries.problems.push_back({.source = (entry ? *entry : entries.entries.front()).source,
-                                .line = entry ? entry->line : 0,
-                                .key = key,
-                                .value = settings.text(key) + (entry ? "" : " (default)"),
-                                .fault = {},
-                                .allowed = objection.allowed,
-                                .remedy = objection.remedy});
+    return {.source = (entry ? *entry : entries.entries.front()).source,
+            .line = entry ? entry->line : 0,
+            .key = key,
+            .value = settings.text(key) + (entry ? "" : " (default)"),
+            .fault = {},
+            .allowed = objection.allowed,
+            .remedy = objection.remedy};
 }
 
-void check_rules(const Settings& settings, CaseEntries& entries) {
+CaseProblems check_rules(const Settings& settings, const CaseEntries& entries) {
+    CaseProblems problems;
     for (const KeyGroup& group : key_groups())
         for (const Rule& rule : group.rules) {
             if (!has_all(settings, rule)) continue;
             if (const Ruling objection = rule.check(settings))
-                object(rule.key, *objection, settings, entries);
+                problems.push_back(problem_with(rule.key, *objection, settings, entries));
         }
+    return problems;
 }
 
 std::vector<std::string> rule_notes(const Settings& settings, const CaseEntries& entries) {

@@ -12,12 +12,11 @@
 
 namespace turbidite {
 
-/// Appends a problem with the value of a key to entries.problems.
-void object(const std::string& key, const Objection& objection, const Settings& settings,
-            CaseEntries& entries);
+/// The problem with the value of a key, at the line that gives it.
+CaseProblem problem_with(const std::string& key, const Objection& objection,
+                         const Settings& settings, const CaseEntries& entries);
 
-/// Problems are appended to entries.problems.
-void check_rules(const Settings& settings, CaseEntries& entries);
+CaseProblems check_rules(const Settings& settings, const CaseEntries& entries);
 
 /// Notes for the user about a valid case, e.g. an end that is not a whole number of windows, and
 /// the keys of `entries` that have no effect.

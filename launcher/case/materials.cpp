@@ -63,7 +63,8 @@ std::vector<std::string> material_names(const Settings& settings) {
     return names;
 }
 
-void check_materials(const Settings& settings, CaseEntries& entries) {
+CaseProblems check_materials(const Settings& settings, const CaseEntries& entries) {
+    CaseProblems problems;
     const std::vector<std::string> names = material_names(settings);
     const bool known = !settings.has("grains.adapter") || grains_adapter(settings).materials;
     std::set<std::string> seen;
@@ -85,8 +86,9 @@ void check_materials(const Settings& settings, CaseEntries& entries) {
         else if (!pair.empty())
             objection = unknown_material(pair, names);
         if (!objection && settings.has("contact.law")) objection = unfit(settings, group);
-        if (objection) object(key, *objection, settings, entries);
+        if (objection) problems.push_back(problem_with(key, *objection, settings, entries));
     }
+    return problems;
 }
 
 }  // namespace turbidite

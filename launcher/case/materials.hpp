@@ -16,7 +16,7 @@ namespace turbidite {
 std::vector<std::string> material_names(const Settings& settings);
 
 /// Checks for pairs of unknown materials, inconsistent coefficients, and adapters with a single
-/// material. Problems are appended to entries.problems.
-void check_materials(const Settings& settings, CaseEntries& entries);
+/// material.
+CaseProblems check_materials(const Settings& settings, const CaseEntries& entries);
 
 }  // namespace turbidite

@@ -97,33 +97,34 @@ std::optional<Objection> bad_table(const Settings& s, const std::string& name) {
                      "Write for example table: [0, 0, 0, 2, -1, 0]."};
 }
 
-void check_motion(const Settings& s, const std::string& name, CaseEntries& entries) {
-    if (!gives(s, name, "kind")) {
-        entries.problems.push_back({.source = entries.entries.front().source,
-                                    .line = 0,
-                                    .key = key_of(name, "kind"),
-                                    .value = {},
-                                    .fault = "is missing",
-                                    .allowed = "Available: constant, harmonic, table.",
-                                    .remedy = "Give the kind of motion."});
-        return;
-    }
+CaseProblems check_motion(const Settings& s, const std::string& name, const CaseEntries& entries) {
+    if (!gives(s, name, "kind"))
+        return {{.source = entries.entries.front().source,
+                 .line = 0,
+                 .key = key_of(name, "kind"),
+                 .value = {},
+                 .fault = "is missing",
+                 .allowed = "Available: constant, harmonic, table.",
+                 .remedy = "Give the kind of motion."}};
+    CaseProblems problems;
+    const auto object = [&](const std::string& key, const Objection& objection) {
+        problems.push_back(problem_with(key, objection, s, entries));
+    };
     const Kind& kind = kind_of(s, name);
     for (const char* part : kind.needs)
         if (!gives(s, name, part))
             object(key_of(name, "kind"),
-                   {fmt::format("A motion of this kind needs {}.", key_of(name, part)), "Add it."},
-                   s, entries);
+                   {fmt::format("A motion of this kind needs {}.", key_of(name, part)), "Add it."});
     for (const auto& [key, value] : s.entries()) {
         if (key.rfind(prefix + name + ".", 0) != 0) continue;
         const std::string part = key.substr(key.rfind('.') + 1);
         if (part != "kind" && !has(kind.needs, part) && !has(kind.may, part))
-            object(key, {fmt::format("A {} motion has no {}.", kind.name, part), "Remove it."}, s,
-                   entries);
+            object(key, {fmt::format("A {} motion has no {}.", kind.name, part), "Remove it."});
     }
     if (gives(s, name, "table"))
         if (const auto objection = bad_table(s, name))
-            object(key_of(name, "table"), *objection, s, entries);
+            object(key_of(name, "table"), *objection);
+    return problems;
 }
 
 Objection unknown_motion(const Settings& s) {
@@ -181,21 +182,11 @@ std::optional<Objection> bad_side(const Settings& s, const std::string& side) {
                     adapters_that([](const GrainsAdapter& a) { return a.moving_sides; }))};
 }
 
-void check_inner_wall(const Settings& s, const InnerWall& wall, CaseEntries& entries) {
-    const auto refuse = [&](const Objection& objection) {
-        entries.problems.push_back(
-            {.source = s.text("domain.walls_file"),
-             .line = 0,
-             .key = {},
-             .value = {},
-             .fault = fmt::format("wall {}: motion = {}", wall.id, wall.motion),
-             .allowed = objection.allowed,
-             .remedy = objection.remedy});
-    };
-    if (!is_known(s, wall.motion)) return refuse(unknown_motion(s));
-    if (wall.velocity != Point2{} || wall.spin != 0.0)
-        refuse({"A wall that follows a motion has no vx, vy and spin of its own.",
-                "Set them to 0, or leave motion empty."});
+std::optional<Objection> bad_inner_wall(const Settings& s, const InnerWall& wall) {
+    if (!is_known(s, wall.motion)) return unknown_motion(s);
+    if (wall.velocity == Point2{} && wall.spin == 0.0) return std::nullopt;
+    return Objection{"A wall that follows a motion has no vx, vy and spin of its own.",
+                     "Set them to 0, or leave motion empty."};
 }
 
 void append(std::string& text, std::int64_t what, const Settings& s, const std::string& name,
@@ -259,19 +250,19 @@ std::optional<double> first_imbalance(const Settings& s) {
 }
 
 /// What enters must leave.
-void check_balance(const Settings& s, CaseEntries& entries) {
+CaseProblems check_balance(const Settings& s, const CaseEntries& entries) {
     const auto first = std::find_if(std::begin(sides), std::end(sides),
                                     [&](const char* side) { return is_inflow(s, side); });
     const bool known = s.has("domain.size") && s.has("time.step") && s.has("time.end");
-    if (first == std::end(sides) || has_free_side(s) || !known) return;
-    if (const auto time = first_imbalance(s))
-        object(
-            std::string("domain.") + *first,
-            {fmt::format("The box has no free side, and by {:.3g} t_c not as much fluid has left "
-                         "through its inflows as has entered.",
-                         *time),
-             "Make a side free, or let the same flux leave through an opposite inflow."},
-            s, entries);
+    if (first == std::end(sides) || has_free_side(s) || !known) return {};
+    const auto time = first_imbalance(s);
+    if (!time) return {};
+    const Objection objection{
+        fmt::format("The box has no free side, and by {:.3g} t_c not as much fluid has left "
+                    "through its inflows as has entered.",
+                    *time),
+        "Make a side free, or let the same flux leave through an opposite inflow."};
+    return {problem_with(std::string("domain.") + *first, objection, s, entries)};
 }
 
 }  // namespace
@@ -287,16 +278,28 @@ std::vector<std::string> motion_names(const Settings& s) {
     return names;
 }
 
-void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
-                   CaseEntries& entries) {
-    for (const std::string& name : motion_names(settings)) check_motion(settings, name, entries);
+CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
+                           const CaseEntries& entries) {
+    CaseProblems problems;
+    for (const std::string& name : motion_names(settings))
+        append(problems, check_motion(settings, name, entries));
     for (const char* side : sides)
         if (const std::string key = std::string("domain.") + side + "_motion"; settings.has(key))
             if (const auto objection = bad_side(settings, side))
-                object(key, *objection, settings, entries);
-    for (const InnerWall& wall : walls)
-        if (!wall.motion.empty()) check_inner_wall(settings, wall, entries);
-    if (entries.problems.empty()) check_balance(settings, entries);
+                problems.push_back(problem_with(key, *objection, settings, entries));
+    for (const InnerWall& wall : walls) {
+        if (wall.motion.empty()) continue;
+        if (const auto objection = bad_inner_wall(settings, wall))
+            problems.push_back({.source = settings.text("domain.walls_file"),
+                                .line = 0,
+                                .key = {},
+                                .value = {},
+                                .fault = fmt::format("wall {}: motion = {}", wall.id, wall.motion),
+                                .allowed = objection->allowed,
+                                .remedy = objection->remedy});
+    }
+    // It needs motions without faults.
+    return problems.empty() ? check_balance(settings, entries) : problems;
 }
 
 std::string inflows_setting(const Settings& settings, const Scales& scales) {

@@ -16,9 +16,9 @@
 namespace turbidite {
 
 /// Checks for incomplete or contradictory motions, sides that cannot move, and walls inside the box
-/// that name an unknown motion. Problems are appended to entries.problems.
-void check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
-                   CaseEntries& entries);
+/// that name an unknown motion.
+CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
+                           const CaseEntries& entries);
 
 /// The value of `run.wall_motions`, in run units.
 std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,

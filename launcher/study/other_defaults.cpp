@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
 
+#include "coupler/protocol/whole_file.hpp"
 #include "launcher/case/case_entries.hpp"
 #include "launcher/case/run_folder.hpp"
 
@@ -53,8 +52,7 @@ std::set<std::string> keys_of(const Values& a, const Values& b) {
 
 std::optional<std::vector<std::string>> other_defaults(const PlannedRun& run,
                                                        const std::filesystem::path& folder) {
-    std::ifstream in(RunFolder{folder}.resolved_case());
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = read_whole(RunFolder{folder}.resolved_case());
     const auto then = values_of(text), now = values_of(run.yaml);
     if (!then || !now || fingerprints(text) != fingerprints(run.yaml)) return std::nullopt;
     std::vector<std::string> changes;

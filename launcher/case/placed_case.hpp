@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// A case whose keys are valid, with what its files hold: grains, walls inside the box, a script.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/case/inner_walls.hpp"
+#include "launcher/case/start_grains.hpp"
+
+namespace turbidite {
+
+struct PlacedCase {
+    std::optional<GrainForms> forms;  ///< none if the keys that define them were refused
+    StartGrains start;
+    std::vector<InnerWall> walls;
+    std::string script;  ///< text of grains.script; empty if there is none
+    CaseProblems problems;
+};
+
+/// Reads the files that the settings name (paths relative to `folder`) and checks what is in them.
+/// `faults` says that other problems were found: keys may then be missing, and checks that need
+/// them are left out.
+PlacedCase place(const Settings& settings, const CaseEntries& entries,
+                 const std::filesystem::path& folder, const GivenGrains& given, bool faults);
+
+/// The run folder contains copies of the grains, walls and script, and the resolved case names
+/// these copies, so that the folder can be moved to another machine.
+inline constexpr auto copied_grains = "grains/initial.csv";
+void name_copies(Settings& settings);
+
+}  // namespace turbidite

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/run_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "coupler/hub/schemes/scheme.hpp"
+#include "launcher/case/grains_adapters.hpp"
+#include "launcher/case/materials.hpp"
+#include "launcher/case/soft_contact.hpp"
+#include "launcher/case/wall_motion.hpp"
+
+namespace turbidite {
+namespace {
+
+void set_materials(Settings& settings) {
+    std::string names;
+    for (const std::string& name : material_names(settings))
+        if (name != "default") names += (names.empty() ? "" : " ") + name;
+    settings.set("run.materials", names);
+}
+
+/// The coupling scheme, resolved here once for all programs.
+void set_scheme(Settings& settings) {
+    const SchemeEntry& scheme = find_scheme(scheme_name(settings));
+    settings.set("run.scheme", std::string(scheme.name));
+    settings.set("run.repeats_windows", scheme.repeats);
+    settings.set("run.slip_tolerance", scheme.slip_tolerance(settings));
+}
+
+double height_of(const Packing& grains) {
+    double height = 0.0;
+    for (const PlacedGrain& grain : grains) height = std::max(height, grain.y + grain.radius);
+    return height;
+}
+
+/// The contact parameters and sub-steps of molecular dynamics.
+void set_soft_contact(Settings& settings, const Packing& grains) {
+    if (grains_adapter(settings).family == "nscd") return;
+    const SoftContact contact = soft_contact(settings, height_of(grains));
+    settings.set("run.md_frequency", contact.frequency);
+    settings.set("run.md_damping", contact.damping);
+    settings.set("run.md_substeps", contact.substeps);
+}
+
+Quaternion turned(double angle) {
+    if (angle == 0.0) return {1.0, 0.0, 0.0, 0.0};
+    return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
+}
+
+}  // namespace
+
+void choose_scheme(Settings& settings) {
+    if (!settings.has("coupling.scheme") || settings.text("coupling.scheme") != "auto") return;
+    const bool known = settings.has("grains.adapter") && settings.has("fluid.enabled") &&
+                       settings.flag("fluid.enabled");
+    const char* scheme = known ? best_scheme(grains_adapter(settings)) : "split";
+    settings.set("coupling.scheme", std::string(scheme));
+}
+
+void set_run_settings(Settings& settings, const Packing& grains,
+                      const std::vector<InnerWall>& walls, const Scales& scales) {
+    set_run_values(settings, scales);
+    set_scheme(settings);
+    settings.set("run.walls", walls_setting(walls, scales, settings.real("contact.friction")));
+    settings.set("run.wall_motions", motions_setting(settings, walls, scales));
+    settings.set("run.inflow_motions", inflows_setting(settings, scales));
+    settings.set("run.grain_motions", grain_motions_setting(settings, grains, scales));
+    set_materials(settings);
+    set_soft_contact(settings, grains);
+}
+
+std::vector<GrainState> grain_states(const Packing& grains, const Settings& settings,
+                                     const Scales& scales) {
+    std::vector<GrainState> states;
+    for (const PlacedGrain& grain : grains) {
+        GrainState state;
+        state.id = grain.id;
+        state.shape = grain.shape;
+        state.orientation = turned(grain.angle);
+        state.radius = grain.radius * scales.diameter;
+        state.material = grain.material;
+        state.prescribed = grain.prescribed;
+        state.density =
+            grain.density.value_or(settings.real("grains.density_ratio")) * scales.fluid_density;
+        state.velocity = {grain.vx * scales.velocity, grain.vy * scales.velocity, 0.0};
+        state.angular_velocity = {0.0, 0.0, grain.spin / scales.time};
+        state.position = {grain.x * scales.diameter, grain.y * scales.diameter, 0.0};
+        states.push_back(state);
+    }
+    return states;
+}
+
+}  // namespace turbidite
