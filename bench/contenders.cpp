@@ -9,7 +9,7 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/prepare_run.hpp"
 

@@ -17,7 +17,7 @@
 #include "fluid_adapter/foam_app/foamAdapter.hpp"
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "bench/run_history.hpp"
 #include "bench/site.hpp"
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/mesh_cost.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 
 namespace turbidite::bench {
 namespace {

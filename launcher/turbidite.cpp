@@ -11,7 +11,7 @@
 
 #include "coupler/keys/nearest_name.hpp"
 #include "coupler/protocol/failure.hpp"
-#include "launcher/case/wrapped_text.hpp"
+#include "launcher/case/keys/wrapped_text.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/terminal.hpp"
 

@@ -15,7 +15,7 @@
 #include "coupler/transport/joining.hpp"
 #include "coupler/transport/recording.hpp"
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 
 namespace {
 

@@ -27,7 +27,7 @@
 #include "coupler/protocol/run_files.hpp"
 #include "coupler/protocol/start_record.hpp"
 #include "coupler/protocol/whole_file.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 
 namespace {
 

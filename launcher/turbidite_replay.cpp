@@ -14,7 +14,7 @@
 #include "coupler/transport/intercomm_channel.hpp"
 #include "coupler/transport/joining.hpp"
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "launcher/case/lattice.hpp"
+#include "launcher/case/grains/lattice.hpp"
 
 namespace turbidite::bench {
 namespace {

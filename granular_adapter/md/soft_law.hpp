@@ -16,7 +16,7 @@ namespace turbidite {
 /// as across it.
 constexpr double tangential_share = 1.0 / 3.0;
 
-/// The parameters of all contacts (launcher/case/soft_contact.hpp).
+/// The parameters of all contacts (launcher/case/grains/soft_contact.hpp).
 struct SoftLaw {
     /// Reads run.md_frequency, run.md_damping and contact.friction.
     explicit SoftLaw(const Settings& settings);

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "launcher/case/command_words.hpp"
+#include "launcher/case/files/command_words.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/run_json.hpp"

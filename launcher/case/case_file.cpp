@@ -7,14 +7,14 @@
 #include "coupler/keys/key_check.hpp"
 #include "coupler/protocol/case_hash.hpp"
 #include "coupler/protocol/whole_file.hpp"
-#include "launcher/case/case_entries.hpp"
 #include "launcher/case/case_rules.hpp"
-#include "launcher/case/command_words.hpp"
-#include "launcher/case/keys.hpp"
-#include "launcher/case/materials.hpp"
+#include "launcher/case/files/case_entries.hpp"
+#include "launcher/case/files/command_words.hpp"
+#include "launcher/case/files/run_folder.hpp"
+#include "launcher/case/grains/materials.hpp"
+#include "launcher/case/keys/keys.hpp"
 #include "launcher/case/placed_case.hpp"
 #include "launcher/case/resolved_text.hpp"
-#include "launcher/case/run_folder.hpp"
 #include "launcher/case/run_settings.hpp"
 
 namespace turbidite {
@@ -55,8 +55,8 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
     result.scales = make_scales(settings);
     result.grains_csv = population_csv(grains, forms, material_names(settings));
     result.walls_csv = placed.walls.empty() ? "" : walls_csv(placed.walls);
-    result.yaml = resolved_text(settings, grains.size(), result.grains_csv, result.walls_csv,
-                                result.script);
+    result.yaml =
+        resolved_text(settings, grains.size(), result.grains_csv, result.walls_csv, result.script);
     for (const auto& notes : {placed.start.notes, forms.notes, rule_notes(settings, entries)})
         result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     result.shapes = used_shapes(grains, forms);
@@ -106,7 +106,8 @@ ResolvedCase load_case(const std::filesystem::path& file, const std::vector<std:
                        const std::string& from) {
     GivenGrains given;
     if (!from.empty()) given.earlier = earlier_run(from);
-    ResolvedCase result = resolved_case(read_case_entries(file, overrides), file.parent_path(), given);
+    ResolvedCase result =
+        resolved_case(read_case_entries(file, overrides), file.parent_path(), given);
     result.name = file.stem().string();
     result.file = std::filesystem::absolute(file).lexically_normal();
     result.overrides = overrides;
@@ -118,7 +119,7 @@ ResolvedCase load_run_folder(const std::filesystem::path& folder,
                              const std::vector<std::string>& overrides) {
     const RunFolder paths{folder};
     ResolvedCase result = resolved_case(read_case_entries(paths.resolved_case(), overrides), folder,
-                                  {paths.initial_grains(), {}});
+                                        {paths.initial_grains(), {}});
     result.name = std::filesystem::absolute(folder).lexically_normal().filename().string();
     // Every program of the job hashes the file itself, which may have been edited by hand.
     if (overrides.empty())

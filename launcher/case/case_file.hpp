@@ -12,7 +12,7 @@
 #include "coupler/keys/case_error.hpp"
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "launcher/case/packing.hpp"
+#include "launcher/case/grains/packing.hpp"
 #include "launcher/case/scales.hpp"
 
 namespace turbidite {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "launcher/case/grains_adapters.hpp"
-#include "launcher/case/keys.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/keys/keys.hpp"
 
 namespace turbidite {
 namespace {

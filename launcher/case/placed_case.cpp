@@ -6,9 +6,9 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/whole_file.hpp"
-#include "launcher/case/file_names.hpp"
-#include "launcher/case/grain_abilities.hpp"
-#include "launcher/case/wall_motion.hpp"
+#include "launcher/case/files/file_names.hpp"
+#include "launcher/case/grains/grain_abilities.hpp"
+#include "launcher/case/walls/wall_motion.hpp"
 
 namespace turbidite {
 namespace {
@@ -49,9 +49,8 @@ InnerWalls walls_of(const Settings& settings, const CaseEntries& entries, const 
     InnerWalls read = read_walls_csv(file);
     const std::string name = file.filename().string();
     if (read.problems.empty())
-        read.problems =
-            check_walls(read.walls, grains, forms, packing_box(settings), name,
-                        std::max(settings.real("grains.overlap"), touching_tolerance));
+        read.problems = check_walls(read.walls, grains, forms, packing_box(settings), name,
+                                    std::max(settings.real("grains.overlap"), touching_tolerance));
     if (settings.flag("fluid.enabled"))
         append(read.problems,
                check_thickness(read.walls, name, 1.0 / settings.real("fluid.cells_per_diameter")));

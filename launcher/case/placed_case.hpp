@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "launcher/case/inner_walls.hpp"
-#include "launcher/case/start_grains.hpp"
+#include "launcher/case/grains/start_grains.hpp"
+#include "launcher/case/walls/inner_walls.hpp"
 
 namespace turbidite {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "coupler/protocol/case_hash.hpp"
-#include "launcher/case/keys.hpp"
+#include "launcher/case/keys/keys.hpp"
 
 namespace turbidite {
 namespace {

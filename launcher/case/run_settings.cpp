@@ -6,10 +6,10 @@
 #include <string>
 
 #include "coupler/hub/schemes/scheme.hpp"
-#include "launcher/case/grains_adapters.hpp"
-#include "launcher/case/materials.hpp"
-#include "launcher/case/soft_contact.hpp"
-#include "launcher/case/wall_motion.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/grains/materials.hpp"
+#include "launcher/case/grains/soft_contact.hpp"
+#include "launcher/case/walls/wall_motion.hpp"
 
 namespace turbidite {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "launcher/case/inner_walls.hpp"
-#include "launcher/case/packing.hpp"
+#include "launcher/case/grains/packing.hpp"
 #include "launcher/case/scales.hpp"
+#include "launcher/case/walls/inner_walls.hpp"
 
 namespace turbidite {
 

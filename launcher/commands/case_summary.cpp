@@ -8,11 +8,11 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
-#include "launcher/case/command_words.hpp"
-#include "launcher/case/courant_forecast.hpp"
-#include "launcher/case/disk_cost.hpp"
-#include "launcher/case/mesh_cost.hpp"
-#include "launcher/case/run_cost.hpp"
+#include "launcher/case/files/command_words.hpp"
+#include "launcher/case/forecast/courant_forecast.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
 
 namespace turbidite {
 namespace {

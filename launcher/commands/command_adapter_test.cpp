@@ -9,8 +9,8 @@
 
 #include "launcher/adapter_test/requirements.hpp"
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/command_words.hpp"
-#include "launcher/case/grains_adapters.hpp"
+#include "launcher/case/files/command_words.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/temporary_folder.hpp"
 

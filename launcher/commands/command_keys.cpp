@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "coupler/protocol/failure.hpp"
-#include "launcher/case/key_reference.hpp"
+#include "launcher/case/keys/key_reference.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/key_schema.hpp"
 #include "launcher/job/terminal.hpp"

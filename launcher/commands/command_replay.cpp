@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "coupler/replay/recorded_start.hpp"
-#include "launcher/case/file_names.hpp"
+#include "launcher/case/files/file_names.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <memory>
 
-#include "launcher/case/disk_cost.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/job/terminal.hpp"
 #include "launcher/job/play_run.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {

@@ -9,8 +9,8 @@
 #include <map>
 #include <memory>
 
-#include "launcher/case/disk_cost.hpp"
-#include "launcher/case/run_cost.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/resume_run.hpp"

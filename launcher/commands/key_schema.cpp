@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "launcher/case/keys.hpp"
+#include "launcher/case/keys/keys.hpp"
 
 namespace turbidite {
 namespace {

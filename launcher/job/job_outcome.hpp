@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coupler/protocol/failure.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/job.hpp"
 
 namespace turbidite {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "launcher/case/command_words.hpp"
-#include "launcher/case/grains_adapters.hpp"
+#include "launcher/case/files/command_words.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
 
 namespace turbidite {
 namespace {

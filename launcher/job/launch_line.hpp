@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/programs.hpp"
 
 namespace turbidite {

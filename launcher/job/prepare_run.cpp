@@ -13,7 +13,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
-#include "launcher/case/command_words.hpp"
+#include "launcher/case/files/command_words.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/run_json.hpp"
 #include "launcher/job/run_on_disk.hpp"

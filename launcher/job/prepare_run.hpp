@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/run_lock.hpp"
 
 namespace turbidite {

@@ -4,7 +4,7 @@
 // begun, and `turbidite resume` needs case, grains and mesh with it.
 #pragma once
 
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 
 namespace turbidite {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "launcher/case/wrapped_text.hpp"
+#include "launcher/case/keys/wrapped_text.hpp"
 
 namespace turbidite {
 

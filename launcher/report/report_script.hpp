@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "coupler/protocol/failure.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/programs.hpp"
 
 namespace turbidite {

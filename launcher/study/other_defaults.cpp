@@ -9,8 +9,8 @@
 #include <set>
 
 #include "coupler/protocol/whole_file.hpp"
-#include "launcher/case/case_entries.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/case_entries.hpp"
+#include "launcher/case/files/run_folder.hpp"
 
 namespace turbidite {
 namespace {

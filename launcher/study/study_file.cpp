@@ -10,8 +10,8 @@
 
 #include "coupler/keys/case_error.hpp"
 #include "coupler/keys/nearest_name.hpp"
-#include "launcher/case/file_names.hpp"
-#include "launcher/case/yaml_tree.hpp"
+#include "launcher/case/files/file_names.hpp"
+#include "launcher/case/files/yaml_tree.hpp"
 
 namespace turbidite {
 namespace {

@@ -7,9 +7,9 @@
 #include <cctype>
 #include <set>
 
-#include "launcher/case/case_entries.hpp"
-#include "launcher/case/disk_cost.hpp"
-#include "launcher/case/run_cost.hpp"
+#include "launcher/case/files/case_entries.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
 
 namespace turbidite {
 namespace {

@@ -62,6 +62,8 @@ RULES = [
     ("coupler/**/*.[hc]pp", [LAMMPS], "the coupler knows no host"),
     ("launcher/**/*.[hc]pp", [LAMMPS], "LAMMPS stays in its own program"),
     ("launcher/case/**/*.[hc]pp", [ENGINE, FLUID, MPI, PYTHON, BENCH], "the case knows names of laws, solvers and schemes, and no program"),
+    ("launcher/case/files/*.[hc]pp", [r"^launcher/case/(?!files/).*$"], "texts and tables are read without knowing what they mean"),
+    ("launcher/case/grains/*.[hc]pp", [r"^launcher/case/(keys|forecast)/.*$"], "grains are placed by settings, not by the table of keys"),
     ("launcher/commands/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "commands start programs and include none of their code"),
     ("launcher/job/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT], "a job is prepared, started and watched from outside"),
     ("launcher/doctor/*.[hc]pp", [BENCH, ENGINE, HUB, TRANSPORT, MPI], "programs and libraries are looked at from outside"),

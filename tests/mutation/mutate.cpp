@@ -8,7 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "launcher/case/keys.hpp"
+#include "launcher/case/keys/keys.hpp"
 
 namespace turbidite::mutation {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The files of a run take what was predicted before it. Measured 0.94 to 1.12 times as much.
-#include "launcher/case/disk_cost.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "launcher/case/command_words.hpp"
-#include "launcher/case/grains_adapters.hpp"
+#include "launcher/case/files/command_words.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/grains/soft_contact.hpp"
 #include "launcher/case/keys/key_groups.hpp"
-#include "launcher/case/soft_contact.hpp"
 
 namespace turbidite {
 namespace {

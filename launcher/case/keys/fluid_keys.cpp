@@ -7,10 +7,10 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/keys/key_groups.hpp"
-#include "launcher/case/mesh_cost.hpp"
+#include "launcher/case/keys/transport_schemes.hpp"
 #include "launcher/case/scales.hpp"
-#include "launcher/case/transport_schemes.hpp"
 
 namespace turbidite {
 namespace {

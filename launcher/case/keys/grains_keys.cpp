@@ -3,8 +3,8 @@
 // The grains and their initial positions.
 #include <fmt/format.h>
 #include "coupler/shapes/shape.hpp"
-#include "launcher/case/grain_forms.hpp"
-#include "launcher/case/packing.hpp"
+#include "launcher/case/grains/grain_forms.hpp"
+#include "launcher/case/grains/packing.hpp"
 
 #include "coupler/keys/key_value.hpp"
 #include "launcher/case/keys/key_groups.hpp"

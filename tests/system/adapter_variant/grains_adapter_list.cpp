@@ -2,13 +2,13 @@
 //
 // The table of grains adapters with one additional entry, for programs that link this file instead
 // of the case library's table.
-#include "launcher/case/grains_adapters.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
 
 namespace turbidite {
 
 const std::vector<GrainsAdapter>& grains_adapters() {
     static const std::vector<GrainsAdapter> table = {
-#include "launcher/case/grains_adapter_table.def"
+#include "launcher/case/grains/grains_adapter_table.def"
         {.name = "falling",
          .help = "grains that touch nothing",
          .family = "",

@@ -9,9 +9,9 @@
 #include <algorithm>
 
 #include "coupler/protocol/case_hash.hpp"
-#include "launcher/case/keys.hpp"
-#include "launcher/case/population.hpp"
-#include "launcher/case/run_folder.hpp"
+#include "launcher/case/files/run_folder.hpp"
+#include "launcher/case/grains/population.hpp"
+#include "launcher/case/keys/keys.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
@@ -405,19 +405,17 @@ TEST_F(CaseFile, CentralTransportInFirstOrderMayTakeAnyStepWhereItIsCutFinely) {
     const std::string first_order = "fluid.time_scheme=first-order";
     EXPECT_EQ(refusal("", {scheme, first_order, "time.step=0.05", "fluid.cells_per_diameter=75"}),
               "");
-    EXPECT_SAYS(
-        refusal("", {scheme, first_order, "time.step=0.05", "fluid.cells_per_diameter=70"}),
-        "unstable for steps above");
+    EXPECT_SAYS(refusal("", {scheme, first_order, "time.step=0.05", "fluid.cells_per_diameter=70"}),
+                "unstable for steps above");
 }
 
 TEST_F(CaseFile, TransportInFirstOrderIsNotedBeyondTheStepOfFasterJets) {
     const auto notes = [&](const std::string& scheme, const std::string& step,
                            const std::string& order = "first-order") {
         std::string all;
-        for (const std::string& note :
-             load("", {"fluid.transport_scheme=Gauss " + scheme, "time.step=" + step,
-                       "fluid.time_scheme=" + order})
-                 .notes)
+        for (const std::string& note : load("", {"fluid.transport_scheme=Gauss " + scheme,
+                                                 "time.step=" + step, "fluid.time_scheme=" + order})
+                                           .notes)
             all += note + "\n";
         return all;
     };

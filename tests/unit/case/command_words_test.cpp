@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/command_words.hpp"
+#include "launcher/case/files/command_words.hpp"
 
 #include "tests/unit/case/case_test.hpp"
 

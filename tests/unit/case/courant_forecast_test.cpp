@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The Courant number that check foresees.
-#include "launcher/case/courant_forecast.hpp"
+#include "launcher/case/forecast/courant_forecast.hpp"
 
 #include <cmath>
 

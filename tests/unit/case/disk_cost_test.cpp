@@ -2,7 +2,7 @@
 //
 // The forecast of the files of a run: how it grows with the case, and what is said when the disk is
 // too small. tests/system/disk_forecast_test.cpp compares it with the files of a run.
-#include "launcher/case/disk_cost.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
 
 #include "tests/unit/case/case_test.hpp"
 

@@ -4,7 +4,7 @@
 // large for the memory.
 #include <gtest/gtest.h>
 
-#include "launcher/case/mesh_cost.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/key_reference.hpp"
+#include "launcher/case/keys/key_reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "coupler/keys/nearest_name.hpp"
 #include "coupler/protocol/failure.hpp"
-#include "launcher/case/keys.hpp"
+#include "launcher/case/keys/keys.hpp"
 
 namespace turbidite {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/population.hpp"
+#include "launcher/case/grains/population.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,12 +2,12 @@
 //
 // The forecast of time and memory: how it grows with the case. What a machine takes is measured by
 // bench/forecast.py.
-#include "launcher/case/run_cost.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "launcher/case/mesh_cost.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "launcher/case/case_file.hpp"
-#include "launcher/case/grain_forms.hpp"
-#include "launcher/case/inner_walls.hpp"
-#include "launcher/case/random_packing.hpp"
+#include "launcher/case/grains/grain_forms.hpp"
+#include "launcher/case/grains/random_packing.hpp"
+#include "launcher/case/walls/inner_walls.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

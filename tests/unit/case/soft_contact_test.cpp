@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/soft_contact.hpp"
+#include "launcher/case/grains/soft_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/wrapped_text.hpp"
+#include "launcher/case/keys/wrapped_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "launcher/case/keys.hpp"
+#include "launcher/case/keys/keys.hpp"
 
 namespace turbidite {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "granular_adapter/nscd/laws/law_list.hpp"
-#include "launcher/case/keys.hpp"
+#include "launcher/case/keys/keys.hpp"
 #include "tests/unit/nscd_adapter/contact_case.hpp"
 
 namespace turbidite {

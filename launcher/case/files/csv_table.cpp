@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/files/csv_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "coupler/keys/key_value.hpp"
+
+namespace turbidite {
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> fields(1);
+    for (const char c : line)
+        if (c == ',')
+            fields.emplace_back();
+        else if (c != ' ' && c != '\t' && c != '\r')
+            fields.back() += c;
+    return fields;
+}
+
+bool is_blank(const std::string& text) {
+    return text.find_first_not_of(" \t\r") == std::string::npos || text.front() == '#';
+}
+
+bool has(const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+void read_header(CsvTable& table, int line, const std::string& text, const CsvForm& form) {
+    table.columns = split(text);
+    for (const std::string& column : table.columns)
+        if (!has(form.columns, column))
+            table.refuse(line, fmt::format("column \"{}\" is unknown", column), form.sentence,
+                         "Rename or remove it.");
+        else if (std::count(table.columns.begin(), table.columns.end(), column) > 1)
+            table.refuse(line, fmt::format("column \"{}\" occurs more than once", column),
+                         form.sentence, "Keep one.");
+    for (const std::string& required : form.required)
+        if (!has(table.columns, required))
+            table.refuse(line, fmt::format("column \"{}\" is missing", required), form.sentence,
+                         "Add it.");
+}
+
+void read_row(CsvTable& table, int line, const std::string& text) {
+    CsvTable::Row row{line, split(text)};
+    if (row.fields.size() == table.columns.size())
+        table.rows.push_back(std::move(row));
+    else
+        table.refuse(line, fmt::format("{} values in \"{}\"", row.fields.size(), text),
+                     fmt::format("The header names {} columns.", table.columns.size()),
+                     "Give one value per column.");
+}
+
+}  // namespace
+
+void CsvTable::refuse(int line, const std::string& fault, const std::string& allowed,
+                      const std::string& remedy) {
+    problems.push_back({.source = name,
+                        .line = line,
+                        .key = {},
+                        .value = {},
+                        .fault = fault,
+                        .allowed = allowed,
+                        .remedy = remedy});
+}
+
+CsvTable read_csv(const std::filesystem::path& file, const CsvForm& form) {
+    CsvTable table;
+    table.name = file.filename().string();
+    std::ifstream input(file);
+    if (!input) {
+        table.refuse(0, "cannot be read", fmt::format("A CSV file of {}s is needed.", form.rows),
+                     "Check the path " + file.string() + ".");
+        return table;
+    }
+    std::string text;
+    for (int line = 1; std::getline(input, text); ++line) {
+        if (is_blank(text)) continue;
+        if (!table.columns.empty()) {
+            read_row(table, line, text);
+            continue;
+        }
+        read_header(table, line, text, form);
+        if (!table.problems.empty()) return table;
+    }
+    if (table.rows.empty() && table.problems.empty())
+        table.refuse(0, fmt::format("contains no {}", form.rows),
+                     "At least one line after the header is needed.",
+                     fmt::format("Add {}s.", form.rows));
+    return table;
+}
+
+std::optional<double> finite_number(CsvTable& table, int line, const std::string& column,
+                                    const std::string& text, const std::string& remedy) {
+    const auto number = parse_real(text);
+    if (number && std::isfinite(*number)) return number;
+    table.refuse(line, fmt::format("{} = {}", column, text), "It must be a finite number.", remedy);
+    return std::nullopt;
+}
+
+std::optional<std::int64_t> whole_number(CsvTable& table, int line, const std::string& column,
+                                         const std::string& text) {
+    const auto number = parse_integer(text);
+    if (number && *number >= 0) return number;
+    table.refuse(line, fmt::format("{} = {}", column, text),
+                 fmt::format("An {} is a whole number, zero or above.", column),
+                 "Number them 0, 1, 2, ...");
+    return std::nullopt;
+}
+
+}  // namespace turbidite

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/files/yaml_tree.hpp"
+
+#include <fmt/format.h>
+
+#include "coupler/protocol/received.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr int most_values = 20000, deepest = 100;
+
+int line_of(const YAML::Node& node) {
+    return node.Mark().line + 1;
+}
+
+/// Goes through a tree as one does who follows every alias. A few lines of aliases of aliases stand
+/// for more values than there is memory, and one inside itself for infinitely many.
+class Walk {
+ public:
+    void through(const YAML::Node& node, int depth = 0) {
+        count(node, depth);
+        if (node.IsScalar()) check_text(node);
+        for (const auto& item : node)
+            if (node.IsMap()) {
+                through(item.first, depth + 1);
+                through(item.second, depth + 1);
+            } else {
+                through(item, depth + 1);
+            }
+    }
+
+ private:
+    void count(const YAML::Node& node, int depth) {
+        if (depth > deepest)
+            throw YamlFault{line_of(node),
+                            fmt::format("is nested more than {} levels deep", deepest),
+                            "Use fewer levels, and no alias inside its own anchor."};
+        if (++values_ > most_values)
+            throw YamlFault{line_of(node),
+                            fmt::format("stands for more than {} values", most_values),
+                            "Write fewer, in particular fewer aliases of aliases (*name)."};
+    }
+
+    static void check_text(const YAML::Node& node) {
+        if (node.Scalar() != received_text(node.Scalar()))
+            throw YamlFault{line_of(node),
+                            fmt::format("has the value \"{}\", which is not UTF-8 or has control "
+                                        "characters",
+                                        received_line(node.Scalar())),
+                            "Save the file as UTF-8, or remove them."};
+    }
+
+    int values_ = 0;
+};
+
+}  // namespace
+
+YAML::Node yaml_tree(const std::string& text) {
+    try {
+        const YAML::Node root = YAML::Load(text);
+        Walk().through(root);
+        return root;
+    } catch (const YAML::Exception& error) {
+        throw yaml_fault(error);
+    }
+}
+
+YamlFault yaml_fault(const YAML::Exception& error) {
+    return {error.mark.line + 1, "is not YAML: " + error.msg,
+            "Correct this line; indentation counts."};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/forecast/courant_forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "coupler/output/courant_limit.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Weight = drag: (rho_r - 1) g pi D^2/4 = 1/2 C_D U^2 D with C_D = 1, or about 2 pi nu U per
+/// length where viscosity rules.
+double speed_of_a_fall(const Scales& scales, double ratio) {
+    const double weight =
+        std::abs(ratio - 1.0) * scales.gravity * std::numbers::pi / 4.0 * scales.diameter;
+    const double inertial = std::sqrt(2.0 * weight);
+    const double viscous = weight * scales.diameter / (2.0 * std::numbers::pi * scales.viscosity);
+    return std::min(inertial, viscous);
+}
+
+double fastest_grain(const ResolvedCase& resolved) {
+    double fastest = 0.0;
+    for (const GrainState& grain : resolved.population)
+        fastest = std::max(fastest, std::hypot(grain.velocity[0], grain.velocity[1]));
+    return fastest;
+}
+
+}  // namespace
+
+double forecast_courant(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    if (!settings.flag("fluid.enabled")) return 0.0;
+    const Scales& scales = resolved.scales;
+    const double speed = std::max(speed_of_a_fall(scales, settings.real("grains.density_ratio")),
+                                  fastest_grain(resolved));
+    const double cell = scales.diameter / settings.real("fluid.cells_per_diameter");
+    return speed * settings.real("run.step") / cell;
+}
+
+std::string courant_warning(const ResolvedCase& resolved) {
+    const double courant = forecast_courant(resolved);
+    if (!(courant > largest_courant)) return "";
+    return fmt::format("the Courant number will be {:.2g} or more. {}", courant,
+                       courant_advice(resolved.settings.real("time.step"), courant));
+}
+
+}  // namespace turbidite

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/forecast/disk_cost.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "coupler/protocol/run_values.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bytes per cell. OpenFOAM writes numbers of 8 bytes and labels of 4.
+constexpr double of_mesh = 150.0;
+constexpr double of_shared_mesh = 180.0;  // the same again in processor*, with addressing
+constexpr double of_field_set = 56.0;     // velocity and multipliers 24 each, pressure 8
+constexpr double of_scalar_field = 8.0;
+constexpr double of_fluid_checkpoint = 60.0;
+
+// Bytes per grain: of one output (grains and contacts, base64), of one checkpoint.
+constexpr double of_disc = 430.0, of_polygon = 700.0;
+constexpr double of_grain_checkpoint = 900.0;
+
+constexpr double of_history_row = 550.0;
+constexpr double gigabyte = 1e9;
+
+double words(const std::string& text) {
+    std::istringstream input(text);
+    double count = 0.0;
+    for (std::string word; input >> word;) ++count;
+    return count;
+}
+
+double bytes_of_mesh(const Settings& settings) {
+    return of_mesh + (settings.integer("fluid.ranks") > 1 ? of_shared_mesh : 0.0);
+}
+
+double bytes_of_fields(const Settings& settings) {
+    const std::string more = settings.has("output.fields") ? settings.text("output.fields") : "";
+    return of_field_set + of_scalar_field * words(more);
+}
+
+/// Those of every so many windows, and of the last one.
+double outputs(std::int64_t windows, std::int64_t every) {
+    return static_cast<double>((windows + every - 1) / every);
+}
+
+/// Sets that are kept.
+double checkpoints(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    const auto windows = static_cast<double>(settings.integer("run.windows"));
+    const double minutes = predicted_seconds(resolved) / 60.0;
+    const auto sets = [](double whole, double every) { return every > 0.0 ? whole / every : 0.0; };
+    const double all = sets(settings.real("time.end"), settings.real("checkpoint.interval")) +
+                       sets(windows, static_cast<double>(settings.integer("checkpoint.windows"))) +
+                       sets(minutes, settings.real("checkpoint.wall_minutes"));
+    return std::min(std::floor(all), static_cast<double>(settings.integer("checkpoint.keep")));
+}
+
+double fluid_bytes(const Settings& settings, const RunValues& run, double sets) {
+    const double per_cell = bytes_of_mesh(settings) +
+                            bytes_of_fields(settings) * outputs(run.windows, run.fields_every) +
+                            of_fluid_checkpoint * sets;
+    return per_cell * fluid_cells(settings);
+}
+
+double grain_bytes(const ResolvedCase& resolved, const RunValues& run, double sets) {
+    const double per_grain = (all_round(resolved) ? of_disc : of_polygon) *
+                                 (1.0 + outputs(run.windows, run.output_every)) +
+                             of_grain_checkpoint * sets;
+    return per_grain * static_cast<double>(resolved.population.size());
+}
+
+/// The folder itself, or the nearest one above it that exists.
+fs::path existing_folder(fs::path path) {
+    std::error_code error;
+    path = fs::absolute(path);
+    while (!fs::exists(path, error) && path.has_relative_path()) path = path.parent_path();
+    return path;
+}
+
+}  // namespace
+
+double predicted_disk(const ResolvedCase& resolved) {
+    const RunValues run = run_values(resolved.settings);
+    const double history = of_history_row * (1.0 + outputs(run.windows, run.output_every));
+    const double sets = checkpoints(resolved);
+    const double fluid = run.wet ? fluid_bytes(resolved.settings, run, sets) : 0.0;
+    return (fluid + grain_bytes(resolved, run, sets) + history) / gigabyte;
+}
+
+std::string rough_size(double gigabytes) {
+    if (gigabytes < 1.0) return fmt::format("{:.0f} MB", std::max(1.0, 1e3 * gigabytes));
+    return fmt::format("{:.{}f} GB", gigabytes, gigabytes < 10.0 ? 1 : 0);
+}
+
+std::string lack_of_disk(double gigabytes, const fs::path& folder) {
+    std::error_code error;
+    const fs::path where = existing_folder(folder);
+    const auto space = fs::space(where, error);
+    if (error) return "";
+    const double available = static_cast<double>(space.available) / gigabyte;
+    if (gigabytes <= available) return "";
+    return fmt::format(
+        "roughly {} of files are to come, {} are free in {}. A longer output.fields_interval, "
+        "checkpoint.keep=1 or another --out help.",
+        rough_size(gigabytes), rough_size(available), where.string());
+}
+
+}  // namespace turbidite

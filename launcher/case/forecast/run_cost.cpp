@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/forecast/run_cost.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "coupler/shapes/shape.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Seconds per window and cell of the mesh, and per cell that a grain covers: there are the points
+/// of the multipliers.
+struct FluidRates {
+    double cell, covered;
+};
+constexpr FluidRates paper_splitting{50e-9, 280e-9};
+constexpr FluidRates explicit_splitting{85e-9, 380e-9};
+constexpr FluidRates implicit_splitting{300e-9, 1500e-9};
+constexpr double second_order = 1.3;   // of the cells
+constexpr double busiest_share = 1.6;  // of the covered cells, over an equal one: grains settle
+
+// Where all fluid ranks of a window meet, and how long one waits for its turn on a core that it
+// shares [s]. Measured as 3 to 16 ranks on two cores, to a factor of two.
+constexpr double meetings = 100.0;
+constexpr double time_slice = 0.1e-3;
+
+// Seconds per window and grain.
+constexpr double disc_contacts = 4e-6;
+constexpr double polygon_contacts = 12e-6;
+constexpr double external_code = 20e-6;   // nothing is known of it
+constexpr double spring_step = 0.4e-6;    // and per sub-step
+constexpr double own_disc_step = 0.1e-6;  // of standalone-md; its polygons take as long as others
+constexpr double checks = 1.5e-6;         // of the coupler
+
+constexpr double handover = 0.15e-3;  // [s] from program to program of one host, asleep on arrival
+
+constexpr double seconds_to_start = 0.5;
+constexpr double seconds_of_yade = 1.5;
+constexpr double seconds_per_cell = 6e-6;  // blockMesh, and reading its mesh
+
+// Bytes.
+constexpr double of_coupler = 2e7, of_coupler_per_grain = 2800.0;
+constexpr double of_yade = 2.5e8, of_other_hosts = 3e7, of_host_per_grain = 5000.0;
+constexpr double gigabyte = 1e9;
+
+double count(const ResolvedCase& resolved) {
+    return static_cast<double>(resolved.population.size());
+}
+
+/// Rounds of contacts and fluid in one window, as means over the studies.
+double rounds(const ResolvedCase& resolved) {
+    const std::string& scheme = resolved.settings.text("run.scheme");
+    if (scheme == "sub-iterated") return 4.0;
+    return scheme == "joint" && resolved.population.size() > 1 ? 2.0 : 1.0;
+}
+
+/// Solid area over that of a cell.
+double covered_cells(const ResolvedCase& resolved) {
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    for (const ShapeRecord& shape : resolved.shapes) shapes.push_back(make_shape(shape));
+    double area = 0.0;
+    for (const GrainState& grain : resolved.population)
+        area += shapes.at(grain.shape)->volume(grain.radius);
+    const double cell =
+        resolved.scales.diameter / resolved.settings.real("fluid.cells_per_diameter");
+    return area / (cell * cell);
+}
+
+FluidRates rates(const Settings& settings) {
+    const std::string& splitting = settings.text("fluid.splitting");
+    if (splitting == "explicit-multiplier") return explicit_splitting;
+    if (splitting == "implicit-multiplier") return implicit_splitting;
+    return paper_splitting;
+}
+
+/// More ranks than cores share no more work, and whenever they meet the last one has to wait until
+/// the others have had their turn on its core.
+double turns(const ResolvedCase& resolved, double cores) {
+    const auto ranks = static_cast<double>(resolved.settings.integer("fluid.ranks"));
+    return ranks > cores ? meetings * time_slice * (ranks - cores) / cores : 0.0;
+}
+
+double fluid_time(const ResolvedCase& resolved, double cores) {
+    const Settings& settings = resolved.settings;
+    if (!settings.flag("fluid.enabled")) return 0.0;
+    const auto [cell, covered] = rates(settings);
+    const bool stages = settings.text("fluid.time_scheme") == "second-order";
+    const double ranks = std::min(cores, static_cast<double>(settings.integer("fluid.ranks")));
+    return turns(resolved, cores) +
+           cell * (stages ? second_order : 1.0) * fluid_cells(settings) / ranks +
+           covered * covered_cells(resolved) * std::min(1.0, busiest_share / ranks);
+}
+
+double time_per_substep(const ResolvedCase& resolved) {
+    const bool own = resolved.settings.text("grains.adapter") == "standalone-md";
+    return own && all_round(resolved) ? own_disc_step : spring_step;
+}
+
+double time_per_grain(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    if (settings.text("grains.adapter") == "external") return external_code;
+    if (settings.has("run.md_substeps"))
+        return time_per_substep(resolved) *
+               static_cast<double>(settings.integer("run.md_substeps"));
+    return all_round(resolved) ? disc_contacts : polygon_contacts;
+}
+
+/// Under sub-iterated the sub-steps are repeated; contact solves of `joint` begin where the last
+/// one ended.
+double grains_time(const ResolvedCase& resolved) {
+    const bool repeated = resolved.settings.text("run.scheme") == "sub-iterated";
+    return time_per_grain(resolved) * count(resolved) * (repeated ? rounds(resolved) : 1.0) /
+           static_cast<double>(resolved.settings.integer("grains.ranks"));
+}
+
+/// Messages of a window that wait for the one before: call_order.cpp.
+double messages_in_turn(const ResolvedCase& resolved) {
+    const std::string& scheme = resolved.settings.text("run.scheme");
+    if (scheme == "dry") return 4.0;
+    return scheme == "split" ? 6.0 : 6.0 + 4.0 * rounds(resolved);
+}
+
+bool in_yade(const Settings& settings) {
+    return grains_adapter(settings).host == GrainsHost::yade;
+}
+
+}  // namespace
+
+double WindowForecast::seconds() const {
+    return (side_by_side ? std::max(fluid, grains) : fluid + grains) + coupler + messages;
+}
+
+double cores_for_a_job() {
+    for (const char* nodes : {"SLURM_JOB_NUM_NODES", "SLURM_NNODES", "PBS_NUM_NODES"})
+        if (const char* given = std::getenv(nodes); given != nullptr && std::atoi(given) > 1)
+            return std::numeric_limits<double>::infinity();
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
+std::string ranks_warning(const ResolvedCase& resolved, double cores) {
+    const Settings& settings = resolved.settings;
+    if (!settings.flag("fluid.enabled")) return "";
+    const auto ranks = static_cast<double>(settings.integer("fluid.ranks"));
+    if (ranks <= cores) return "";
+    ResolvedCase fewer = resolved;
+    fewer.settings.set("fluid.ranks", fmt::format("{:.0f}", cores));
+    return fmt::format(
+        "fluid.ranks = {:.0f} on {:.0f} cores: ranks beyond the cores wait for each other, and a "
+        "window takes {:.2g} times as long as with {:.0f}. Use fluid.ranks = {:.0f} or fewer here.",
+        ranks, cores,
+        forecast_window(resolved, cores).seconds() / forecast_window(fewer, cores).seconds(), cores,
+        cores);
+}
+
+WindowForecast forecast_window(const ResolvedCase& resolved, double cores) {
+    return {.fluid = fluid_time(resolved, cores),
+            .grains = grains_time(resolved),
+            .coupler = checks * count(resolved),
+            .messages = handover * messages_in_turn(resolved),
+            .side_by_side = resolved.settings.text("run.scheme") == "split"};
+}
+
+double predicted_seconds(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    const double mesh = settings.flag("fluid.enabled") ? fluid_cells(settings) : 0.0;
+    const double start =
+        seconds_to_start + (in_yade(settings) ? seconds_of_yade : 0.0) + seconds_per_cell * mesh;
+    const auto windows = static_cast<double>(settings.integer("run.windows"));
+    return start + forecast_window(resolved).seconds() * windows;
+}
+
+double predicted_memory(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    const double host = in_yade(settings) ? of_yade : of_other_hosts;
+    const double programs =
+        of_coupler + host * static_cast<double>(settings.integer("grains.ranks"));
+    const double grains = (of_coupler_per_grain + of_host_per_grain) * count(resolved);
+    return (settings.flag("fluid.enabled") ? fluid_memory(settings) : 0.0) +
+           (programs + grains) / gigabyte;
+}
+
+std::string rough_time(double seconds) {
+    if (seconds < 100.0) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+    if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+    if (seconds < 172800.0) return fmt::format("{:.0f} h", seconds / 3600.0);
+    return fmt::format("{:.0f} days", seconds / 86400.0);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/grains/grain_abilities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/mesh_rows.hpp"
+#include "launcher/case/case_rules.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+
+namespace turbidite {
+namespace {
+
+/// Fewer cells show neither a grain's outline nor the flow around it.
+constexpr double least_cells_across = 4.0;
+
+/// What no grain may be, and what is said of the first that is.
+struct GrainRule {
+    std::function<bool(const PlacedGrain&)> broken;
+    std::function<std::string(const PlacedGrain&)> fault;
+    std::string allowed, remedy;
+};
+
+std::string or_another_adapter(const std::string& remedy, bool (*able)(const GrainsAdapter&)) {
+    return fmt::format("{}, or grains.adapter: {}.", remedy, adapters_that(able));
+}
+
+/// What the program that moves the grains cannot do.
+std::vector<GrainRule> rules_of_adapter(const GrainsAdapter& adapter, const StartGrains& start,
+                                        const GrainForms& forms) {
+    std::vector<GrainRule> rules;
+    if (!start.source.lines.empty())  // generated grains have the shape of a key with its own rule
+        rules.push_back(
+            {[&](const PlacedGrain& g) {
+                 const auto& kind = forms.forms[g.shape].record.kind;
+                 return std::find(adapter.shapes.begin(), adapter.shapes.end(), kind) ==
+                        adapter.shapes.end();
+             },
+             [&](const PlacedGrain&) { return "its shape is not supported by " + adapter.name; },
+             fmt::format("It supports: {}.", fmt::join(adapter.shapes, ", ")),
+             or_another_adapter("Use one of these",
+                                [](const GrainsAdapter& a) { return a.shapes.size() > 1; })});
+    if (!adapter.prescribed_grains)
+        rules.push_back(
+            {[](const PlacedGrain& g) { return g.prescribed; },
+             [](const PlacedGrain&) { return std::string("motion is fixed or driven"); },
+             fmt::format("{} supports free grains only.", adapter.name),
+             or_another_adapter("Use motion = free",
+                                [](const GrainsAdapter& a) { return a.prescribed_grains; })});
+    if (!adapter.moved_grains)
+        rules.push_back(
+            {[](const PlacedGrain& g) { return !g.motion.empty(); },
+             [](const PlacedGrain& g) { return "motion = " + g.motion; },
+             fmt::format("In {} no grain follows a motion of domain.motions.", adapter.name),
+             or_another_adapter("Use motion = free",
+                                [](const GrainsAdapter& a) { return a.moved_grains; })});
+    return rules;
+}
+
+/// The last height with equal rows, where grains have to stay below it.
+std::optional<double> equal_height(const Settings& settings) {
+    if (!rows_are_stretched(settings) || !is(settings, "fluid.allow_coarse", "false"))
+        return std::nullopt;
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    const auto rows = mesh_rows(settings, size.at(1));
+    return rows ? std::optional(rows->equal_height()) : std::nullopt;
+}
+
+std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
+    std::vector<GrainRule> rules;
+    const double cells = settings.real("fluid.cells_per_diameter");
+    const auto across = [cells](const PlacedGrain& g) { return 2.0 * g.radius * cells; };
+    rules.push_back(
+        {[across](const PlacedGrain& g) { return across(g) < least_cells_across * (1.0 - 1e-12); },
+         [across](const PlacedGrain& g) {
+             return fmt::format("diameter {:.3g} D, {:.3g} cells", 2.0 * g.radius, across(g));
+         },
+         fmt::format("A grain in a fluid is at least {:.0f} cells wide.", least_cells_across),
+         "Use more fluid.cells_per_diameter or larger grains."});
+    if (const auto height = equal_height(settings))
+        rules.push_back(
+            {[top = *height](const PlacedGrain& g) { return g.y + g.radius > top * (1.0 + 1e-12); },
+             [](const PlacedGrain& g) {
+                 return fmt::format("reaches y = {:.4g} D", g.y + g.radius);
+             },
+             fmt::format("Grains stay where rows of cells are equal, below {:.4g} D "
+                         "(fluid.stretch_from = {}).",
+                         *height, settings.text("fluid.stretch_from")),
+             "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
+    if (settings.text("coupling.scheme") != "joint")
+        rules.push_back(
+            {[](const PlacedGrain& g) { return g.density && *g.density <= 1.0 && !g.prescribed; },
+             [](const PlacedGrain& g) { return fmt::format("density = {}", *g.density); },
+             "Without coupling.scheme: joint, grains in a fluid must be denser than it.",
+             "Use coupling.scheme: joint, or a density above 1."});
+    return rules;
+}
+
+CaseProblem refused(const StartGrains& start, std::size_t i, const GrainRule& rule) {
+    const PlacedGrain& grain = start.grains[i];
+    const auto& lines = start.source.lines;
+    return {.source = start.source.name,
+            .line = i < lines.size() ? lines[i] : 0,
+            .key = {},
+            .value = {},
+            .fault = fmt::format("grain {}: {}", grain.id, rule.fault(grain)),
+            .allowed = rule.allowed,
+            .remedy = rule.remedy};
+}
+
+}  // namespace
+
+CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
+                             const GrainForms& forms) {
+    const GrainsAdapter& adapter = grains_adapter(settings);
+    std::vector<GrainRule> rules = rules_of_adapter(adapter, start, forms);
+    if (settings.flag("fluid.enabled"))
+        for (GrainRule& rule : rules_of_fluid(settings)) rules.push_back(std::move(rule));
+    CaseProblems problems;
+    for (const GrainRule& rule : rules) {
+        const auto at = std::find_if(start.grains.begin(), start.grains.end(), rule.broken);
+        if (at != start.grains.end())
+            problems.push_back(refused(start, at - start.grains.begin(), rule));
+    }
+    return problems;
+}
+
+CaseProblems check_periods(const Packing& grains, const Settings& settings,
+                           const CaseEntries& entries) {
+    double first = 0.0, second = 0.0;  // largest radii
+    for (const PlacedGrain& grain : grains) {
+        second = std::max(second, std::min(first, grain.radius));
+        first = std::max(first, grain.radius);
+    }
+    const double least = 2.0 * (first + second);
+    const PackingBox box = packing_box(settings);
+    const double period =
+        std::min(box.periodic_x ? box.width : least, box.periodic_y ? box.height : least);
+    if (period >= least) return {};
+    const Objection objection{
+        fmt::format("Between cyclic sides lie at least the two largest grains, {:.4g} D: with "
+                    "less, two grains could touch on both sides.",
+                    least),
+        "Make the box larger, or use wall or free sides."};
+    return {problem_with("domain.size", objection, settings, entries)};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/grains/materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "launcher/case/case_rules.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr const char* material_prefix = "contact.materials.";
+constexpr const char* pair_prefix = "contact.pairs.";
+
+/// The word after a prefix: "steel" in "contact.materials.steel.friction".
+std::string word_behind(const std::string& prefix, const std::string& key) {
+    if (key.rfind(prefix, 0) != 0) return "";
+    return key.substr(prefix.size(), key.find('.', prefix.size()) - prefix.size());
+}
+
+double given(const Settings& s, const std::string& key, double otherwise) {
+    return s.has(key) ? s.real(key) : otherwise;
+}
+
+double fallback(const Settings& s, const char* coefficient) {
+    return given(s, std::string("contact.") + coefficient, 0.0);
+}
+
+std::optional<Objection> unknown_material(const std::string& pair,
+                                          const std::vector<std::string>& names) {
+    const auto dash = pair.find('-');
+    for (const std::string& name : {pair.substr(0, dash), pair.substr(dash + 1)})
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            return Objection{
+                fmt::format("There is no material {}; there are {}.", name, fmt::join(names, ", ")),
+                "Describe it below contact.materials, or correct the name."};
+    return std::nullopt;
+}
+
+/// The surface of a material or a pair; values it does not give are those of contact.*.
+std::optional<Objection> unfit(const Settings& s, const std::string& group) {
+    const double sliding = given(s, group + ".friction", fallback(s, "friction"));
+    const double sticking = given(s, group + ".static_friction", fallback(s, "static_friction"));
+    if (is(s, "contact.law", "static-dynamic") && sticking < sliding)
+        return Objection{fmt::format("The static coefficient must be at least the sliding one: "
+                                     "static_friction = {}, friction = {}.",
+                                     sticking, sliding),
+                         "Increase static_friction."};
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> material_names(const Settings& settings) {
+    std::vector<std::string> names{"default"};
+    for (const auto& [key, value] : settings.entries())
+        if (const std::string name = word_behind(material_prefix, key);
+            !name.empty() && name != "default" && name != names.back())
+            names.push_back(name);
+    return names;
+}
+
+CaseProblems check_materials(const Settings& settings, const CaseEntries& entries) {
+    CaseProblems problems;
+    const std::vector<std::string> names = material_names(settings);
+    const bool known = !settings.has("grains.adapter") || grains_adapter(settings).materials;
+    std::set<std::string> seen;
+    for (const auto& [key, value] : settings.entries()) {
+        const std::string material = word_behind(material_prefix, key);
+        const std::string pair = word_behind(pair_prefix, key);
+        if (material.empty() && pair.empty()) continue;
+        const std::string group = key.substr(0, key.rfind('.'));
+        if (!seen.insert(group).second) continue;
+        std::optional<Objection> objection;
+        if (material == "default")
+            objection = Objection{"The material default has the coefficients of contact.*.",
+                                  "Set those, or choose another name."};
+        else if (!known)
+            objection = Objection{
+                fmt::format("{} has one material, contact.*.", settings.text("grains.adapter")),
+                fmt::format("Remove it, or use grains.adapter: {}.",
+                            adapters_that([](const GrainsAdapter& a) { return a.materials; }))};
+        else if (!pair.empty())
+            objection = unknown_material(pair, names);
+        if (!objection && settings.has("contact.law")) objection = unfit(settings, group);
+        if (objection) problems.push_back(problem_with(key, *objection, settings, entries));
+    }
+    return problems;
+}
+
+}  // namespace turbidite

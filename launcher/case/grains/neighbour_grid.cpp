@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/grains/neighbour_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "launcher/case/grains/grain_forms.hpp"
+
+namespace turbidite {
+namespace {
+
+// Beyond this number a finer grid gains nothing, and a huge empty box would fill the memory.
+constexpr double most_cells_per_side = 4096.0;
+
+std::size_t cells_along(double length, double cell) {
+    return static_cast<std::size_t>(
+        std::clamp(std::floor(length / cell), 1.0, most_cells_per_side));
+}
+
+std::size_t cell_of(double place, double length, std::size_t count) {
+    const double cell = std::floor(place / length * static_cast<double>(count));
+    return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count - 1)));
+}
+
+double nearest_image(double distance, double length, bool periodic) {
+    return periodic ? distance - length * std::round(distance / length) : distance;
+}
+
+}  // namespace
+
+NeighbourGrid::NeighbourGrid(const PackingBox& box, double largest_radius, double reach,
+                             const GrainForms* forms)
+    : box_(box), forms_(forms), cell_(2.0 * largest_radius + reach) {
+    columns_ = cells_along(box.width, cell_);
+    rows_ = cells_along(box.height, cell_);
+    cells_.resize(columns_ * rows_);
+}
+
+std::size_t NeighbourGrid::column(double x) const {
+    return cell_of(x, box_.width, columns_);
+}
+std::size_t NeighbourGrid::row(double y) const {
+    return cell_of(y, box_.height, rows_);
+}
+
+void NeighbourGrid::insert(const PlacedGrain& grain) {
+    cells_[row(grain.y) * columns_ + column(grain.x)].push_back(grains_.size());
+    grains_.push_back(grain);
+}
+
+void NeighbourGrid::move(std::size_t index, double x, double y) {
+    PlacedGrain& grain = grains_[index];
+    auto& old_cell = cells_[row(grain.y) * columns_ + column(grain.x)];
+    old_cell.erase(std::find(old_cell.begin(), old_cell.end(), index));
+    grain.x = x;
+    grain.y = y;
+    cells_[row(y) * columns_ + column(x)].push_back(index);
+}
+
+double NeighbourGrid::circle_gap(const PlacedGrain& one, const PlacedGrain& other) const {
+    const double dx = nearest_image(other.x - one.x, box_.width, box_.periodic_x);
+    const double dy = nearest_image(other.y - one.y, box_.height, box_.periodic_y);
+    return std::hypot(dx, dy) - one.radius - other.radius;
+}
+
+double NeighbourGrid::gap(const PlacedGrain& one, const PlacedGrain& other) const {
+    if (forms_ == nullptr) return circle_gap(one, other);
+    PlacedGrain image = other;
+    image.x = one.x + nearest_image(other.x - one.x, box_.width, box_.periodic_x);
+    image.y = one.y + nearest_image(other.y - one.y, box_.height, box_.periodic_y);
+    return surface_gap(placed_outline(one, *forms_), placed_outline(image, *forms_));
+}
+
+std::vector<std::size_t> NeighbourGrid::around(std::size_t centre, std::size_t count,
+                                               bool periodic) const {
+    std::vector<std::size_t> cells{centre};
+    if (centre > 0 || periodic) cells.push_back((centre + count - 1) % count);
+    if (centre + 1 < count || periodic) cells.push_back((centre + 1) % count);
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
+}
+
+std::vector<std::size_t> NeighbourGrid::near(double x, double y) const {
+    std::vector<std::size_t> found;
+    for (const std::size_t r : around(row(y), rows_, box_.periodic_y))
+        for (const std::size_t c : around(column(x), columns_, box_.periodic_x)) {
+            const auto& cell = cells_[r * columns_ + c];
+            found.insert(found.end(), cell.begin(), cell.end());
+        }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+bool NeighbourGrid::is_free(const PlacedGrain& grain, double smallest_gap,
+                            std::size_t except) const {
+    const auto neighbours = near(grain.x, grain.y);
+    const double least = smallest_gap - touching_tolerance;
+    return std::none_of(neighbours.begin(), neighbours.end(), [&](std::size_t other) {
+        return other != except && circle_gap(grain, grains_[other]) < least &&
+               gap(grain, grains_[other]) < least;
+    });
+}
+
+}  // namespace turbidite

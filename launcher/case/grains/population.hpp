@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin][,density]
+// [,material][,motion]`, lengths in D, angles in rad, velocities in u_c, spin in 1/t_c;
+// `grains.shape` and its radius unless given; at rest, grains.density_ratio, material default,
+// free), and the checks of any population: unique ids, positive radii, no grain outside, no
+// overlaps, all with the true shapes.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "coupler/keys/case_error.hpp"
+#include "launcher/case/grains/grain_forms.hpp"
+#include "launcher/case/grains/packing.hpp"
+
+namespace turbidite {
+
+/// `source` and `line(i)` are the origin of grain i for error messages.
+struct PopulationSource {
+    std::string name;        ///< file name; for generators, the case file
+    std::vector<int> lines;  ///< line of each grain; empty for generators
+};
+
+struct PopulationFile {
+    Packing grains;
+    PopulationSource source;
+    std::vector<CaseProblem> problems;
+};
+PopulationFile read_population_csv(const std::filesystem::path& file,
+                                   const GrainForms& forms = plain_discs(),
+                                   const std::vector<std::string>& materials = {"default"},
+                                   const std::vector<std::string>& motions = {});
+
+/// Numbers round-trip exactly. Columns beyond the radius are written only if a grain needs them;
+/// the density for all grains or none.
+std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs(),
+                           const std::vector<std::string>& materials = {"default"});
+
+/// At a wall the whole grain must be inside, at other sides its centre.
+struct SolidSides {
+    bool left = true, right = true, bottom = true, top = true;
+};
+
+/// Overlaps up to `overlap` are accepted [D].
+std::vector<CaseProblem> check_population(const Packing& grains, const PopulationSource& source,
+                                          const PackingBox& box, const SolidSides& walls,
+                                          const GrainForms& forms = plain_discs(),
+                                          double overlap = 0.0);
+
+}  // namespace turbidite

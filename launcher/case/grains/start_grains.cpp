@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/grains/start_grains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "coupler/keys/key_value.hpp"
+#include "launcher/case/case_rules.hpp"
+#include "launcher/case/files/file_names.hpp"
+#include "launcher/case/grains/materials.hpp"
+#include "launcher/case/walls/wall_motion.hpp"
+
+namespace turbidite {
+namespace {
+
+std::optional<PackingRegion> packing_region(const Settings& settings) {
+    if (!settings.has("grains.region")) return std::nullopt;
+    const auto size = real_list("grains.region", settings.text("grains.region"));
+    return PackingRegion{size.at(0), size.at(1)};
+}
+
+PackingRequest packing_request(const Settings& settings, const GrainForms& forms) {
+    const bool counted = settings.has("grains.count");
+    return {.box = packing_box(settings),
+            .region = packing_region(settings),
+            .compacity = settings.real("grains.compacity"),
+            .count = counted ? settings.integer("grains.count") : 0,
+            .jitter = settings.real("grains.jitter"),
+            .seed = static_cast<std::uint64_t>(settings.integer("random.seed")),
+            .forms = &forms,
+            .size_ratio = settings.real("grains.size_ratio")};
+}
+
+const GeneratorEntry& generator(const std::string& name) {
+    const auto& list = generator_list();
+    return *std::find_if(list.begin(), list.end(),
+                         [&](const GeneratorEntry& entry) { return entry.name == name; });
+}
+
+// The key whose value a generator refuses.
+std::string blamed_key(const Settings& settings) {
+    return settings.text("grains.generator") == "lattice" ? "grains.compacity" : "grains.count";
+}
+
+StartGrains generated_grains(const Settings& settings, const CaseEntries& entries,
+                             const GrainForms& forms) {
+    PackingResult result =
+        generator(settings.text("grains.generator")).make(packing_request(settings, forms));
+    StartGrains start{std::move(result.grains),
+                      {entries.entries.front().source, {}},
+                      std::move(result.notes),
+                      {}};
+    if (!result.refusal.empty())
+        start.problems.push_back(
+            problem_with(blamed_key(settings), {result.refusal, {}}, settings, entries));
+    return start;
+}
+
+StartGrains grains_from_file(const std::filesystem::path& file, const Settings& settings,
+                             const CaseEntries& entries, const GrainForms& forms) {
+    if (!is_file(file)) return {{}, {}, {}, {missing_file(entries, "grains.file", file)}};
+    PopulationFile read =
+        read_population_csv(file, forms, material_names(settings), motion_names(settings));
+    // Unreadable positions would be checked as 0.
+    if (!read.problems.empty()) return {{}, {}, {}, std::move(read.problems)};
+    return {std::move(read.grains), std::move(read.source), {}, {}};
+}
+
+StartGrains grains_of(const EarlierStart& start, const Settings& settings,
+                      const GrainForms& forms) {
+    EarlierGrains read =
+        read_earlier_grains(start.run, start.earlier, forms, material_names(settings));
+    std::vector<std::string> notes{
+        fmt::format("grains taken from {} at {:.6g} t_c", read.source, read.time)};
+    if (settings.flag("fluid.enabled")) notes.push_back("the fluid starts at rest");
+    return {std::move(read.grains), {read.source, {}}, std::move(notes), {}};
+}
+
+// A refused region would only be refused again, grain by grain.
+bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
+    const CaseEntry* entry = entries.find("grains.region");
+    if (entry == nullptr || entry->is_null) return false;
+    if (!settings.has("grains.region")) return true;
+    const auto region = packing_region(settings);
+    const PackingBox box = packing_box(settings);
+    return region->width > box.width || region->height > box.height;
+}
+
+/// Whether the keys that describe the grains were all accepted: a generator needs a count.
+bool are_described(const Settings& settings, const CaseEntries& entries, const GivenGrains& given) {
+    if (region_is_refused(settings, entries)) return false;
+    if (given.earlier || !given.file.empty() || settings.has("grains.file")) return true;
+    return settings.text("grains.generator") != "random" || settings.has("grains.count");
+}
+
+}  // namespace
+
+PackingBox packing_box(const Settings& settings) {
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    return {.width = size.at(0),
+            .height = size.at(1),
+            .periodic_x = settings.text("domain.left") == "cyclic",
+            .periodic_y = settings.text("domain.bottom") == "cyclic"};
+}
+
+SolidSides solid_sides(const Settings& settings) {
+    const auto solid = [&](const char* key) {
+        return settings.text(key) == "wall" || settings.text(key) == "inflow";
+    };
+    return {solid("domain.left"), solid("domain.right"), solid("domain.bottom"),
+            solid("domain.top")};
+}
+
+CaseProblem missing_file(const CaseEntries& entries, const std::string& key,
+                         const std::filesystem::path& file) {
+    const CaseEntry* entry = entries.find(key);
+    return {.source = entry ? entry->source : file.string(),
+            .line = entry ? entry->line : 0,
+            .key = key,
+            .value = entry ? entry->value : file.filename().string(),
+            .fault = {},
+            .allowed = fmt::format("There is no file {}.", file.lexically_normal().string()),
+            .remedy = "Paths are relative to the folder of the case file."};
+}
+
+StartGrains start_grains(const Settings& settings, const CaseEntries& entries,
+                         const GrainForms& forms, const std::filesystem::path& folder,
+                         const GivenGrains& given) {
+    if (!are_described(settings, entries, given)) return {};
+    if (given.earlier) return grains_of(*given.earlier, settings, forms);
+    if (!given.file.empty()) return grains_from_file(given.file, settings, entries, forms);
+    if (settings.has("grains.file"))
+        return grains_from_file(folder / settings.text("grains.file"), settings, entries, forms);
+    return generated_grains(settings, entries, forms);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Walls inside the box, from a CSV file (`domain.walls_file`):
+//
+//     id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]
+//
+// Each is a plate from (x1, y1) to (x2, y2) that holds grains on both sides, thin unless it has a
+// thickness: then it is all that is nearer to the line than half of it, with round ends. It follows
+// a prescribed motion: its pivot moves at (vx, vy), and it turns about the pivot. Lengths in D,
+// velocities in u_c, spin in 1/t_c; at rest, pivot in the middle and contact.friction unless given.
+// A long plate that moves along itself acts as a belt. Other motions are defined below
+// domain.motions and named in the column motion.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/case/grains/population.hpp"
+#include "launcher/case/scales.hpp"
+
+namespace turbidite {
+
+struct InnerWall {
+    GrainId id = 0;
+    Point2 from{}, to{};             ///< [D]
+    double thickness = 0.0;          ///< [D]
+    Point2 velocity{};               ///< [u_c]
+    double spin = 0.0;               ///< [1/t_c]
+    std::optional<Point2> pivot;     ///< [D]
+    std::optional<double> friction;  ///< mu
+    std::string motion = {};         ///< name below domain.motions; empty: velocity and spin
+};
+
+struct InnerWalls {
+    std::vector<InnerWall> walls;
+    std::vector<CaseProblem> problems;
+};
+InnerWalls read_walls_csv(const std::filesystem::path& file);
+
+/// Writes every column; reading it back gives the same walls.
+std::string walls_csv(const std::vector<InnerWall>& walls);
+
+/// Reports grains that a plate, or its image across cyclic sides, cuts at the start by more than
+/// `tolerance` [D].
+std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
+                                     const GrainForms& forms, const PackingBox& box,
+                                     const std::string& source,
+                                     double tolerance = touching_tolerance);
+
+/// The fluid passes through plates thinner than this [cells].
+constexpr double least_cells_of_plate = 2.0;
+
+/// Reports plates that are too thin for a fluid with cells of this size [D].
+std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
+                                         const std::string& source, double cell);
+
+/// The value of `run.walls`: walls separated by `;`, each
+/// `id x1 y1 x2 y2 vx vy spin px py friction thickness` in the run's units.
+std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
+                          double friction);
+
+}  // namespace turbidite

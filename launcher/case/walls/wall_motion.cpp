@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/case/walls/wall_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/plates.hpp"
+#include "launcher/case/case_rules.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr const char* prefix = "domain.motions.";
+constexpr const char* sides[] = {"left", "right", "bottom", "top"};  // keys 0 to 3 of the walls
+
+std::string key_of(const std::string& name, const char* part) {
+    return prefix + name + "." + part;
+}
+
+bool gives(const Settings& s, const std::string& name, const char* part) {
+    return s.has(key_of(name, part));
+}
+
+double number(const Settings& s, const std::string& name, const char* part) {
+    return gives(s, name, part) ? s.real(key_of(name, part)) : 0.0;
+}
+
+std::vector<double> numbers(const Settings& s, const std::string& name, const char* part) {
+    if (!gives(s, name, part)) return {0.0, 0.0};
+    return real_list(key_of(name, part), s.text(key_of(name, part)));
+}
+
+/// Turns a wall about its pivot.
+bool turns(const Settings& s, const std::string& name) {
+    return number(s, name, "spin") != 0.0 || number(s, name, "turn") != 0.0;
+}
+
+struct Kind {
+    const char* name;
+    std::vector<const char*> needs;
+    std::vector<const char*> may;
+    /// Numbers of run.wall_motions, in run units.
+    std::vector<double> (*numbers)(const Settings&, const std::string& name, const Scales&);
+};
+
+std::vector<double> constant(const Settings& s, const std::string& name, const Scales& scales) {
+    const auto v = numbers(s, name, "velocity");
+    return {v[0] * scales.velocity, v[1] * scales.velocity, number(s, name, "spin") / scales.time};
+}
+
+std::vector<double> harmonic(const Settings& s, const std::string& name, const Scales& scales) {
+    const auto a = numbers(s, name, "amplitude");
+    return {a[0] * scales.diameter, a[1] * scales.diameter, number(s, name, "turn"),
+            number(s, name, "period") * scales.time, number(s, name, "phase")};
+}
+
+std::vector<double> table(const Settings& s, const std::string& name, const Scales& scales) {
+    const auto rows = numbers(s, name, "table");
+    std::vector<double> result;
+    for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
+        result.insert(result.end(), {rows[i] * scales.time, rows[i + 1] * scales.diameter,
+                                     rows[i + 2] * scales.diameter, 0.0});
+    return result;
+}
+
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> list = {
+        {"constant", {}, {"velocity", "spin"}, constant},
+        {"harmonic", {"period"}, {"amplitude", "turn", "phase"}, harmonic},
+        {"table", {"table"}, {}, table},
+    };
+    return list;
+}
+
+const Kind& kind_of(const Settings& s, const std::string& name) {
+    const std::string& wanted = s.text(key_of(name, "kind"));
+    return *std::find_if(kinds().begin(), kinds().end(),
+                         [&](const Kind& kind) { return wanted == kind.name; });
+}
+
+bool has(const std::vector<const char*>& list, const std::string& word) {
+    return std::any_of(list.begin(), list.end(), [&](const char* w) { return word == w; });
+}
+
+std::optional<Objection> bad_table(const Settings& s, const std::string& name) {
+    const auto rows = numbers(s, name, "table");
+    bool good = rows.size() >= 3 && rows.size() % 3 == 0 && rows[0] == 0.0 && rows[1] == 0.0 &&
+                rows[2] == 0.0;
+    for (std::size_t i = 3; good && i < rows.size(); i += 3) good = rows[i] > rows[i - 3];
+    if (good) return std::nullopt;
+    return Objection{"Rows of time [t_c], x, y [D]: the first is 0, 0, 0, and times increase.",
+                     "Write for example table: [0, 0, 0, 2, -1, 0]."};
+}
+
+CaseProblems check_motion(const Settings& s, const std::string& name, const CaseEntries& entries) {
+    if (!gives(s, name, "kind"))
+        return {{.source = entries.entries.front().source,
+                 .line = 0,
+                 .key = key_of(name, "kind"),
+                 .value = {},
+                 .fault = "is missing",
+                 .allowed = "Available: constant, harmonic, table.",
+                 .remedy = "Give the kind of motion."}};
+    CaseProblems problems;
+    const auto object = [&](const std::string& key, const Objection& objection) {
+        problems.push_back(problem_with(key, objection, s, entries));
+    };
+    const Kind& kind = kind_of(s, name);
+    for (const char* part : kind.needs)
+        if (!gives(s, name, part))
+            object(key_of(name, "kind"),
+                   {fmt::format("A motion of this kind needs {}.", key_of(name, part)), "Add it."});
+    for (const auto& [key, value] : s.entries()) {
+        if (key.rfind(prefix + name + ".", 0) != 0) continue;
+        const std::string part = key.substr(key.rfind('.') + 1);
+        if (part != "kind" && !has(kind.needs, part) && !has(kind.may, part))
+            object(key, {fmt::format("A {} motion has no {}.", kind.name, part), "Remove it."});
+    }
+    if (gives(s, name, "table"))
+        if (const auto objection = bad_table(s, name)) object(key_of(name, "table"), *objection);
+    return problems;
+}
+
+Objection unknown_motion(const Settings& s) {
+    return {
+        fmt::format(
+            "There is no motion of this name below domain.motions; there are {}.",
+            motion_names(s).empty() ? "none" : fmt::format("{}", fmt::join(motion_names(s), ", "))),
+        "Describe it there, or correct the name."};
+}
+
+bool is_known(const Settings& s, const std::string& name) {
+    const auto names = motion_names(s);
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_inflow(const Settings& s, const std::string& side) {
+    return is(s, ("domain." + side).c_str(), "inflow");
+}
+
+/// Whether a motion leaves a wall normal to this axis in its plane.
+bool slides(const Settings& s, const std::string& name, int axis) {
+    for (const char* part : {"velocity", "amplitude"})
+        if (numbers(s, name, part).at(axis) != 0.0) return false;
+    const auto rows = numbers(s, name, "table");
+    for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
+        if (rows[i + 1 + axis] != 0.0) return false;
+    return true;
+}
+
+std::optional<Objection> bad_side(const Settings& s, const std::string& side) {
+    const std::string& name = s.text("domain." + side + "_motion");
+    if (!is_known(s, name)) return unknown_motion(s);
+    const bool wall = is(s, ("domain." + side).c_str(), "wall");
+    if (!wall && !is_inflow(s, side))
+        return Objection{fmt::format("Only walls can move, and fluid enters only through inflows, "
+                                     "but domain.{} = {}.",
+                                     side, s.text("domain." + side)),
+                         fmt::format("Use domain.{}: wall or inflow, or remove it.", side)};
+    if (turns(s, name))
+        return Objection{"A side of the box does not turn.", "Remove spin and turn."};
+    if (!wall) return std::nullopt;
+    const int across = side == "left" || side == "right" ? 0 : 1;
+    if (s.flag("fluid.enabled") && !slides(s, name, across))
+        return Objection{
+            fmt::format("In a fluid a side slides along itself only: the {} component of its "
+                        "motion must be 0.",
+                        across == 0 ? "x" : "y"),
+            fmt::format("Set it to 0, set fluid.enabled: false, or let fluid in with domain.{}: "
+                        "inflow.",
+                        side)};
+    if (grains_adapter(s).moving_sides) return std::nullopt;
+    return Objection{
+        fmt::format("{} does not support moving sides.", s.text("grains.adapter")),
+        fmt::format("Remove it, or use grains.adapter: {}.",
+                    adapters_that([](const GrainsAdapter& a) { return a.moving_sides; }))};
+}
+
+std::optional<Objection> bad_inner_wall(const Settings& s, const InnerWall& wall) {
+    if (!is_known(s, wall.motion)) return unknown_motion(s);
+    if (wall.velocity == Point2{} && wall.spin == 0.0) return std::nullopt;
+    return Objection{"A wall that follows a motion has no vx, vy and spin of its own.",
+                     "Set them to 0, or leave motion empty."};
+}
+
+void append(std::string& text, std::int64_t what, const Settings& s, const std::string& name,
+            const Scales& scales) {
+    const Kind& kind = kind_of(s, name);
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ";", what, kind.name,
+                        fmt::join(kind.numbers(s, name, scales), " "));
+}
+
+/// The motions of those sides that are inflows, or of those that are not.
+std::string side_motions(const Settings& settings, const Scales& scales, bool inflows) {
+    std::string text;
+    for (std::int32_t i = 0; i < first_plate; ++i)
+        if (const std::string key = std::string("domain.") + sides[i] + "_motion";
+            settings.has(key) && is_inflow(settings, sides[i]) == inflows)
+            append(text, i, settings, settings.text(key), scales);
+    return text;
+}
+
+bool has_free_side(const Settings& s) {
+    return std::any_of(std::begin(sides), std::end(sides), [&](const char* side) {
+        return is(s, (std::string("domain.") + side).c_str(), "free");
+    });
+}
+
+/// The volumes that have entered and left through inflows by a time [D2].
+struct Exchanged {
+    double net = 0.0, either_way = 0.0;
+};
+
+Exchanged exchanged(const std::vector<Moved>& inflows, const std::vector<double>& size,
+                    double time) {
+    Exchanged sum;
+    for (const Moved& inflow : inflows) {
+        const int axis = static_cast<int>(inflow.what / 2);
+        const double inward = inflow.what % 2 == 0 ? 1.0 : -1.0;
+        const double volume = inward * inflow.motion->at(time).displacement[axis] * size[1 - axis];
+        sum.net += volume;
+        sum.either_way += std::abs(volume);
+    }
+    return sum;
+}
+
+/// The end of the first window by which not as much fluid has entered a box without a free side as
+/// has left it [t_c]. Of a longer run than a million windows the first million are tested.
+std::optional<double> first_imbalance(const Settings& s) {
+    Settings in_diameters;
+    Scales unit;
+    unit.diameter = unit.velocity = unit.time = 1.0;
+    in_diameters.set("run.inflow_motions", side_motions(s, unit, true));
+    const auto inflows = motions_of(in_diameters, "run.inflow_motions");
+    const auto size = real_list("domain.size", s.text("domain.size"));
+    const double step = s.real("time.step");
+    const long long windows = std::min(std::llround(s.real("time.end") / step), 1'000'000LL);
+    for (long long n = 1; n <= windows; ++n) {
+        const double time = step * static_cast<double>(n);
+        const Exchanged volume = exchanged(inflows, size, time);
+        if (std::abs(volume.net) > 1e-9 * volume.either_way) return time;
+    }
+    return std::nullopt;
+}
+
+/// What enters must leave.
+CaseProblems check_balance(const Settings& s, const CaseEntries& entries) {
+    const auto first = std::find_if(std::begin(sides), std::end(sides),
+                                    [&](const char* side) { return is_inflow(s, side); });
+    const bool known = s.has("domain.size") && s.has("time.step") && s.has("time.end");
+    if (first == std::end(sides) || has_free_side(s) || !known) return {};
+    const auto time = first_imbalance(s);
+    if (!time) return {};
+    const Objection objection{
+        fmt::format("The box has no free side, and by {:.3g} t_c not as much fluid has left "
+                    "through its inflows as has entered.",
+                    *time),
+        "Make a side free, or let the same flux leave through an opposite inflow."};
+    return {problem_with(std::string("domain.") + *first, objection, s, entries)};
+}
+
+}  // namespace
+
+std::vector<std::string> motion_names(const Settings& s) {
+    const std::size_t start = std::string(prefix).size();
+    std::vector<std::string> names;
+    for (const auto& [key, value] : s.entries()) {
+        if (key.rfind(prefix, 0) != 0) continue;
+        const std::string name = key.substr(start, key.find('.', start) - start);
+        if (names.empty() || names.back() != name) names.push_back(name);
+    }
+    return names;
+}
+
+CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall>& walls,
+                           const CaseEntries& entries) {
+    CaseProblems problems;
+    for (const std::string& name : motion_names(settings))
+        append(problems, check_motion(settings, name, entries));
+    for (const char* side : sides)
+        if (const std::string key = std::string("domain.") + side + "_motion"; settings.has(key))
+            if (const auto objection = bad_side(settings, side))
+                problems.push_back(problem_with(key, *objection, settings, entries));
+    for (const InnerWall& wall : walls) {
+        if (wall.motion.empty()) continue;
+        if (const auto objection = bad_inner_wall(settings, wall))
+            problems.push_back({.source = settings.text("domain.walls_file"),
+                                .line = 0,
+                                .key = {},
+                                .value = {},
+                                .fault = fmt::format("wall {}: motion = {}", wall.id, wall.motion),
+                                .allowed = objection->allowed,
+                                .remedy = objection->remedy});
+    }
+    // It needs motions without faults.
+    return problems.empty() ? check_balance(settings, entries) : problems;
+}
+
+std::string inflows_setting(const Settings& settings, const Scales& scales) {
+    return side_motions(settings, scales, true);
+}
+
+std::string grain_motions_setting(const Settings& settings, const Packing& grains,
+                                  const Scales& scales) {
+    std::string text;
+    for (const PlacedGrain& grain : grains)
+        if (!grain.motion.empty()) append(text, grain.id, settings, grain.motion, scales);
+    return text;
+}
+
+std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,
+                            const Scales& scales) {
+    std::string text = side_motions(settings, scales, false);
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        if (!walls[i].motion.empty())
+            append(text, first_plate + static_cast<std::int32_t>(i), settings, walls[i].motion,
+                   scales);
+    return text;
+}
+
+}  // namespace turbidite
