@@ -1,36 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/handshake.hpp"
 
-#include <algorithm>
-
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
-
-namespace {
-
-bool has(const Order& order, Kind kind) {
-    return std::any_of(order.begin(), order.end(),
-                       [kind](const Step& step) { return step.kind == kind; });
-}
-
-}  // namespace
 
 Expectation expectation(Role role, const Settings& settings, const ShapeTable& shapes,
                         const SchemeEntry& scheme) {
     const bool grains = role == Role::grains;
     Expectation expected;
     expected.role = role;
-    const bool any = !grains || settings.text("grains.adapter") == "external";
+    const bool any = !grains || settings.text("grains.adapter") == users_program;
     expected.adapter = any ? "" : settings.text("grains.adapter");
     expected.dimension = static_cast<std::int32_t>(settings.integer("dimension"));
     expected.ranks =
         static_cast<std::int32_t>(settings.integer(grains ? "grains.ranks" : "fluid.ranks"));
     expected.case_hash = settings.text("run.hash");
     expected.scheme = scheme.name;
-    const bool asked = has(scheme.order(role), grains ? Kind::contact_input : Kind::response);
     expected.restores_within_window = grains && scheme.repeats;
-    expected.effective_inertia = asked && !expected.restores_within_window;
+    expected.effective_inertia = grains ? scheme.needs_inertia() : scheme.has_rounds();
     for (const ShapeRecord& shape : shapes) expected.shapes.push_back(shape.kind);
     return expected;
 }

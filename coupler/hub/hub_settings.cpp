@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 
 namespace turbidite {
@@ -32,7 +33,8 @@ HubSettings hub_settings(const Settings& settings) {
     result.grain_balance = balance_limits(settings, "limits.grain_balance");
     result.fluid_balance = balance_limits(settings, "limits.fluid_balance");
     if (result.run.wet) result.cell = largest_cell(settings, result.run);
-    result.grains_adapter = settings.text("grains.adapter");
+    result.users_program = settings.text("grains.adapter") == users_program;
+    result.springs = settings.has("run.md_frequency");
     return result;
 }
 

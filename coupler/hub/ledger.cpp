@@ -18,11 +18,11 @@ constexpr int windows_until_refused = 3;
 
 /// Advice on reducing overlaps; for springs, their own keys set the stiffness and with it the
 /// sub-steps.
-std::string against_overlap(const std::string& adapter) {
-    if (adapter == "yade-md" || adapter == "lammps-md" || adapter == "standalone-md")
-        return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
-    if (adapter == "external")
+std::string against_overlap(const HubSettings& settings) {
+    if (settings.users_program)
         return "Use a smaller time.step, or stiffer or better converged contacts in your program.";
+    if (settings.springs)
+        return "Use a smaller contact.md_overlap, or a larger contact.md_stiffness if it is given.";
     return "Use a smaller time.step, or more contact.iterations.";
 }
 
@@ -109,8 +109,7 @@ void Ledger::check_overlap(const Window& window, const Motion& state) const {
     if (overlap <= settings_.penetration) return;
     throw PhysicsRefused(fmt::format(
         "overlap of {:.3g} D in window {}, reported by {}; limits.penetration = {:.3g} D. {}",
-        overlap, window.index, grains_, settings_.penetration,
-        against_overlap(settings_.grains_adapter)));
+        overlap, window.index, grains_, settings_.penetration, against_overlap(settings_)));
 }
 
 void Ledger::check_divergence(const FluidReport& report) {

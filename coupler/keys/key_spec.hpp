@@ -30,6 +30,10 @@ struct Range {
     bool contains(double value) const;
 };
 
+/// How a grains adapter makes contacts: impulses of rigid grains, or springs; `any` is both, or not
+/// known.
+enum class Contacts { any, rigid, springs };
+
 /// When a key must be given: `fallback` keys have a default, `optional` ones may be omitted.
 enum class Need { fallback, required, optional, conditional };
 
@@ -50,7 +54,7 @@ struct KeySpec {
     std::string when = {};     ///< conditional: when it is required, in words
     bool (*required)(const Settings&) = nullptr;  ///< conditional: the same, as a test
     bool available = true;                        ///< false: planned for a later version
-    std::string family = {};  ///< of grains adapters that know it, "nscd" or "md"; "": all
+    Contacts contacts = Contacts::any;            ///< of the grains adapters that know it
     /// Why it has no effect in a case whose other keys are valid ("without a fluid"); empty if it
     /// has one.
     std::string (*idle)(const Settings&) = nullptr;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "coupler/protocol/splitting.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -66,8 +68,10 @@ SolveLimits solve_limits(const Settings& settings) {
     limits.multipliers =
         limit(settings, "fluid.multiplier_iterations", "fluid.multiplier_tolerance");
     limits.splitting = limit(settings, "fluid.splitting_iterations", "fluid.splitting_tolerance");
-    limits.corrects_once = settings.has("fluid.splitting") &&
-                           settings.text("fluid.splitting") == "explicit-multiplier";
+    if (settings.has("fluid.splitting")) {
+        const Splitting& splitting = splitting_of(settings);
+        limits.corrects_once = splitting.rigid_grains && !splitting.iterated;
+    }
     limits.joint = limit(settings, "coupling.iterations", "coupling.tolerance");
     if (settings.has("run.slip_tolerance")) limits.slip = settings.real("run.slip_tolerance");
     return limits;

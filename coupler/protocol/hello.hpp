@@ -34,6 +34,9 @@ struct Capabilities {
     std::vector<std::string> contact_laws;
 };
 
+/// grains.adapter of a program of the user's own, which has any name.
+inline constexpr const char* users_program = "external";
+
 struct Hello {
     std::int32_t protocol_major = turbidite::protocol_major;
     std::int32_t protocol_minor = turbidite::protocol_minor;

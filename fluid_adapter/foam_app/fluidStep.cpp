@@ -7,10 +7,10 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/splitting.hpp"
 #include "fluid_adapter/foam_app/boxFluidStep.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/operatorStep.hpp"
-#include "fluid_adapter/multiplier/splitting.hpp"
 
 namespace turbidite {
 namespace {
@@ -67,7 +67,7 @@ bool in_second_order(const Settings& settings) {
 
 /// For what only the rows of a box can do.
 void demand_marchuk_yanenko(const Settings& settings, const std::string& why) {
-    if (corrects_with_rigid_grains(settings))
+    if (splitting_of(settings).rigid_grains)
         throw Failure(ExitCode::bad_input, "fluid.splitting = " + settings.text("fluid.splitting") +
                                                " does not fit this fluid case: " + why +
                                                "; use marchuk-yanenko");
@@ -108,7 +108,7 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
     std::optional<TransportMethod> method = transport_on_rows(fields);
     if (method) method->second_order = in_second_order(settings);
-    if (method) method->coupled = corrects_with_rigid_grains(settings);
+    if (method) method->coupled = splitting_of(settings).rigid_grains;
     if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U)) {
         demand_marchuk_yanenko(
             settings,

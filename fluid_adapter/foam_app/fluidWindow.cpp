@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "coupler/protocol/splitting.hpp"
 #include "fluid_adapter/foam_app/fluidStep.hpp"
-#include "fluid_adapter/multiplier/splitting.hpp"
 
 namespace turbidite {
 namespace {
@@ -14,10 +14,10 @@ namespace {
 CoupledLimits coupled_limits(const Settings& settings) {
     const RunValues run = run_values(settings);
     CoupledLimits limits;
-    if (!corrects_with_rigid_grains(settings)) return limits;
+    if (!splitting_of(settings).rigid_grains) return limits;
     const auto most = static_cast<int>(settings.integer("fluid.splitting_iterations"));
     limits.viscosity.most = most;
-    if (splitting_of(settings) != Splitting::implicit_multiplier) return limits;
+    if (!splitting_of(settings).iterated) return limits;
     limits.iterated = true;
     const double rate = settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter;
     limits.viscosity = {most, rate * run.velocity};

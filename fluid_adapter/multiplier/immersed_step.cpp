@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fluid_adapter/multiplier/splitting.hpp"
+#include "coupler/protocol/splitting.hpp"
 
 namespace turbidite {
 namespace {
@@ -65,7 +65,7 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
       plates_(settings),
       moved_grains_(motions_of(settings, "run.grain_motions")),
       settings_(multiplier_settings(settings, run_)),
-      carries_contacts_(corrects_with_rigid_grains(settings)),
+      carries_contacts_(splitting_of(settings).rigid_grains),
       placement_(point_rules(settings)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }

@@ -21,7 +21,7 @@ KeyGroup molecular_dynamics_keys() {
              .fallback = "0.001",
              .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
              .help = "molecular dynamics: overlap for which the stiffness is chosen",
-             .family = "md",
+             .contacts = Contacts::springs,
              .idle = beside_stiffness},
             {.name = "contact.md_speed",
              .type = KeyType::real,
@@ -32,7 +32,7 @@ KeyGroup molecular_dynamics_keys() {
                      "default: 2 with a "
                      "fluid; without one, twice the speed of a fall from the top of the packing",
              .remedy = "Leave it out, or use for example 2.",
-             .family = "md",
+             .contacts = Contacts::springs,
              .idle = beside_stiffness},
             {.name = "contact.md_stiffness",
              .type = KeyType::real,
@@ -43,7 +43,7 @@ KeyGroup molecular_dynamics_keys() {
                      "contact.md_overlap, "
                      "contact.md_speed and the height of the packing",
              .remedy = "Leave it out, or use for example 1e5.",
-             .family = "md"},
+             .contacts = Contacts::springs},
             {.name = "contact.md_substeps",
              .type = KeyType::real,
              .unit = "per contact time",
@@ -53,7 +53,7 @@ KeyGroup molecular_dynamics_keys() {
                      "grains",
              .allowed = "Between 12, below which dense packings may become unstable, and 1000.",
              .remedy = "Use 20.",
-             .family = "md"},
+             .contacts = Contacts::springs},
         }};
 }
 

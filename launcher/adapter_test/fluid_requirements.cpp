@@ -89,10 +89,10 @@ Finding respects_given_motion(const Candidate& candidate, const std::filesystem:
 }
 
 Finding responds(const Candidate& candidate, const std::filesystem::path& folder) {
-    const Trial split = play_trial(candidate, {"split", two_apart, {"time.end=0.3"}}, folder);
+    const Trial split = play_trial(candidate, {"without_rounds", two_apart, {"time.end=0.3"}}, folder);
     if (!split.done()) return failure_of(split.outcome);
     const Trial joint = play_trial(
-        candidate, {"joint", two_apart, {"time.end=0.3", "coupling.scheme=joint"}}, folder);
+        candidate, {"responses", two_apart, {"time.end=0.3", "coupling.scheme=joint"}}, folder);
     if (joint.outcome.code == ExitCode::handshake_refused)
         return {Grade::not_supported, "effective_inertia is not claimed"};
     if (!joint.done()) return failure_of(joint.outcome);

@@ -18,7 +18,7 @@ namespace turbidite {
 /// The program under test: a shipped one, or a command.
 struct Candidate {
     Role side = Role::grains;
-    std::string adapter = "external";     ///< of the grains; a shipped one by its name
+    std::string adapter = users_program;  ///< of the grains; a shipped one by its name
     std::vector<std::string> words = {};  ///< program and arguments; empty: the shipped one
 };
 

@@ -20,8 +20,8 @@ bool has_all(const Settings& settings, const Rule& rule) {
 /// Why a key has no effect; empty if it has one.
 std::string idle_reason(const KeySpec& key, const Settings& settings) {
     const GrainsAdapter& adapter = grains_adapter(settings);
-    if (!key.family.empty() && adapter.family != "any" && key.family != adapter.family)
-        return "with grains.adapter: " + adapter.name;
+    const bool of_some = key.contacts != Contacts::any && adapter.contacts != Contacts::any;
+    if (of_some && key.contacts != adapter.contacts) return "with grains.adapter: " + adapter.name;
     return key.idle ? key.idle(settings) : "";
 }
 

@@ -37,7 +37,7 @@ double height_of(const Packing& grains) {
 
 /// The contact parameters and sub-steps of molecular dynamics.
 void set_soft_contact(Settings& settings, const Packing& grains) {
-    if (grains_adapter(settings).family == "nscd") return;
+    if (grains_adapter(settings).contacts == Contacts::rigid) return;
     const SoftContact contact = soft_contact(settings, height_of(grains));
     settings.set("run.md_frequency", contact.frequency);
     settings.set("run.md_damping", contact.damping);
@@ -55,8 +55,9 @@ void choose_scheme(Settings& settings) {
     if (!settings.has("coupling.scheme") || settings.text("coupling.scheme") != "auto") return;
     const bool known = settings.has("grains.adapter") && settings.has("fluid.enabled") &&
                        settings.flag("fluid.enabled");
-    const char* scheme = known ? best_scheme(grains_adapter(settings)) : "split";
-    settings.set("coupling.scheme", std::string(scheme));
+    const SchemeEntry& scheme =
+        known ? best_scheme(grains_adapter(settings)) : scheme_without_rounds();
+    settings.set("coupling.scheme", std::string(scheme.name));
 }
 
 void set_run_settings(Settings& settings, const Packing& grains,

@@ -13,6 +13,7 @@
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
 
 namespace turbidite {
 namespace {
@@ -54,8 +55,7 @@ std::string forecast_line(const ResolvedCase& resolved) {
 }
 
 std::string md_line(const Settings& settings) {
-    const bool external = settings.text("grains.adapter") == "external";
-    if (!settings.has("run.md_substeps") || external) return "";
+    if (grains_adapter(settings).contacts != Contacts::springs) return "";
     const double frequency = settings.real("run.md_frequency");
     const double fall = settings.real("run.gravity") / settings.real("run.diameter");
     return fmt::format(
@@ -67,7 +67,7 @@ std::string md_line(const Settings& settings) {
 }
 
 std::string command_line(const Settings& settings) {
-    if (settings.text("grains.adapter") != "external") return "";
+    if (grains_adapter(settings).host != GrainsHost::command) return "";
     const auto program = find_program_file(command_words(settings.text("grains.command"))->front());
     return fmt::format("  grains program: {} ({})\n", settings.text("grains.command"),
                        program.empty() ? "not found" : program.string());
@@ -92,7 +92,7 @@ std::string checkpoint_line(const Settings& settings) {
         return "  checkpoints: only when asked for; without one an interrupted run cannot go on\n";
     std::string text = fmt::format("  checkpoints: {}, the newest {} are kept\n", rules,
                                    settings.integer("checkpoint.keep"));
-    if (settings.text("grains.adapter") == "external")
+    if (grains_adapter(settings).host == GrainsHost::command)
         text +=
             "    if the grains program saves and restores its state (turbidite adapter-test says "
             "whether it does);\n    if not, there are none, and an interrupted run cannot go on\n";

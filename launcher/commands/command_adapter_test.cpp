@@ -68,7 +68,7 @@ Candidate candidate_of(const AdapterTestOptions& options) {
     candidate.side = options.side == "fluid" ? Role::fluid : Role::grains;
     candidate.words = with_absolute_files(options.words, std::filesystem::current_path());
     if (candidate.side == Role::grains && candidate.words.empty() &&
-        candidate.adapter == "external")
+        candidate.adapter == users_program)
         throw refused(
             "needs a program: turbidite adapter-test -- my-code, or --adapter NAME for a shipped "
             "one, or --side fluid for the shipped fluid.");

@@ -14,6 +14,7 @@
 #include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/files/command_words.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/run_json.hpp"
 #include "launcher/job/run_on_disk.hpp"
@@ -198,7 +199,7 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
 namespace {
 
 void require_command(const Settings& settings) {
-    if (settings.text("grains.adapter") != "external") return;
+    if (grains_adapter(settings).host != GrainsHost::command) return;
     const std::string program = command_words(settings.text("grains.command"))->front();
     if (!find_program_file(program).empty()) return;
     const bool named = program.find('/') != std::string::npos;

@@ -25,9 +25,9 @@ from working import Progress
 
 
 def coupling(case):
-    """coupling.positions applies to `split` only."""
-    scheme = case.get('coupling.scheme')
-    return scheme if scheme == 'joint' else f'{scheme}, positions {case.get("coupling.positions")}'
+    """The scheme, and coupling.positions unless it is the default."""
+    scheme, positions = case.get('coupling.scheme'), case.get('coupling.positions')
+    return scheme if positions == 'corrected' else f'{scheme}, positions {positions}'
 
 
 def facts(run):

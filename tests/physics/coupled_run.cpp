@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupler/protocol/splitting.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
-#include "fluid_adapter/multiplier/splitting.hpp"
 #include "tests/run_settings.hpp"
 
 namespace turbidite {
@@ -143,7 +143,7 @@ void CoupledRun::advance(bool write_output) {
                         write_output};
     before_ = grains_;
     fluid_.advance(window);
-    if (corrects_with_rigid_grains(settings_of(setup_)))
+    if (splitting_of(settings_of(setup_)).rigid_grains)
         solve_jointly(window);
     else
         solve_split(window);

@@ -83,6 +83,7 @@ SchemeEntry joint_scheme() {
                        {Kind::kick, from_coupler},
                        {Kind::state, to_coupler}},
             .slip_per_mismatch = 0.1,
+            .usual_rounds = 2.0,
             .make = [](const Settings& settings) -> std::unique_ptr<Scheme> {
                 return std::make_unique<Joint>(settings);
             }};

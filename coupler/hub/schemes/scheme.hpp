@@ -49,9 +49,18 @@ struct SchemeEntry {
     /// The grains repeat their window with other velocities to come to (restores_within_window),
     /// instead of taking the fluid's inertia into their contacts.
     bool repeats = false;
+    double usual_rounds = 1.0;  ///< of a window with several grains, a mean over the studies
     std::unique_ptr<Scheme> (*make)(const Settings&);
 
     const Order& order(Role role) const { return role == Role::fluid ? fluid : grains; }
+
+    /// Contacts and fluid are solved in turns until they agree.
+    bool has_rounds() const;
+    /// The grains solve their contacts with the fluid's effective inertia, so that they may be as
+    /// light as the fluid and lighter.
+    bool needs_inertia() const { return has_rounds() && !repeats; }
+    /// Fluid and grains of a window compute at the same time.
+    bool side_by_side() const { return !fluid.empty() && !has_rounds(); }
 
     /// rms slip at which step 5 is solved [u_c]: run.slip_tolerance.
     double slip_tolerance(const Settings& settings) const;
@@ -59,8 +68,11 @@ struct SchemeEntry {
 
 const std::vector<SchemeEntry>& scheme_list();
 
-/// "dry" when there is no fluid, otherwise coupling.scheme: run.scheme.
+/// The scheme without a fluid, otherwise coupling.scheme: run.scheme.
 std::string scheme_name(const Settings& settings);
+/// The first scheme with a fluid that is as asked: with the fluid's inertia, or without rounds.
+const SchemeEntry& scheme_with_inertia();
+const SchemeEntry& scheme_without_rounds();
 
 /// Throws std::invalid_argument that lists the known schemes.
 const SchemeEntry& find_scheme(const std::string& name);

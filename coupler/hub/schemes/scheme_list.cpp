@@ -16,8 +16,32 @@ const std::vector<SchemeEntry>& scheme_list() {
     return schemes;
 }
 
+namespace {
+
+template <class Test>
+const SchemeEntry& first_scheme(Test test) {
+    const auto& list = scheme_list();
+    return *std::find_if(list.begin(), list.end(), test);
+}
+
+}  // namespace
+
 std::string scheme_name(const Settings& settings) {
-    return settings.flag("fluid.enabled") ? settings.text("coupling.scheme") : "dry";
+    if (settings.flag("fluid.enabled")) return settings.text("coupling.scheme");
+    return first_scheme([](const SchemeEntry& entry) { return entry.fluid.empty(); }).name;
+}
+
+const SchemeEntry& scheme_with_inertia() {
+    return first_scheme([](const SchemeEntry& entry) { return entry.needs_inertia(); });
+}
+
+const SchemeEntry& scheme_without_rounds() {
+    return first_scheme([](const SchemeEntry& entry) { return entry.side_by_side(); });
+}
+
+bool SchemeEntry::has_rounds() const {
+    return std::any_of(fluid.begin(), fluid.end(),
+                       [](const Step& step) { return step.times == Times::per_round; });
 }
 
 const SchemeEntry& find_scheme(const std::string& name) {

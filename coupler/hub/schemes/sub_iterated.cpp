@@ -138,6 +138,7 @@ SchemeEntry sub_iterated_scheme() {
                        {Kind::state, to_coupler}},
             .slip_per_mismatch = 0.1,
             .repeats = true,
+            .usual_rounds = 4.0,
             .make = [](const Settings& settings) -> std::unique_ptr<Scheme> {
                 return std::make_unique<SubIterated>(settings);
             }};

@@ -5,6 +5,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/splitting.hpp"
 
 namespace turbidite {
 namespace {
@@ -32,7 +33,7 @@ double fluid_cells(const Settings& settings) {
 
 double fluid_memory(const Settings& settings) {
     const bool second_order = settings.text("fluid.time_scheme") == "second-order";
-    const bool rigid_grains = settings.text("fluid.splitting") != "marchuk-yanenko";
+    const bool rigid_grains = splitting_of(settings).rigid_grains;
     const double per_cell = bytes_per_cell + (second_order ? bytes_of_second_order : 0.0) +
                             (rigid_grains ? bytes_of_rigid_grains : 0.0);
     return (bytes_without_cells + per_cell * fluid_cells(settings)) / gigabyte;

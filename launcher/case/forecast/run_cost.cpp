@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "coupler/hub/schemes/scheme.hpp"
+#include "coupler/protocol/splitting.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
@@ -36,10 +38,9 @@ constexpr double time_slice = 0.1e-3;
 // Seconds per window and grain.
 constexpr double disc_contacts = 4e-6;
 constexpr double polygon_contacts = 12e-6;
-constexpr double external_code = 20e-6;   // nothing is known of it
-constexpr double spring_step = 0.4e-6;    // and per sub-step
-constexpr double own_disc_step = 0.1e-6;  // of standalone-md; its polygons take as long as others
-constexpr double checks = 1.5e-6;         // of the coupler
+constexpr double external_code = 20e-6;  // nothing is known of it
+constexpr double spring_step = 0.4e-6;   // and per sub-step
+constexpr double checks = 1.5e-6;        // of the coupler
 
 constexpr double handover = 0.15e-3;  // [s] from program to program of one host, asleep on arrival
 
@@ -56,11 +57,14 @@ double count(const ResolvedCase& resolved) {
     return static_cast<double>(resolved.population.size());
 }
 
-/// Rounds of contacts and fluid in one window, as means over the studies.
+const SchemeEntry& scheme_of(const ResolvedCase& resolved) {
+    return find_scheme(resolved.settings.text("run.scheme"));
+}
+
+/// Rounds of contacts and fluid in one window.
 double rounds(const ResolvedCase& resolved) {
-    const std::string& scheme = resolved.settings.text("run.scheme");
-    if (scheme == "sub-iterated") return 4.0;
-    return scheme == "joint" && resolved.population.size() > 1 ? 2.0 : 1.0;
+    const SchemeEntry& scheme = scheme_of(resolved);
+    return scheme.repeats || resolved.population.size() > 1 ? scheme.usual_rounds : 1.0;
 }
 
 /// Solid area over that of a cell.
@@ -76,10 +80,9 @@ double covered_cells(const ResolvedCase& resolved) {
 }
 
 FluidRates rates(const Settings& settings) {
-    const std::string& splitting = settings.text("fluid.splitting");
-    if (splitting == "explicit-multiplier") return explicit_splitting;
-    if (splitting == "implicit-multiplier") return implicit_splitting;
-    return paper_splitting;
+    const Splitting& splitting = splitting_of(settings);
+    if (!splitting.rigid_grains) return paper_splitting;
+    return splitting.iterated ? implicit_splitting : explicit_splitting;
 }
 
 /// More ranks than cores share no more work, and whenever they meet the last one has to wait until
@@ -101,32 +104,31 @@ double fluid_time(const ResolvedCase& resolved, double cores) {
 }
 
 double time_per_substep(const ResolvedCase& resolved) {
-    const bool own = resolved.settings.text("grains.adapter") == "standalone-md";
-    return own && all_round(resolved) ? own_disc_step : spring_step;
+    return all_round(resolved) ? grains_adapter(resolved.settings).disc_substep : spring_step;
 }
 
 double time_per_grain(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
-    if (settings.text("grains.adapter") == "external") return external_code;
+    if (grains_adapter(settings).host == GrainsHost::command) return external_code;
     if (settings.has("run.md_substeps"))
         return time_per_substep(resolved) *
                static_cast<double>(settings.integer("run.md_substeps"));
     return all_round(resolved) ? disc_contacts : polygon_contacts;
 }
 
-/// Under sub-iterated the sub-steps are repeated; contact solves of `joint` begin where the last
-/// one ended.
+/// A repeated window repeats its sub-steps; contact solves with the fluid's inertia begin where the
+/// last one ended.
 double grains_time(const ResolvedCase& resolved) {
-    const bool repeated = resolved.settings.text("run.scheme") == "sub-iterated";
+    const bool repeated = scheme_of(resolved).repeats;
     return time_per_grain(resolved) * count(resolved) * (repeated ? rounds(resolved) : 1.0) /
            static_cast<double>(resolved.settings.integer("grains.ranks"));
 }
 
 /// Messages of a window that wait for the one before: call_order.cpp.
 double messages_in_turn(const ResolvedCase& resolved) {
-    const std::string& scheme = resolved.settings.text("run.scheme");
-    if (scheme == "dry") return 4.0;
-    return scheme == "split" ? 6.0 : 6.0 + 4.0 * rounds(resolved);
+    const SchemeEntry& scheme = scheme_of(resolved);
+    if (scheme.fluid.empty()) return 4.0;
+    return scheme.has_rounds() ? 6.0 + 4.0 * rounds(resolved) : 6.0;
 }
 
 bool in_yade(const Settings& settings) {
@@ -166,7 +168,7 @@ WindowForecast forecast_window(const ResolvedCase& resolved, double cores) {
             .grains = grains_time(resolved),
             .coupler = checks * count(resolved),
             .messages = handover * messages_in_turn(resolved),
-            .side_by_side = resolved.settings.text("run.scheme") == "split"};
+            .side_by_side = scheme_of(resolved).side_by_side()};
 }
 
 double predicted_seconds(const ResolvedCase& resolved) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "launcher/case/case_rules.hpp"
@@ -90,7 +91,7 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
                          "(fluid.stretch_from = {}).",
                          *height, settings.text("fluid.stretch_from")),
              "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
-    if (settings.text("coupling.scheme") != "joint")
+    if (!find_scheme(settings.text("coupling.scheme")).needs_inertia())
         rules.push_back(
             {[](const PlacedGrain& g) { return g.density && *g.density <= 1.0 && !g.prescribed; },
              [](const PlacedGrain& g) { return fmt::format("density = {}", *g.density); },

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/case/grains/grains_adapters.hpp"
 
-#include <algorithm>
-
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
@@ -11,11 +10,11 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
                              const char* file) {
     return {.name = name,
             .help = help,
-            .family = "nscd",
+            .contacts = Contacts::rigid,
             .host = host,
             .file = file,
             .shapes = {"disc", "triangle", "polygon"},
-            .schemes = {"split", "joint"},
+            .takes_inertia = true,
             .adhesion_and_rolling = true,
             .cyclic_sides = true,
             .inner_walls = true,
@@ -27,8 +26,8 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
 
 GrainsAdapter external_program(const char* name, const char* help) {
     GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
-    adapter.family = "any";
-    adapter.schemes.push_back("sub-iterated");
+    adapter.contacts = Contacts::any;
+    adapter.repeats_windows = true;
     adapter.moved_grains = false;
     adapter.most_ranks = any_number;
     return adapter;
@@ -42,10 +41,14 @@ const GrainsAdapter& grains_adapter(const Settings& settings) {
                   "grains.adapter = " + name + " has no program in this version");
 }
 
-const char* best_scheme(const GrainsAdapter& adapter) {
-    const bool joint =
-        std::find(adapter.schemes.begin(), adapter.schemes.end(), "joint") != adapter.schemes.end();
-    return joint && adapter.host != GrainsHost::command ? "joint" : "split";
+bool supports(const GrainsAdapter& adapter, const SchemeEntry& scheme) {
+    return (adapter.takes_inertia || !scheme.needs_inertia()) &&
+           (adapter.repeats_windows || !scheme.repeats);
+}
+
+const SchemeEntry& best_scheme(const GrainsAdapter& adapter) {
+    const bool known = adapter.takes_inertia && adapter.host != GrainsHost::command;
+    return known ? scheme_with_inertia() : scheme_without_rounds();
 }
 
 std::string adapters_that(bool (*can)(const GrainsAdapter&)) {

@@ -9,9 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "coupler/keys/key_spec.hpp"
+#include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/settings.hpp"
 
 namespace turbidite {
+
+struct SchemeEntry;
 
 /// What runs the adapter's file.
 enum class GrainsHost {
@@ -23,15 +27,16 @@ enum class GrainsHost {
 constexpr int any_number = std::numeric_limits<int>::max();
 
 struct GrainsAdapter {
-    std::string name;    ///< grains.adapter
-    std::string help;    ///< one line
-    std::string family;  ///< of keys that apply to it: "nscd", "md", or "any"
+    std::string name;  ///< grains.adapter
+    std::string help;  ///< one line
+    Contacts contacts = Contacts::any;
     GrainsHost host = GrainsHost::none;
-    std::string file = {};                  ///< empty: planned for a later version
-    std::vector<std::string> shapes = {};   ///< grains.shape
-    std::vector<std::string> schemes = {};  ///< coupling.scheme
-    std::vector<std::string> laws = {};     ///< contact.law; empty: all
-    bool adhesion_and_rolling = false;      ///< contact.adhesion, contact.rolling_friction
+    std::string file = {};                 ///< empty: planned for a later version
+    std::vector<std::string> shapes = {};  ///< grains.shape
+    bool takes_inertia = false;            ///< of the fluid, into its contacts
+    bool repeats_windows = false;          ///< goes back to the start of a window
+    std::vector<std::string> laws = {};    ///< contact.law; empty: all
+    bool adhesion_and_rolling = false;     ///< contact.adhesion, contact.rolling_friction
     bool cyclic_sides = false;
     bool inner_walls = false;        ///< domain.walls_file
     bool moving_sides = false;       ///< domain.SIDE_motion
@@ -39,6 +44,7 @@ struct GrainsAdapter {
     bool prescribed_grains = false;  ///< fixed and driven ones
     bool moved_grains = false;       ///< that follow a motion of domain.motions
     int most_ranks = 1;
+    double disc_substep = 0.4e-6;  ///< of springs: time per disc and sub-step [s]
 
     /// False: planned for a later version.
     bool available() const { return !file.empty() || host == GrainsHost::command; }
@@ -58,9 +64,12 @@ const std::vector<GrainsAdapter>& grains_adapters();
 /// program in this version.
 const GrainsAdapter& grains_adapter(const Settings& settings);
 
-/// The scheme that coupling.scheme: auto stands for with this adapter: "joint" if it is known to
-/// take the fluid's inertia into its contacts; a program of the user's own has to be asked for it.
-const char* best_scheme(const GrainsAdapter& adapter);
+/// Whether the adapter can play its part in a scheme with a fluid.
+bool supports(const GrainsAdapter& adapter, const SchemeEntry& scheme);
+
+/// The scheme that coupling.scheme: auto stands for with this adapter: the one with the fluid's
+/// inertia if it is known to take it; a program of the user's own has to be asked for it.
+const SchemeEntry& best_scheme(const GrainsAdapter& adapter);
 
 /// The adapters of this project with a capability, as text: "yade-nscd or standalone-nscd".
 std::string adapters_that(bool (*can)(const GrainsAdapter&));

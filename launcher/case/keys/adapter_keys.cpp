@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/soft_contact.hpp"
@@ -33,17 +34,20 @@ Objection unknown_to(const Settings& s, const std::string& what, bool (*can)(con
 }
 
 Ruling scheme_is_known(const Settings& s) {
-    if (!s.flag("fluid.enabled") || has(grains_adapter(s).schemes, s.text("coupling.scheme")))
-        return std::nullopt;
-    if (s.text("coupling.scheme") == "sub-iterated")
+    if (!s.flag("fluid.enabled")) return std::nullopt;
+    const GrainsAdapter& adapter = grains_adapter(s);
+    const SchemeEntry& scheme = find_scheme(s.text("coupling.scheme"));
+    if (supports(adapter, scheme)) return std::nullopt;
+    const std::string remedy = std::string("Use ") + best_scheme(adapter).name;
+    if (scheme.repeats)
         return unknown_to(
             s, "has no sub-steps to repeat: it takes the fluid's inertia into its contacts",
-            [](const GrainsAdapter& a) { return has(a.schemes, "sub-iterated"); }, "Use joint");
+            [](const GrainsAdapter& a) { return a.repeats_windows; }, remedy);
     return unknown_to(
         s,
         "moves grains in sub-steps of its own and solves no contact problem that could include the "
         "fluid's inertia",
-        [](const GrainsAdapter& a) { return has(a.schemes, "joint"); }, "Use split");
+        [](const GrainsAdapter& a) { return a.takes_inertia; }, remedy);
 }
 
 Ruling no_cyclic_side(const Settings& s, const char* key) {
@@ -115,11 +119,11 @@ Ruling script_is_python(const Settings& s) {
     return Objection{"A Python file, whose name ends with .py.", "Rename it."};
 }
 
-bool is_external(const Settings& s) {
-    return is(s, "grains.adapter", "external");
+bool has_command(const Settings& s) {
+    return s.has("grains.adapter") && grains_adapter(s).host == GrainsHost::command;
 }
 std::string idle_command(const Settings& s) {
-    return is_external(s) ? "" : "with grains.adapter: " + s.text("grains.adapter");
+    return has_command(s) ? "" : "with grains.adapter: " + s.text("grains.adapter");
 }
 
 Ruling command_has_words(const Settings& s) {
@@ -145,8 +149,8 @@ Ruling ranks_are_supported(const Settings& s) {
 
 /// Grains may have changed their rank by the end of the window that is to be repeated.
 Ruling repeats_on_one_rank(const Settings& s) {
-    if (grains_adapter(s).host == GrainsHost::command || s.integer("grains.ranks") == 1 ||
-        !is(s, "coupling.scheme", "sub-iterated"))
+    if (has_command(s) || s.integer("grains.ranks") == 1 ||
+        !find_scheme(s.text("coupling.scheme")).repeats)
         return std::nullopt;
     return Objection{"With several ranks grains cannot repeat a window in this version.",
                      "Use grains.ranks: 1, or coupling.scheme: split."};
@@ -156,7 +160,7 @@ Ruling repeats_on_one_rank(const Settings& s) {
 constexpr double quiet_polygons = 20.0;
 
 void notes(const Settings& s, std::vector<std::string>& notes) {
-    if (grains_adapter(s).family != "md") return;
+    if (grains_adapter(s).contacts != Contacts::springs) return;
     if (!is(s, "grains.shape", "disc") && s.real("contact.md_substeps") < quiet_polygons)
         notes.push_back(
             fmt::format("contact.md_substeps = {}: polygons at rest keep moving a "
@@ -175,7 +179,7 @@ KeyGroup adapter_keys() {
     return {
         .keys = {{.name = "grains.adapter",
                   .type = KeyType::choice,
-                  .fallback = "yade-nscd",
+                  .fallback = grains_adapters().front().name,
                   .choices = adapter_choices(),
                   .help = "the program that moves the grains"},
                  {.name = "grains.ranks",
@@ -191,7 +195,7 @@ KeyGroup adapter_keys() {
                       "program of your own and its arguments; the run folder is appended. Files "
                       "are relative to the case file",
                   .when = "with grains.adapter: external",
-                  .required = is_external,
+                  .required = has_command,
                   .idle = idle_command}},
         .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},
                   {"domain.left", {"grains.adapter"}, left_is_not_cyclic},

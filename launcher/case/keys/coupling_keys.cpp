@@ -16,19 +16,17 @@ std::vector<Choice> scheme_choices() {
     return choices;
 }
 
-bool is_joint(const Settings& s) {
-    return s.flag("fluid.enabled") && is(s, "coupling.scheme", "joint");
-}
 std::string without_rounds(const Settings& s) {
     if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
-    return is_joint(s) || is(s, "coupling.scheme", "sub-iterated")
-               ? ""
-               : "with coupling.scheme: " + s.text("coupling.scheme");
+    const SchemeEntry& scheme = find_scheme(s.text("coupling.scheme"));
+    return scheme.has_rounds() ? "" : std::string("with coupling.scheme: ") + scheme.name;
 }
 std::string idle_positions(const Settings& s) {
     if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
-    return is_joint(s) ? "with coupling.scheme: joint, where grains move with the contact velocity"
-                       : "";
+    const SchemeEntry& scheme = find_scheme(s.text("coupling.scheme"));
+    if (!scheme.needs_inertia()) return "";
+    return std::string("with coupling.scheme: ") + scheme.name +
+           ", where grains move with the contact velocity";
 }
 
 }  // namespace
@@ -56,14 +54,14 @@ KeyGroup coupling_keys() {
              .choices = {{"corrected", "grains move with the fluid-corrected velocity"},
                          {"contact", "grains move with the velocity the contacts allow"}},
              .help = "velocity with which grains move (split; under joint always contact)",
-             .family = "nscd",
+             .contacts = Contacts::rigid,
              .idle = idle_positions},
             {.name = "coupling.md_hold",
              .type = KeyType::flag,
              .fallback = "true",
              .help = "molecular dynamics: the hydrodynamic impulse of the last window acts in the "
                      "sub-steps",
-             .family = "md",
+             .contacts = Contacts::springs,
              .idle = without_fluid},
             {.name = "coupling.tolerance",
              .type = KeyType::real,

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/splitting.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 #include "launcher/case/keys/transport_schemes.hpp"
@@ -167,31 +169,40 @@ Ruling reynolds_follows(const Settings& s) {
         "Remove it."};
 }
 
+constexpr const char* papers_splitting = splittings[0].name;
+
+std::vector<Choice> splitting_choices() {
+    std::vector<Choice> choices;
+    for (const Splitting& splitting : splittings)
+        choices.push_back({splitting.name, splitting.help});
+    return choices;
+}
+
 /// What splittings other than the paper's need, beside their own names.
 struct Needed {
     const char* key;
     const char* value;
     const char* why;
 };
-constexpr Needed needed_with_rigid_grains[] = {
-    {"coupling.scheme", "joint", "it carries contact impulses from window to window"},
-    {"fluid.pressure_solver", "FFT", "that solve is its preconditioner"},
-    {"fluid.viscous_solver", "FFT", "it works on the rows of a box"},
-    {"fluid.decomposition", "rows", "it works on complete rows of cells"},
-};
+std::vector<Needed> needed_with_rigid_grains() {
+    return {{"coupling.scheme", scheme_with_inertia().name,
+             "it carries contact impulses from window to window"},
+            {"fluid.pressure_solver", "FFT", "that solve is its preconditioner"},
+            {"fluid.viscous_solver", "FFT", "it works on the rows of a box"},
+            {"fluid.decomposition", "rows", "it works on complete rows of cells"}};
+}
 
 constexpr const char* schemes_on_rows[] = {"Gauss limitedLinearV ", "Gauss linear", "Gauss LUST ",
                                            "Gauss linearUpwind "};
 
 Ruling splitting_has_what_it_needs(const Settings& s) {
-    if (!s.flag("fluid.enabled") || is(s, "fluid.splitting", "marchuk-yanenko"))
-        return std::nullopt;
-    for (const Needed& needed : needed_with_rigid_grains)
+    if (!s.flag("fluid.enabled") || !splitting_of(s).rigid_grains) return std::nullopt;
+    for (const Needed& needed : needed_with_rigid_grains())
         if (!is(s, needed.key, needed.value))
             return Objection{
                 fmt::format("This splitting needs {} = {}: {}; it is {}.", needed.key, needed.value,
                             needed.why, s.text(needed.key)),
-                fmt::format("Set {}: {}, or use marchuk-yanenko.", needed.key, needed.value)};
+                fmt::format("Set {}: {}, or use {}.", needed.key, needed.value, papers_splitting)};
     const std::string& scheme = s.text("fluid.transport_scheme");
     if (std::any_of(std::begin(schemes_on_rows), std::end(schemes_on_rows),
                     [&](const char* name) { return scheme.rfind(name, 0) == 0; }))
@@ -200,10 +211,10 @@ Ruling splitting_has_what_it_needs(const Settings& s) {
         fmt::format("This splitting works on rows of a box, which know Gauss limitedLinearV, "
                     "linear, LUST and linearUpwind; fluid.transport_scheme = {}.",
                     scheme),
-        "Use Gauss limitedLinearV 1, or marchuk-yanenko."};
+        fmt::format("Use Gauss limitedLinearV 1, or {}.", papers_splitting)};
 }
 
-std::string unless(bool used, const Settings& s, const char* reason) {
+std::string unless(bool used, const Settings& s, const std::string& reason) {
     if (const std::string dry = without_fluid(s); !dry.empty()) return dry;
     return used ? "" : reason;
 }
@@ -216,13 +227,14 @@ std::string without_iterative_pressure(const Settings& s) {
 std::string without_iterative_viscosity(const Settings& s) {
     return unless(!is(s, "fluid.viscous_solver", "FFT"), s, "with fluid.viscous_solver: FFT");
 }
+std::string with_splitting(const Settings& s) {
+    return "with fluid.splitting: " + s.text("fluid.splitting");
+}
 std::string without_iterated_splitting(const Settings& s) {
-    return unless(is(s, "fluid.splitting", "implicit-multiplier"), s,
-                  "unless fluid.splitting is implicit-multiplier");
+    return unless(splitting_of(s).iterated, s, with_splitting(s));
 }
 std::string without_rigid_grains(const Settings& s) {
-    return unless(!is(s, "fluid.splitting", "marchuk-yanenko"), s,
-                  "with fluid.splitting: marchuk-yanenko");
+    return unless(splitting_of(s).rigid_grains, s, with_splitting(s));
 }
 bool rows_stretch(const Settings& s) {
     return is(s, "fluid.enabled", "true") && s.has("fluid.stretch_ratio") &&
@@ -325,11 +337,8 @@ std::vector<KeySpec> flow_keys() {
          .idle = without_fluid},
         {.name = "fluid.splitting",
          .type = KeyType::choice,
-         .fallback = "marchuk-yanenko",
-         .choices = {{"marchuk-yanenko", "as in Topin et al. 2011"},
-                     {"explicit-multiplier",
-                      "carries pressure and contacts, corrects them once with rigid grains"},
-                     {"implicit-multiplier", "the same, iterated to fluid.splitting_tolerance"}},
+         .fallback = papers_splitting,
+         .choices = splitting_choices(),
          .help = "order of the fluid's fractional steps",
          .idle = without_fluid},
         {.name = "fluid.splitting_tolerance",

@@ -6,6 +6,7 @@
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing.hpp"
 
+#include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
@@ -75,7 +76,7 @@ Ruling lattice_has_one_size(const Settings& s) {
 // positive.
 Ruling light_grains_need_joint(const Settings& s) {
     if (s.real("grains.density_ratio") > 1.0 || !s.flag("fluid.enabled") ||
-        is(s, "coupling.scheme", "joint"))
+        find_scheme(s.text("coupling.scheme")).needs_inertia())
         return std::nullopt;
     return Objection{"With coupling.scheme: " + s.text("coupling.scheme") +
                          " grains in a fluid must be denser than it: a ratio above 1.",

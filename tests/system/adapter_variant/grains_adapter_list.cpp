@@ -11,10 +11,8 @@ const std::vector<GrainsAdapter>& grains_adapters() {
 #include "launcher/case/grains/grains_adapter_table.def"
         {.name = "falling",
          .help = "grains that touch nothing",
-         .family = "",
          .file = "turbidite-falling-grains",
-         .shapes = {"disc"},
-         .schemes = {"split"}},
+         .shapes = {"disc"}},
     };
     return table;
 }
