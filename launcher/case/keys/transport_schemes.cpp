@@ -18,6 +18,41 @@ std::vector<std::string> words_of(const std::string& text) {
     return words;
 }
 
+/// The interpolation schemes of OpenFOAM 1912 that behave alike and take as many parameters.
+struct LikeSchemes {
+    SchemeKind kind;
+    int words;
+    const char* names;
+};
+constexpr LikeSchemes like_schemes[] = {
+    {SchemeKind::biased, 0,
+     "MUSCL MUSCLV QUICK QUICKV SuperBee SuperBeeV cubicUpwindFit filteredLinear "
+     "filteredLinear2 filteredLinear2V filteredLinear3 filteredLinear3V "
+     "linearPureUpwindFit quadraticLinearUpwindFit quadraticUpwindFit"},
+    {SchemeKind::biased, 1, "LUST linearUpwind linearUpwindV"},
+    {SchemeKind::by_field, 0,
+     "CoBlended Phi blended cellCoBlended deferredCorrection fixedBlended limitWith "
+     "limiterBlended localBlended localMax localMin outletStabilised skewCorrected "
+     "weighted weightedFlux"},
+    {SchemeKind::central, 0,
+     "biLinearFit clippedLinear cubic downwind linear linearFit midPoint "
+     "pointLinear quadraticFit quadraticLinearFit reverseLinear"},
+    {SchemeKind::limited, 0,
+     "Minmod MinmodV OSPRE OSPREV SFCD SFCDV UMIST UMISTV upwind vanAlbada "
+     "vanAlbadaV vanLeer vanLeerV"},
+    {SchemeKind::limited, 1,
+     "Gamma GammaV limitedCubic limitedCubicV limitedLinear limitedLinearV"},
+};
+
+std::vector<TransportScheme> all_schemes() {
+    std::vector<TransportScheme> list;
+    for (const auto& [kind, words, names] : like_schemes)
+        for (const std::string& name : words_of(names)) list.push_back({name, kind, words});
+    std::sort(list.begin(), list.end(),
+              [](const auto& a, const auto& b) { return a.name < b.name; });
+    return list;
+}
+
 std::string with_default(const TransportScheme& scheme) {
     if (scheme.words == 0) return fmt::format("Gauss {}", scheme.name);
     const bool needs_gradient = scheme.kind == SchemeKind::biased;
@@ -34,71 +69,7 @@ const TransportScheme& nearest_scheme(const std::string& name) {
 }  // namespace
 
 const std::vector<TransportScheme>& transport_scheme_list() {
-    static const std::vector<TransportScheme> list = {
-        {"CoBlended", SchemeKind::by_field},
-        {"Gamma", SchemeKind::limited, 1},
-        {"GammaV", SchemeKind::limited, 1},
-        {"LUST", SchemeKind::biased, 1},
-        {"MUSCL", SchemeKind::biased},
-        {"MUSCLV", SchemeKind::biased},
-        {"Minmod", SchemeKind::limited},
-        {"MinmodV", SchemeKind::limited},
-        {"OSPRE", SchemeKind::limited},
-        {"OSPREV", SchemeKind::limited},
-        {"Phi", SchemeKind::by_field},
-        {"QUICK", SchemeKind::biased},
-        {"QUICKV", SchemeKind::biased},
-        {"SFCD", SchemeKind::limited},
-        {"SFCDV", SchemeKind::limited},
-        {"SuperBee", SchemeKind::biased},
-        {"SuperBeeV", SchemeKind::biased},
-        {"UMIST", SchemeKind::limited},
-        {"UMISTV", SchemeKind::limited},
-        {"biLinearFit", SchemeKind::central},
-        {"blended", SchemeKind::by_field},
-        {"cellCoBlended", SchemeKind::by_field},
-        {"clippedLinear", SchemeKind::central},
-        {"cubic", SchemeKind::central},
-        {"cubicUpwindFit", SchemeKind::biased},
-        {"deferredCorrection", SchemeKind::by_field},
-        {"downwind", SchemeKind::central},
-        {"filteredLinear", SchemeKind::biased},
-        {"filteredLinear2", SchemeKind::biased},
-        {"filteredLinear2V", SchemeKind::biased},
-        {"filteredLinear3", SchemeKind::biased},
-        {"filteredLinear3V", SchemeKind::biased},
-        {"fixedBlended", SchemeKind::by_field},
-        {"limitWith", SchemeKind::by_field},
-        {"limitedCubic", SchemeKind::limited, 1},
-        {"limitedCubicV", SchemeKind::limited, 1},
-        {"limitedLinear", SchemeKind::limited, 1},
-        {"limitedLinearV", SchemeKind::limited, 1},
-        {"limiterBlended", SchemeKind::by_field},
-        {"linear", SchemeKind::central},
-        {"linearFit", SchemeKind::central},
-        {"linearPureUpwindFit", SchemeKind::biased},
-        {"linearUpwind", SchemeKind::biased, 1},
-        {"linearUpwindV", SchemeKind::biased, 1},
-        {"localBlended", SchemeKind::by_field},
-        {"localMax", SchemeKind::by_field},
-        {"localMin", SchemeKind::by_field},
-        {"midPoint", SchemeKind::central},
-        {"outletStabilised", SchemeKind::by_field},
-        {"pointLinear", SchemeKind::central},
-        {"quadraticFit", SchemeKind::central},
-        {"quadraticLinearFit", SchemeKind::central},
-        {"quadraticLinearUpwindFit", SchemeKind::biased},
-        {"quadraticUpwindFit", SchemeKind::biased},
-        {"reverseLinear", SchemeKind::central},
-        {"skewCorrected", SchemeKind::by_field},
-        {"upwind", SchemeKind::limited},
-        {"vanAlbada", SchemeKind::limited},
-        {"vanAlbadaV", SchemeKind::limited},
-        {"vanLeer", SchemeKind::limited},
-        {"vanLeerV", SchemeKind::limited},
-        {"weighted", SchemeKind::by_field},
-        {"weightedFlux", SchemeKind::by_field},
-    };
+    static const std::vector<TransportScheme> list = all_schemes();
     return list;
 }
 

@@ -23,7 +23,7 @@ enum class SchemeKind {
 };
 
 struct TransportScheme {
-    const char* name;
+    std::string name;
     SchemeKind kind;
     int words = 0;  ///< that must follow the name
 };
