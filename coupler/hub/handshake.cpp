@@ -18,7 +18,7 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
     expected.case_hash = settings.text("run.hash");
     expected.scheme = scheme.name;
     expected.restores_within_window = grains && scheme.repeats;
-    expected.effective_inertia = grains ? scheme.needs_inertia() : scheme.has_rounds();
+    expected.effective_inertia = grains ? scheme.needs_inertia() : scheme.has_responses();
     for (const ShapeRecord& shape : shapes) expected.shapes.push_back(shape.kind);
     return expected;
 }

@@ -32,8 +32,8 @@ std::vector<FreeResponse> play_contact_round(const Window& window, const Motion&
 /// The last constraint is final: the fluid ends its window.
 void send_accept(Cast& cast);
 
-/// After send_accept: sends corrected velocities to the grains, which move. Fills kicks, balance and
-/// state.
+/// After send_accept: sends corrected velocities to the grains, which move. Fills kicks, balance
+/// and state.
 void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result);
 
 }  // namespace turbidite

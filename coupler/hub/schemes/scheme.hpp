@@ -56,11 +56,13 @@ struct SchemeEntry {
 
     /// Contacts and fluid are solved in turns until they agree.
     bool has_rounds() const;
-    /// The grains solve their contacts with the fluid's effective inertia, so that they may be as
-    /// light as the fluid and lighter.
-    bool needs_inertia() const { return has_rounds() && !repeats; }
+    /// The fluid answers contact solves with its effective inertia.
+    bool has_responses() const;
+    /// The grains solve their contacts with that inertia, so that they may be as light as the fluid
+    /// and lighter.
+    bool needs_inertia() const { return has_responses() && !repeats; }
     /// Fluid and grains of a window compute at the same time.
-    bool side_by_side() const { return !fluid.empty() && !has_rounds(); }
+    bool side_by_side() const { return !fluid.empty() && !has_responses(); }
 
     /// rms slip at which step 5 is solved [u_c]: run.slip_tolerance.
     double slip_tolerance(const Settings& settings) const;

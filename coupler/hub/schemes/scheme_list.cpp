@@ -39,6 +39,11 @@ const SchemeEntry& scheme_without_rounds() {
     return first_scheme([](const SchemeEntry& entry) { return entry.side_by_side(); });
 }
 
+bool SchemeEntry::has_responses() const {
+    return std::any_of(fluid.begin(), fluid.end(),
+                       [](const Step& step) { return step.kind == Kind::response; });
+}
+
 bool SchemeEntry::has_rounds() const {
     return std::any_of(fluid.begin(), fluid.end(),
                        [](const Step& step) { return step.times == Times::per_round; });
