@@ -86,14 +86,15 @@ static int restore(void* self, const void* state, size_t size) {
     return 0;
 }
 
+static const turbidite_adapter falling = {.name = "falling-c",
+                                          .version = "1.0",
+                                          .host_code = "C",
+                                          .initialise = initialise,
+                                          .advance = advance,
+                                          .apply_kick = apply_kick,
+                                          .save = save,
+                                          .restore = restore};
+
 int main(int argc, char** argv) {
-    const turbidite_adapter falling = {.name = "falling-c",
-                                       .version = "1.0",
-                                       .host_code = "C",
-                                       .initialise = initialise,
-                                       .advance = advance,
-                                       .apply_kick = apply_kick,
-                                       .save = save,
-                                       .restore = restore};
     return turbidite_run_grains(&falling, &argc, &argv, argv[argc - 1]);
 }

@@ -4,19 +4,26 @@
 // interface depends on the other's layout.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/turbidite.h"
+#include "coupler/protocol/start_record.hpp"
 
 struct turbidite_settings {
     const turbidite::Settings& values;
+    const turbidite::ShapeTable& shapes;
 };
 
 struct turbidite_state {
     std::vector<turbidite_grain> grains;
     turbidite_report report{};
+    std::optional<std::vector<turbidite_contact>> contacts;
 };
 
 struct turbidite_bytes {
@@ -92,8 +99,29 @@ auto c_records(const std::vector<Record>& records) {
     return result;
 }
 
+ContactRecord contact(const turbidite_contact& from) {
+    ContactRecord to;
+    to.a = from.a;
+    to.b = from.b;
+    to.wall = from.wall;
+    to.feature = from.feature;
+    to.status = from.status;
+    to.gap = from.gap;
+    to.length = from.length;
+    copy(from.point, to.point);
+    copy(from.normal, to.normal);
+    copy(from.branch, to.branch);
+    copy(from.impulse, to.impulse);
+    copy(from.rolling_impulse, to.rolling_impulse);
+    return to;
+}
+
 turbidite_window c_window(const Window& window) {
     return {window.index, window.time, window.step, window.write_output};
+}
+
+std::optional<double> unless_nan(double value) {
+    return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 Motion motion(const turbidite_state& state) {
@@ -105,18 +133,60 @@ Motion motion(const turbidite_state& state) {
     result.report.contacts = report.contacts;
     result.report.iterations = report.iterations;
     result.report.removed = report.removed;
-    if (!std::isnan(report.residual)) result.report.residual = report.residual;
+    result.report.residual = unless_nan(report.residual);
     result.report.max_penetration = report.max_penetration;
     result.report.wall_seconds = report.wall_seconds;
     result.report.converged = report.converged != 0;
+    result.report.quad = unless_nan(report.quad);
+    result.report.max = unless_nan(report.max);
+    result.report.contact_violation = unless_nan(report.contact_violation);
+    if (state.contacts) {
+        result.contacts.emplace();
+        for (const turbidite_contact& each : *state.contacts)
+            result.contacts->push_back(contact(each));
+    }
+    return result;
+}
+
+/// The struct of the first header, which has no size in the call.
+constexpr std::size_t first_size = offsetof(turbidite_adapter, restores_within_window);
+static_assert(offsetof(turbidite_adapter, communicator) + sizeof(turbidite_adapter::communicator) ==
+                  sizeof(turbidite_adapter),
+              "padding would be read as a member that follows");
+
+/// Why a struct of this size cannot be used; empty if it can.
+std::string refusal(const turbidite_adapter* given, std::size_t size) {
+    const char* const bytes = reinterpret_cast<const char*>(given);
+    const bool more = size > sizeof *given && std::any_of(bytes + sizeof *given, bytes + size,
+                                                          [](char byte) { return byte != 0; });
+    if (size >= first_size && !more) return {};
+    return "the turbidite_adapter of the program has " + std::to_string(size) +
+           " bytes, this library knows " + std::to_string(sizeof *given) +
+           (more ? " of them, and the program uses more: it needs a newer library, or one "
+                   "turbidite.h for both"
+                 : ", and there have never been fewer than " + std::to_string(first_size));
+}
+
+/// Members that the program does not know are zero.
+turbidite_adapter known_members(const turbidite_adapter* given, std::size_t size) {
+    turbidite_adapter known{};
+    std::memcpy(&known, given, std::min(size, sizeof known));
+    return known;
+}
+
+std::vector<std::string> texts(const char* const* list) {
+    std::vector<std::string> result;
+    for (; list != nullptr && *list != nullptr; ++list) result.emplace_back(*list);
     return result;
 }
 
 class CAdapter final : public GrainsAdapter {
  public:
-    explicit CAdapter(const turbidite_adapter& functions) : c_(functions) {}
+    CAdapter(const turbidite_adapter* functions, std::size_t size)
+        : refusal_(refusal(functions, size)), c_(known_members(functions, size)) {}
 
     Hello describe() const override {
+        if (!refusal_.empty()) throw Failure(ExitCode::handshake_refused, refusal_);
         Hello hello;
         hello.adapter = text(c_.name);
         hello.adapter_version = text(c_.version);
@@ -125,16 +195,23 @@ class CAdapter final : public GrainsAdapter {
         hello.capabilities.effective_inertia = c_.effective_inertia != 0;
         hello.capabilities.saves_state = hello.capabilities.serialises_state =
             c_.save != nullptr && c_.restore != nullptr;
-        if (c_.shapes == nullptr) hello.capabilities.shapes = {"disc"};
-        for (auto shape = c_.shapes; shape != nullptr && *shape != nullptr; ++shape)
-            hello.capabilities.shapes.push_back(*shape);
+        hello.capabilities.restores_within_window = c_.restores_within_window != 0;
+        hello.capabilities.shapes = c_.shapes ? texts(c_.shapes) : std::vector<std::string>{"disc"};
+        hello.capabilities.contact_laws = texts(c_.contact_laws);
         return hello;
     }
 
-    Motion initialise(const Settings& settings, const ShapeTable&,
+    int run(int* argc, char*** argv, const char* run_folder) {
+        Launch launch{argc, argv, run_folder, c_.communicator};
+        if (c_.joined)
+            launch.joined = [this](int communicator) { c_.joined(c_.self, communicator); };
+        return run_grains(*this, launch);
+    }
+
+    Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override {
         const auto given = c_records(grains);
-        const turbidite_settings values{settings};
+        const turbidite_settings values{settings, shapes};
         return answer_of("initialise", c_.initialise, &values, given.data(), given.size());
     }
 
@@ -178,11 +255,13 @@ class CAdapter final : public GrainsAdapter {
     template <class Function, class... Arguments>
     Motion answer_of(const char* name, Function function, Arguments... arguments) const {
         turbidite_state answer;
-        answer.report = {0, 0, 0, std::nan(""), 0.0, 0.0, 1};
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        answer.report = {0, 0, 0, none, 0.0, 0.0, 1, none, none, none};
         call(name, function, arguments..., &answer);
         return motion(answer);
     }
 
+    std::string refusal_;
     turbidite_adapter c_;
 };
 
@@ -222,9 +301,24 @@ const char* turbidite_text(const turbidite_settings* settings, const char* key) 
     return turbidite::value([&] { return settings->values.text(key).c_str(); }, "");
 }
 
+const char* turbidite_key(const turbidite_settings* settings, size_t index) {
+    const auto& entries = settings->values.entries();
+    return index < entries.size() ? entries[index].first.c_str() : nullptr;
+}
+
+turbidite_shape turbidite_shape_at(const turbidite_settings* settings, size_t index) {
+    if (index >= settings->shapes.size()) return {nullptr, nullptr, 0};
+    const turbidite::ShapeRecord& shape = settings->shapes[index];
+    return {shape.kind.c_str(), shape.vertices.data(), shape.vertices.size()};
+}
+
 turbidite_grain* turbidite_grains(turbidite_state* state, size_t count) {
     state->grains.assign(count, {});
     return state->grains.data();
+}
+
+turbidite_contact* turbidite_contacts(turbidite_state* state, size_t count) {
+    return state->contacts.emplace(count).data();
 }
 
 void* turbidite_room(turbidite_bytes* state, size_t size) {
@@ -240,10 +334,24 @@ void turbidite_fail(const char* text, int unphysical) {
     turbidite::failing = {text && *text ? text : "failure without a text", unphysical != 0};
 }
 
+int turbidite_run_grains_sized(const turbidite_adapter* adapter, size_t adapter_size, int* argc,
+                               char*** argv, const char* run_folder) {
+    return turbidite::CAdapter(adapter, adapter_size).run(argc, argv, run_folder);
+}
+
+// For programs of the first header, which was without the macro of this name.
+#undef turbidite_run_grains
 int turbidite_run_grains(const turbidite_adapter* adapter, int* argc, char*** argv,
                          const char* run_folder) {
-    turbidite::CAdapter grains(*adapter);
-    return turbidite::run_grains(grains, {argc, argv, run_folder});
+    return turbidite_run_grains_sized(adapter, turbidite::first_size, argc, argv, run_folder);
+}
+
+void turbidite_before_mpi_init(void) {
+    turbidite::note_start(turbidite::StartStep::mpi_init);
+}
+
+void turbidite_before_mpi_finalize(void) {
+    turbidite::note_start(turbidite::StartStep::end);
 }
 
 }  // extern "C"

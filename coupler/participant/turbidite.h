@@ -52,12 +52,33 @@ typedef struct {
     int32_t write_output;
 } turbidite_window;
 
-/* A NaN residual stands for none. */
+/* NaN stands for none in residual, quad, max and contact_violation, and is there at first. */
 typedef struct {
     int64_t contacts, iterations, removed;
     double residual, max_penetration, wall_seconds;
     int32_t converged;
+    double quad, max, contact_violation;
 } turbidite_report;
+
+#define TURBIDITE_SLIDING 1
+#define TURBIDITE_ROLLING 2
+
+typedef struct {
+    int64_t a, b; /* b: the larger id, or the grain at a wall; a is then of no meaning */
+    int32_t wall; /* -1: a is a grain */
+    int32_t feature;
+    int32_t status; /* bits of TURBIDITE_SLIDING, TURBIDITE_ROLLING */
+    double gap, length;
+    double point[3], normal[3], branch[3];
+    double impulse[3], rolling_impulse[3];
+} turbidite_contact;
+
+/* kind is a null pointer past the end of the table of shapes. */
+typedef struct {
+    const char* kind;
+    const double* vertices; /* x, y[, z] of unit circumradius */
+    size_t count;           /* of numbers */
+} turbidite_shape;
 
 typedef struct turbidite_settings turbidite_settings; /* valid during the call that receives it */
 typedef struct turbidite_state turbidite_state;       /* what a call returns to the coupler */
@@ -71,9 +92,19 @@ int64_t turbidite_integer(const turbidite_settings* settings, const char* key);
 int turbidite_flag(const turbidite_settings* settings, const char* key);
 const char* turbidite_text(const turbidite_settings* settings, const char* key);
 
+/* All keys: 0, 1, 2, ...; a null pointer past the end. */
+const char* turbidite_key(const turbidite_settings* settings, size_t index);
+
+/* Of turbidite_grain.shape. */
+turbidite_shape turbidite_shape_at(const turbidite_settings* settings, size_t index);
+
 /* Room for the grains of the answer, to be filled in. Once per call of the adapter. */
 turbidite_grain* turbidite_grains(turbidite_state* state, size_t count);
 turbidite_report* turbidite_report_of(turbidite_state* state);
+
+/* The same for single contacts, with the state of windows with output. Without this call none are
+ * sent; a count of 0 says that nothing touches. */
+turbidite_contact* turbidite_contacts(turbidite_state* state, size_t count);
 
 /* Room for a saved state, to be filled in. Once per call of `save`. */
 void* turbidite_room(turbidite_bytes* state, size_t size);
@@ -98,14 +129,39 @@ typedef struct {
      * for by turbidite_room; `restore` goes on from it, after initialise. */
     int (*save)(void* self, turbidite_bytes* state);
     int (*restore)(void* self, const void* state, size_t size);
+
+    /* New members come here, each as long as a pointer; a program that was built before has them
+     * not, which stands for zero. */
+
+    /* Of `sub-iterated`: advance goes back to the start of the window when it is called again. */
+    int64_t restores_within_window;
+    const char* const* contact_laws; /* ends with a null pointer; null: none are named */
+
+    /* Once, before initialise: the Fortran handle of the communicator of the adapter's own ranks,
+     * for MPI_Comm_f2c. */
+    void (*joined)(void* self, int communicator);
+
+    /* An MPI_Comm that the program has split off MPI_COMM_WORLD with colour 1002 or one of its own;
+     * 0: the library makes the split. */
+    uintptr_t communicator;
 } turbidite_adapter;
 
 /* The text of the failure of the present call. `unphysical`: exit code 6 instead of 4. */
 void turbidite_fail(const char* text, int unphysical);
 
-/* The whole life of the program, MPI_Init and MPI_Finalize included. Returns its exit code. */
-int turbidite_run_grains(const turbidite_adapter* adapter, int* argc, char*** argv,
-                         const char* run_folder);
+/* The whole life of the program. MPI_Init and MPI_Finalize are included, unless MPI runs already.
+ * Returns its exit code. The size tells the library which members the program knows: all later
+ * libraries run it. A library that is older than the program refuses it in words, exit code 3, if
+ * it uses a member that the library does not know. */
+#define turbidite_run_grains(adapter, argc, argv, run_folder) \
+    turbidite_run_grains_sized(adapter, sizeof(turbidite_adapter), argc, argv, run_folder)
+int turbidite_run_grains_sized(const turbidite_adapter* adapter, size_t adapter_size, int* argc,
+                               char*** argv, const char* run_folder);
+
+/* For programs that call them: just before MPI_Init and MPI_Finalize. A program that hangs there is
+ * then named, instead of those that wait for it. */
+void turbidite_before_mpi_init(void);
+void turbidite_before_mpi_finalize(void);
 
 #ifdef __cplusplus
 }
