@@ -34,6 +34,8 @@ std::vector<fs::path> files_of_build(const Programs& programs) {
             programs.folder / "turbidite-grains",
             programs.folder / "turbidite-grains-md",
             programs.folder / "turbidite-lammps",
+            programs.library / "libturbidite.so",
+            programs.python_module() / "turbidite_adapter.py",
             programs.yade_extension(),
             yade / "turbidite_contact_engine.so",
             yade / "turbidite_yade_nscd.py",

@@ -35,7 +35,7 @@ struct Programs {
     std::filesystem::path yade_folder() const { return library / "yade"; }
     std::filesystem::path yade_extension() const { return yade_folder() / "turbidite_yade.so"; }
     /// The module turbidite_adapter, for grains programs in Python.
-    std::filesystem::path python_module() const { return source / "coupler/participant/python"; }
+    std::filesystem::path python_module() const { return library / "python"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
     std::filesystem::path study() const { return source / "launcher/report/study.py"; }

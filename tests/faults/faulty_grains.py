@@ -2,46 +2,19 @@
 """faulty_grains.py FAULTS NAME RUN: discs that fall, spin and touch nothing, and one fault of the table FAULTS
 (faults.txt, which says what its columns mean; NAME `none`: no fault).
 
-The adapter is honest; its messages are changed on their way to the coupler, as bytes of docs/protocol.md."""
+The adapter is honest (tests/python/falling.py); its messages are changed on their way to the coupler, as bytes of
+docs/protocol.md."""
 import struct
 import sys
 
 import numpy
-import turbidite_adapter as turbidite
+import wire_adapter as wire
+from falling import Falling, turned
 
-CONTACT = turbidite._record('a#', 'b#', 'wall#', 'feature#', 'status#', 'gap', 'length', ('point', 3), ('normal', 3),
-                            ('branch', 3), ('impulse', 3), ('rolling_impulse', 3))
-REPORT = turbidite._record('contacts#', 'iterations#', 'has_residual#', 'converged#', 'max_penetration', 'removed#',
-                           'wall_seconds', 'has_quad#', 'has_max#', 'has_violation#', 'has_contacts#')   # without the optional values
+REPORT = wire.record('contacts# iterations# has_residual# converged# max_penetration removed# wall_seconds has_quad# '
+                     'has_max# has_violation# has_contacts#')   # without the optional values
 FRAME = ('magic', 'kind', 'window', 'iteration', 'sequence', 'length')
-KINDS = {'hello': (turbidite.HELLO, -1), 'start': (turbidite.STATE, -1), 'motion': (turbidite.MOTION, 3),
-         'state': (turbidite.STATE, 3)}
-
-
-class Falling:
-    name, version, host_code = 'faulty', '1', 'Python'
-
-    def initialise(self, settings, shapes, grains):
-        self.grains, self.g = grains, settings.real('run.gravity')
-        return turbidite.Motion(grains)
-
-    def advance(self, window, responses):
-        self.grains['velocity'][:, 1] -= self.g * window.step
-        return turbidite.Motion(self.grains)
-
-    def apply_kick(self, window, kicks):
-        order = numpy.argsort(kicks['id'])[numpy.searchsorted(numpy.sort(kicks['id']), self.grains['id'])]
-        for field in ('velocity', 'angular_velocity'):
-            self.grains[field] = kicks[field][order]
-        self.grains['position'] += window.step * self.grains['velocity']
-        for grain in self.grains:
-            grain['orientation'] = turned(grain['orientation'], window.step * grain['angular_velocity'][2])
-        return turbidite.Motion(self.grains)
-
-
-def turned(q, angle):
-    c, s = numpy.cos(angle / 2), numpy.sin(angle / 2)
-    return numpy.array((c * q[0] - s * q[3], 0, 0, c * q[3] + s * q[0]))
+KINDS = {'hello': (wire.HELLO, -1), 'start': (wire.STATE, -1), 'motion': (wire.MOTION, 3), 'state': (wire.STATE, 3)}
 
 
 def changed(number, verb, value):
@@ -79,15 +52,15 @@ class Fault:
                 name = self.field[6:]
                 head[name] = int(changed(head[name], self.verb, self.value))
             else:
-                payload = self.spoilt_hello(payload) if kind[0] == turbidite.HELLO else self.spoilt_motion(payload)
+                payload = self.spoilt_hello(payload) if kind[0] == wire.HELLO else self.spoilt_motion(payload)
             head['length'] = len(payload)
-        if kind[0] == turbidite.STATE:
-            self.before = turbidite.Reader(honest).records(turbidite.GRAIN)
+        if kind[0] == wire.STATE:
+            self.before = wire.Reader(honest).records(wire.GRAIN)
         return struct.pack('<6q', *(head[name] for name in FRAME)) + payload
 
     def spoilt_hello(self, payload):
         """Role, protocol; three texts; dimension, rank, ranks; host; pid; log; hash."""
-        reader, out = turbidite.Reader(payload), []
+        reader, out = wire.Reader(payload), []
         fields = ('role', 'protocol_major', 'protocol_minor', 'adapter', 'version', 'code', 'dimension', 'rank',
                   'ranks', 'host', 'pid', 'log', 'case_hash')
         for name in fields:
@@ -95,13 +68,13 @@ class Fault:
             value = reader.text() if is_text else reader.integer()
             if self.field == 'hello.' + name:
                 value = int(changed(0 if is_text else value, self.verb, self.value))
-            out.append(turbidite._text(value) if is_text else turbidite._integers(value))
+            out.append(wire.text(value) if is_text else wire.integers(value))
         return b''.join(out) + bytes(payload[reader.at:])
 
     def spoilt_motion(self, payload):
-        grains = turbidite.Reader(payload).records(turbidite.GRAIN)
+        grains = wire.Reader(payload).records(wire.GRAIN)
         report = numpy.frombuffer(payload[8 + grains.nbytes:], REPORT).copy()
-        contacts = numpy.zeros(0, CONTACT)
+        contacts = numpy.zeros(0, wire.CONTACT)
         first = grains[0]
         if self.field.startswith('report.'):
             change_record(report[0], self.field[7:], self.verb, self.value)
@@ -126,11 +99,11 @@ class Fault:
         else:
             change_record(first, self.field, self.verb, self.value)
         report['has_contacts'] = len(contacts) > 0
-        more = turbidite._integers(len(contacts)) + contacts.tobytes() if len(contacts) else b''
-        return turbidite._integers(len(grains)) + grains.tobytes() + report.tobytes() + more
+        more = wire.integers(len(contacts)) + contacts.tobytes() if len(contacts) else b''
+        return wire.integers(len(grains)) + grains.tobytes() + report.tobytes() + more
 
     def false_contact(self, grains):
-        contacts = numpy.zeros(2 if self.verb == 'contact' else 1, CONTACT)
+        contacts = numpy.zeros(2 if self.verb == 'contact' else 1, wire.CONTACT)
         contacts['a'], contacts['b'] = grains['id'][0], grains['id'][1]
         contacts['wall'], contacts['normal'] = -1, (1, 0, 0)
         if self.field.startswith('contact.'):
@@ -138,22 +111,11 @@ class Fault:
         return contacts
 
 
-def play(table, wanted):
-    if wanted == 'none':
-        return
-    fault, isend = Fault(table, wanted), turbidite.MPI.Intercomm.Isend
+class Faulty(wire.Coupler):
+    fault = Fault(sys.argv[1], sys.argv[2]) if sys.argv[2] != 'none' else None
 
-    class Spoiling(turbidite.MPI.Intercomm):
-        def Isend(self, message, dest, tag):
-            return isend(self, [fault.spoil(bytes(message[0])), turbidite.MPI.BYTE], dest, tag)
-
-    make = turbidite._Coupler.__init__
-
-    def with_fault(self, local, run_folder):
-        make(self, local, run_folder)
-        self.comm = Spoiling(self.comm)
-    turbidite._Coupler.__init__ = with_fault
+    def send_frame(self, frame):
+        super().send_frame(self.fault.spoil(frame) if self.fault else frame)
 
 
-play(sys.argv[1], sys.argv[2])
-turbidite.run_grains(Falling(), sys.argv[-1])
+wire.run_grains(Falling(wire), sys.argv[-1], coupler=Faulty)

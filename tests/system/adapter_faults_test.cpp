@@ -26,6 +26,7 @@ std::vector<FaultLine> chosen_faults() {
 class AdapterFaults : public ShellTest, public ::testing::WithParamInterface<FaultLine> {
  protected:
     void SetUp() override {
+        with_python_of_tests();
         scratch.write("grains.csv",
                       "id,x,y,vx,vy,spin\n"
                       "3,2,5,0.3,-0.2,0.7\n4,4,5,0,0,0.5\n9,6,5,-0.3,0.1,-0.7\n");

@@ -129,6 +129,10 @@ TEST_F(AdapterKit, ThePackageIsWholeAndWorksWithPkgConfig) {
         EXPECT_EQ(answer.code, 0) << program << answer.out << answer.err;
         EXPECT_SAYS(answer.out, "grains rank 0  " + program);
     }
+    const Answer python = shell(
+        "PYTHONPATH=prefix/share/turbidite/python /usr/bin/python3 -c "
+        "'import turbidite_adapter; print(turbidite_adapter._library._name)'");
+    EXPECT_SAYS(python.out + python.err, "/prefix/lib/libturbidite.so\n");
 }
 
 // The library of the guide, preloaded into a program that believes it owns the world.
@@ -166,39 +170,31 @@ TEST_F(AdapterKit, CheckSaysWhetherTheProgramIsThere) {
 /// A Python adapter whose grains fall freely, with a fault in window 3.
 const char* const faulty = R"(import os, sys
 if sys.argv[1] == 'import': import no_such_module
-import numpy
 import turbidite_adapter as turbidite
+from falling import Falling
 
-class Mine:
-    name, version, host_code = 'mine', '1', 'Python'
-    def initialise(self, settings, shapes, grains):
-        self.grains, self.g = grains, settings.real('run.gravity')
-        return turbidite.Motion(grains)
+class Mine(Falling):
+    name = 'mine'
     def advance(self, window, responses):
-        self.grains['velocity'][:, 1] -= self.g * window.step
-        fault, sent = sys.argv[1] if window.index == 3 else '', self.grains.copy()
+        motion = super().advance(window, responses)
+        fault, sent = sys.argv[1] if window.index == 3 else '', motion.grains
         if fault == 'raise': raise ValueError('no such thing')
         if fault == 'refuse': raise turbidite.PhysicsRefused('the disc is on fire')
         if fault == 'exit': sys.exit(0)
         if fault == '_exit': os._exit(3)
-        if fault == 'fewer': sent = sent[2:]
+        if fault == 'fewer': motion.grains = sent[2:]
         if fault == 'nan': sent['contact_impulse'][4] = float('nan')
         if fault == 'impulse': sent['contact_impulse'][4, 0] = 1
-        return turbidite.Motion(sent)
+        return motion
     def apply_kick(self, window, kicks):
-        self.grains['velocity'] = kicks['velocity']
-        self.grains['angular_velocity'] = kicks['angular_velocity']
-        self.grains['position'] += window.step * self.grains['velocity']
-        half = 0.5 * window.step * self.grains['angular_velocity'][:, 2]
-        w, z = self.grains['orientation'][:, 0].copy(), self.grains['orientation'][:, 3].copy()
-        self.grains['orientation'][:, 0] = numpy.cos(half) * w - numpy.sin(half) * z
-        self.grains['orientation'][:, 3] = numpy.cos(half) * z + numpy.sin(half) * w
-        fault, sent = sys.argv[1] if window.index == 3 else '', self.grains.copy()
+        motion = super().apply_kick(window, kicks)
+        fault, sent = sys.argv[1] if window.index == 3 else '', motion.grains
         if fault == 'state_impulse': sent['contact_impulse'][4, 0] = 1
         if fault == 'state_velocity': sent['velocity'][4, 0] = 1
-        return turbidite.Motion(sent)
+        return motion
 
-turbidite.run_grains(Mine(), sys.argv[-1])
+if sys.argv[1] == 'nameless': del Mine.name, Falling.name
+turbidite.run_grains(Mine(turbidite), sys.argv[-1])
 )";
 
 struct Fault {
@@ -209,6 +205,7 @@ struct Fault {
 class AdapterFault : public AdapterKit, public ::testing::WithParamInterface<Fault> {};
 
 TEST_P(AdapterFault, IsToldAsItsOwn) {
+    with_python_of_tests();
     scratch.write("mine.py", faulty);
     const Answer answer = run_external(std::string("/usr/bin/python3 mine.py ") + GetParam().name);
     EXPECT_EQ(answer.code, GetParam().code) << answer.out << answer.err;
@@ -222,6 +219,7 @@ INSTANTIATE_TEST_SUITE_P(
     Faults, AdapterFault,
     ::testing::Values(
         Fault{"import", 4, {"ended with status 1", "the run had not begun", "No module named"}},
+        Fault{"nameless", 4, {"grains rank 0 (", "AttributeError: ", "'name'"}},
         Fault{"raise", 4, {mine, "ValueError: no such thing", "Last lines of logs/grains.log"}},
         Fault{"refuse", 6, {mine, "the disc is on fire"}},
         Fault{"exit", 4, {mine, "SystemExit: 0"}},

@@ -184,6 +184,15 @@ TEST_F(AdapterTest, AnHonestProgramConforms) {
     EXPECT_SAYS(refused.out, "no friction: contact.friction");
 }
 
+TEST_F(AdapterTest, APythonProgramMayRepeatWindows) {
+    with_python_of_tests();
+    const Answer answer =
+        judge("--only 'repeats a window' -- /usr/bin/python3 " TURBIDITE_SOURCE_DIR
+              "/tests/python/falling.py");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "ok    repeats a window");
+}
+
 // sys.exit in a program in Python is told by the library, not by the program.
 TEST_F(AdapterTest, AnExitIsNoRefusal) {
     scratch.write("mine.py",

@@ -11,51 +11,43 @@ namespace fs = std::filesystem;
 
 /// Grains that fall freely. `lies` after so many states: their checksums are told wrongly from then
 /// on. `bytes`: gives up in window 3 with bytes that are no UTF-8. `colours`: with letters for a
-/// terminal. `taken`: somebody else has its doorbell.
-const char* const free_fall = R"(import os, socket, sys, zlib
+/// terminal. `taken`: somebody else has its doorbell. `ranks`: they count their grains together.
+const char* const free_fall = R"(import os, socket, sys
 if sys.argv[1] == 'taken':
     thief = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     thief.bind('\0turbidite/' + os.environ['PMIX_NAMESPACE'] + '/' + os.environ['OMPI_COMM_WORLD_RANK'])
     if len(sys.argv) > 3:
         thief.set_inheritable(True)
         os.execv(sys.argv[2], sys.argv[2:])
-import numpy, turbidite_adapter as turbidite
+on_the_wire = sys.argv[1] in ('lies', 'bytes')
+turbidite = __import__('wire_adapter' if on_the_wire else 'turbidite_adapter')
+from falling import Falling
 
-class Zlib:
-    saved = 0
-    def crc32(self, state):
-        return zlib.crc32(state) ^ (1 if sys.argv[1] == 'lies' and self.saved > int(sys.argv[2]) else 0)
-
-turbidite.zlib = Zlib()
-
-class Mine:
-    name, version, host_code = 'mine', '1', 'Python'
-    def initialise(self, settings, shapes, grains):
-        self.grains, self.g = grains, settings.real('run.gravity')
-        return turbidite.Motion(grains)
+class Mine(Falling):
+    name = 'mine'
     def advance(self, window, responses):
-        if window.index == 3 and sys.argv[1] == 'bytes':
-            turbidite._text = lambda text: turbidite._integers(len(b'ev\xe9nement')) + b'ev\xe9nement'
-            raise ValueError('not this text')
-        if window.index == 3 and sys.argv[1] == 'colours':
+        if window.index == 3 and sys.argv[1] in ('bytes', 'colours'):
             raise ValueError('\033[31mred\007')
-        self.grains['velocity'][:, 1] -= self.g * window.step
-        return turbidite.Motion(self.grains)
-    def apply_kick(self, window, kicks):
-        self.grains['position'] += window.step * self.grains['velocity']
-        return turbidite.Motion(self.grains)
-    def save(self):
-        turbidite.zlib.saved += 1
-        return self.grains.tobytes()
-    def restore(self, state):
-        self.grains = numpy.frombuffer(state, turbidite.GRAIN).copy()
+        if window.index == 3 and sys.argv[1] == 'ranks':
+            print(self.comm.allreduce(len(self.grains)), 'grains on', self.comm.size, 'ranks', flush=True)
+        return super().advance(window, responses)
 
-turbidite.run_grains(Mine(), sys.argv[-1])
+if on_the_wire:
+    class Lying(turbidite.Run):
+        states = 0
+        def checksum(self, state):
+            self.states += 1
+            return super().checksum(state) ^ (sys.argv[1] == 'lies' and self.states > int(sys.argv[2]))
+        def reason(self, error):
+            return b'ev\xe9nement' if sys.argv[1] == 'bytes' else super().reason(error)
+    turbidite.run_grains(Mine(turbidite), sys.argv[-1], run=Lying)
+turbidite.run_grains(Mine(turbidite), sys.argv[-1])
 )";
 
 class OutsideProgram : public ShellTest {
  protected:
     void SetUp() override {
+        with_python_of_tests();
         scratch.write("mine.py", free_fall);
         scratch.write(
             "fall.yaml",
@@ -153,6 +145,16 @@ TEST_F(OutsideProgram, ControlCharactersDoNotReachTheTerminal) {
     EXPECT_SAYS(answer.err, "Last lines of logs/grains.log");
     for (const char letter : {'\033', '\007'})
         EXPECT_EQ((answer.out + answer.err).find(letter), std::string::npos) << answer.err;
+}
+
+TEST_F(OutsideProgram, RanksOfAPythonAdapterTalkToEachOther) {
+    ASSERT_EQ(run("ranks").code, 0);
+    const auto of_one = lines_of_history("run");
+    const Answer answer = run("ranks", "--set grains.ranks=2");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    for (const char* log : {"logs/grains.rank0.log", "logs/grains.rank1.log"})
+        EXPECT_SAYS(text(run_folder() / log), "6 grains on 2 ranks");
+    EXPECT_EQ(lines_of_history("run"), of_one);
 }
 
 // Another user of the host may take the name of a doorbell first. It costs time, and is told.

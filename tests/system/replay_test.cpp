@@ -37,25 +37,18 @@ TEST_F(Replay, EachSideRepeatsItselfToTheBit) {
 
 // A program that has changed since: grains that fall a little faster from window 6 on.
 TEST_F(Replay, WhatDiffersIsToldAndGivesExitCodeOne) {
+    with_python_of_tests();
     const auto write_program = [&](const std::string& extra) {
-        scratch.write(
-            "mine.py",
-            "import sys, turbidite_adapter as turbidite\n"
-            "class Mine:\n"
-            "    name, version, host_code = 'mine', '1', 'Python'\n"
-            "    def initialise(self, settings, shapes, grains):\n"
-            "        self.grains, self.g = grains, settings.real('run.gravity')\n"
-            "        return turbidite.Motion(grains)\n"
-            "    def advance(self, window, responses):\n"
-            "        g = self.g" +
-                extra +
-                "\n"
-                "        self.grains['velocity'][:, 1] -= g * window.step\n"
-                "        return turbidite.Motion(self.grains)\n"
-                "    def apply_kick(self, window, kicks):\n"
-                "        self.grains['position'] += window.step * self.grains['velocity']\n"
-                "        return turbidite.Motion(self.grains)\n"
-                "turbidite.run_grains(Mine(), sys.argv[-1])\n");
+        scratch.write("mine.py",
+                      "import sys, turbidite_adapter\n"
+                      "from falling import Falling\n"
+                      "class Mine(Falling):\n"
+                      "    def advance(self, window, responses):\n"
+                      "        self.fall = self.g" +
+                          extra +
+                          "\n"
+                          "        return super().advance(window, responses)\n"
+                          "turbidite_adapter.run_grains(Mine(turbidite_adapter), sys.argv[-1])\n");
     };
     write_program("");
     scratch.write("fall.yaml",

@@ -36,6 +36,10 @@ class ShellTest : public ::testing::Test {
  protected:
     /// Runs write no report, which takes longer than most of them, unless a test asks for it.
     ShellTest() { ::setenv("TURBIDITE_REPORT", "off", 1); }
+    /// For adapters in Python: the modules of tests/python.
+    static void with_python_of_tests() {
+        ::setenv("PYTHONPATH", TURBIDITE_SOURCE_DIR "/tests/python", 1);
+    }
     static void with_reports() { ::unsetenv("TURBIDITE_REPORT"); }
 
     ScratchFolder scratch;

@@ -31,7 +31,7 @@ const std::string front =
 // Each part of an MPMD line has its own -x: mpirun does not apply them beyond the colon.
 const std::string exported =
     "-x WM_PROJECT_DIR=/usr/share/openfoam -x OMP_NUM_THREADS=1 -x "
-    "PYTHONPATH=/b/lib/yade:/s/coupler/participant/python ";
+    "PYTHONPATH=/b/lib/yade:/b/lib/python ";
 
 TEST(LaunchLine, WetWithYade) {
     EXPECT_EQ(shell_line(launch_arguments(settings("yade-nscd", true), {"/r"}, site(true))),
@@ -56,7 +56,7 @@ TEST(LaunchLine, TheUsersPythonPathIsKept) {
     with_path.python = "/u/py";
     const std::string line =
         shell_line(launch_arguments(settings("yade-nscd", true), {"/r"}, with_path));
-    EXPECT_NE(line.find(":/s/coupler/participant/python:/u/py "), std::string::npos) << line;
+    EXPECT_NE(line.find(":/b/lib/python:/u/py "), std::string::npos) << line;
 }
 
 TEST(LaunchLine, DryWithoutYade) {
