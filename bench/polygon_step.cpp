@@ -17,10 +17,10 @@
 
 #include "bench/step_clock.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
 #include "granular_adapter/nscd/detection/narrow_phase.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::bench {
 namespace {

@@ -11,7 +11,7 @@ namespace turbidite::siconos {
 using nscd::Plane;
 
 double error_measure(const nscd::ContactProblem& problem, const nscd::Impulses& impulses) {
-    const std::vector<nscd::Twist> v = nscd::body_velocities(problem, impulses);
+    const std::vector<Twist> v = nscd::body_velocities(problem, impulses);
     double error = 0.0, size_q = 0.0, size_r = 0.0, size_u = 0.0;
     const auto squared = [](const Plane& x) { return x[0] * x[0] + x[1] * x[1]; };
     for (std::size_t k = 0; k < impulses.size(); ++k) {

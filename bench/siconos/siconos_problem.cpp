@@ -79,7 +79,7 @@ nscd::ContactProblem dimensionless(const nscd::ContactProblem& problem, const Sc
     const auto shrink = [&](Vec3& v) {
         for (double& x : v) x /= scale.speed;
     };
-    for (nscd::Twist& twist : result.free) shrink(twist.velocity), shrink(twist.spin);
+    for (Twist& twist : result.free) shrink(twist.velocity), shrink(twist.spin);
     for (nscd::Contact& contact : result.contacts)
         contact.bias = (1.0 / scale.speed) * contact.bias;
     return result;

@@ -6,34 +6,21 @@
 #include <string>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/rigid/rotation.hpp"
 
 namespace turbidite {
 namespace {
 
-Eigen::Vector3d vector(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
-Vec3 array(const Eigen::Vector3d& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
-// R I R^T w with R the rotation matrix of q; inertia tensors are given in the body frame. A
-// rotation in the plane leaves what turns about z alone.
-Eigen::Vector3d angular_momentum(const Eigen::Matrix3d& inertia, const Quaternion& q,
-                                 const Eigen::Vector3d& spin) {
-    const double w = q[0], x = q[1], y = q[2], z = q[3];
-    const bool plane = x == 0.0 && y == 0.0 && spin.x() == 0.0 && spin.y() == 0.0 &&
+// R I R^T w with R the rotation of q; inertia tensors are given in the body frame. A rotation in
+// the plane leaves what turns about z alone.
+Vec3 angular_momentum(const Eigen::Matrix3d& inertia, const Quaternion& q, const Vec3& spin) {
+    const bool plane = q[1] == 0.0 && q[2] == 0.0 && spin[0] == 0.0 && spin[1] == 0.0 &&
                        inertia(0, 2) == 0.0 && inertia(1, 2) == 0.0;
-    if (plane) return {0.0, 0.0, inertia(2, 2) * spin.z()};
-    Eigen::Matrix3d rotation;
-    rotation << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 2 * (x * z - w * y),
-        2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
-    return rotation * (inertia * (rotation.transpose() * spin));
-}
-
-Eigen::Vector3d change(const Vec3& from, const Vec3& to) {
-    return vector(to) - vector(from);
+    if (plane) return {0.0, 0.0, inertia(2, 2) * spin[2]};
+    const Rotation turn = rotation(q);
+    const Vec3 own = turn.back(spin);
+    const Eigen::Vector3d momentum = inertia * Eigen::Vector3d(own[0], own[1], own[2]);
+    return turn({momentum[0], momentum[1], momentum[2]});
 }
 
 bool same_velocities(const Kick& kick, const GrainState& grain) {
@@ -50,14 +37,14 @@ struct Balance {
     double rest = 0.0;
     GrainId worst = 0;
 
-    void add(GrainId grain, std::initializer_list<Eigen::Vector3d> terms) {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const auto& term : terms) {
-            sum += term;
-            largest = std::max(largest, term.norm());
+    void add(GrainId grain, std::initializer_list<Vec3> terms) {
+        Vec3 sum{};
+        for (const Vec3& term : terms) {
+            sum = sum + term;
+            largest = std::max(largest, norm(term));
         }
-        if (sum.norm() <= rest) return;
-        rest = sum.norm();
+        if (norm(sum) <= rest) return;
+        rest = norm(sum);
         worst = grain;
     }
 };
@@ -97,15 +84,14 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
                                  ", which is unknown");
         const GrainState& grain = before.grains[at];
         const ImmersedBody& immersed = body_of(grain);
-        const Eigen::Vector3d velocity_change = change(grain.velocity, kick.velocity);
-        const Eigen::Vector3d spin_change = change(grain.angular_velocity, kick.angular_velocity);
+        const Vec3 velocity_change = kick.velocity - grain.velocity;
+        const Vec3 spin_change = kick.angular_velocity - grain.angular_velocity;
         // F_h = (J_lambda + rho_f V dU) / dt, T_h = (K_lambda + I_f domega) / dt
-        kick.force = array(
-            (vector(kick.multiplier_impulse) + immersed.displaced_mass * velocity_change) / step);
+        kick.force = (kick.multiplier_impulse + immersed.displaced_mass * velocity_change) / step;
         kick.torque =
-            array((vector(kick.multiplier_angular_impulse) +
-                   angular_momentum(immersed.displaced_inertia, grain.orientation, spin_change)) /
-                  step);
+            (kick.multiplier_angular_impulse +
+             angular_momentum(immersed.displaced_inertia, grain.orientation, spin_change)) /
+            step;
     }
 }
 
@@ -122,15 +108,15 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         if (has_given_motion(grain.id)) continue;
         const GrainState& with_contact = contact.grains.at(at_contact);
         const ImmersedBody& immersed = body_of(grain);
-        const Eigen::Vector3d spin_change = change(grain.angular_velocity, kick.angular_velocity);
+        const Vec3 spin_change = kick.angular_velocity - grain.angular_velocity;
         // M dU - (M - m_f) g dt - J_c - F_h dt; the same for the spin, divided by R
-        linear.add(kick.id, {immersed.mass * change(grain.velocity, kick.velocity),
-                             Eigen::Vector3d(0.0, immersed.submerged_mass * gravity_ * step, 0.0),
-                             -vector(with_contact.contact_impulse), -step * vector(kick.force)});
+        linear.add(kick.id, {immersed.mass * (kick.velocity - grain.velocity),
+                             Vec3{0.0, immersed.submerged_mass * gravity_ * step, 0.0},
+                             -with_contact.contact_impulse, -step * kick.force});
         angular.add(kick.id, {angular_momentum(immersed.inertia, grain.orientation, spin_change) /
                                   grain.radius,
-                              -vector(with_contact.contact_angular_impulse) / grain.radius,
-                              -step * vector(kick.torque) / grain.radius});
+                              -with_contact.contact_angular_impulse / grain.radius,
+                              -step * kick.torque / grain.radius});
     }
     return found(linear, angular, GrainBalance::Rule::wet);
 }
@@ -144,14 +130,13 @@ GrainBalance KickRule::balance(const Motion& before, const Motion& after, double
         const GrainState& grain = before.grains.at(at);
         if (has_given_motion(grain.id)) continue;
         const ImmersedBody& body = body_of(grain);
-        const Eigen::Vector3d spin_change = change(grain.angular_velocity, now.angular_velocity);
+        const Vec3 spin_change = now.angular_velocity - grain.angular_velocity;
         // M dU - M g dt - J_c; the same for the spin, divided by R
-        linear.add(now.id, {body.mass * change(grain.velocity, now.velocity),
-                            Eigen::Vector3d(0.0, body.mass * gravity_ * step, 0.0),
-                            -vector(now.contact_impulse)});
+        linear.add(now.id, {body.mass * (now.velocity - grain.velocity),
+                            Vec3{0.0, body.mass * gravity_ * step, 0.0}, -now.contact_impulse});
         angular.add(now.id,
                     {angular_momentum(body.inertia, grain.orientation, spin_change) / grain.radius,
-                     -vector(now.contact_angular_impulse) / grain.radius});
+                     -now.contact_angular_impulse / grain.radius});
     }
     return found(linear, angular, GrainBalance::Rule::dry);
 }
@@ -170,13 +155,12 @@ GrainBalance KickRule::with_state(GrainBalance so_far, const std::vector<Kick>& 
         const GrainState& then = contact.grains.at(at_contact);
         if (same_velocities(kick, now) && same_impulses(then, now)) continue;
         const ImmersedBody& body = body_of(now);
-        const Eigen::Vector3d spin_error = change(kick.angular_velocity, now.angular_velocity);
+        const Vec3 spin_error = now.angular_velocity - kick.angular_velocity;
         const double worst = std::max(
-            {body.mass * change(kick.velocity, now.velocity).norm(),
-             angular_momentum(body.inertia, now.orientation, spin_error).norm() / now.radius,
-             change(then.contact_impulse, now.contact_impulse).norm(),
-             change(then.contact_angular_impulse, now.contact_angular_impulse).norm() /
-                 now.radius});
+            {body.mass * norm(now.velocity - kick.velocity),
+             norm(angular_momentum(body.inertia, now.orientation, spin_error)) / now.radius,
+             norm(now.contact_impulse - then.contact_impulse),
+             norm(now.contact_angular_impulse - then.contact_angular_impulse) / now.radius});
         // Where the motion is at fault, the state differs from it by as much.
         if (worst <= 2.0 * so_far.defect * so_far.largest) continue;
         // Where nothing else moves there is no scale, and the difference is all there is.

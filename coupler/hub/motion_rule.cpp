@@ -30,24 +30,19 @@ const std::string how_grains_leave =
     "Only grains that have crossed a side with domain.SIDE = free may be left out and counted in "
     "report.removed.";
 
-Eigen::Vector3d vector(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
-Eigen::Quaterniond rotation(const Quaternion& q) {
+// By Eigen and not by coupler/rigid, which those that are checked here may use.
+Eigen::Quaterniond unit(const Quaternion& q) {
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
-double norm(const Vec3& v) {
-    return vector(v).norm();
-}
-double change(const Vec3& from, const Vec3& to) {
-    return (vector(to) - vector(from)).norm();
+Eigen::Quaterniond turned(const Quaternion& q, const Vec3& angle) {
+    const Eigen::Vector3d axis(angle[0], angle[1], angle[2]);
+    const double size = axis.norm();
+    if (size == 0.0) return unit(q);
+    return Eigen::AngleAxisd(size, axis / size) * unit(q);
 }
 
-Eigen::Quaterniond turned(const Quaternion& q, const Vec3& angle) {
-    const Eigen::Vector3d axis = vector(angle);
-    const double size = axis.norm();
-    if (size == 0.0) return rotation(q);
-    return Eigen::AngleAxisd(size, axis / size) * rotation(q);
+double change(const Vec3& from, const Vec3& to) {
+    return norm(to - from);
 }
 
 std::string words(const Vec3& v) {
@@ -96,8 +91,7 @@ MotionRule::MotionRule(const Settings& settings, const ShapeTable& shapes,
     for (const Moved& moved : motions_of(settings, "run.grain_motions"))
         driven_.emplace(moved.what, moved.motion);
     for (const GrainState& grain : population)
-        if (grain.prescribed)
-            held_.emplace(grain.id, Rates{grain.velocity, grain.angular_velocity});
+        if (grain.prescribed) held_.emplace(grain.id, twist_of(grain));
     for (std::size_t side = 0; side < 4; ++side) {
         const std::string kind = settings.text(side_keys[side]);
         free_[side] = kind == "free";
@@ -114,9 +108,8 @@ MotionRule::MotionRule(const Settings& settings, const ShapeTable& shapes,
 
 /// The nearest image where the domain is cyclic.
 Vec3 MotionRule::from_to(const Vec3& from, const Vec3& to) const {
-    Vec3 way{};
+    Vec3 way = to - from;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        way[axis] = to[axis] - from[axis];
         const double period = run_.period[axis];
         if (period > 0.0) way[axis] -= period * std::round(way[axis] / period);
     }
@@ -137,7 +130,7 @@ void MotionRule::compare(const Gathered& sent, std::size_t at, const GrainState&
                             fmt::format("grain {} is at {} instead of {}", found.id,
                                         words(found.position), words(expected.position)),
                             remedy);
-    if (!(rotation(expected.orientation).angularDistance(rotation(found.orientation)) <= round_off))
+    if (!(unit(expected.orientation).angularDistance(unit(found.orientation)) <= round_off))
         sent.arrival.refuse(
             sent.owners[at],
             fmt::format("grain {} has the orientation (w, x, y, z) {} instead of {}", found.id,
@@ -179,11 +172,9 @@ void MotionRule::check_given(const Window& window, const Gathered& sent) const {
         const GrainState& grain = sent.motion.grains[at];
         const auto held = held_.find(grain.id);
         if (held == held_.end()) continue;
-        Rates rates = held->second;
-        if (const auto driven = driven_.find(grain.id); driven != driven_.end()) {
-            const Shift rate = driven->second->rate(window.time, window.step);
-            rates = {rate.displacement, {0.0, 0.0, rate.angle}};
-        }
+        Twist rates = held->second;
+        if (const auto driven = driven_.find(grain.id); driven != driven_.end())
+            rates = driven->second->rate(window.time, window.step);
         if (is_same_rate(rates.velocity, grain.velocity, run_.velocity) &&
             is_same_rate(rates.spin, grain.angular_velocity, run_.velocity / grain.radius))
             continue;
@@ -208,23 +199,19 @@ void MotionRule::check_motion(const Window& window, const Motion& before, const 
 }
 
 /// How far a grain is from where these rates take it; of an angle, on its circumference [m].
-double MotionRule::defect(const Grain& grain, const Rates& rates, double step) const {
-    Vec3 goal = grain.then.position, angle{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        goal[axis] += step * rates.velocity[axis];
-        angle[axis] = step * rates.spin[axis];
-    }
+double MotionRule::defect(const Grain& grain, const Twist& rates, double step) const {
+    const Shift way = step * rates;
+    const Vec3 goal = grain.then.position + way.displacement;
     const double apart = norm(from_to(goal, grain.now.position));
     const double turn =
-        turned(grain.then.orientation, angle).angularDistance(rotation(grain.now.orientation));
+        turned(grain.then.orientation, way.angle).angularDistance(unit(grain.now.orientation));
     return std::max(apart, grain.now.radius * turn);
 }
 
 double MotionRule::smallest_defect(const Grain& grain, double step) const {
-    const double corrected = defect(grain, {grain.now.velocity, grain.now.angular_velocity}, step);
+    const double corrected = defect(grain, twist_of(grain.now), step);
     if (!with_contact_velocity_ || !grain.contact) return corrected;
-    const Rates contact{grain.contact->velocity, grain.contact->angular_velocity};
-    return std::min(corrected, defect(grain, contact, step));
+    return std::min(corrected, defect(grain, twist_of(*grain.contact), step));
 }
 
 /// Whether contact impulses act on a grain, apart from what is left of a sum that cancels out.
@@ -302,8 +289,7 @@ void MotionRule::check_leavers(const std::vector<Leaver>& leavers, const Motion&
 bool MotionRule::has_moved_with_its_kick(const Grain& grain, const Kicks& kicks,
                                          double step) const {
     return std::any_of(kicks.kicks.begin(), kicks.kicks.end(), [&](const Kick& kick) {
-        return kick.id == grain.now.id &&
-               defect(grain, {kick.velocity, kick.angular_velocity}, step) <= same_place();
+        return kick.id == grain.now.id && defect(grain, twist_of(kick), step) <= same_place();
     });
 }
 

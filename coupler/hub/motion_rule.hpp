@@ -66,16 +66,13 @@ class MotionRule {
                              const std::vector<Leaver>& leavers, const Gathered& state);
 
  private:
-    struct Rates {
-        Vec3 velocity{}, spin{};
-    };
     struct Grain;   ///< one grain in the messages of a window
     struct Limits;  ///< of a window
 
     void check_given(const Window& window, const Gathered& sent) const;
     void check_leavers(const std::vector<Leaver>& leavers, const Motion& before,
                        const Arrival& arrival, const Limits& limits) const;
-    double defect(const Grain& grain, const Rates& rates, double step) const;
+    double defect(const Grain& grain, const Twist& rates, double step) const;
     double smallest_defect(const Grain& grain, double step) const;
     bool has_moved_with_its_kick(const Grain& grain, const Kicks& kicks, double step) const;
     static std::string text(const Grain& grain, double found, double can, double step);
@@ -97,7 +94,7 @@ class MotionRule {
     RunValues run_;
     ImmersedBodies bodies_;
     std::vector<GrainState> population_;
-    std::unordered_map<GrainId, Rates> held_;
+    std::unordered_map<GrainId, Twist> held_;
     std::unordered_map<GrainId, std::shared_ptr<const PrescribedMotion>> driven_;
     std::array<bool, 4> free_{}, closed_{};  ///< left, right, bottom, top
     bool walls_anywhere_ = false;            ///< inside the box, or sides that move

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "coupler/rigid/vec3.hpp"
+
 namespace turbidite {
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 bool same_pair(const ContactRecord& x, const ContactRecord& y) {
     return x.b == y.b && x.wall == y.wall && (x.wall >= 0 || x.a == y.a);

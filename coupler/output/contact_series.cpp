@@ -2,23 +2,12 @@
 #include "coupler/output/contact_series.hpp"
 
 #include "coupler/protocol/grain_index.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 namespace {
 
 constexpr auto series_name = "contacts.pvd";
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 times(double factor, const Vec3& v) {
-    return {factor * v[0], factor * v[1], factor * v[2]};
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 
 /// t = e_z x n.
 Vec3 tangent(const ContactRecord& contact) {
@@ -36,7 +25,7 @@ std::vector<Vec3> line_ends(const Motion& state) {
     ends.reserve(2 * state.contacts->size());
     for (const ContactRecord& contact : *state.contacts) {
         const Vec3& centre = state.grains.at(index.place(contact.b)).position;
-        ends.push_back(minus(centre, contact.branch));
+        ends.push_back(centre - contact.branch);
         ends.push_back(centre);
     }
     return ends;
@@ -82,8 +71,7 @@ void ContactSeries::write_lines(const std::string& name, double step, const Moti
                      [&](Contact c) { return along(c, tangent(c)); });
         vtk::scalars(out, "rolling_moment", contacts,
                      [&](Contact c) { return c.rolling_impulse[2] / step; });
-        vtk::vectors(out, "force", contacts,
-                     [&](Contact c) { return times(1.0 / step, c.impulse); });
+        vtk::vectors(out, "force", contacts, [&](Contact c) { return 1.0 / step * c.impulse; });
         vtk::vectors(out, "normal", contacts, [](Contact c) { return c.normal; });
         vtk::vectors(out, "point", contacts, [](Contact c) { return c.point; });
         vtk::scalars(out, "gap", contacts, [](Contact c) { return c.gap; });

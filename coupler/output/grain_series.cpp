@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "coupler/rigid/rotation.hpp"
 #include "coupler/shapes/shape.hpp"
 
 namespace turbidite {
@@ -15,19 +16,6 @@ constexpr auto series_name = "grains.pvd";
 std::filesystem::path made(std::filesystem::path folder) {
     std::filesystem::create_directories(folder);
     return folder;
-}
-
-Vec3 divided(const Vec3& v, double by) {
-    return {v[0] / by, v[1] / by, v[2] / by};
-}
-
-/// A point of the body frame of unit circumradius, in the plane.
-Vec3 in_space(const GrainState& grain, const std::array<double, 2>& vertex) {
-    const Quaternion& q = grain.orientation;
-    const double cosine = 1.0 - 2.0 * q[3] * q[3], sine = 2.0 * q[0] * q[3];
-    const double x = grain.radius * vertex[0], y = grain.radius * vertex[1];
-    return {grain.position[0] + cosine * x - sine * y, grain.position[1] + sine * x + cosine * y,
-            0.0};
 }
 
 }  // namespace
@@ -93,7 +81,7 @@ void GrainSeries::write_points(const std::string& name, double window, const Mot
         vtk::vectors(out, "force", grains, of_kick(&Kick::force));
         vtk::vectors(out, "torque", grains, of_kick(&Kick::torque));
         vtk::vectors(out, "contact_force", grains,
-                     [&](Grain g) { return divided(g.contact_impulse, window); });
+                     [&](Grain g) { return g.contact_impulse / window; });
         out << "</PointData>\n";
     });
 }
@@ -107,7 +95,12 @@ void GrainSeries::write_outlines(const std::string& name, const Motion& state) c
         if (outline.empty()) continue;
         grains.push_back(&grain);
         corners.push_back(outline.size());
-        for (const auto& vertex : outline) points.push_back(in_space(grain, vertex));
+        const auto& [along_x, along_y, along_z] = rotation(grain.orientation);
+        for (const auto& [u, v] : outline) {
+            const double x = grain.radius * u, y = grain.radius * v;
+            points.push_back({grain.position[0] + along_x[0] * x + along_x[1] * y,
+                              grain.position[1] + along_y[0] * x + along_y[1] * y, 0.0});
+        }
     }
     using Grain = const GrainState*;
     const vtk::PieceSize size{.points = points.size(), .polygons = grains.size()};

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/output/grain_work.hpp"
 
+#include "coupler/rigid/rigid_motion.hpp"
+
 namespace turbidite {
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 mean(const Vec3& a, const Vec3& b) {
-    return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
-}
-
 /// Mean velocities of a grain over a window.
-struct MeanMotion {
-    Vec3 velocity{}, spin{};
+struct MeanMotion : Twist {
     bool free = false;
 };
 
@@ -34,7 +27,8 @@ GrainWork WorkOnGrains::operator()(const Motion& before, const WindowResult& res
         start = before_.place(id, start + 1), end = after_.place(id, end + 1);
         if (start == GrainIndex::nowhere || end == GrainIndex::nowhere) return {};
         const GrainState &from = before.grains[start], &to = result.state.grains[end];
-        return {mean(from.velocity, to.velocity), mean(from.angular_velocity, to.angular_velocity),
+        return {{0.5 * (from.velocity + to.velocity),
+                 0.5 * (from.angular_velocity + to.angular_velocity)},
                 !from.prescribed};
     };
     GrainWork work;

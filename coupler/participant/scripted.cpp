@@ -8,25 +8,12 @@
 #include <utility>
 
 #include "coupler/protocol/wire.hpp"
+#include "coupler/rigid/rotation.hpp"
 
 namespace turbidite {
 namespace {
 
 constexpr double everywhere = std::numeric_limits<double>::max();
-
-Vec3 plus(const Vec3& a, double s, const Vec3& b) {
-    return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-
-/// In the plane: about z.
-void turn(Quaternion& q, double angle) {
-    const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
-    q = {c * q[0] - s * q[3], 0.0, 0.0, c * q[3] + s * q[0]};
-}
-
-double distance(const Vec3& a, const Vec3& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 }  // namespace
 
@@ -117,8 +104,8 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
             grain.angular_velocity = by_id.at(grain.id)->angular_velocity;
         }
         const Vec3& carrier = answered_ ? contact_velocities_[i] : grain.velocity;
-        grain.position = plus(grain.position, window.step, carrier);
-        turn(grain.orientation, window.step * grain.angular_velocity[2]);
+        grain.position = grain.position + window.step * carrier;
+        grain.orientation = rotated(grain.orientation, window.step * grain.angular_velocity);
         const double overlap = floor_ - (grain.position[1] - grain.radius);
         motion_.report.max_penetration = std::max(motion_.report.max_penetration, overlap);
     }
@@ -184,9 +171,8 @@ ScriptedFluid::DraggedGrain ScriptedFluid::dragged(const GrainState& grain, doub
     motion.mass = body.effective_mass + drag_ * step;
     motion.inertia = body.effective_inertia(2, 2);
     // (M_eff + gamma dt) U = M_eff U^n + J
-    const Vec3 coasting = plus({}, body.effective_mass / motion.mass, grain.velocity);
-    motion.velocity =
-        grain.prescribed ? grain.velocity : plus(coasting, 1.0 / motion.mass, impulse);
+    const Vec3 coasting = body.effective_mass / motion.mass * grain.velocity;
+    motion.velocity = grain.prescribed ? grain.velocity : coasting + 1.0 / motion.mass * impulse;
     motion.angular_velocity = grain.angular_velocity;
     return motion;
 }
@@ -208,10 +194,10 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
         if (!owns(grain)) continue;
         if (first) {
             // What the grain already has of the fluid's impulse is taken back: - J_h.
-            grains_.push_back(dragged(grain, window.step, plus({}, -1.0, grain.announced_impulse)));
+            grains_.push_back(dragged(grain, window.step, -grain.announced_impulse));
             grains_.back().angular_velocity =
-                plus(grain.angular_velocity, -1.0 / grains_.back().inertia,
-                     grain.announced_angular_impulse);
+                grain.angular_velocity -
+                1.0 / grains_.back().inertia * grain.announced_angular_impulse;
             grains_.back().pushed = grain.contact_impulse;
             grains_.back().angular_pushed = grain.contact_angular_impulse;
         }
@@ -222,14 +208,14 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
 /// The change of the contact impulses, and the error of the contact solve.
 void ScriptedFluid::push(DraggedGrain& own, const GrainState& solved) {
     if (own.prescribed) return;
-    const Vec3 change = plus(solved.contact_impulse, -1.0, own.pushed);
-    const Vec3 turn = plus(solved.contact_angular_impulse, -1.0, own.angular_pushed);
-    own.velocity = plus(own.velocity, 1.0 / own.mass, change);
-    own.angular_velocity = plus(own.angular_velocity, 1.0 / own.inertia, turn);
+    const Vec3 change = solved.contact_impulse - own.pushed;
+    const Vec3 turn = solved.contact_angular_impulse - own.angular_pushed;
+    own.velocity = own.velocity + 1.0 / own.mass * change;
+    own.angular_velocity = own.angular_velocity + 1.0 / own.inertia * turn;
     own.pushed = solved.contact_impulse;
     own.angular_pushed = solved.contact_angular_impulse;
-    own.mismatch = distance(own.velocity, solved.velocity) +
-                   solved.radius * distance(own.angular_velocity, solved.angular_velocity);
+    own.mismatch = norm(own.velocity - solved.velocity) +
+                   solved.radius * norm(own.angular_velocity - solved.angular_velocity);
 }
 
 FreeResponse ScriptedFluid::response(const DraggedGrain& grain) const {
@@ -241,8 +227,8 @@ FreeResponse ScriptedFluid::response(const DraggedGrain& grain) const {
         response.angular_velocity = grain.angular_velocity;
         return response;
     }
-    response.velocity = plus(grain.velocity, -1.0 / mass, grain.pushed);
-    response.angular_velocity = plus(grain.angular_velocity, -1.0 / inertia, grain.angular_pushed);
+    response.velocity = grain.velocity - 1.0 / mass * grain.pushed;
+    response.angular_velocity = grain.angular_velocity - 1.0 / inertia * grain.angular_pushed;
     for (std::size_t i = 0; i < 6; ++i)
         response.inertia[upper_entry(i, i)] = i < 3 ? mass : inertia;
     response.mismatch = grain.mismatch;
@@ -263,7 +249,7 @@ Kicks ScriptedFluid::impose(const Window& window) {
         kick.id = grain.id;
         kick.velocity = grain.velocity;
         kick.angular_velocity = grain.angular_velocity;
-        kick.multiplier_impulse = plus({}, -drag_ * window.step, kick.velocity);
+        kick.multiplier_impulse = Vec3{} - drag_ * window.step * kick.velocity;  // 0, not -0
         answer.kicks.push_back(kick);
     }
     return answer;

@@ -39,12 +39,8 @@ Plate plate_of(const Numbers& n, std::int32_t key) {
     plate.pivot = {n[8], n[9], 0.0};
     plate.friction = n[10];
     plate.thickness = n[11];
-    plate.motion = constant_motion({n[5], n[6], 0.0}, n[7]);
+    plate.motion = constant_motion({{n[5], n[6], 0.0}, {0.0, 0.0, n[7]}});
     return plate;
-}
-
-Vec3 middle(const Plate& plate) {
-    return {0.5 * (plate.from[0] + plate.to[0]), 0.5 * (plate.from[1] + plate.to[1]), 0.0};
 }
 
 }  // namespace
@@ -54,20 +50,13 @@ double length(const Plate& plate) {
 }
 
 PlacedPlate place(const Plate& plate, double time, double step) {
-    const Shift shift = plate.motion->at(time), rate = plate.motion->rate(time, step);
-    const double c = std::cos(shift.angle), s = std::sin(shift.angle);
-    const Vec3 start = middle(plate);
-    const double x = start[0] - plate.pivot[0], y = start[1] - plate.pivot[1];
-    const double arm_x = c * x - s * y, arm_y = s * x + c * y;
-    PlacedPlate placed;
-    placed.middle = {plate.pivot[0] + shift.displacement[0] + arm_x,
-                     plate.pivot[1] + shift.displacement[1] + arm_y, 0.0};
-    placed.angle =
-        std::atan2(plate.to[1] - plate.from[1], plate.to[0] - plate.from[0]) + shift.angle;
-    placed.spin = rate.angle;
-    placed.velocity = {rate.displacement[0] - rate.angle * arm_y,
-                       rate.displacement[1] + rate.angle * arm_x, 0.0};
-    return placed;
+    const Shift shift = plate.motion->at(time);
+    const Twist rate = plate.motion->rate(time, step);
+    const Vec3 middle = 0.5 * (plate.from + plate.to), along = plate.to - plate.from;
+    const Vec3 arm = rotation(shift.angle)(middle - plate.pivot);
+    return {plate.pivot + shift.displacement + arm,
+            std::atan2(along[1], along[0]) + shift.angle[2],
+            {rate.at(arm), rate.spin}};
 }
 
 std::vector<Plate> plates_of(const Settings& settings) {

@@ -34,8 +34,7 @@ struct Plate {
 struct PlacedPlate {
     Vec3 middle{};       ///< [m]
     double angle = 0.0;  ///< of the direction from end to end, counter-clockwise from x [rad]
-    Vec3 velocity{};     ///< of its middle [m/s]
-    double spin = 0.0;   ///< [rad/s]
+    Twist twist{};       ///< of its middle
 };
 
 double length(const Plate& plate);  ///< [m]

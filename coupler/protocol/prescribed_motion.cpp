@@ -12,37 +12,31 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Shift operator+(const Shift& a, const Shift& b) {
-    Shift sum{a.displacement, a.angle + b.angle};
-    for (int axis = 0; axis < 3; ++axis) sum.displacement[axis] += b.displacement[axis];
-    return sum;
-}
-
-Shift operator*(double factor, const Shift& shift) {
-    Shift product{shift.displacement, factor * shift.angle};
-    for (double& component : product.displacement) component *= factor;
-    return product;
+/// `X Y ANGLE` from the i-th number on.
+Shift shift_of(const std::vector<double>& numbers, std::size_t i = 0) {
+    return {{numbers.at(i), numbers.at(i + 1), 0.0}, {0.0, 0.0, numbers.at(i + 2)}};
 }
 
 /// `constant VX VY SPIN`.
 class Constant final : public PrescribedMotion {
  public:
-    explicit Constant(const std::vector<double>& numbers)
-        : rate_{{numbers.at(0), numbers.at(1), 0.0}, numbers.at(2)} {}
+    explicit Constant(const Twist& rate) : rate_(rate) {}
+    explicit Constant(const std::vector<double>& numbers) {
+        const Shift in_unit_time = shift_of(numbers);
+        rate_ = {in_unit_time.displacement, in_unit_time.angle};
+    }
     Shift at(double time) const override { return time * rate_; }
-    Shift rate(double, double) const override { return rate_; }
+    Twist rate(double, double) const override { return rate_; }
 
  private:
-    Shift rate_;
+    Twist rate_;
 };
 
 /// `harmonic X Y ANGLE PERIOD PHASE`.
 class Harmonic final : public PrescribedMotion {
  public:
     explicit Harmonic(const std::vector<double>& numbers)
-        : amplitude_{{numbers.at(0), numbers.at(1), 0.0}, numbers.at(2)},
-          period_(numbers.at(3)),
-          phase_(numbers.at(4)) {}
+        : amplitude_(shift_of(numbers)), period_(numbers.at(3)), phase_(numbers.at(4)) {}
     Shift at(double time) const override {
         const double angle = 2.0 * pi * time / period_ + phase_;
         return (std::sin(angle) - std::sin(phase_)) * amplitude_;
@@ -61,7 +55,7 @@ class Table final : public PrescribedMotion {
         if (numbers.empty() || numbers.size() % 4 != 0)
             throw std::invalid_argument("a table has four numbers per row");
         for (std::size_t i = 0; i < numbers.size(); i += 4)
-            rows_.push_back({numbers[i], {{numbers[i + 1], numbers[i + 2], 0.0}, numbers[i + 3]}});
+            rows_.push_back({numbers[i], shift_of(numbers, i + 1)});
     }
     Shift at(double time) const override {
         const auto after = std::find_if(rows_.begin(), rows_.end(),
@@ -110,12 +104,14 @@ Moved motion_of(const std::string& text, const std::string& key) {
 
 }  // namespace
 
-Shift PrescribedMotion::rate(double time, double step) const {
-    return (1.0 / step) * (at(time + step) + -1.0 * at(time));
+Twist PrescribedMotion::rate(double time, double step) const {
+    const Shift start = at(time), end = at(time + step);
+    return {1.0 / step * (end.displacement - start.displacement),
+            1.0 / step * (end.angle - start.angle)};
 }
 
-std::shared_ptr<const PrescribedMotion> constant_motion(const Vec3& velocity, double spin) {
-    return std::make_shared<Constant>(std::vector<double>{velocity[0], velocity[1], spin});
+std::shared_ptr<const PrescribedMotion> constant_motion(const Twist& rate) {
+    return std::make_shared<Constant>(rate);
 }
 
 std::vector<Moved> motions_of(const Settings& settings, const char* key) {

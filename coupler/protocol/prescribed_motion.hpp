@@ -25,22 +25,17 @@
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "coupler/rigid/rigid_motion.hpp"
 
 namespace turbidite {
-
-/// Displacement of what follows a motion since t = 0, or its rate.
-struct Shift {
-    Vec3 displacement{};  ///< [m]
-    double angle = 0.0;   ///< counter-clockwise [rad]
-};
 
 class PrescribedMotion {
  public:
     virtual ~PrescribedMotion() = default;
-    virtual Shift at(double time) const = 0;
+    virtual Shift at(double time) const = 0;  ///< since t = 0
 
     /// Mean velocity and spin of the window [time, time + step].
-    virtual Shift rate(double time, double step) const;
+    virtual Twist rate(double time, double step) const;
 };
 
 /// A motion and what follows it.
@@ -55,7 +50,6 @@ struct Moved {
 /// text has another format.
 std::vector<Moved> motions_of(const Settings& settings, const char* key);
 
-/// The motion with a constant velocity [m/s] and spin [rad/s].
-std::shared_ptr<const PrescribedMotion> constant_motion(const Vec3& velocity, double spin);
+std::shared_ptr<const PrescribedMotion> constant_motion(const Twist& rate);
 
 }  // namespace turbidite

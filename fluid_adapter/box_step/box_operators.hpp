@@ -30,7 +30,7 @@
 
 namespace turbidite {
 
-/// Components over a rank's rows.
+/// Components over a rank's rows, an array each: a kernel reads one at a time.
 struct RowsOfTwo {
     std::vector<double> x, y;
 
@@ -65,7 +65,7 @@ struct ExcessFlux {
     const double* w;  ///< over the rank's cells
 };
 
-/// A change of velocity that is still to be made: u += share (x, y).
+/// A change of velocity, u += share (x, y), still to be made by the kernel that next reads u.
 struct PendingChange {
     double share = 0.0;
     const double *x = nullptr, *y = nullptr;

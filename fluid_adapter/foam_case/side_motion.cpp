@@ -26,7 +26,7 @@ double integrated_parabola(double s) {
 
 std::array<double, 2> SideMotion::velocity(double time, double step) const {
     if (!motion) return {0.0, 0.0};
-    const Vec3 rate = motion->rate(time, step).displacement;
+    const Vec3 rate = motion->rate(time, step).velocity;
     return {rate[0], rate[1]};
 }
 

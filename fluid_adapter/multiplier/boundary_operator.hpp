@@ -14,7 +14,7 @@
 
 namespace turbidite {
 
-/// Both components of a vector field in a cell.
+/// Both components of a vector field in a cell, side by side: a point reads both.
 struct PlaneVector {
     double x = 0.0, y = 0.0;
 };

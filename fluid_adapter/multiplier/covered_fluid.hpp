@@ -19,7 +19,7 @@
 
 namespace turbidite {
 
-/// Velocity components over the rank's own cells [m/s].
+/// Velocity components over the rank's own cells, in the field's arrays and not copied [m/s].
 struct CellVelocity {
     double* x;
     double* y;

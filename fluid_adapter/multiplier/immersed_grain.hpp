@@ -9,12 +9,35 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
+#include "coupler/rigid/rigid_motion.hpp"
 #include "coupler/shapes/shape.hpp"
 
 namespace turbidite {
 
-/// (x, y, spin) of a velocity, an impulse or a momentum.
+/// (x, y, spin) of a velocity, an impulse or a momentum. A vector of Eigen, where messages have a
+/// Twist: step 5 solves with matrices over these three.
 using Planar = Eigen::Vector3d;
+
+inline Planar planar(const Vec3& linear, const Vec3& angular) {
+    return {linear[0], linear[1], angular[2]};
+}
+inline Planar planar(const Twist& twist) {
+    return planar(twist.velocity, twist.spin);
+}
+
+inline Vec3 linear(const Planar& planar) {
+    return {planar.x(), planar.y(), 0.0};
+}
+inline Vec3 angular(const Planar& planar) {
+    return {0.0, 0.0, planar.z()};
+}
+
+/// Body to world.
+inline Eigen::Matrix3d matrix(const Rotation& turn) {
+    Eigen::Matrix3d rows;
+    for (int k = 0; k < 3; ++k) rows.col(k) << turn.x[k], turn.y[k], turn.z[k];
+    return rows;
+}
 
 struct ImmersedGrain {
     GrainId id = 0;

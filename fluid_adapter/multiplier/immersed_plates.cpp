@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/immersed_plates.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 namespace turbidite {
@@ -42,9 +41,8 @@ std::vector<ImmersedGrain> ImmersedPlates::bodies(double time, double step) cons
         body.shape = entry.outline.get();
         body.radius = entry.radius;
         body.position = {placed.middle[0], placed.middle[1], 0.0};
-        body.orientation =
-            Eigen::AngleAxisd(placed.angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-        body.contact_motion = {placed.velocity[0], placed.velocity[1], placed.spin};
+        body.orientation = matrix(rotation(Vec3{0.0, 0.0, placed.angle}));
+        body.contact_motion = planar(placed.twist);
         body.has_boundary_points = false;
         body.prescribed = true;
         bodies.push_back(body);

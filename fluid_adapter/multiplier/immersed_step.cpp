@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/immersed_step.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,14 +11,6 @@
 
 namespace turbidite {
 namespace {
-
-Planar planar(const Vec3& linear, const Vec3& angular) {
-    return {linear[0], linear[1], angular[2]};
-}
-
-Eigen::Matrix3d rotation_of(const Quaternion& q) {
-    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-}
 
 MultiplierSettings multiplier_settings(const Settings& settings, const RunValues& run) {
     MultiplierSettings result;
@@ -78,10 +70,10 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     grain.shape = &shape;
     grain.radius = run_.hydrodynamic_radius * state.radius;
     grain.position = {state.position[0], state.position[1], state.position[2]};
-    grain.orientation = rotation_of(state.orientation);
+    grain.orientation = matrix(rotation(state.orientation));
     grain.effective_mass = body.effective_mass;
     grain.effective_inertia = body.effective_inertia(2, 2);
-    grain.contact_motion = planar(state.velocity, state.angular_velocity);
+    grain.contact_motion = planar(twist_of(state));
     grain.prescribed = state.prescribed;
     return grain;
 }
@@ -107,8 +99,7 @@ void ImmersedStep::prescribe(const Window& window) {
     for (const Moved& moved : moved_grains_) {
         const auto at = index_.find(moved.what);
         if (at == index_.end()) continue;
-        const Shift rate = moved.motion->rate(window.time, window.step);
-        grains_[at->second].contact_motion = planar(rate.displacement, {0.0, 0.0, rate.angle});
+        grains_[at->second].contact_motion = planar(moved.motion->rate(window.time, window.step));
     }
 }
 
@@ -164,7 +155,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
-        solved_[at->second] = planar(state.velocity, state.angular_velocity);
+        solved_[at->second] = planar(twist_of(state));
     }
     if (with_contacts.size() != states_)
         throw std::runtime_error("contact impulses were received for " +
@@ -217,8 +208,8 @@ FreeResponse ImmersedStep::response(std::size_t g) const {
         free -= inertia.llt().solve(contact_impulses_[g]);
         response.inertia = in_space(inertia);
     }
-    response.velocity = {free.x(), free.y(), 0.0};
-    response.angular_velocity = {0.0, 0.0, free.z()};
+    response.velocity = linear(free);
+    response.angular_velocity = angular(free);
     return response;
 }
 
@@ -234,10 +225,10 @@ std::vector<Kick> ImmersedStep::kicks() const {
         const Planar& impulse = flow_.impulses()[g];
         Kick kick;
         kick.id = grains_[g].id;
-        kick.velocity = {motion.x(), motion.y(), 0.0};
-        kick.angular_velocity = {0.0, 0.0, motion.z()};
-        kick.multiplier_impulse = {impulse.x(), impulse.y(), 0.0};
-        kick.multiplier_angular_impulse = {0.0, 0.0, impulse.z()};
+        kick.velocity = linear(motion);
+        kick.angular_velocity = angular(motion);
+        kick.multiplier_impulse = linear(impulse);
+        kick.multiplier_angular_impulse = angular(impulse);
         kicks.push_back(kick);
     }
     return kicks;

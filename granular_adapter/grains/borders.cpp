@@ -6,12 +6,10 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 namespace {
-
-using nscd::is_finite;
 
 BorderKind parse_side(const std::string& key, const std::string& text) {
     if (text == "wall" || text == "inflow") return BorderKind::wall;

@@ -14,11 +14,6 @@ std::string grain(GrainId id) {
     return "grain " + std::to_string(id);
 }
 
-/// The planar part of a kick's velocities.
-nscd::Twist twist_of(const Kick& kick) {
-    return {{kick.velocity[0], kick.velocity[1], 0.0}, {0.0, 0.0, kick.angular_velocity[2]}};
-}
-
 bool denser_than_the_fluid(const ImmersedBody& body) {
     return body.effective_mass > 0.0 && body.effective_inertia(2, 2) > 0.0;
 }
@@ -40,7 +35,7 @@ nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
     body.weight_mass = inertia.submerged_mass;
     body.position = grain.position;
     body.orientation = grain.orientation;
-    body.twist = {grain.velocity, grain.angular_velocity};
+    body.twist = twist_of(grain);
     return body;
 }
 
@@ -102,7 +97,8 @@ std::vector<GrainState> grain_states(const nscd::Bodies& bodies) {
 void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks,
                      const std::string& when) {
     const auto ordered = by_grain(bodies.id, kicks, "kick", when);
-    for (std::size_t i = 0; i < bodies.size(); ++i) bodies.twist[i] = twist_of(*ordered[i]);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        bodies.twist[i] = in_plane(twist_of(*ordered[i]));
 }
 
 }  // namespace turbidite

@@ -2,22 +2,19 @@
 #include "granular_adapter/grains/inner_walls.hpp"
 
 #include "coupler/protocol/plates.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 namespace {
 
 nscd::Wall wall_of(const Plate& plate) {
-    using namespace nscd;
     const Vec3 along = plate.to - plate.from;
     const double length = norm(along);
-    const Shift rate = plate.motion->rate(0.0, 1.0);  // of those that follow a motion: set later
-    Wall wall;
+    nscd::Wall wall;
     wall.point = plate.from + 0.5 * along;
     wall.normal = {-along[1] / length, along[0] / length, 0.0};
     wall.half_length = 0.5 * length;
-    wall.velocity = rate.displacement;
-    wall.spin = rate.angle;
+    wall.twist = plate.motion->rate(0.0, 1.0);  // of those that follow a motion: set later
     wall.pivot = plate.pivot;
     wall.friction = plate.friction;
     wall.half_thickness = 0.5 * plate.thickness;

@@ -8,22 +8,18 @@ namespace turbidite {
 void set_velocities(std::vector<nscd::Wall>& walls, const std::vector<Moved>& moved, double time,
                     double step) {
     for (nscd::Wall& wall : walls)
-        for (const Moved& entry : moved) {
-            if (entry.what != wall.key) continue;
-            const Shift rate = entry.motion->rate(time, step);
-            wall.velocity = rate.displacement;
-            wall.spin = rate.angle;
-        }
+        for (const Moved& entry : moved)
+            if (entry.what == wall.key) wall.twist = entry.motion->rate(time, step);
 }
 
 void set_velocities(nscd::Bodies& bodies, const std::vector<Moved>& moved, double time,
                     double step) {
     if (moved.empty()) return;
-    std::unordered_map<std::int64_t, Shift> rates;
+    std::unordered_map<std::int64_t, Twist> rates;
     for (const Moved& entry : moved) rates.emplace(entry.what, entry.motion->rate(time, step));
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (const auto at = rates.find(bodies.id[i]); at != rates.end())
-            bodies.twist[i] = {at->second.displacement, {0.0, 0.0, at->second.angle}};
+            bodies.twist[i] = at->second;
 }
 
 void follow_walls(std::vector<Border>& borders, const std::vector<nscd::Wall>& walls) {

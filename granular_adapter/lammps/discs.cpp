@@ -7,18 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/rigid/rotation.hpp"
+
 namespace turbidite::lammps {
-namespace {
-
-double angle_of(const Quaternion& q) {
-    return 2.0 * std::atan2(q[3], q[0]);
-}
-
-Quaternion turned_by(double angle) {
-    return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
-}
-
-}  // namespace
 
 /// A body on its way to the rank that will own it.
 struct Discs::Newcomer {
@@ -45,7 +36,7 @@ Discs::Newcomer Discs::newcomer(const nscd::Bodies& bodies, std::size_t i,
             bodies.position[i],
             bodies.twist[i].velocity,
             bodies.twist[i].spin[2],
-            angle_of(bodies.orientation[i])};
+            angle_about_z(bodies.orientation[i])};
 }
 
 /// Each rank in turn shows its bodies to all, which take those in their subdomains: no rank holds
@@ -106,7 +97,7 @@ void Discs::read(nscd::Bodies& bodies) const {
     double** own = lammps_.atoms<double**>("d2_own");
     for_each([&](std::size_t place, int i) {
         bodies.position[place] = {x[i][0], x[i][1], 0.0};
-        bodies.orientation[place] = turned_by(own[i][angle]);
+        bodies.orientation[place] = about_z(own[i][angle]);
         bodies.twist[place] = {{v[i][0], v[i][1], 0.0}, {0.0, 0.0, omega[i][2]}};
     });
 }
@@ -120,7 +111,7 @@ void Discs::write(const nscd::Bodies& bodies) {
         std::copy_n(bodies.position[place].begin(), 2, x[i]);
         std::copy_n(bodies.twist[place].velocity.begin(), 2, v[i]);
         omega[i][2] = bodies.twist[place].spin[2];
-        own[i][angle] = angle_of(bodies.orientation[place]);
+        own[i][angle] = angle_about_z(bodies.orientation[place]);
     });
 }
 

@@ -7,16 +7,10 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::lammps {
 namespace {
-
-using nscd::dot;
-using nscd::norm;
-using nscd::operator+;
-using nscd::operator-;
-using nscd::operator*;
 
 // LAMMPS keeps flags in the two upper bits of its lists of neighbours.
 constexpr int neighbour_bits = 0x3FFFFFFF;

@@ -8,22 +8,18 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/grains/by_grain.hpp"
 #include "granular_adapter/grains/case_bodies.hpp"
 #include "granular_adapter/md/rows.hpp"
 #include "granular_adapter/nscd/engine/engine.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/nscd_adapter/contact_records.hpp"
 
 namespace turbidite {
 namespace {
 
-using nscd::operator+;
-using nscd::operator-;
-using nscd::operator*;
-using nscd::norm;
 using Clock = std::chrono::steady_clock;
 
 // A contact impulse below this fraction of the terms of a grain's momentum balance is rounding.
@@ -153,7 +149,7 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
     const auto ordered = by_grain(bodies_.id, targets, "response", in_window(window));
     std::vector<Held> held = held_;
     for (std::size_t i = 0; i < held.size(); ++i) {
-        const nscd::Twist& found = bodies_.twist[i];
+        const Twist& found = bodies_.twist[i];
         held[i].impulse =
             held[i].impulse + bodies_.mass[i] * (ordered[i]->velocity - found.velocity);
         held[i].angular_impulse = held[i].angular_impulse +
@@ -189,7 +185,7 @@ Motion MdAdapter::play(const Window& window) {
 }
 
 /// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed the impulses.
-void MdAdapter::book_contacts(const std::vector<nscd::Twist>& before, const SubstepReport& run,
+void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepReport& run,
                               double dt) {
     touched_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -243,17 +239,17 @@ void MdAdapter::agree(Check check) {
 }
 
 void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks) {
-    const std::vector<nscd::Twist> with_contact = bodies_.twist;
+    const std::vector<Twist> with_contact = bodies_.twist;
     const auto ordered = by_grain(bodies_.id, kicks, "kick", in_window(window));
     take_velocities(bodies_, kicks, in_window(window));
     const double lag = 0.5 * (window.step + velocity_lag());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const nscd::Twist& now = bodies_.twist[i];
+        const Twist& now = bodies_.twist[i];
         if (!touched_[i]) {
             bodies_.position[i] =
                 bodies_.position[i] + lag * (now.velocity - with_contact[i].velocity);
             bodies_.orientation[i] =
-                nscd::rotated(bodies_.orientation[i], lag * (now.spin - with_contact[i].spin));
+                rotated(bodies_.orientation[i], lag * (now.spin - with_contact[i].spin));
         }
         if (hold_)
             held_[i] = {ordered[i]->multiplier_impulse, ordered[i]->multiplier_angular_impulse};

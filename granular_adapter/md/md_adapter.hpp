@@ -77,7 +77,7 @@ class MdAdapter final : public GrainsAdapter {
     double lead() const;
     Substeps substeps(const Window& window) const;
     Load load(std::size_t i, double dt) const;
-    void book_contacts(const std::vector<nscd::Twist>& before, const SubstepReport& run, double dt);
+    void book_contacts(const std::vector<Twist>& before, const SubstepReport& run, double dt);
     void take_kicks(const Window& window, const std::vector<Kick>& kicks);
     template <class Check>
     void agree(Check check);

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 namespace {
-
-using nscd::operator+, nscd::operator-, nscd::operator*;
 
 // The local solution of a sliding contact lies on the cone to rounding.
 constexpr double at_limit = 1.0 - 1e-9;

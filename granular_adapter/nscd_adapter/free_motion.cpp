@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/grains/by_grain.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite {
 namespace {
@@ -21,11 +21,6 @@ nscd::PlanarTensor in_plane(const std::array<double, 21>& inertia) {
     tensor.ys = inertia[upper_entry(y, spin)];
     tensor.ss = inertia[upper_entry(spin, spin)];
     return tensor;
-}
-
-nscd::Twist in_plane(const FreeResponse& response) {
-    return {{response.velocity[0], response.velocity[1], 0.0},
-            {0.0, 0.0, response.angular_velocity[2]}};
 }
 
 std::string grain(const nscd::Bodies& bodies, std::size_t i) {
@@ -70,7 +65,7 @@ FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeRespons
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const bool held = motion_is_prescribed(*ordered[i]);
         demand_agreement(bodies, i, held, when);
-        result.velocities.push_back(in_plane(*ordered[i]));
+        result.velocities.push_back(in_plane(twist_of(*ordered[i])));
         result.mobilities.push_back(held ? nscd::BodyMobility{}
                                          : mobility_of(bodies, i, *ordered[i], when));
     }

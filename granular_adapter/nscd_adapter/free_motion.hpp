@@ -14,7 +14,7 @@
 namespace turbidite {
 
 struct FreeMotion {
-    std::vector<nscd::Twist> velocities;         ///< U^F, omega^F
+    std::vector<Twist> velocities;               ///< U^F, omega^F
     std::vector<nscd::BodyMobility> mobilities;  ///< A^-1, A the effective inertia; 0: fixed
 };
 

@@ -98,8 +98,8 @@ class NscdAdapter final : public GrainsAdapter {
     std::vector<Border> borders_;
     std::vector<Moved> moved_walls_, moved_grains_;
     std::unique_ptr<nscd::Engine> engine_;
-    std::vector<nscd::Twist> start_twists_;    ///< U^n of this window
-    std::vector<nscd::Twist> contact_twists_;  ///< U^{n+4/5} of this window
+    std::vector<Twist> start_twists_;    ///< U^n of this window
+    std::vector<Twist> contact_twists_;  ///< U^{n+4/5} of this window
     std::vector<GrainId> removed_;
     std::optional<GrainId> light_;  ///< the first grain that is not denser than the fluid
     ContactReport report_;          ///< of this window

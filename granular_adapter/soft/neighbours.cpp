@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::soft {
 namespace {
-
-using nscd::dot;
-using nscd::operator-;
 
 Near near_pair(const nscd::Bodies& bodies, std::int32_t a, std::int32_t b) {
     if (bodies.id[a] > bodies.id[b]) std::swap(a, b);

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::soft {
-
-using nscd::operator-;
 
 void OverlapFinder::find(const nscd::Bodies& bodies) {
     overlaps_.clear();

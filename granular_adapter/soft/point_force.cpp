@@ -4,25 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::soft {
 namespace {
 
-using nscd::dot;
-using nscd::operator+;
-using nscd::operator-;
-using nscd::operator*;
-
-/// U + omega x r
-Vec3 velocity_at(const nscd::Twist& twist, const Vec3& arm) {
-    return twist.velocity + nscd::cross(twist.spin, arm);
-}
-
 /// Of b, as seen from a or from a wall at rest.
 Vec3 relative_velocity(const nscd::ContactPoint& point, const nscd::Bodies& bodies) {
-    const Vec3 of_b = velocity_at(bodies.twist[point.b], point.arm_b);
-    return point.wall < 0 ? of_b - velocity_at(bodies.twist[point.a], point.arm_a) : of_b;
+    const Vec3 of_b = bodies.twist[point.b].at(point.arm_b);
+    return point.wall < 0 ? of_b - bodies.twist[point.a].at(point.arm_a) : of_b;
 }
 
 }  // namespace

@@ -4,17 +4,13 @@
 #include <algorithm>
 
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::soft {
 namespace {
-
-using nscd::operator+;
-using nscd::operator-;
-using nscd::operator*;
 
 // Grains up to this distance are neighbours, over the smallest radius.
 constexpr double neighbour_margin = 0.2;
@@ -27,7 +23,7 @@ double skin_of(const nscd::Bodies& bodies) {
 /// `force` at the end of an arm from the centre.
 void push(Load& total, const Vec3& force, const Vec3& arm) {
     total.force = total.force + force;
-    total.torque = total.torque + nscd::cross(arm, force);
+    total.torque = total.torque + cross(arm, force);
 }
 
 }  // namespace
@@ -95,7 +91,7 @@ void SoftMdHost::find_forces(const std::vector<Load>& loads, double step) {
 void SoftMdHost::move(double step) {
     const Vec3 fall{0.0, -gravity_, 0.0};
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        nscd::Twist& twist = bodies_.twist[i];
+        Twist& twist = bodies_.twist[i];
         twist.velocity =
             twist.velocity + step * (bodies_.inverse_mass(i) * totals_[i].force + fall);
         twist.spin = twist.spin + step * (bodies_.inverse_inertia(i) * totals_[i].torque);

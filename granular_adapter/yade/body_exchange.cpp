@@ -38,7 +38,7 @@ void BodyExchange::read(nscd::Bodies& bodies) const {
         if (is_as_written(i, motion)) continue;
         bodies.position[i] = motion.position;
         bodies.orientation[i] = outline_orientation(motion.orientation, turn(i));
-        bodies.twist[i] = {motion.velocity, motion.angular_velocity};
+        bodies.twist[i] = motion.twist;
     }
 }
 
@@ -46,7 +46,7 @@ void BodyExchange::write(const nscd::Bodies& bodies) {
     written_.clear();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         written_.push_back({bodies.position[i], yade_orientation(bodies.orientation[i], turn(i)),
-                            bodies.twist[i].velocity, bodies.twist[i].spin});
+                            bodies.twist[i]});
         states_.write(i, written_.back());
     }
 }

@@ -6,23 +6,20 @@
 #include <string>
 #include <utility>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/yade/engine_memory.hpp"
 
 namespace turbidite::yade {
 namespace {
-
-using nscd::operator+;
-using nscd::operator*;
 
 std::runtime_error at_fault(GrainId body, const std::string& fault, const char* when) {
     return std::runtime_error("turbidite_contact: body " + std::to_string(body) + fault + ", " +
                               when + "; use a smaller O.dt");
 }
 
-bool is_finite(const nscd::Bodies& bodies, std::size_t i) {
-    return nscd::is_finite(bodies.position[i]) && nscd::is_finite(bodies.twist[i].velocity) &&
-           nscd::is_finite(bodies.twist[i].spin);
+bool has_finite_motion(const nscd::Bodies& bodies, std::size_t i) {
+    return is_finite(bodies.position[i]) && is_finite(bodies.twist[i].velocity) &&
+           is_finite(bodies.twist[i].spin);
 }
 
 }  // namespace
@@ -118,8 +115,7 @@ void ContactHost::read_bodies() {
         heights_[i] = motion.position[2];
         bodies.position[i] = {motion.position[0], motion.position[1], 0.0};
         bodies.orientation[i] = outline_orientation(motion.orientation, turns_[i]);
-        bodies.twist[i] = {{motion.velocity[0], motion.velocity[1], 0.0},
-                           {0.0, 0.0, motion.angular_velocity[2]}};
+        bodies.twist[i] = in_plane(motion.twist);
     }
     engine_->walls() = walls_.read();
 }
@@ -134,7 +130,7 @@ void ContactHost::take_loads(const Loads& loads) {
 void ContactHost::check_bodies(const char* when) const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (!is_finite(bodies, i))
+        if (!has_finite_motion(bodies, i))
             throw at_fault(bodies.id[i], " has a position or velocity that is not finite", when);
         if (bodies.fixed[i]) continue;
         for (const nscd::Wall& wall : std::as_const(*engine_).walls())
@@ -150,8 +146,7 @@ void ContactHost::write_bodies() const {
         const Vec3& x = bodies.position[i];
         states_.write(i, {{x[0], x[1], heights_[i]},
                           yade_orientation(bodies.orientation[i], turns_[i]),
-                          bodies.twist[i].velocity,
-                          bodies.twist[i].spin});
+                          bodies.twist[i]});
     }
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "coupler/rigid/rotation.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "coupler/shapes/surface_gap.hpp"
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::yade {
 
@@ -19,14 +19,13 @@ std::optional<Overlap> largest_overlap(const nscd::Bodies& bodies, const ShapeTa
     const auto at = [&](std::size_t i, const Vec3& place) {
         const Quaternion& q = bodies.orientation[i];
         return placed(outlines.at(static_cast<std::size_t>(bodies.shape[i])), {place[0], place[1]},
-                      bodies.radius[i], 2.0 * std::atan2(q[3], q[0]));
+                      bodies.radius[i], angle_about_z(q));
     };
     std::optional<Overlap> worst;
     for (const nscd::Pair& pair : nscd::candidate_pairs(bodies.position, bodies.radius, 0.0, box)) {
         const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
         if (bodies.fixed[a] && bodies.fixed[b]) continue;
-        const Vec3 offset =
-            box.minimum_image(nscd::operator-(bodies.position[b], bodies.position[a]));
+        const Vec3 offset = box.minimum_image(bodies.position[b] - bodies.position[a]);
         const double depth = -surface_gap(at(a, Vec3{}), at(b, offset));
         const double share = depth / std::min(bodies.radius[a], bodies.radius[b]);
         if (depth > 0.0 && (!worst || share > worst->share))

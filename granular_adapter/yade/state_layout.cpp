@@ -24,8 +24,7 @@ constexpr int blocked_behind_inertia = 10;
 BodyMotion sample(double sign) {
     return {{1.5 * sign, -2.25, 3.125},
             {0.1, 0.5 * sign, -0.7, 0.5},
-            {4.5, 5.25 * sign, -6.125},
-            {7.5, -8.25, 9.125 * sign}};
+            {{4.5, 5.25 * sign, -6.125}, {7.5, -8.25, 9.125 * sign}}};
 }
 
 bool attributes_arrive(python::object state, const StatePlaces& places, double sign) {
@@ -63,8 +62,8 @@ BodyMotion read_places(const StatePlaces& places) {
     const double* q = places.velocity - orientation_before_velocity;
     std::memcpy(motion.position.data(), x, sizeof motion.position);
     motion.orientation = {q[3], q[0], q[1], q[2]};
-    std::memcpy(motion.velocity.data(), places.velocity, sizeof motion.velocity);
-    std::memcpy(motion.angular_velocity.data(), places.spin, sizeof motion.angular_velocity);
+    std::memcpy(motion.twist.velocity.data(), places.velocity, sizeof motion.twist.velocity);
+    std::memcpy(motion.twist.spin.data(), places.spin, sizeof motion.twist.spin);
     return motion;
 }
 
@@ -74,8 +73,8 @@ void write_places(const StatePlaces& places, const BodyMotion& motion) {
     std::memcpy(places.velocity - position_before_velocity, motion.position.data(),
                 sizeof motion.position);
     q[0] = w[1], q[1] = w[2], q[2] = w[3], q[3] = w[0];
-    std::memcpy(places.velocity, motion.velocity.data(), sizeof motion.velocity);
-    std::memcpy(places.spin, motion.angular_velocity.data(), sizeof motion.angular_velocity);
+    std::memcpy(places.velocity, motion.twist.velocity.data(), sizeof motion.twist.velocity);
+    std::memcpy(places.spin, motion.twist.spin.data(), sizeof motion.twist.spin);
 }
 
 BodyInertia inertia_places(const StatePlaces& places) {

@@ -59,11 +59,9 @@ void demand_all_sides(std::size_t created, const std::vector<nscd::Wall>& walls)
 
 /// Motion of a plate whose reference position is along x.
 BodyMotion plate_motion(const nscd::Wall& wall) {
-    const double half_angle = 0.5 * std::atan2(-wall.normal[0], wall.normal[1]);
     return {wall.point,
-            {std::cos(half_angle), 0.0, 0.0, std::sin(half_angle)},
-            velocity_at(wall, wall.point),
-            {0.0, 0.0, wall.spin}};
+            about_z(std::atan2(-wall.normal[0], wall.normal[1])),
+            {velocity_at(wall, wall.point), wall.twist.spin}};
 }
 
 /// Motion of a side of the box: YADE's wall lies at the coordinate along its axis.
@@ -71,7 +69,7 @@ BodyMotion side_motion(const nscd::Wall& wall) {
     const int axis = std::abs(wall.normal[0]) > 0.5 ? 0 : 1;
     Vec3 place{};
     place[axis] = wall.point[axis];
-    return {place, {1.0, 0.0, 0.0, 0.0}, wall.velocity, {}};
+    return {place, {1.0, 0.0, 0.0, 0.0}, {wall.twist.velocity, {}}};
 }
 
 }  // namespace

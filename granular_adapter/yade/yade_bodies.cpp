@@ -12,16 +12,16 @@ namespace turbidite::yade {
 
 namespace python = boost::python;
 using Vector3 = Eigen::Matrix<double, 3, 1>;
-using Quaternion = Eigen::Quaternion<double>;
+using YadeQuaternion = Eigen::Quaternion<double>;
 
 namespace {
 
-std::array<double, 3> vector_of(const python::object& state, const char* name) {
+Vec3 vector_of(const python::object& state, const char* name) {
     const Vector3 v = python::extract<Vector3>(state.attr(name));
     return {v.x(), v.y(), v.z()};
 }
 
-void set_vector(python::object state, const char* name, const std::array<double, 3>& v) {
+void set_vector(python::object state, const char* name, const Vec3& v) {
     state.attr(name) = Vector3(v[0], v[1], v[2]);
 }
 
@@ -36,19 +36,18 @@ double* reference(const python::object& state, const char* name) {
 }  // namespace
 
 BodyMotion read_attributes(const python::object& state) {
-    const Quaternion q = python::extract<Quaternion>(state.attr("ori"));
+    const YadeQuaternion q = python::extract<YadeQuaternion>(state.attr("ori"));
     return {vector_of(state, "pos"),
             {q.w(), q.x(), q.y(), q.z()},
-            vector_of(state, "vel"),
-            vector_of(state, "angVel")};
+            {vector_of(state, "vel"), vector_of(state, "angVel")}};
 }
 
 void write_attributes(python::object state, const BodyMotion& motion) {
     const auto& q = motion.orientation;
     set_vector(state, "pos", motion.position);
-    state.attr("ori") = Quaternion(q[0], q[1], q[2], q[3]);
-    set_vector(state, "vel", motion.velocity);
-    set_vector(state, "angVel", motion.angular_velocity);
+    state.attr("ori") = YadeQuaternion(q[0], q[1], q[2], q[3]);
+    set_vector(state, "vel", motion.twist.velocity);
+    set_vector(state, "angVel", motion.twist.spin);
 }
 
 BodyInertia inertia_attributes(const python::object& state) {

@@ -15,14 +15,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "coupler/rigid/rigid_motion.hpp"
+
 namespace turbidite::yade {
 
-/// Motion of one body; orientation as (w, x, y, z).
+/// Place and motion of one body, as a whole what YADE's State has.
 struct BodyMotion {
-    std::array<double, 3> position{};
-    std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};
-    std::array<double, 3> velocity{};
-    std::array<double, 3> angular_velocity{};
+    Vec3 position{};
+    Quaternion orientation{1.0, 0.0, 0.0, 0.0};
+    Twist twist{};
 
     bool operator==(const BodyMotion&) const = default;
 };

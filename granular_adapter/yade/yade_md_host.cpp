@@ -6,16 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/yade/yade_forces.hpp"
 #include "granular_adapter/yade/yade_grains.hpp"
 
 namespace turbidite::yade {
 
 namespace python = boost::python;
-using nscd::operator+;
-using nscd::operator*;
 
 namespace {
 
@@ -121,7 +119,6 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
 /// YADE's contacts: (body, grain or wall; body, grain; sliding; overlap, point, normal, force on
 /// the second body).
 std::vector<ContactRecord> YadeMdHost::touching(double window) const {
-    using nscd::operator-;
     const python::object list = scene_.attr("touching")();
     std::vector<ContactRecord> records;
     for (python::ssize_t i = 0; i < python::len(list); ++i) {

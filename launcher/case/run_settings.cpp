@@ -2,10 +2,10 @@
 #include "launcher/case/run_settings.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "coupler/hub/schemes/scheme.hpp"
+#include "coupler/rigid/rotation.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/materials.hpp"
 #include "launcher/case/grains/soft_contact.hpp"
@@ -44,11 +44,6 @@ void set_soft_contact(Settings& settings, const Packing& grains) {
     settings.set("run.md_substeps", contact.substeps);
 }
 
-Quaternion turned(double angle) {
-    if (angle == 0.0) return {1.0, 0.0, 0.0, 0.0};
-    return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
-}
-
 }  // namespace
 
 void choose_scheme(Settings& settings) {
@@ -79,7 +74,7 @@ std::vector<GrainState> grain_states(const Packing& grains, const Settings& sett
         GrainState state;
         state.id = grain.id;
         state.shape = grain.shape;
-        state.orientation = turned(grain.angle);
+        state.orientation = about_z(grain.angle);
         state.radius = grain.radius * scales.diameter;
         state.material = grain.material;
         state.prescribed = grain.prescribed;

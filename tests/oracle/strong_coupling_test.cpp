@@ -16,7 +16,6 @@ namespace {
 
 using namespace judged;
 using nscd::ContactProblem;
-using nscd::operator*;
 
 /// Arms `scale` times as long as in packings; friction from 0 to 2.
 ContactProblem strongly_coupled(unsigned seed, double scale) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

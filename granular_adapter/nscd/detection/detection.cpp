@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

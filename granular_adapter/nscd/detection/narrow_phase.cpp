@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/detection/plane/polygon_contacts.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

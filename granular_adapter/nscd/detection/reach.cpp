@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -32,22 +32,22 @@ double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
 /// Bound of the speed of a turning segment: that of its fastest end.
 double end_speed(const Wall& wall) {
     const double arm = norm(wall.point - wall.pivot) + wall.half_length + wall.half_thickness;
-    return norm(wall.velocity) + std::abs(wall.spin) * arm;
+    return norm(wall.twist.velocity) + norm(wall.twist.spin) * arm;
 }
 
 /// Largest speed of a wall where it may touch a body.
 double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
     double fastest = 0.0;
     for (const Wall& wall : walls) {
-        fastest = std::max(fastest, norm(wall.velocity));
-        if (wall.spin == 0.0) continue;
+        fastest = std::max(fastest, norm(wall.twist.velocity));
+        if (wall.twist.spin == Vec3{}) continue;
         if (std::isfinite(wall.half_length)) {
             fastest = std::max(fastest, end_speed(wall));
             continue;
         }
         for (std::size_t i = 0; i < bodies.size(); ++i)
             fastest = std::max(fastest, norm(velocity_at(wall, bodies.position[i])) +
-                                            std::abs(wall.spin) * bodies.radius[i]);
+                                            norm(wall.twist.spin) * bodies.radius[i]);
     }
     return fastest;
 }

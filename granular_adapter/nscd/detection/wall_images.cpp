@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
 #include "granular_adapter/nscd/detection/reach.hpp"
 #include "granular_adapter/nscd/detection/wall_images.hpp"
 #include "granular_adapter/nscd/engine/engine_state.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {

@@ -4,19 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
-
 namespace turbidite::nscd {
-namespace {
-
-Quaternion normalized(Quaternion q) {
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (double& component : q) component /= length;
-    return q;
-}
-
-}  // namespace
-
 void check_theta(double theta, double restitution) {
     if (!(theta >= 0.5 && theta <= 1.0))
         throw std::invalid_argument("theta = " + std::to_string(theta) +
@@ -38,17 +26,6 @@ std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, do
         free[i].spin = free[i].spin + step * bodies.inverse_inertia(i) * bodies.torque[i];
     }
     return free;
-}
-
-Quaternion rotated(const Quaternion& orientation, const Vec3& angle) {
-    const double magnitude = norm(angle);
-    if (magnitude == 0.0) return orientation;
-    const double c = std::cos(0.5 * magnitude);
-    const Vec3 v = (std::sin(0.5 * magnitude) / magnitude) * angle;
-    const Vec3 w{orientation[1], orientation[2], orientation[3]};
-    const Vec3 vector = c * w + orientation[0] * v + cross(v, w);
-    // Quaternion product.
-    return normalized({c * orientation[0] - dot(v, w), vector[0], vector[1], vector[2]});
 }
 
 void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,

@@ -35,7 +35,4 @@ void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
 /// x of Eq. 17 from the detection configuration q.
 Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta);
 
-/// `orientation` rotated by the rotation vector `angle` (world axes) [rad].
-Quaternion rotated(const Quaternion& orientation, const Vec3& angle);
-
 }  // namespace turbidite::nscd

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

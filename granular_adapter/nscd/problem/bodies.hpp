@@ -16,14 +16,9 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
+#include "coupler/rigid/rigid_motion.hpp"
 
 namespace turbidite::nscd {
-
-/// Velocity and spin of one body.
-struct Twist {
-    Vec3 velocity{};  ///< [m/s]
-    Vec3 spin{};      ///< [rad/s]
-};
 
 /// One body, for Bodies::add.
 struct Body {

@@ -26,6 +26,26 @@ struct ContactVector {
         : n(n), t(t), s(s), roll(roll) {}
 
     bool operator==(const ContactVector&) const = default;
+
+    friend ContactVector operator+(const ContactVector& a, const ContactVector& b) {
+        return {a.n + b.n, a.t + b.t, a.s + b.s, a.roll + b.roll};
+    }
+    friend ContactVector operator-(const ContactVector& a, const ContactVector& b) {
+        return {a.n - b.n, a.t - b.t, a.s - b.s, a.roll - b.roll};
+    }
+    friend ContactVector operator*(double factor, const ContactVector& a) {
+        return {factor * a.n, factor * a.t, factor * a.s, factor * a.roll};
+    }
+
+    /// r . u, the work of an impulse.
+    friend double dot(const ContactVector& a, const ContactVector& b) {
+        return a.n * b.n + a.t * b.t + a.s * b.s + a.roll * b.roll;
+    }
+
+    /// Magnitude of the normal and tangential part, without rolling.
+    friend double norm(const ContactVector& u) {
+        return std::sqrt(u.n * u.n + u.t * u.t + u.s * u.s);
+    }
 };
 
 /// A vector of the plane: s = 0.
@@ -33,29 +53,9 @@ constexpr ContactVector in_plane(double n, double t, double roll = 0.0) {
     return {n, t, 0.0, roll};
 }
 
-inline ContactVector operator+(const ContactVector& a, const ContactVector& b) {
-    return {a.n + b.n, a.t + b.t, a.s + b.s, a.roll + b.roll};
-}
-inline ContactVector operator-(const ContactVector& a, const ContactVector& b) {
-    return {a.n - b.n, a.t - b.t, a.s - b.s, a.roll - b.roll};
-}
-inline ContactVector operator*(double factor, const ContactVector& a) {
-    return {factor * a.n, factor * a.t, factor * a.s, factor * a.roll};
-}
-
-/// r . u, the work of an impulse.
-inline double dot(const ContactVector& a, const ContactVector& b) {
-    return a.n * b.n + a.t * b.t + a.s * b.s + a.roll * b.roll;
-}
-
 /// |u_t|, the magnitude of the tangential part.
 inline double tangential(const ContactVector& u) {
     return std::hypot(u.t, u.s);
-}
-
-/// Magnitude of the normal and tangential part, without rolling.
-inline double norm(const ContactVector& u) {
-    return std::sqrt(u.n * u.n + u.t * u.t + u.s * u.s);
 }
 
 }  // namespace turbidite::nscd

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/rotation.hpp"
 
 namespace turbidite::nscd {
 
@@ -13,23 +13,24 @@ double signed_distance(const Wall& wall, const Vec3& point) {
 }
 
 bool is_moving(const Wall& wall) {
-    return norm(wall.velocity) > 0.0 || wall.spin != 0.0;
+    return !wall.twist.at_rest();
 }
 
 Vec3 velocity_at(const Wall& wall, const Vec3& place) {
-    return wall.velocity + cross({0.0, 0.0, wall.spin}, place - wall.pivot);
+    return wall.twist.at(place - wall.pivot);
 }
 
 void move(Wall& wall, double step) {
-    const double c = std::cos(step * wall.spin), s = std::sin(step * wall.spin);
-    const Vec3 arm = wall.point - wall.pivot, normal = wall.normal;
-    wall.pivot = wall.pivot + step * wall.velocity;
-    if (wall.spin == 0.0) {
-        wall.point = wall.point + step * wall.velocity;
+    const Vec3 arm = wall.point - wall.pivot;
+    const Shift shift = step * wall.twist;
+    wall.pivot = wall.pivot + shift.displacement;
+    if (wall.twist.spin == Vec3{}) {
+        wall.point = wall.point + shift.displacement;
         return;
     }
-    wall.point = wall.pivot + Vec3{c * arm[0] - s * arm[1], s * arm[0] + c * arm[1], arm[2]};
-    wall.normal = {c * normal[0] - s * normal[1], s * normal[0] + c * normal[1], 0.0};
+    const Rotation turn = rotation(shift.angle);
+    wall.point = wall.pivot + turn(arm);
+    wall.normal = turn(wall.normal);
     wall.normal = (1.0 / norm(wall.normal)) * wall.normal;
 }
 
@@ -48,9 +49,11 @@ void check_wall(const Wall& wall) {
         throw std::invalid_argument(name + "the half length must be positive");
     if (!(wall.half_thickness >= 0.0))
         throw std::invalid_argument(name + "the half thickness must be zero or positive");
-    if (!is_finite(wall.velocity) || !is_finite(wall.pivot) || !std::isfinite(wall.spin))
+    const auto& [velocity, spin] = wall.twist;
+    if (!is_finite(velocity) || !is_finite(wall.pivot) || !is_finite(spin))
         throw std::invalid_argument(name + "its motion must be finite");
-    if (wall.velocity[2] != 0.0) throw std::invalid_argument(name + "it must move in the plane");
+    if (velocity[2] != 0.0 || spin[0] != 0.0 || spin[1] != 0.0)
+        throw std::invalid_argument(name + "it must move in the plane");
 }
 
 }  // namespace turbidite::nscd

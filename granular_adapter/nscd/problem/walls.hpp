@@ -4,7 +4,7 @@
 // segment is a thin plate with grains on both sides; a grain is held on the side on which its
 // centre lies. Walls are at rest or follow a prescribed motion,
 //
-//     v(x) = velocity + spin e_z x (x - pivot)
+//     v(x) = velocity + spin x (x - pivot)
 //
 // and a moving wall drags and pushes what touches it, without any reaction on itself. A belt is a
 // wall that moves along itself.
@@ -14,7 +14,7 @@
 #include <limits>
 #include <vector>
 
-#include "coupler/protocol/records.hpp"
+#include "coupler/rigid/rigid_motion.hpp"
 
 namespace turbidite::nscd {
 
@@ -29,9 +29,8 @@ struct Wall {
     std::int32_t key = 0;  ///< identifies the wall in the contact memory; distinct per wall
     /// Index into the SurfaceTable; -1: the surface of the touching body, with `friction`.
     std::int32_t material = -1;
-    Vec3 velocity{};    ///< of the pivot [m/s]
-    double spin = 0.0;  ///< about the pivot [rad/s]
-    Vec3 pivot{};       ///< moves with `velocity` [m]
+    Twist twist{};  ///< of the pivot, and about it
+    Vec3 pivot{};   ///< [m]
 };
 
 bool is_moving(const Wall& wall);

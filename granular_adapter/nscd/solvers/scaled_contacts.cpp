@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

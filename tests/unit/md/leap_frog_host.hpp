@@ -68,7 +68,7 @@ class LeapFrogHost final : public MdHost {
         const double overlap = bodies_.radius[i] - bodies_.position[i][1];
         if (overlap < 0.0) return load;
         report.max_penetration = std::max(report.max_penetration, overlap);
-        const nscd::Twist& twist = bodies_.twist[i];
+        const Twist& twist = bodies_.twist[i];
         const double push = std::max(0.0, stiffness * overlap - dashpot * twist.velocity[1]);
         const double slip = twist.velocity[0] + bodies_.position[i][1] * twist.spin[2];
         load.force[0] -= drag * slip;
@@ -78,7 +78,7 @@ class LeapFrogHost final : public MdHost {
     }
 
     void step(std::size_t i, const Load& load, double delta) {
-        nscd::Twist& twist = bodies_.twist[i];
+        Twist& twist = bodies_.twist[i];
         twist.velocity[0] += delta * load.force[0] / bodies_.mass[i];
         twist.velocity[1] += delta * (load.force[1] / bodies_.mass[i] - gravity_);
         twist.spin[2] += delta * load.torque[2] / bodies_.inertia[i];

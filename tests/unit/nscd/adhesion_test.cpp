@@ -4,7 +4,7 @@
 // by a force. Adhesion c = 2, range 0.05.
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

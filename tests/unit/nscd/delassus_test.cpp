@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 #include "planar.hpp"
 #include "problems.hpp"

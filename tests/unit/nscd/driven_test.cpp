@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "polygons.hpp"
 
 namespace turbidite::nscd {
@@ -11,7 +11,7 @@ constexpr double dt = 0.01;
 
 Wall belt(double speed, double friction) {
     Wall wall = scenes::floor(friction);
-    wall.velocity = {speed, 0.0, 0.0};
+    wall.twist.velocity = {speed, 0.0, 0.0};
     return wall;
 }
 
@@ -49,7 +49,7 @@ TEST(Piston, PushesWhatItMeets) {
     EngineSettings settings = scenes::exact(0.3);
     settings.gravity = {};
     Wall piston = scenes::wall(1, {0, 0, 0}, {1, 0, 0}, 0.3);
-    piston.velocity = {0.5, 0.0, 0.0};
+    piston.twist.velocity = {0.5, 0.0, 0.0};
     Engine engine(settings, scenes::discs, {piston});
     for (int i = 0; i < 3; ++i) engine.bodies().add(scenes::disc(i, 0.7 + 1.1 * i, 0.1 * i));
     double deepest = 0.0;
@@ -71,7 +71,7 @@ TEST(Piston, CompressesAgainstAWall) {
     settings.gravity = {};
     settings.solver_settings.max_iterations = 1000;
     Wall piston = scenes::wall(1, {0, 0, 0}, {1, 0, 0}, 0.3);
-    piston.velocity = {0.1, 0.0, 0.0};
+    piston.twist.velocity = {0.1, 0.0, 0.0};
     Engine engine(settings, scenes::discs, {piston, scenes::wall(2, {1.0, 0, 0}, {-1, 0, 0}, 0.3)});
     engine.bodies().add(scenes::disc(1, 0.5, 0.0));
     engine.step(dt);
@@ -88,7 +88,7 @@ TEST(Paddle, LiftsAtSpinTimesArm) {
     Wall paddle = scenes::floor(0.0);
     paddle.point = {0.5, 0.0, 0.0};
     paddle.half_length = 0.5;
-    paddle.spin = 2.0;
+    paddle.twist.spin = {0.0, 0.0, 2.0};
     Engine engine(settings, scenes::discs, {paddle});
     engine.bodies().add(scenes::disc(1, 0.6, 0.2, 0.2));
     engine.step(dt);
@@ -154,8 +154,8 @@ TEST(DrivenBody, MovesABed) {
 TEST(DrivenBody, RestartsBitForBit) {
     const auto make = [] {
         Engine engine = driven_bed();
-        engine.walls()[1].velocity = {0.1, 0.0, 0.0};
-        engine.walls()[0].spin = 0.01;
+        engine.walls()[1].twist.velocity = {0.1, 0.0, 0.0};
+        engine.walls()[0].twist.spin = {0.0, 0.0, 0.01};
         return engine;
     };
     Engine whole = make(), first = make(), second = make();

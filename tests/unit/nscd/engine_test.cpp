@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "polygon_reference.hpp"
 #include "polygons.hpp"
 

@@ -3,7 +3,7 @@
 // Laws between faces: unit squares of mass 1 on each other, the lower one fixed, without weight.
 #include <gtest/gtest.h>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "polygons.hpp"
 
 namespace turbidite::nscd {
@@ -94,7 +94,7 @@ TEST(FaceLaws, RestitutionIsRelativeToAMovingWall) {
     Surface surface;
     surface.restitution = 0.5;
     Wall floor = scenes::floor(0.3);
-    floor.velocity = {0.0, 1.0, 0.0};
+    floor.twist.velocity = {0.0, 1.0, 0.0};
     Engine engine(weightless(surface), squares, {floor});
     engine.bodies().add(scenes::unit_square(squares, 1, 0.0, 0.5));
     engine.step(dt);

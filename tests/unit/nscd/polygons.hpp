@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "coupler/rigid/vec3.hpp"
 #include "coupler/shapes/shape.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd::scenes {

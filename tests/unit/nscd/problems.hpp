@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd::problems {
 

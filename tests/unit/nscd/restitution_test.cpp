@@ -5,8 +5,8 @@
 
 #include <random>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
 #include "planar.hpp"
 #include "scenes.hpp"

@@ -57,7 +57,7 @@ Loads silo(int columns, int rows, double wall_friction) {
     Engine engine = scenes::settling_pack(columns, rows, settings);
     for (const int side : {1, 2}) engine.walls()[side].friction = wall_friction;
     scenes::run(engine, 5.0, dt);
-    engine.walls()[0].velocity = {0.0, -0.1, 0.0};
+    engine.walls()[0].twist.velocity = {0.0, -0.1, 0.0};
     scenes::run(engine, 4.0, dt);
     Loads loads;
     constexpr int steps = 600;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
+#include "coupler/rigid/vec3.hpp"
 #include "polygons.hpp"
 
 namespace turbidite::nscd {
@@ -118,7 +118,7 @@ TEST(WallImages, TwoOfThemMayTouchOneBody) {
 TEST(WallImages, TurnAboutTheirOwnPivots) {
     Wall paddle = plate(9.0, 11.0, 3.0);
     paddle.pivot = {9.0, 3.0, 0.0};
-    paddle.spin = 0.5;
+    paddle.twist.spin = {0.0, 0.0, 0.5};
     EngineSettings settings = in_a_period();
     settings.gravity = {};
     Engine engine(settings, shapes, {paddle});

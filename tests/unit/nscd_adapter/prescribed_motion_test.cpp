@@ -46,12 +46,12 @@ TEST(PrescribedMotion, KindsAreWhatTheySay) {
     ASSERT_EQ(moved.size(), 3u);
     EXPECT_EQ(moved[2].what, 4);
     EXPECT_DOUBLE_EQ(moved[0].motion->at(2.0).displacement[1], -4.0);
-    EXPECT_DOUBLE_EQ(moved[0].motion->at(2.0).angle, 1.0);
+    EXPECT_DOUBLE_EQ(moved[0].motion->at(2.0).angle[2], 1.0);
     EXPECT_NEAR(moved[1].motion->at(1.0).displacement[0], 0.1, 1e-15);
-    EXPECT_NEAR(moved[1].motion->at(3.0).angle, -0.2, 1e-15);
+    EXPECT_NEAR(moved[1].motion->at(3.0).angle[2], -0.2, 1e-15);
     EXPECT_DOUBLE_EQ(moved[2].motion->at(0.5).displacement[0], 1.0);
     EXPECT_DOUBLE_EQ(moved[2].motion->at(2.0).displacement[1], 2.0);
-    EXPECT_DOUBLE_EQ(moved[2].motion->at(9.0).angle, 1.0);
+    EXPECT_DOUBLE_EQ(moved[2].motion->at(9.0).angle[2], 1.0);
 }
 
 TEST(PrescribedMotion, TextThatIsNoMotionIsRefused) {

@@ -80,7 +80,7 @@ Course dry_course(GrainsAdapter& adapter, const std::vector<GrainState>& grains,
             std::max(course.overlap, adapter.advance(window(n), {}).report.max_penetration);
         double height = 0.0, speed = 0.0;
         for (const GrainState& grain : adapter.apply_kick(window(n), {}).grains)
-            height += grain.position[1], speed += nscd::norm(grain.velocity);
+            height += grain.position[1], speed += norm(grain.velocity);
         course.height.push_back(height / double(grains.size()));
         course.speed.push_back(speed / double(grains.size()));
     }

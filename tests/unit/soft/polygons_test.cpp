@@ -8,8 +8,6 @@
 namespace turbidite::soft {
 namespace {
 
-using nscd::operator+, nscd::operator-, nscd::operator*;
-
 constexpr double pi = std::numbers::pi;
 constexpr double half_height = 0.25;  ///< of the centre of a triangle over its base, R = 0.5
 
@@ -162,7 +160,7 @@ TEST(SoftPolygons, StandOnASlopeBelowTheAngleOfFriction) {
     EXPECT_GT(place[0] - 5.0, 1e-7);  // the springs give way
     slope.play(2.0);
     EXPECT_NEAR(slope.scene.bodies.position[0][0], place[0], 1e-9);
-    EXPECT_LT(nscd::norm(slope.scene.velocity(0)), 1e-9);
+    EXPECT_LT(norm(slope.scene.velocity(0)), 1e-9);
 }
 
 TEST(SoftPolygons, SlideOnASlopeAboveTheAngleOfFriction) {

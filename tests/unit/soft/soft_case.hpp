@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "coupler/rigid/vec3.hpp"
 #include "coupler/shapes/shape.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 #include "granular_adapter/soft/soft_md_host.hpp"
 #include "tests/unit/md/spring_box.hpp"
 
@@ -79,13 +79,12 @@ struct Scene {
     double kinetic_energy() const {
         double energy = 0.0;
         for (std::size_t i = 0; i < bodies.size(); ++i)
-            energy += 0.5 * bodies.mass[i] * nscd::dot(velocity(i), velocity(i)) +
+            energy += 0.5 * bodies.mass[i] * dot(velocity(i), velocity(i)) +
                       0.5 * bodies.inertia[i] * spin(i) * spin(i);
         return energy;
     }
 
     Vec3 momentum() const {
-        using nscd::operator+, nscd::operator*;
         Vec3 sum{};
         for (std::size_t i = 0; i < bodies.size(); ++i) sum = sum + bodies.mass[i] * velocity(i);
         return sum;
@@ -93,11 +92,10 @@ struct Scene {
 
     /// About a point.
     double angular_momentum(const Vec3& about = {}) const {
-        using nscd::operator-;
         double sum = 0.0;
         for (std::size_t i = 0; i < bodies.size(); ++i)
             sum += bodies.inertia[i] * spin(i) +
-                   bodies.mass[i] * nscd::cross_z(bodies.position[i] - about, velocity(i));
+                   bodies.mass[i] * cross_z(bodies.position[i] - about, velocity(i));
         return sum;
     }
 

@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
 
-#include "granular_adapter/nscd/problem/vec3.hpp"
-
 namespace turbidite::nscd {
 namespace {
 
-/// Displacement of a body over the step.
-struct Turn {
-    Vec3 shift{};  ///< displacement of its centre [m]
-    double cosine = 1.0, sine = 0.0;
-
-    Vec3 operator()(const Vec3& arm) const {
-        return {cosine * arm[0] - sine * arm[1], sine * arm[0] + cosine * arm[1], arm[2]};
-    }
-};
-
-Turn turn_of(const Twist& twist, double dt) {
-    const double angle = dt * twist.spin[2];
-    return {dt * twist.velocity, std::cos(angle), std::sin(angle)};
-}
-
-/// A wall rotates about its pivot, which is its centre here.
-Turn turn_of(const Wall& wall, double dt) {
-    const double angle = dt * wall.spin;
-    return {dt * wall.velocity, std::cos(angle), std::sin(angle)};
-}
-
-/// One of the two bodies of a contact: its displacement, and the arm to its own surface point.
+/// One of the two bodies of a contact: where the step takes it, and the arm to its own surface
+/// point.
 struct Partner {
-    Turn turn;
-    Vec3 arm{};
-    bool round = false;
+    Partner(const Shift& shift, const Vec3& arm, bool round)
+        : shift(shift.displacement), turn(rotation(shift.angle)), arm(arm), round(round) {}
+
+    Vec3 shift;  ///< of its centre [m]
+    Rotation turn;
+    Vec3 arm;
+    bool round;
 };
 
 class Shortfall {
@@ -45,8 +27,8 @@ class Shortfall {
         const Partner a = partner_a(p), b = partner_b(p);
         const Partner &owner = on_a ? a : b, &other = on_a ? b : a;
         const Vec3 normal = on_a ? p.normal : -1.0 * p.normal, turned = owner.turn(normal);
-        Vec3 apart = p.gap * normal + other.turn.shift - owner.turn.shift -
-                     (owner.turn(owner.arm) - owner.arm);
+        Vec3 apart =
+            p.gap * normal + other.shift - owner.shift - (owner.turn(owner.arm) - owner.arm);
         // The surface point of a disc is always the one that faces the side.
         apart = apart + (other.round ? norm(other.arm) * (normal - turned)
                                      : other.turn(other.arm) - other.arm);
@@ -76,14 +58,13 @@ class Shortfall {
     Partner partner_a(const ContactPoint& p) const {
         if (p.wall >= 0) {
             const Vec3 place = step_.bodies.position[p.b] + p.arm_b - p.gap * p.normal;
-            return {turn_of(wall(p), step_.dt), place - wall(p).pivot, false};
+            return {step_.dt * wall(p).twist, place - wall(p).pivot, false};
         }
-        return {turn_of(step_.velocities[p.a], step_.dt), p.arm_a - 0.5 * p.gap * p.normal,
-                is_round(p.a)};
+        return {step_.dt * step_.velocities[p.a], p.arm_a - 0.5 * p.gap * p.normal, is_round(p.a)};
     }
     Partner partner_b(const ContactPoint& p) const {
         const Vec3 arm = p.wall >= 0 ? p.arm_b : p.arm_b + 0.5 * p.gap * p.normal;
-        return {turn_of(step_.velocities[p.b], step_.dt), arm, is_round(p.b)};
+        return {step_.dt * step_.velocities[p.b], arm, is_round(p.b)};
     }
 
     const SolvedStep& step_;

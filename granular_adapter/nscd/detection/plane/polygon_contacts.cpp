@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/detection/plane/polygon_manifold.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -9,6 +9,16 @@
 
 namespace turbidite::nscd {
 
+/// (x, y, spin): an impulse with its moment, or a change of velocity with the change of spin. Three
+/// numbers where a Twist has six, since the sweeps compute with nothing else.
+struct PlanarVector {
+    double x = 0.0, y = 0.0, spin = 0.0;
+
+    friend double dot(const PlanarVector& a, const PlanarVector& b) {
+        return a.x * b.x + a.y * b.y + a.spin * b.spin;
+    }
+};
+
 /// Symmetric, over (x, y, spin).
 struct PlanarTensor {
     double xx = 0.0, yy = 0.0, ss = 0.0;
@@ -21,24 +31,15 @@ struct PlanarTensor {
     /// diag(a, a, b): the same in all directions, and uncoupled from the spin.
     bool isotropic() const { return xx == yy && uncoupled(); }
     bool uncoupled() const { return xy == 0.0 && xs == 0.0 && ys == 0.0; }
+
+    friend PlanarVector operator*(const PlanarTensor& m, const PlanarVector& v) {
+        return {m.xx * v.x + m.xy * v.y + m.xs * v.spin, m.xy * v.x + m.yy * v.y + m.ys * v.spin,
+                m.xs * v.x + m.ys * v.y + m.ss * v.spin};
+    }
 };
 
 /// M^-1; zero for an immovable body [1/kg, 1/(kg m), 1/(kg m2)].
 using BodyMobility = PlanarTensor;
-
-/// (x, y, spin): an impulse with its moment, or a change of velocity with the change of spin.
-struct PlanarVector {
-    double x = 0.0, y = 0.0, spin = 0.0;
-};
-
-inline PlanarVector operator*(const PlanarTensor& m, const PlanarVector& v) {
-    return {m.xx * v.x + m.xy * v.y + m.xs * v.spin, m.xy * v.x + m.yy * v.y + m.ys * v.spin,
-            m.xs * v.x + m.ys * v.y + m.ss * v.spin};
-}
-
-inline double dot(const PlanarVector& a, const PlanarVector& b) {
-    return a.x * b.x + a.y * b.y + a.spin * b.spin;
-}
 
 /// Empty unless the tensor is positive definite; isotropic tensors stay isotropic.
 std::optional<PlanarTensor> inverse(const PlanarTensor& tensor);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/sweeps/plane/sweep_pack.hpp"
 
+#include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
-#include "granular_adapter/nscd/problem/vec3.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -14,6 +14,7 @@
 
 namespace turbidite::nscd {
 
+/// Four doubles where a Twist has six: a sweep reads one register per body.
 struct alignas(32) PlaneBody {
     double x = 0.0, y = 0.0, spin = 0.0;
     double inverse_mass = 0.0;  ///< used if mobilities are isotropic

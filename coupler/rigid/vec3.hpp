@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Vector algebra on the plain `Vec3` of the records, so that no type with alignment requirements
-// appears in the engine's interface.
+// Vector algebra on the plain numbers that the records hold: no type with alignment
+// requirements appears in an interface, and no header of Eigen in a host that has its own. In the
+// plane z is zero; what the operations add for it changes no digit of x and y. Valid C++17.
 #pragma once
 
 #include <cmath>
 
 #include "coupler/protocol/records.hpp"
 
-namespace turbidite::nscd {
+namespace turbidite {
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -16,8 +17,14 @@ inline Vec3 operator+(const Vec3& a, const Vec3& b) {
 inline Vec3 operator-(const Vec3& a, const Vec3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
+inline Vec3 operator-(const Vec3& a) {
+    return {-a[0], -a[1], -a[2]};
+}
 inline Vec3 operator*(double s, const Vec3& a) {
     return {s * a[0], s * a[1], s * a[2]};
+}
+inline Vec3 operator/(const Vec3& a, double s) {
+    return {a[0] / s, a[1] / s, a[2] / s};
 }
 
 inline double dot(const Vec3& a, const Vec3& b) {
@@ -41,4 +48,4 @@ inline bool is_finite(const Vec3& a) {
     return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
-}  // namespace turbidite::nscd
+}  // namespace turbidite
