@@ -84,8 +84,7 @@ class LeapFrogHost final : public MdHost {
         twist.spin[2] += delta * load.torque[2] / bodies_.inertia[i];
         for (int axis = 0; axis < 2; ++axis)
             bodies_.position[i][axis] += delta * twist.velocity[axis];
-        bodies_.orientation[i] =
-            nscd::rotated(bodies_.orientation[i], {0, 0, delta * twist.spin[2]});
+        bodies_.orientation[i] = rotated(bodies_.orientation[i], {0, 0, delta * twist.spin[2]});
     }
 
     double gravity_ = 0.0;
