@@ -13,6 +13,7 @@
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/scripted.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "launcher/adapter_test/partner.hpp"
 
 namespace {
@@ -27,8 +28,7 @@ class LeavingGrains final : public ScriptedGrains {
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override {
         size_ = run_values(settings).size;
-        for (const char* side : {"left", "right", "bottom", "top"})
-            free_.push_back(settings.text(std::string("domain.") + side) == "free");
+        types_ = side_types(settings);
         return ScriptedGrains::initialise(settings, shapes, grains);
     }
 
@@ -45,15 +45,14 @@ class LeavingGrains final : public ScriptedGrains {
 
  private:
     bool has_left(const GrainState& grain) const {
-        const auto& at = grain.position;
-        const bool beyond[] = {at[0]<0.0, at[0]> size_[0], at[1]<0.0, at[1]> size_[1]};
-        for (std::size_t side = 0; side < 4; ++side)
-            if (free_[side] && beyond[side]) return true;
+        for (std::size_t side = 0; side < box_sides.size(); ++side)
+            if (types_[side] == "free" && box_sides[side].distance(grain.position, size_) < 0.0)
+                return true;
         return false;
     }
 
     std::array<double, 2> size_{};
-    std::vector<bool> free_;  // left, right, bottom, top
+    SideTypes types_;
 };
 
 }  // namespace

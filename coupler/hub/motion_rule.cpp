@@ -12,8 +12,6 @@
 namespace turbidite {
 namespace {
 
-constexpr const char* side_keys[] = {"domain.left", "domain.right", "domain.bottom", "domain.top"};
-
 const std::string from_the_case =
     "\"initialise\" returns the grains that it was given: positions, orientations and velocities "
     "are the case's.";
@@ -87,16 +85,14 @@ struct MotionRule::Limits {
 
 MotionRule::MotionRule(const Settings& settings, const ShapeTable& shapes,
                        const std::vector<GrainState>& population)
-    : run_(run_values(settings)), bodies_(run_, shapes), population_(population) {
+    : run_(run_values(settings)),
+      bodies_(run_, shapes),
+      population_(population),
+      side_types_(side_types(settings)) {
     for (const Moved& moved : motions_of(settings, "run.grain_motions"))
         driven_.emplace(moved.what, moved.motion);
     for (const GrainState& grain : population)
         if (grain.prescribed) held_.emplace(grain.id, twist_of(grain));
-    for (std::size_t side = 0; side < 4; ++side) {
-        const std::string kind = settings.text(side_keys[side]);
-        free_[side] = kind == "free";
-        closed_[side] = kind == "wall" || kind == "inflow";
-    }
     const auto given = [&](const char* key) {
         return settings.has(key) && !settings.text(key).empty();
     };
@@ -225,11 +221,10 @@ bool MotionRule::is_pushed(const Grain& grain, const Limits& limits) const {
 bool MotionRule::may_touch(const GrainState& grain, const Motion& before, double reach) const {
     if (walls_anywhere_) return true;
     const double near = grain.radius + reach;
-    for (std::size_t side = 0; side < 4; ++side) {
-        const double place = grain.position[side / 2];
-        const double distance = side % 2 == 0 ? place : run_.size[side / 2] - place;
-        if (closed_[side] && distance <= near) return true;
-    }
+    for (std::size_t side = 0; side < box_sides.size(); ++side)
+        if (holds_grains(side_types_[side]) &&
+            box_sides[side].distance(grain.position, run_.size) <= near)
+            return true;
     return std::any_of(before.grains.begin(), before.grains.end(), [&](const GrainState& other) {
         return other.id != grain.id &&
                norm(from_to(grain.position, other.position)) <= near + other.radius + reach;
@@ -254,11 +249,9 @@ double MotionRule::allowed(const Grain& grain, const Motion& before, const Limit
 /// Negative beyond it; infinite if no side is free.
 double MotionRule::distance_to_free_side(const Vec3& position) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t side = 0; side < 4; ++side) {
-        const double place = position[side / 2];
-        const double distance = side % 2 == 0 ? place : run_.size[side / 2] - place;
-        if (free_[side]) nearest = std::min(nearest, distance);
-    }
+    for (std::size_t side = 0; side < box_sides.size(); ++side)
+        if (side_types_[side] == "free")
+            nearest = std::min(nearest, box_sides[side].distance(position, run_.size));
     return nearest;
 }
 

@@ -36,6 +36,7 @@
 #include "coupler/protocol/grain_index.hpp"
 #include "coupler/protocol/prescribed_motion.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
 
 namespace turbidite {
@@ -96,8 +97,8 @@ class MotionRule {
     std::vector<GrainState> population_;
     std::unordered_map<GrainId, Twist> held_;
     std::unordered_map<GrainId, std::shared_ptr<const PrescribedMotion>> driven_;
-    std::array<bool, 4> free_{}, closed_{};  ///< left, right, bottom, top
-    bool walls_anywhere_ = false;            ///< inside the box, or sides that move
+    SideTypes side_types_;
+    bool walls_anywhere_ = false;  ///< inside the box, or sides that move
     bool with_contact_velocity_ = false;
     bool substeps_ = false;
     GrainIndex population_index_, before_, contact_;

@@ -14,11 +14,12 @@
 #include <vector>
 
 #include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/protocol/sides.hpp"
 
 namespace turbidite {
 
 /// Key of the first plate; those before it are the sides of the box.
-inline constexpr std::int32_t first_plate = 4;
+inline constexpr std::int32_t first_plate = box_sides.size();
 
 /// All that is nearer to a segment than half the thickness, at t = 0, and its motion.
 struct Plate {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/protocol/run_values.hpp"
 
+#include "coupler/protocol/sides.hpp"
+
 namespace turbidite {
 namespace {
-
-double period(const Settings& settings, const char* side, double size) {
-    return settings.text(side) == "cyclic" ? size : 0.0;
-}
 
 void read_fluid(const Settings& settings, RunValues& run) {
     run.fluid_density = settings.real("run.fluid_density");
@@ -29,11 +27,12 @@ RunValues run_values(const Settings& settings) {
     run.step = settings.real("run.step");
     run.windows = settings.integer("run.windows");
     run.output_every = settings.integer("run.output_every");
-    run.fields_every = settings.has("run.fields_every") ? settings.integer("run.fields_every")
-                                                        : run.output_every;
+    run.fields_every =
+        settings.has("run.fields_every") ? settings.integer("run.fields_every") : run.output_every;
     run.size = {settings.real("run.size_x"), settings.real("run.size_y")};
-    run.period = {period(settings, "domain.left", run.size[0]),
-                  period(settings, "domain.bottom", run.size[1]), 0.0};
+    for (std::size_t side = 0; side < box_sides.size(); side += 2)
+        if (const auto& [name, key, axis, inward] = box_sides[side]; settings.text(key) == "cyclic")
+            run.period[axis] = run.size[axis];
     return run;
 }
 

@@ -31,18 +31,20 @@ std::vector<double> shares_of(const Foam::fvPatch& patch, int axis, const SideMo
 
 }  // namespace
 
-SideVelocity::SideVelocity(const std::array<SideMotion, 4>& motions, FluidFields& fields)
+SideVelocity::SideVelocity(const std::array<SideMotion, box_sides.size()>& motions,
+                           FluidFields& fields)
     : motions_(motions), fields_(fields) {
-    for (int side = 0; side < 4; ++side) {
+    for (std::size_t side = 0; side < box_sides.size(); ++side) {
+        const BoxSide& at = box_sides[side];
         if (!motions_[side].motion) continue;
-        const Foam::label patch = fields.mesh.boundary().findPatchID(side_names[side]);
+        const Foam::label patch = fields.mesh.boundary().findPatchID(at.name);
         if (patch < 0 || !fields.U.boundaryField()[patch].fixesValue())
             throw Failure(ExitCode::bad_input,
-                          std::string("domain.") + side_names[side] +
+                          std::string(at.key) +
                               "_motion prescribes a velocity, but 0/U of the fluid case holds no "
                               "value on patch " +
-                              side_names[side] + "; use type fixedValue there");
-        const int along = side < 2 ? 1 : 0;
+                              at.name + "; use type fixedValue there");
+        const int along = 1 - at.axis;
         patches_.push_back(
             {patch, &motions_[side],
              shares_of(fields.mesh.boundary()[patch], along, motions_[side], fields)});

@@ -18,7 +18,7 @@ class SideVelocity {
  public:
     /// Throws Failure (bad_input), naming the patch, if U does not hold a value on a side that
     /// moves.
-    SideVelocity(const std::array<SideMotion, 4>& motions, FluidFields& fields);
+    SideVelocity(const std::array<SideMotion, box_sides.size()>& motions, FluidFields& fields);
 
     /// Sets U on the sides for the window [time, time + step]. Returns whether any side moves.
     bool set(double time, double step);
@@ -30,7 +30,7 @@ class SideVelocity {
         std::vector<double> shares;  ///< of the profile, by face
     };
 
-    std::array<SideMotion, 4> motions_;
+    std::array<SideMotion, box_sides.size()> motions_;
     FluidFields& fields_;
     std::vector<MovedPatch> patches_;
 };

@@ -115,13 +115,14 @@ std::string solution(const Settings& settings) {
                        solver(settings, "viscous", {fft, pcg}, 1000));
 }
 
-std::string patch(const FluidDomain& domain, int side) {
+std::string patch(const FluidDomain& domain, std::size_t side) {
     static const char* faces[] = {"(0 4 7 3)", "(1 2 6 5)", "(0 1 5 4)", "(3 7 6 2)"};
     const std::string& kind = domain.sides[side];
     std::string type = kind == "wall" ? "wall" : "patch";
     if (kind == "cyclic")  // partners: left-right, bottom-top
-        type = fmt::format("cyclic; neighbourPatch {}", side_names[side ^ 1]);
-    return fmt::format("    {} {{ type {}; faces ({}); }}\n", side_names[side], type, faces[side]);
+        type = fmt::format("cyclic; neighbourPatch {}", box_sides[opposite(side)].name);
+    return fmt::format("    {} {{ type {}; faces ({}); }}\n", box_sides[side].name, type,
+                       faces[side]);
 }
 
 /// blockMesh's expansion ratios along y: one section per row of a stretched mesh.
@@ -142,7 +143,7 @@ std::string block_mesh(const FluidDomain& domain) {
                                    {0.0, domain.size[1]}})
             vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
     std::string patches;
-    for (int side = 0; side < 4; ++side) patches += patch(domain, side);
+    for (std::size_t side = 0; side < box_sides.size(); ++side) patches += patch(domain, side);
     return fmt::format(
         "scale 1;\nvertices\n(\n{});\n"
         "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} 1) simpleGrading (1 {} 1) );\n"
@@ -187,16 +188,16 @@ std::string decomposition(const Settings& settings, const FluidDomain& domain) {
         rows ? 1 : ranks, rows ? ranks : 1);
 }
 
-/// Conditions on the four sides: `closed(side)` on walls and inflows, `at_free` on free sides.
+/// Conditions on the sides: `closed(side)` on walls and inflows, `at_free` on free sides.
 template <class Closed>
 std::string boundary_field(const FluidDomain& domain, Closed closed, const std::string& at_free) {
     std::string text = "boundaryField\n{\n";
-    for (int side = 0; side < 4; ++side) {
+    for (std::size_t side = 0; side < box_sides.size(); ++side) {
         const std::string& kind = domain.sides[side];
         const std::string value = kind == "cyclic" ? "type cyclic;"
                                   : kind == "free" ? at_free
                                                    : closed(side);
-        text += fmt::format("    {} {{ {} }}\n", side_names[side], value);
+        text += fmt::format("    {} {{ {} }}\n", box_sides[side].name, value);
     }
     return text + "    frontAndBack { type empty; }\n}\n";
 }
@@ -210,11 +211,11 @@ std::string side_velocity(const SideMotion& side, double step) {
 }
 
 std::string initial_velocity(const FluidDomain& domain, const Settings& settings) {
-    const std::array<SideMotion, 4> motions = side_motions(settings);
+    const auto motions = side_motions(settings);
     const double step = run_values(settings).step;
     return "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\n" +
            boundary_field(
-               domain, [&](int side) { return side_velocity(motions[side], step); },
+               domain, [&](std::size_t side) { return side_velocity(motions[side], step); },
                "type zeroGradient;");
 }
 

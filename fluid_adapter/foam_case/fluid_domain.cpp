@@ -43,23 +43,6 @@ void stretch_rows(const Settings& settings, const RunValues& run, FluidDomain& d
     domain.row_edges.back() = run.size[1];
 }
 
-std::string side(const Settings& settings, const std::string& name) {
-    const std::string value = settings.text("domain." + name);
-    if (value != "wall" && value != "free" && value != "cyclic" && value != "inflow")
-        throw Failure(
-            ExitCode::bad_input,
-            fmt::format("domain.{} = \"{}\"; allowed are wall, free, cyclic, inflow", name, value));
-    return value;
-}
-
-void check_pair(const FluidDomain& domain, int first, int second) {
-    if ((domain.sides[first] == "cyclic") != (domain.sides[second] == "cyclic"))
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("domain.{} = {} and domain.{} = {}: cyclic sides come in pairs",
-                                  side_names[first], domain.sides[first], side_names[second],
-                                  domain.sides[second]));
-}
-
 }  // namespace
 
 FluidDomain fluid_domain(const Settings& settings) {
@@ -71,9 +54,7 @@ FluidDomain fluid_domain(const Settings& settings) {
                     cell_count("run.size_y", run.size[1], per_length)};
     domain.equal_height = run.size[1];
     domain.thickness = domain.size[0] / domain.cells[0];
-    for (int i = 0; i < 4; ++i) domain.sides[i] = side(settings, side_names[i]);
-    check_pair(domain, 0, 1);
-    check_pair(domain, 2, 3);
+    domain.sides = side_types(settings);
     if (rows_are_stretched(settings)) stretch_rows(settings, run, domain);
     return domain;
 }

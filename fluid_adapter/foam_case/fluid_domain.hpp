@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/sides.hpp"
 
 namespace turbidite {
 
@@ -19,18 +20,15 @@ struct FluidDomain {
     std::vector<double> row_edges;  ///< ascending, if rows have different heights [m]; else empty
     double equal_height = 0.0;      ///< up to which rows are equal [m]
     double thickness = 0.0;  ///< of the single layer of cells [m]; results are per unit length
-    /// wall, free, cyclic or inflow: left, right, bottom, top.
-    std::array<std::string, 4> sides{};
+    SideTypes sides{};
 };
-
-inline constexpr std::array<const char*, 4> side_names = {"left", "right", "bottom", "top"};
 
 /// Whether rows have different heights.
 inline bool stretched(const FluidDomain& domain) {
     return !domain.row_edges.empty();
 }
 
-/// Throws Failure (bad_input) that names the key.
+/// Throws Failure (bad_input) that names the key, and as side_types.
 FluidDomain fluid_domain(const Settings& settings);
 
 }  // namespace turbidite

@@ -4,13 +4,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
+#include "coupler/protocol/plates.hpp"
 
 namespace turbidite {
 namespace {
 
-bool parabolic(const Settings& settings, const char* side) {
-    const std::string key = "domain." + std::string(side) + "_profile";
+bool parabolic(const Settings& settings, const BoxSide& side) {
+    const std::string key = std::string(side.key) + "_profile";
     if (!settings.has(key) || settings.text(key) == "uniform") return false;
     if (settings.text(key) == "parabolic") return true;
     throw std::invalid_argument(key + " = \"" + settings.text(key) +
@@ -35,13 +35,13 @@ double SideMotion::share(double from, double to) const {
     return (integrated_parabola(to) - integrated_parabola(from)) / (to - from);
 }
 
-std::array<SideMotion, 4> side_motions(const Settings& settings) {
-    std::array<SideMotion, 4> sides;
+std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings) {
+    std::array<SideMotion, box_sides.size()> sides;
     for (const char* key : {"run.wall_motions", "run.inflow_motions"})
         for (const Moved& moved : motions_of(settings, key))
-            if (moved.what < 4) sides[moved.what].motion = moved.motion;
-    for (int side = 0; side < 4; ++side)
-        sides[side].parabolic = parabolic(settings, side_names[side]);
+            if (moved.what < first_plate) sides[moved.what].motion = moved.motion;
+    for (std::size_t side = 0; side < sides.size(); ++side)
+        sides[side].parabolic = parabolic(settings, box_sides[side]);
     return sides;
 }
 

@@ -16,6 +16,7 @@
 
 #include "coupler/protocol/prescribed_motion.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/sides.hpp"
 
 namespace turbidite {
 
@@ -30,8 +31,8 @@ struct SideMotion {
     double share(double from, double to) const;
 };
 
-/// Of left, right, bottom, top. Throws std::invalid_argument for motions of another format, and for
+/// Of every side of the box. Throws std::invalid_argument for motions of another format, and for
 /// an unknown profile.
-std::array<SideMotion, 4> side_motions(const Settings& settings);
+std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings);
 
 }  // namespace turbidite

@@ -2,20 +2,18 @@
 #include "granular_adapter/grains/borders.hpp"
 
 #include <cstdio>
-#include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 namespace {
 
-BorderKind parse_side(const std::string& key, const std::string& text) {
-    if (text == "wall" || text == "inflow") return BorderKind::wall;
-    if (text == "free") return BorderKind::free;
-    if (text == "cyclic") return BorderKind::cyclic;
-    throw std::invalid_argument(key + " = \"" + text + "\"; allowed: wall, free, cyclic, inflow");
+BorderKind kind_of(const std::string& type) {
+    if (holds_grains(type)) return BorderKind::wall;
+    return type == "free" ? BorderKind::free : BorderKind::cyclic;
 }
 
 std::string place(const Vec3& x) {
@@ -34,33 +32,22 @@ std::string named(const nscd::Bodies& bodies, std::size_t i) {
                          when + "; use a smaller time.step");
 }
 
-void check_pairs(const std::vector<Border>& borders) {
-    for (std::size_t low = 0; low < borders.size(); low += 2)
-        if ((borders[low].side == BorderKind::cyclic) !=
-            (borders[low + 1].side == BorderKind::cyclic))
-            throw std::invalid_argument("domain." + borders[low].name + " and domain." +
-                                        borders[low + 1].name + " must both be cyclic, or neither");
-}
-
 }  // namespace
 
 std::vector<Border> lay_borders(const Settings& settings) {
-    const auto [width, height] = run_values(settings).size;
+    const auto size = run_values(settings).size;
+    const SideTypes types = side_types(settings);
     std::vector<Border> borders;
-    const auto lay = [&](const std::string& name, const Vec3& point, const Vec3& normal) {
-        const std::string key = "domain." + name;
+    for (std::size_t i = 0; i < box_sides.size(); ++i) {
+        const auto& [name, key, axis, inward] = box_sides[i];
         nscd::Wall plane;
-        plane.point = point;
-        plane.normal = normal;
+        plane.normal = {};
+        plane.normal[axis] = inward;
+        plane.point[axis] = inward > 0.0 ? 0.0 : size[axis];
         plane.material = 0;
-        plane.key = static_cast<std::int32_t>(borders.size());
-        borders.push_back({name, parse_side(key, settings.text(key)), plane});
-    };
-    lay("left", {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0});
-    lay("right", {width, 0.0, 0.0}, {-1.0, 0.0, 0.0});
-    lay("bottom", {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
-    lay("top", {0.0, height, 0.0}, {0.0, -1.0, 0.0});
-    check_pairs(borders);
+        plane.key = static_cast<std::int32_t>(i);
+        borders.push_back({name, kind_of(types[i]), plane});
+    }
     return borders;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "launcher/case/files/csv_table.hpp"
@@ -191,33 +192,37 @@ void check_densities(const Packing& grains, Collector problems) {
     problems.finish("bad densities");
 }
 
-struct Side {
-    const char* name;
-    double excess;  // distance beyond the side, >= 0 if outside [D]
+struct Excess {
+    const char* side;
+    double beyond;  // >= 0 if outside [D]
 };
 
-Side worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSides& walls,
-                const GrainForms& forms) {
+Excess worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSides& walls,
+                  const GrainForms& forms) {
     const auto [right, left, up, down] = reach(placed_outline(grain, forms));
-    const auto margin = [](bool wall, double extent) { return wall ? extent : 0.0; };
-    const Side sides[] = {{"left", margin(walls.left, left) - grain.x},
-                          {"right", grain.x + margin(walls.right, right) - box.width},
-                          {"bottom", margin(walls.bottom, down) - grain.y},
-                          {"top", grain.y + margin(walls.top, up) - box.height}};
-    return *std::max_element(std::begin(sides), std::end(sides),
-                             [](const Side& a, const Side& b) { return a.excess < b.excess; });
+    const double extents[] = {left, right, down, up};
+    const double place[] = {grain.x, grain.y}, size[] = {box.width, box.height};
+    Excess worst{"", -std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < box_sides.size(); ++i) {
+        const auto& [name, key, axis, inward] = box_sides[i];
+        const double margin = walls.solid[i] ? extents[i] : 0.0;
+        const double beyond =
+            inward > 0.0 ? margin - place[axis] : place[axis] + margin - size[axis];
+        if (beyond > worst.beyond) worst = {name, beyond};
+    }
+    return worst;
 }
 
 void check_inside(const Packing& grains, const PackingBox& box, const SolidSides& walls,
                   const GrainForms& forms, double tolerance, Collector problems) {
     for (std::size_t i = 0; i < grains.size(); ++i) {
-        const Side side = worst_side(grains[i], box, walls, forms);
-        if (side.excess > tolerance)
+        const Excess worst = worst_side(grains[i], box, walls, forms);
+        if (worst.beyond > tolerance)
             problems.add(
                 i,
                 fmt::format("grain {} at ({}, {}) is outside the box: {:.4g} D beyond its "
                             "{} side",
-                            grains[i].id, grains[i].x, grains[i].y, side.excess, side.name),
+                            grains[i].id, grains[i].x, grains[i].y, worst.beyond, worst.side),
                 fmt::format("The box is {} x {} D.", box.width, box.height),
                 "Move the grain or enlarge domain.size.");
     }

@@ -7,12 +7,14 @@
 // overlaps, all with the true shapes.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "coupler/keys/case_error.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing.hpp"
 
@@ -39,9 +41,9 @@ PopulationFile read_population_csv(const std::filesystem::path& file,
 std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs(),
                            const std::vector<std::string>& materials = {"default"});
 
-/// At a wall the whole grain must be inside, at other sides its centre.
+/// By side of the box: at a wall the whole grain must be inside, at other sides its centre.
 struct SolidSides {
-    bool left = true, right = true, bottom = true, top = true;
+    std::array<bool, box_sides.size()> solid{true, true, true, true};
 };
 
 /// Overlaps up to `overlap` are accepted [D].

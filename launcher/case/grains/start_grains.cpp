@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/case/grains/materials.hpp"
@@ -107,11 +108,10 @@ PackingBox packing_box(const Settings& settings) {
 }
 
 SolidSides solid_sides(const Settings& settings) {
-    const auto solid = [&](const char* key) {
-        return settings.text(key) == "wall" || settings.text(key) == "inflow";
-    };
-    return {solid("domain.left"), solid("domain.right"), solid("domain.bottom"),
-            solid("domain.top")};
+    SolidSides sides;
+    for (std::size_t i = 0; i < box_sides.size(); ++i)
+        sides.solid[i] = holds_grains(settings.text(box_sides[i].key));
+    return sides;
 }
 
 CaseProblem missing_file(const CaseEntries& entries, const std::string& key,

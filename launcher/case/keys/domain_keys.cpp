@@ -3,7 +3,11 @@
 // The box, its sides, walls inside it.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/sides.hpp"
+#include "launcher/case/case_rules.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
 namespace turbidite {
@@ -17,37 +21,30 @@ std::vector<Choice> side_choices() {
              "fluid enters with the velocity of the side's motion; for grains a plate at rest"}};
 }
 
-KeySpec side(const std::string& name) {
-    return {.name = "domain." + name,
+KeySpec side_type(const BoxSide& side) {
+    return {.name = side.key,
             .type = KeyType::choice,
             .fallback = "wall",
             .choices = side_choices(),
-            .help = name + " side of the box"};
+            .help = std::string(side.name) + " side of the box"};
 }
 
-bool is_cyclic(const Settings& s, const char* key) {
-    return s.text(key) == "cyclic";
-}
+constexpr auto every_side = std::make_index_sequence<box_sides.size()>();
 
-Ruling opposite_sides(const Settings& s, const char* one, const char* other) {
-    if (is_cyclic(s, one) == is_cyclic(s, other)) return std::nullopt;
+/// Told of the first of a pair.
+template <std::size_t side>
+Ruling both_are_cyclic(const Settings& s) {
+    const char *one = box_sides[side].key, *other = box_sides[opposite(side)].key;
+    if (side > opposite(side) || is(s, one, "cyclic") == is(s, other, "cyclic"))
+        return std::nullopt;
     return Objection{fmt::format("Cyclic sides come in pairs, but {} = {}.", other, s.text(other)),
                      "Make both cyclic, or neither."};
 }
 
-Ruling left_right(const Settings& s) {
-    return opposite_sides(s, "domain.left", "domain.right");
-}
-Ruling bottom_top(const Settings& s) {
-    return opposite_sides(s, "domain.bottom", "domain.top");
-}
-
-constexpr const char* side_names[] = {"left", "right", "bottom", "top"};
-
 /// An inflow is a side of the fluid, with a velocity.
-template <int side>
+template <std::size_t side>
 Ruling inflow_has_a_velocity(const Settings& s) {
-    const std::string key = std::string("domain.") + side_names[side];
+    const std::string key = box_sides[side].key;
     if (s.text(key) != "inflow") return std::nullopt;
     if (!s.flag("fluid.enabled"))
         return Objection{"Without a fluid nothing enters.",
@@ -60,21 +57,21 @@ Ruling inflow_has_a_velocity(const Settings& s) {
                     key)};
 }
 
-template <int side>
+template <std::size_t side>
 std::string without_inflow(const Settings& s) {
-    const std::string key = std::string("domain.") + side_names[side];
+    const std::string key = box_sides[side].key;
     return s.text(key) == "inflow" ? "" : fmt::format("with {}: {}", key, s.text(key));
 }
 
-template <int side>
+template <std::size_t side>
 KeySpec side_profile() {
-    return {.name = std::string("domain.") + side_names[side] + "_profile",
+    return {.name = std::string(box_sides[side].key) + "_profile",
             .type = KeyType::choice,
             .fallback = "uniform",
             .choices = {{"uniform", "the velocity of the motion everywhere"},
                         {"parabolic", "6 s (1 - s) of it, s from 0 to 1 along the side"}},
             .help = std::string("profile of the fluid that enters through the ") +
-                    side_names[side] + " side; its mean is the velocity of the motion",
+                    box_sides[side].name + " side; its mean is the velocity of the motion",
             .idle = without_inflow<side>};
 }
 
@@ -96,11 +93,11 @@ Ruling whole_cells(const Settings& s) {
     return std::nullopt;
 }
 
-KeySpec side_motion(const std::string& name) {
-    return {.name = "domain." + name + "_motion",
+KeySpec side_motion(const BoxSide& side) {
+    return {.name = std::string(side.key) + "_motion",
             .type = KeyType::text,
             .need = Need::optional,
-            .help = "name of the motion of the " + name +
+            .help = "name of the motion of the " + std::string(side.name) +
                     " side, described below domain.motions: of a wall (in a fluid only along "
                     "itself), or of the fluid that enters through an inflow"};
 }
@@ -134,57 +131,56 @@ KeyTable motion_keys() {
             table};
 }
 
-KeyTable with_motions(KeyTable table) {
-    for (const char* name : {"left", "right", "bottom", "top"}) table.push_back(side_motion(name));
-    table.push_back(side_profile<0>());
-    table.push_back(side_profile<1>());
-    table.push_back(side_profile<2>());
-    table.push_back(side_profile<3>());
-    for (KeySpec& key : motion_keys()) table.push_back(std::move(key));
+template <std::size_t... side>
+KeyTable side_keys(KeyTable table, std::index_sequence<side...>) {
+    table.insert(table.end() - 1, {side_type(box_sides[side])...});  // before the walls inside
+    for (KeyTable more : {KeyTable{side_motion(box_sides[side])...},
+                          KeyTable{side_profile<side>()...}, motion_keys()})
+        for (KeySpec& key : more) table.push_back(std::move(key));
     return table;
+}
+
+template <std::size_t... side>
+std::vector<Rule> side_rules(std::index_sequence<side...>) {
+    return {{box_sides[side].key, {box_sides[opposite(side)].key}, both_are_cyclic<side>}...,
+            {box_sides[side].key, {"fluid.enabled"}, inflow_has_a_velocity<side>}...,
+            {"domain.size",
+             {"fluid.enabled", "fluid.cells_per_diameter", "fluid.stretch_ratio"},
+             whole_cells}};
 }
 
 }  // namespace
 
 KeyGroup domain_keys() {
-    return {
-        .keys = with_motions({
-            {.name = "dimension",
-             .type = KeyType::choice,
-             .fallback = "2",
-             .choices = {{"2", "plane; masses and forces per unit length"}, {"3", "space", false}},
-             .help = "dimension of space"},
-            {.name = "domain.size",
-             .type = KeyType::real_list,
-             .unit = "D",
-             .need = Need::required,
-             .range = positive,
-             .help = "width and height of the box",
-             .allowed = "Width and height of the box in D, both above 0.",
-             .remedy = "Write for example size: [12, 24]."},
-            side("left"),
-            side("right"),
-            side("bottom"),
-            side("top"),
-            {.name = "domain.walls_file",
-             .type = KeyType::text,
-             .need = Need::optional,
-             .help =
-                 "CSV file of walls inside the box, at rest or moving (header "
-                 "id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]; lengths "
-                 "in D, "
-                 "velocities in u_c, spin in 1/t_c about (px,py); path relative to the case file). "
-                 "In a fluid they are at least two cells thick"},
-        }),
-        .rules = {{"domain.left", {"domain.right"}, left_right},
-                  {"domain.bottom", {"domain.top"}, bottom_top},
-                  {"domain.left", {"fluid.enabled"}, inflow_has_a_velocity<0>},
-                  {"domain.right", {"fluid.enabled"}, inflow_has_a_velocity<1>},
-                  {"domain.bottom", {"fluid.enabled"}, inflow_has_a_velocity<2>},
-                  {"domain.top", {"fluid.enabled"}, inflow_has_a_velocity<3>},
-                  {"domain.size",
-                   {"fluid.enabled", "fluid.cells_per_diameter", "fluid.stretch_ratio"},
-                   whole_cells}}};
+    return {.keys = side_keys(
+                {
+                    {.name = "dimension",
+                     .type = KeyType::choice,
+                     .fallback = "2",
+                     .choices = {{"2", "plane; masses and forces per unit length"},
+                                 {"3", "space", false}},
+                     .help = "dimension of space"},
+                    {.name = "domain.size",
+                     .type = KeyType::real_list,
+                     .unit = "D",
+                     .need = Need::required,
+                     .range = positive,
+                     .help = "width and height of the box",
+                     .allowed = "Width and height of the box in D, both above 0.",
+                     .remedy = "Write for example size: [12, 24]."},
+                    {.name = "domain.walls_file",
+                     .type = KeyType::text,
+                     .need = Need::optional,
+                     .help = "CSV file of walls inside the box, at rest or moving (header "
+                             "id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]"
+                             "; lengths "
+                             "in D, "
+                             "velocities in u_c, spin in 1/t_c about (px,py); path relative to the "
+                             "case file). "
+                             "In a fluid they are at least two cells thick"},
+                },
+                every_side),
+            .rules = side_rules(every_side)};
 }
 
 }  // namespace turbidite

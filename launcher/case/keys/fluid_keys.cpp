@@ -8,6 +8,7 @@
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "coupler/protocol/splitting.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/keys/key_groups.hpp"
@@ -100,15 +101,14 @@ constexpr double least_layers = 4.0;
 Ruling acceleration_is_along_cyclic_sides(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const std::vector<double> force = real_list("fluid.acceleration", s.text("fluid.acceleration"));
-    const char* sides[] = {"domain.left", "domain.bottom"};
-    const char* partners[] = {"domain.right", "domain.top"};
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        if (force.at(axis) != 0.0 && !is(s, sides[axis], "cyclic"))
+    for (std::size_t side = 0; side < box_sides.size(); side += 2) {
+        const char *one = box_sides[side].key, *other = box_sides[opposite(side)].key;
+        if (force.at(side / 2) != 0.0 && !is(s, one, "cyclic"))
             return Objection{
                 fmt::format("{} is {}: a uniform force drives a flow between cyclic sides only.",
-                            sides[axis], s.text(sides[axis])),
-                fmt::format("Use {} and {}: cyclic, or 0 for this component.", sides[axis],
-                            partners[axis])};
+                            one, s.text(one)),
+                fmt::format("Use {} and {}: cyclic, or 0 for this component.", one, other)};
+    }
     return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/plates.hpp"
+#include "coupler/protocol/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 
@@ -16,7 +17,6 @@ namespace turbidite {
 namespace {
 
 constexpr const char* prefix = "domain.motions.";
-constexpr const char* sides[] = {"left", "right", "bottom", "top"};  // keys 0 to 3 of the walls
 
 std::string key_of(const std::string& name, const char* part) {
     return prefix + name + "." + part;
@@ -139,8 +139,12 @@ bool is_known(const Settings& s, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_inflow(const Settings& s, const std::string& side) {
-    return is(s, ("domain." + side).c_str(), "inflow");
+bool is_inflow(const Settings& s, const BoxSide& side) {
+    return is(s, side.key, "inflow");
+}
+
+std::string motion_key(const BoxSide& side) {
+    return std::string(side.key) + "_motion";
 }
 
 /// Whether a motion leaves a wall normal to this axis in its plane.
@@ -153,27 +157,25 @@ bool slides(const Settings& s, const std::string& name, int axis) {
     return true;
 }
 
-std::optional<Objection> bad_side(const Settings& s, const std::string& side) {
-    const std::string& name = s.text("domain." + side + "_motion");
+std::optional<Objection> bad_side(const Settings& s, const BoxSide& side) {
+    const std::string& name = s.text(motion_key(side));
     if (!is_known(s, name)) return unknown_motion(s);
-    const bool wall = is(s, ("domain." + side).c_str(), "wall");
+    const bool wall = is(s, side.key, "wall");
     if (!wall && !is_inflow(s, side))
         return Objection{fmt::format("Only walls can move, and fluid enters only through inflows, "
-                                     "but domain.{} = {}.",
-                                     side, s.text("domain." + side)),
-                         fmt::format("Use domain.{}: wall or inflow, or remove it.", side)};
+                                     "but {} = {}.",
+                                     side.key, s.text(side.key)),
+                         fmt::format("Use {}: wall or inflow, or remove it.", side.key)};
     if (turns(s, name))
         return Objection{"A side of the box does not turn.", "Remove spin and turn."};
     if (!wall) return std::nullopt;
-    const int across = side == "left" || side == "right" ? 0 : 1;
-    if (s.flag("fluid.enabled") && !slides(s, name, across))
+    if (s.flag("fluid.enabled") && !slides(s, name, side.axis))
         return Objection{
             fmt::format("In a fluid a side slides along itself only: the {} component of its "
                         "motion must be 0.",
-                        across == 0 ? "x" : "y"),
-            fmt::format("Set it to 0, set fluid.enabled: false, or let fluid in with domain.{}: "
-                        "inflow.",
-                        side)};
+                        side.axis == 0 ? "x" : "y"),
+            fmt::format("Set it to 0, set fluid.enabled: false, or let fluid in with {}: inflow.",
+                        side.key)};
     if (grains_adapter(s).moving_sides) return std::nullopt;
     return Objection{
         fmt::format("{} does not support moving sides.", s.text("grains.adapter")),
@@ -198,17 +200,16 @@ void append(std::string& text, std::int64_t what, const Settings& s, const std::
 /// The motions of those sides that are inflows, or of those that are not.
 std::string side_motions(const Settings& settings, const Scales& scales, bool inflows) {
     std::string text;
-    for (std::int32_t i = 0; i < first_plate; ++i)
-        if (const std::string key = std::string("domain.") + sides[i] + "_motion";
-            settings.has(key) && is_inflow(settings, sides[i]) == inflows)
-            append(text, i, settings, settings.text(key), scales);
+    for (std::size_t i = 0; i < box_sides.size(); ++i)
+        if (const std::string key = motion_key(box_sides[i]);
+            settings.has(key) && is_inflow(settings, box_sides[i]) == inflows)
+            append(text, static_cast<std::int64_t>(i), settings, settings.text(key), scales);
     return text;
 }
 
 bool has_free_side(const Settings& s) {
-    return std::any_of(std::begin(sides), std::end(sides), [&](const char* side) {
-        return is(s, (std::string("domain.") + side).c_str(), "free");
-    });
+    return std::any_of(box_sides.begin(), box_sides.end(),
+                       [&](const BoxSide& side) { return is(s, side.key, "free"); });
 }
 
 /// The volumes that have entered and left through inflows by a time [D2].
@@ -220,9 +221,9 @@ Exchanged exchanged(const std::vector<Moved>& inflows, const std::vector<double>
                     double time) {
     Exchanged sum;
     for (const Moved& inflow : inflows) {
-        const int axis = static_cast<int>(inflow.what / 2);
-        const double inward = inflow.what % 2 == 0 ? 1.0 : -1.0;
-        const double volume = inward * inflow.motion->at(time).displacement[axis] * size[1 - axis];
+        const BoxSide& side = box_sides.at(static_cast<std::size_t>(inflow.what));
+        const double depth = side.inward * inflow.motion->at(time).displacement[side.axis];
+        const double volume = depth * size[1 - side.axis];
         sum.net += volume;
         sum.either_way += std::abs(volume);
     }
@@ -250,10 +251,10 @@ std::optional<double> first_imbalance(const Settings& s) {
 
 /// What enters must leave.
 CaseProblems check_balance(const Settings& s, const CaseEntries& entries) {
-    const auto first = std::find_if(std::begin(sides), std::end(sides),
-                                    [&](const char* side) { return is_inflow(s, side); });
+    const auto first = std::find_if(box_sides.begin(), box_sides.end(),
+                                    [&](const BoxSide& side) { return is_inflow(s, side); });
     const bool known = s.has("domain.size") && s.has("time.step") && s.has("time.end");
-    if (first == std::end(sides) || has_free_side(s) || !known) return {};
+    if (first == box_sides.end() || has_free_side(s) || !known) return {};
     const auto time = first_imbalance(s);
     if (!time) return {};
     const Objection objection{
@@ -261,7 +262,7 @@ CaseProblems check_balance(const Settings& s, const CaseEntries& entries) {
                     "through its inflows as has entered.",
                     *time),
         "Make a side free, or let the same flux leave through an opposite inflow."};
-    return {problem_with(std::string("domain.") + *first, objection, s, entries)};
+    return {problem_with(first->key, objection, s, entries)};
 }
 
 }  // namespace
@@ -282,8 +283,8 @@ CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall
     CaseProblems problems;
     for (const std::string& name : motion_names(settings))
         append(problems, check_motion(settings, name, entries));
-    for (const char* side : sides)
-        if (const std::string key = std::string("domain.") + side + "_motion"; settings.has(key))
+    for (const BoxSide& side : box_sides)
+        if (const std::string key = motion_key(side); settings.has(key))
             if (const auto objection = bad_side(settings, side))
                 problems.push_back(problem_with(key, *objection, settings, entries));
     for (const InnerWall& wall : walls) {

@@ -106,14 +106,14 @@ TEST(Population, CyclicSidesAreJoined) {
     const Packing grains{{.id = 0, .x = 0.2, .y = 5}, {.id = 1, .x = 9.8, .y = 5}};
     PackingBox joined = box;
     joined.periodic_x = true;
-    const SolidSides sides{.left = false, .right = false};
+    const SolidSides sides{{false, false, true, true}};
     EXPECT_SAYS(texts(check_population(grains, {"g", {}}, joined, sides)), "overlap by 0.6 D");
     EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, sides)), "");
 }
 
 TEST(Population, FreeSidesAskOnlyForTheCentre) {
     const Packing grains{{.id = 0, .x = 9.8, .y = 5}};
-    EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, {.right = false})), "");
+    EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, {{true, false, true, true}})), "");
     EXPECT_SAYS(texts(check_population(grains, {"g", {}}, box, {})), "beyond its right side");
 }
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The sides of the box, in the order of their keys: the only table of them. A side lies across an
+// axis, at 0 (its inward normal points along the axis) or at the size of the box (against it).
+// Opposite sides follow each other. Valid C++17.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "coupler/protocol/settings.hpp"
+#include "coupler/rigid/vec3.hpp"
+
+namespace turbidite {
+
+struct BoxSide {
+    const char* name;
+    const char* key;  ///< its type: wall, free, cyclic or inflow
+    int axis;
+    double inward;  ///< sign of the inward normal along the axis
+
+    /// Of a place in a box of this size, negative beyond the side.
+    template <class Size>
+    double distance(const Vec3& place, const Size& size) const {
+        return inward > 0.0 ? place[axis] : size[axis] - place[axis];
+    }
+};
+
+inline constexpr std::array<BoxSide, 4> box_sides = {{
+    {"left", "domain.left", 0, 1.0},
+    {"right", "domain.right", 0, -1.0},
+    {"bottom", "domain.bottom", 1, 1.0},
+    {"top", "domain.top", 1, -1.0},
+}};
+
+constexpr std::size_t opposite(std::size_t side) {
+    return side ^ 1;
+}
+
+/// For grains an inflow is a wall.
+inline bool holds_grains(const std::string& type) {
+    return type == "wall" || type == "inflow";
+}
+
+using SideTypes = std::array<std::string, box_sides.size()>;
+
+/// The type of every side. Throws std::invalid_argument naming the keys for an unknown one, or a
+/// cyclic side whose opposite is not cyclic.
+SideTypes side_types(const Settings& settings);
+
+}  // namespace turbidite
