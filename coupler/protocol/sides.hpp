@@ -45,7 +45,7 @@ inline bool holds_grains(const std::string& type) {
 
 using SideTypes = std::array<std::string, box_sides.size()>;
 
-/// The type of every side. Throws std::invalid_argument naming the keys for an unknown one, or a
+/// The type of every side. Throws Failure (bad input) naming the keys for an unknown one, or a
 /// cyclic side whose opposite is not cyclic.
 SideTypes side_types(const Settings& settings);
 

@@ -268,7 +268,7 @@ TEST(NscdAdapter, RefusesImpossibleCyclicSides) {
     Settings settings = box_settings();
     settings.set("domain.right", std::string("cyclic"));
     const std::string half =
-        refusal<std::invalid_argument>([&] { NscdAdapter().initialise(settings, discs, {}); });
+        refusal<Failure>([&] { NscdAdapter().initialise(settings, discs, {}); });
     EXPECT_TRUE(contains(half, "domain.left and domain.right")) << half;
     settings.set("domain.left", std::string("cyclic"));
     settings.set("run.size_x", 1.5);
