@@ -17,61 +17,37 @@
 namespace turbidite::nscd {
 namespace {
 
-class Capillary final : public LawPart {
- public:
-    /// Throws std::invalid_argument if adhesion, range or length is missing.
-    Capillary(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-    double remember(const ContactSituation& situation,
-                    const ContactOutcome& outcome) const override;
-    bool remembers() const override { return true; }
-    double range() const override { return range_; }
-
- private:
-    bool bridged(const ContactSituation& situation) const;
-
-    double range_;
-    double length_;
-    double radius_;  ///< reference radius [m]
-};
-
 constexpr double none = 0.0, bridge = 1.0;
 
-double effective_radius(const ContactSituation& situation) {
-    if (std::isinf(situation.radius_a)) return 2.0 * situation.radius_b;
-    return std::sqrt(situation.radius_a * situation.radius_b);
-}
-
-Capillary::Capillary(const LawSettings& settings, const SurfaceTable& surfaces)
-    : range_(settings.adhesion_range),
-      length_(settings.adhesion_length),
-      radius_(0.5 * settings.reference_diameter) {
-    demand_adhesion("capillary", settings, surfaces);
-    demand_positive("capillary", "decay length", length_);
-}
-
-bool Capillary::bridged(const ContactSituation& situation) const {
-    return situation.gap < range_ && (situation.state == bridge || touching(situation));
-}
-
-void Capillary::add(const ContactSituation& situation, LawTerms& terms) const {
-    if (!bridged(situation)) return;
-    // adhesion/R_ref, shared by the points
-    const double kappa = situation.share * situation.surface.adhesion / radius_;
-    // c(g) = kappa sqrt(R1 R2) exp(-g/lambda)
-    terms.attraction =
-        kappa * effective_radius(situation) * std::exp(-std::max(situation.gap, 0.0) / length_);
-}
-
-double Capillary::remember(const ContactSituation& situation, const ContactOutcome& outcome) const {
-    return bridged(situation) || outcome.pressed() ? bridge : none;
+double effective_radius(const ContactSituation& s) {
+    if (std::isinf(s.radius_a)) return 2.0 * s.radius_b;
+    return std::sqrt(s.radius_a * s.radius_b);
 }
 
 }  // namespace
 
-std::unique_ptr<const LawPart> make_capillary(const LawSettings& settings,
-                                              const SurfaceTable& surfaces) {
-    return std::make_unique<Capillary>(settings, surfaces);
+std::optional<LawPart> make_capillary(const LawSettings& settings, const SurfaceTable& surfaces) {
+    const double range = settings.adhesion_range, length = settings.adhesion_length;
+    demand_adhesion("capillary", settings, surfaces);
+    demand_positive("capillary", "decay length", length);
+    const auto bridged = [range](const ContactSituation& s) {
+        return s.gap < range && (s.state == bridge || touching(s));
+    };
+    return LawPart{.add =
+                       [=, radius = 0.5 * settings.reference_diameter](const ContactSituation& s,
+                                                                       LawTerms& terms) {
+                           if (!bridged(s)) return;
+                           // adhesion/R_ref, shared by the points
+                           const double kappa = s.share * s.surface.adhesion / radius;
+                           // c(g) = kappa sqrt(R1 R2) exp(-g/lambda)
+                           terms.attraction = kappa * effective_radius(s) *
+                                              std::exp(-std::max(s.gap, 0.0) / length);
+                       },
+                   .remember =
+                       [bridged](const ContactSituation& s, const ContactOutcome& outcome) {
+                           return bridged(s) || outcome.pressed() ? bridge : none;
+                       },
+                   .range = range};
 }
 
 }  // namespace turbidite::nscd

@@ -18,60 +18,37 @@
 namespace turbidite::nscd {
 namespace {
 
-class Cohesion final : public LawPart {
- public:
-    /// Throws std::invalid_argument if adhesion, range or shear strength is missing.
-    Cohesion(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-    double remember(const ContactSituation& situation,
-                    const ContactOutcome& outcome) const override;
-    bool remembers() const override { return true; }
-    double range() const override { return range_; }
-
- private:
-    bool bonded(const ContactSituation& situation) const;
-
-    double range_;
-    double shear_;
-    double diameter_;
-};
-
 constexpr double broken = 0.0, intact = 1.0;
 
-double bond_length(const ContactSituation& situation) {
-    if (!situation.round) return situation.length;
-    return 2.0 * std::min(situation.radius_a, situation.radius_b);
-}
-
-Cohesion::Cohesion(const LawSettings& settings, const SurfaceTable& surfaces)
-    : range_(settings.adhesion_range),
-      shear_(settings.adhesion_shear),
-      diameter_(settings.reference_diameter) {
-    demand_adhesion("cohesion", settings, surfaces);
-    demand_positive("cohesion", "shear strength over traction", shear_);
-}
-
-bool Cohesion::bonded(const ContactSituation& situation) const {
-    if (situation.surface.adhesion == 0.0 || bond_length(situation) == 0.0) return false;
-    return situation.state == intact || (situation.initial && situation.gap < range_);
-}
-
-void Cohesion::add(const ContactSituation& situation, LawTerms& terms) const {
-    if (!bonded(situation)) return;
-    terms.attraction = situation.surface.adhesion / diameter_ * bond_length(situation);
-    terms.friction = shear_;
-    terms.normal_bias = std::min(terms.normal_bias, 0.0);
-}
-
-double Cohesion::remember(const ContactSituation& situation, const ContactOutcome& outcome) const {
-    return bonded(situation) && outcome.sticks() ? intact : broken;
+double bond_length(const ContactSituation& s) {
+    if (!s.round) return s.length;
+    return 2.0 * std::min(s.radius_a, s.radius_b);
 }
 
 }  // namespace
 
-std::unique_ptr<const LawPart> make_cohesion(const LawSettings& settings,
-                                             const SurfaceTable& surfaces) {
-    return std::make_unique<Cohesion>(settings, surfaces);
+std::optional<LawPart> make_cohesion(const LawSettings& settings, const SurfaceTable& surfaces) {
+    const double range = settings.adhesion_range, shear = settings.adhesion_shear;
+    demand_adhesion("cohesion", settings, surfaces);
+    demand_positive("cohesion", "shear strength over traction", shear);
+    const auto bonded = [range](const ContactSituation& s) {
+        if (s.surface.adhesion == 0.0 || bond_length(s) == 0.0) return false;
+        return s.state == intact || (s.initial && s.gap < range);
+    };
+    return LawPart{.add =
+                       [=, diameter = settings.reference_diameter](const ContactSituation& s,
+                                                                   LawTerms& terms) {
+                           if (!bonded(s)) return;
+                           terms.attraction =
+                               s.surface.adhesion / diameter * bond_length(s);  // c = sigma_n l
+                           terms.friction = shear;  // mu = sigma_t/sigma_n
+                           terms.normal_bias = std::min(terms.normal_bias, 0.0);
+                       },
+                   .remember =
+                       [bonded](const ContactSituation& s, const ContactOutcome& outcome) {
+                           return bonded(s) && outcome.sticks() ? intact : broken;
+                       },
+                   .range = range};
 }
 
 }  // namespace turbidite::nscd

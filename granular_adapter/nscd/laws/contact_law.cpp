@@ -10,13 +10,13 @@ ContactLaw::ContactLaw(const LawChoice& choice, const LawSettings& settings,
     const std::array<const std::string*, law_slots> names = {
         &choice.gap, &choice.friction, &choice.adhesion, &choice.impact, &choice.rolling};
     for (std::size_t slot = 0; slot < law_slots; ++slot) {
-        std::shared_ptr<const LawPart> law =
+        std::optional<LawPart> law =
             make_law_part(static_cast<LawSlot>(slot), *names[slot], settings, surfaces, laws);
-        if (!law || law->idle()) continue;
-        remembers_ = remembers_ || law->remembers();
-        reads_velocities_ = reads_velocities_ || law->reads_velocities();
-        range_ = std::max(range_, law->range());
-        parts_.push_back({slot, std::move(law)});
+        if (!law) continue;
+        remembers_ = remembers_ || law->remember;
+        reads_velocities_ = reads_velocities_ || law->reads_velocities;
+        range_ = std::max(range_, law->range);
+        parts_.push_back({slot, std::move(*law)});
     }
 }
 
@@ -24,7 +24,7 @@ LawTerms ContactLaw::terms(ContactSituation situation, const ContactState& state
     LawTerms terms;
     for (const Part& part : parts_) {
         situation.state = state[part.slot];
-        part.law->add(situation, terms);
+        part.law.add(situation, terms);
     }
     return terms;
 }
@@ -33,8 +33,9 @@ ContactState ContactLaw::remember(ContactSituation situation, const ContactState
                                   const ContactOutcome& outcome) const {
     ContactState next{};
     for (const Part& part : parts_) {
+        if (!part.law.remember) continue;
         situation.state = state[part.slot];
-        next[part.slot] = part.law->remember(situation, outcome);
+        next[part.slot] = part.law.remember(situation, outcome);
     }
     return next;
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,7 +45,7 @@ class ContactLaw {
  private:
     struct Part {
         std::size_t slot;
-        std::shared_ptr<const LawPart> law;
+        LawPart law;
     };
     std::vector<Part> parts_;
     bool remembers_ = false;

@@ -14,6 +14,7 @@
 // therefore the same in the plane and in space.
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "granular_adapter/nscd/laws/surface.hpp"
@@ -88,28 +89,17 @@ struct LawSettings {
     double reference_diameter = 1.0;  ///< of the discs to which Surface::adhesion refers [m]
 };
 
-class LawPart {
- public:
-    virtual ~LawPart() = default;
-
+/// What a law does in one slot; its functions hold its parameters.
+struct LawPart {
     /// Adds to the terms of the earlier slots.
-    virtual void add(const ContactSituation& situation, LawTerms& terms) const = 0;
+    std::function<void(const ContactSituation&, LawTerms&)> add;
 
     /// State for the next step; 0 drops the contact. A contact beyond the engine's alert distance
-    /// is dropped without this call.
-    virtual double remember(const ContactSituation&, const ContactOutcome&) const { return 0.0; }
+    /// is dropped without this call. Empty: the part has no state.
+    std::function<double(const ContactSituation&, const ContactOutcome&)> remember = {};
 
-    /// True if remember() may return anything but 0.
-    virtual bool remembers() const { return false; }
-
-    /// Largest gap at which the part acts [m].
-    virtual double range() const { return 0.0; }
-
-    /// True if the part reads `approach` or `free`.
-    virtual bool reads_velocities() const { return false; }
-
-    /// True if the part has no effect on any pair of these surfaces; it is then left out.
-    virtual bool idle() const { return false; }
+    double range = 0.0;             ///< largest gap at which the part acts [m]
+    bool reads_velocities = false;  ///< `approach` or `free`
 };
 
 }  // namespace turbidite::nscd

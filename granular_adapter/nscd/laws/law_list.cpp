@@ -6,8 +6,8 @@
 
 namespace turbidite::nscd {
 
-std::unique_ptr<const LawPart> make_nothing(const LawSettings&, const SurfaceTable&) {
-    return nullptr;
+std::optional<LawPart> make_nothing(const LawSettings&, const SurfaceTable&) {
+    return std::nullopt;
 }
 
 LawList law_list() {
@@ -19,9 +19,9 @@ LawList law_list() {
     return laws;
 }
 
-std::unique_ptr<const LawPart> make_law_part(LawSlot slot, const std::string& name,
-                                             const LawSettings& settings,
-                                             const SurfaceTable& surfaces, LawList laws) {
+std::optional<LawPart> make_law_part(LawSlot slot, const std::string& name,
+                                     const LawSettings& settings, const SurfaceTable& surfaces,
+                                     LawList laws) {
     std::string known;
     for (const LawEntry& entry : laws) {
         if (entry.slot != slot) continue;

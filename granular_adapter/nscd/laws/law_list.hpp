@@ -3,7 +3,7 @@
 // Every part of a contact law, by slot and name: the lines of names/law_table.def.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,8 +11,9 @@
 
 namespace turbidite::nscd {
 
-/// Throws std::invalid_argument naming the parameter that is missing or out of range.
-using MakeLaw = std::unique_ptr<const LawPart>(const LawSettings&, const SurfaceTable&);
+/// None if the part has no effect on any pair of these surfaces. Throws std::invalid_argument
+/// naming the parameter that is missing or out of range.
+using MakeLaw = std::optional<LawPart>(const LawSettings&, const SurfaceTable&);
 
 #define TURBIDITE_LAW(slot, name, description, make) MakeLaw make;
 #include "granular_adapter/nscd/names/law_table.def"
@@ -24,7 +25,7 @@ struct LawEntry {
     std::string description;
     MakeLaw* make;
 
-    /// True for the name that stands for no part; make() then returns null.
+    /// True for the name that stands for no part.
     bool adds_nothing() const { return make == make_nothing; }
 };
 
@@ -32,11 +33,9 @@ struct LawEntry {
 using LawList = std::span<const LawEntry>;
 LawList law_list();
 
-/// Null if the name stands for no part. Throws std::invalid_argument listing the known names of the
-/// slot, or naming the parameter that is missing or out of range.
-std::unique_ptr<const LawPart> make_law_part(LawSlot slot, const std::string& name,
-                                             const LawSettings& settings,
-                                             const SurfaceTable& surfaces,
-                                             LawList laws = law_list());
+/// As MakeLaw; throws std::invalid_argument listing the known names of the slot for any other.
+std::optional<LawPart> make_law_part(LawSlot slot, const std::string& name,
+                                     const LawSettings& settings, const SurfaceTable& surfaces,
+                                     LawList laws = law_list());
 
 }  // namespace turbidite::nscd

@@ -11,36 +11,18 @@
 #include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {
-namespace {
 
-class Newton final : public LawPart {
- public:
-    /// Throws std::invalid_argument unless the threshold is >= 0.
-    Newton(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-    bool reads_velocities() const override { return true; }
-    bool idle() const override { return idle_; }
-
- private:
-    double threshold_;
-    bool idle_;
-};
-
-Newton::Newton(const LawSettings& settings, const SurfaceTable& surfaces)
-    : threshold_(bounce_threshold(settings)), idle_(never_bounces(surfaces)) {}
-
-void Newton::add(const ContactSituation& situation, LawTerms& terms) const {
-    if (!in_impact(situation, threshold_)) return;
-    if (situation.surface.restitution > 0.0)
-        demand_rebound(situation, situation.surface.restitution, terms);
-    terms.tangential_restitution = situation.surface.restitution_tangential;
-}
-
-}  // namespace
-
-std::unique_ptr<const LawPart> make_newton(const LawSettings& settings,
-                                           const SurfaceTable& surfaces) {
-    return std::make_unique<Newton>(settings, surfaces);
+std::optional<LawPart> make_newton(const LawSettings& settings, const SurfaceTable& surfaces) {
+    const double threshold = bounce_threshold(settings);
+    if (never_bounces(surfaces)) return std::nullopt;
+    return LawPart{.add =
+                       [=](const ContactSituation& s, LawTerms& terms) {
+                           if (!in_impact(s, threshold)) return;
+                           if (s.surface.restitution > 0.0)
+                               demand_rebound(s, s.surface.restitution, terms);
+                           terms.tangential_restitution = s.surface.restitution_tangential;
+                       },
+                   .reads_velocities = true};
 }
 
 }  // namespace turbidite::nscd

@@ -8,31 +8,15 @@
 #include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {
-namespace {
 
-class RollingResistance final : public LawPart {
- public:
-    RollingResistance(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-    bool idle() const override { return idle_; }
-
- private:
-    bool idle_;
-};
-
-RollingResistance::RollingResistance(const LawSettings&, const SurfaceTable& surfaces)
-    : idle_(std::all_of(surfaces.all_pairs().begin(), surfaces.all_pairs().end(),
-                        [](const Surface& pair) { return pair.rolling_friction == 0.0; })) {}
-
-void RollingResistance::add(const ContactSituation& situation, LawTerms& terms) const {
-    terms.rolling = situation.surface.rolling_friction * reduced_radius(situation);
-}
-
-}  // namespace
-
-std::unique_ptr<const LawPart> make_rolling_resistance(const LawSettings& settings,
-                                                       const SurfaceTable& surfaces) {
-    return std::make_unique<RollingResistance>(settings, surfaces);
+std::optional<LawPart> make_rolling_resistance(const LawSettings&, const SurfaceTable& surfaces) {
+    const auto& pairs = surfaces.all_pairs();
+    if (std::all_of(pairs.begin(), pairs.end(),
+                    [](const Surface& pair) { return pair.rolling_friction == 0.0; }))
+        return std::nullopt;
+    return LawPart{.add = [](const ContactSituation& s, LawTerms& terms) {
+        terms.rolling = s.surface.rolling_friction * reduced_radius(s);
+    }};
 }
 
 }  // namespace turbidite::nscd

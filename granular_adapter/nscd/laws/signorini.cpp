@@ -12,38 +12,19 @@
 #include "granular_adapter/nscd/laws/law_list.hpp"
 
 namespace turbidite::nscd {
-namespace {
 
-class Signorini final : public LawPart {
- public:
-    /// Throws std::invalid_argument unless fraction is in [0, 1] and speed >= 0.
-    Signorini(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-
- private:
-    double fraction_;
-    double speed_;
-};
-
-Signorini::Signorini(const LawSettings& settings, const SurfaceTable&)
-    : fraction_(settings.recovery_fraction), speed_(settings.recovery_speed) {
-    if (!(fraction_ >= 0.0 && fraction_ <= 1.0))
-        throw std::invalid_argument("contact recovery fraction " + std::to_string(fraction_) +
+/// Fraction in [0, 1], speed >= 0.
+std::optional<LawPart> make_signorini(const LawSettings& settings, const SurfaceTable&) {
+    const double fraction = settings.recovery_fraction, speed = settings.recovery_speed;
+    if (!(fraction >= 0.0 && fraction <= 1.0))
+        throw std::invalid_argument("contact recovery fraction " + std::to_string(fraction) +
                                     " must lie in [0, 1]");
-    if (!(speed_ >= 0.0))
+    if (!(speed >= 0.0))
         throw std::invalid_argument("contact recovery speed must be zero or positive");
-}
-
-void Signorini::add(const ContactSituation& situation, LawTerms& terms) const {
-    const double full = situation.gap / situation.step;
-    terms.normal_bias = situation.gap >= 0.0 ? full : std::max(fraction_ * full, -speed_);
-}
-
-}  // namespace
-
-std::unique_ptr<const LawPart> make_signorini(const LawSettings& settings,
-                                              const SurfaceTable& surfaces) {
-    return std::make_unique<Signorini>(settings, surfaces);
+    return LawPart{.add = [=](const ContactSituation& s, LawTerms& terms) {
+        const double full = s.gap / s.step;
+        terms.normal_bias = s.gap >= 0.0 ? full : std::max(fraction * full, -speed);
+    }};
 }
 
 }  // namespace turbidite::nscd

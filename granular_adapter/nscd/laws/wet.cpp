@@ -11,74 +11,37 @@
 namespace turbidite::nscd {
 namespace {
 
-class Wet final : public LawPart {
- public:
-    /// Throws std::invalid_argument if adhesion or range is missing.
-    Wet(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-    double range() const override { return range_; }
-
- private:
-    double range_;
-};
-
-class WetOnce final : public LawPart {
- public:
-    /// Throws std::invalid_argument if adhesion or range is missing.
-    WetOnce(const LawSettings& settings, const SurfaceTable& surfaces);
-    void add(const ContactSituation& situation, LawTerms& terms) const override;
-    double remember(const ContactSituation& situation,
-                    const ContactOutcome& outcome) const override;
-    bool remembers() const override { return true; }
-    double range() const override { return range_; }
-
- private:
-    bool wet(const ContactSituation& situation) const;
-
-    double range_;
-};
-
 constexpr double dry = 0.0, wetted = 1.0;
 
-double pull(const ContactSituation& situation) {
-    return situation.share * situation.surface.adhesion;
-}
-
-Wet::Wet(const LawSettings& settings, const SurfaceTable& surfaces)
-    : range_(settings.adhesion_range) {
-    demand_adhesion("wet", settings, surfaces);
-}
-
-void Wet::add(const ContactSituation& situation, LawTerms& terms) const {
-    if (situation.gap < range_) terms.attraction = pull(situation);
-}
-
-WetOnce::WetOnce(const LawSettings& settings, const SurfaceTable& surfaces)
-    : range_(settings.adhesion_range) {
-    demand_adhesion("wet-irreversible", settings, surfaces);
-}
-
-bool WetOnce::wet(const ContactSituation& situation) const {
-    return situation.gap < range_ && (situation.state == wetted || situation.initial);
-}
-
-void WetOnce::add(const ContactSituation& situation, LawTerms& terms) const {
-    if (wet(situation)) terms.attraction = pull(situation);
-}
-
-double WetOnce::remember(const ContactSituation& situation, const ContactOutcome&) const {
-    return wet(situation) ? wetted : dry;
+double pull(const ContactSituation& s) {
+    return s.share * s.surface.adhesion;
 }
 
 }  // namespace
 
-std::unique_ptr<const LawPart> make_wet(const LawSettings& settings, const SurfaceTable& surfaces) {
-    return std::make_unique<Wet>(settings, surfaces);
+std::optional<LawPart> make_wet(const LawSettings& settings, const SurfaceTable& surfaces) {
+    demand_adhesion("wet", settings, surfaces);
+    return LawPart{
+        .add =
+            [range = settings.adhesion_range](const ContactSituation& s, LawTerms& terms) {
+                if (s.gap < range) terms.attraction = pull(s);
+            },
+        .range = settings.adhesion_range};
 }
 
-std::unique_ptr<const LawPart> make_wet_irreversible(const LawSettings& settings,
-                                                     const SurfaceTable& surfaces) {
-    return std::make_unique<WetOnce>(settings, surfaces);
+std::optional<LawPart> make_wet_irreversible(const LawSettings& settings,
+                                             const SurfaceTable& surfaces) {
+    demand_adhesion("wet-irreversible", settings, surfaces);
+    const auto wet = [range = settings.adhesion_range](const ContactSituation& s) {
+        return s.gap < range && (s.state == wetted || s.initial);
+    };
+    return LawPart{.add =
+                       [wet](const ContactSituation& s, LawTerms& terms) {
+                           if (wet(s)) terms.attraction = pull(s);
+                       },
+                   .remember = [wet](const ContactSituation& s,
+                                     const ContactOutcome&) { return wet(s) ? wetted : dry; },
+                   .range = settings.adhesion_range};
 }
 
 }  // namespace turbidite::nscd

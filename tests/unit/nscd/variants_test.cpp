@@ -15,16 +15,12 @@ namespace {
 using scenes::disc, scenes::discs, scenes::exact;
 
 /// Friction of fast contacts only: below the speed there is none.
-class FastFriction final : public LawPart {
- public:
-    void add(const ContactSituation& situation, LawTerms& terms) const override {
-        terms.friction = situation.approach.t > 0.5 ? situation.surface.friction : 0.0;
-    }
-    bool reads_velocities() const override { return true; }
-};
-
-std::unique_ptr<const LawPart> make_fast_friction(const LawSettings&, const SurfaceTable&) {
-    return std::make_unique<FastFriction>();
+std::optional<LawPart> make_fast_friction(const LawSettings&, const SurfaceTable&) {
+    return LawPart{.add =
+                       [](const ContactSituation& s, LawTerms& terms) {
+                           terms.friction = s.approach.t > 0.5 ? s.surface.friction : 0.0;
+                       },
+                   .reads_velocities = true};
 }
 
 /// Every contact solved alone, as if there were no others: exact for contacts that share no body.
