@@ -17,11 +17,11 @@
 #include <tuple>
 #include <vector>
 
+#include "coupler/rigid/vec3.hpp"
+
 namespace turbidite {
 
 using GrainId = std::int64_t;
-using Vec3 = std::array<double, 3>;
-using Quaternion = std::array<double, 4>;  // w, x, y, z; unit
 
 /// A rigid body at one instant.
 ///

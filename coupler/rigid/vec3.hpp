@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Vector algebra on the plain numbers that the records hold: no type with alignment
+// Vectors and quaternions as the plain numbers that the records hold: no type with alignment
 // requirements appears in an interface, and no header of Eigen in a host that has its own. In the
 // plane z is zero; what the operations add for it changes no digit of x and y. Valid C++17.
 #pragma once
 
+#include <array>
 #include <cmath>
 
-#include "coupler/protocol/records.hpp"
-
 namespace turbidite {
+
+using Vec3 = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  // w, x, y, z; unit
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};

@@ -46,18 +46,8 @@ Finding not_done(const Trial& trial, const std::string& what) {
     return failure_of(trial.outcome);
 }
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1];
-}
-Vec3 minus(const Vec3& a, const Vec3& b) {
-    return {a[0] - b[0], a[1] - b[1], 0.0};
-}
-double cross(const Vec3& a, const Vec3& b) {
-    return a[0] * b[1] - a[1] * b[0];
-}
 Vec3 unit(const Vec3& a) {
-    const double length = std::hypot(a[0], a[1]);
-    return {a[0] / length, a[1] / length, 0.0};
+    return a / norm(a);
 }
 
 /// |J_t| <= mu |J_n| in a window, with what the normal may turn in it.
@@ -101,7 +91,7 @@ double spin_about_the_middle(const Motion& state) {
     for (const GrainState& grain : state.grains)
         sum += 0.5 * grain.radius * grain.radius * grain.angular_velocity[2];
     const GrainState &a = state.grains.at(0), &b = state.grains.at(1);
-    return sum + 0.5 * cross(minus(b.position, a.position), minus(b.velocity, a.velocity));
+    return sum + 0.5 * cross_z(b.position - a.position, b.velocity - a.velocity);
 }
 
 /// The impulse on the second disc along the normal from the first and across it, with the sign of
@@ -112,9 +102,9 @@ struct Glance {
 
 Glance glance(const Motion& before, const Motion& after) {
     const GrainState &a = before.grains.at(0), &b = before.grains.at(1);
-    const Vec3 normal = unit(minus(b.position, a.position));
+    const Vec3 normal = unit(b.position - a.position);
     const Vec3 tangent{-normal[1], normal[0], 0.0};
-    const double slip = dot(minus(b.velocity, a.velocity), tangent);
+    const double slip = dot(b.velocity - a.velocity, tangent);
     const Vec3& impulse = after.grains.at(1).contact_impulse;
     return {dot(impulse, normal), std::copysign(1.0, slip) * dot(impulse, tangent)};
 }
@@ -161,7 +151,7 @@ const GrainState& grain_of(const Motion& state, GrainId id) {
 }
 
 double distance(const Vec3& a, const Vec3& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1]);
+    return norm(b - a);
 }
 
 Finding judge_held(const Trial& trial) {
