@@ -72,7 +72,7 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
     placed.start = unless_refused(
         faults, [&] { return start_grains(settings, entries, forms, folder, given); });
     const StartGrains& start = placed.start;
-    append(placed.problems, start.problems);
+    append(placed.problems, std::move(placed.start.problems));
     check([&] {
         return check_population(start.grains, start.source, packing_box(settings),
                                 solid_sides(settings), forms, settings.real("grains.overlap"));

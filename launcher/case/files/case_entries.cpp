@@ -133,7 +133,7 @@ CaseEntries read_case_entries(const std::filesystem::path& file,
     for (const std::string& text : overrides) {
         CaseEntries extra = read_override(text);
         for (const CaseEntry& entry : extra.entries) replace(entry, result.entries);
-        for (CaseProblem& problem : extra.problems) result.problems.push_back(std::move(problem));
+        append(result.problems, std::move(extra.problems));
     }
     return result;
 }
