@@ -5,8 +5,8 @@
 // [m3/s2]. Every function is called by all ranks.
 #pragma once
 
+#include "fluid_adapter/fluid_window/fluid_step.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
 

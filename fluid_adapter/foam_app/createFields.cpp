@@ -23,7 +23,7 @@ FluidMomentum momentum_of(const FluidFields& fields, X x, Y y) {
     }
     fields.ranks.sum(sum.data(), static_cast<int>(sum.size()));
     const Foam::scalar density = fields.rho / fields.thickness;
-    return {density * Foam::vector(sum[0], sum[1], 0.0), density * sum[2]};
+    return {density * Vec3{sum[0], sum[1], 0.0}, density * sum[2]};
 }
 
 Foam::fileName parent_of(const std::filesystem::path& directory) {

@@ -15,14 +15,10 @@
 
 #include <filesystem>
 
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
-
-struct FluidMomentum {
-    Foam::vector sum;         ///< [N s/m]
-    Foam::scalar magnitudes;  ///< of the cells' components, without their signs [N s/m]
-};
 
 struct FluidFields {
     /// Reads the case, on several ranks this rank's processor folder. Throws Foam::error.

@@ -5,8 +5,9 @@
 #include <sigFpe.H>
 
 #include "coupler/protocol/freed_memory.hpp"
-#include "fluid_adapter/foam_app/fluidWindow.hpp"
+#include "fluid_adapter/fluid_window/fluid_window.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
+#include "fluid_adapter/foam_app/foamStore.hpp"
 #include "fluid_adapter/foam_app/savedState.hpp"
 
 namespace turbidite {
@@ -47,10 +48,11 @@ Hello FoamAdapter::describe() const {
 }
 
 Box FoamAdapter::initialise(const Settings& settings, const ShapeTable& shapes) {
-    window_ = with_foam_errors("opening the case " + directory_.string(), [&] {
-        return std::make_unique<FluidWindow>(directory_, ranks_, settings, shapes);
+    with_foam_errors("opening the case " + directory_.string(), [&] {
+        store_ = std::make_unique<FoamStore>(directory_, ranks_, settings);
+        window_ = std::make_unique<FluidWindow>(*store_, settings, shapes);
     });
-    const Foam::boundBox bounds(window_->fields().mesh.points(), false);
+    const Foam::boundBox bounds(store_->fields().mesh.points(), false);
     return {{bounds.min().x(), bounds.min().y(), bounds.min().z()},
             {bounds.max().x(), bounds.max().y(), bounds.max().z()}};
 }
@@ -75,23 +77,24 @@ Kicks FoamAdapter::impose(const Window&) {
     return window_->impose();
 }
 
+FluidRank FoamAdapter::of_this_rank() const {
+    return {store_->fields(), store_->step(), store_->field().cell_numbers()};
+}
+
 SavedState FoamAdapter::save() const {
     window_->put_fields();
-    const std::vector<int> cells = window_->field().cell_numbers();
-    return save_fields({window_->fields(), window_->step(), cells});
+    return save_fields(of_this_rank());
 }
 
 void FoamAdapter::restore(const SavedState& state) {
     with_foam_errors("restoring the fluid", [&] {
-        const std::vector<int> cells = window_->field().cell_numbers();
-        restore_fields(state, {window_->fields(), window_->step(), cells});
+        restore_fields(state, of_this_rank());
         window_->fields_replaced();
     });
 }
 
 void FoamAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
-    const std::vector<int> cells = window_->field().cell_numbers();
-    restore(part_of(of_ranks, {window_->fields(), window_->step(), cells}));
+    restore(part_of(of_ranks, of_this_rank()));
 }
 
 const FluidTimings& FoamAdapter::timings() const {
@@ -103,18 +106,22 @@ const CollocationPoints& FoamAdapter::points() const {
 }
 
 void FoamAdapter::add_velocity(double x, double y) {
-    window_->add_velocity(Foam::vector(x, y, 0.0));
+    window_->put_fields();
+    Foam::volVectorField& U = store_->fields().U;
+    U.primitiveFieldRef() += Foam::vector(x, y, 0.0);
+    U.correctBoundaryConditions();
+    window_->velocity_changed();
 }
 
 Vec3 FoamAdapter::velocity(int i, int j) const {
-    const FoamFluidField& field = window_->field();
+    const FoamFluidField& field = store_->field();
     const auto [x, y] = field.velocity_of(field.cell(i, j, 0));
     return {x, y, 0.0};
 }
 
 double FoamAdapter::pressure(int i, int j) const {
     window_->put_fields();
-    return window_->fields().p[window_->field().cell(i, j, 0)];
+    return store_->fields().p[store_->field().cell(i, j, 0)];
 }
 
 }  // namespace turbidite

@@ -8,22 +8,15 @@
 #include <memory>
 
 #include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/fluid_window/fluid_timings.hpp"
 #include "fluid_adapter/multiplier/collocation_points.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
 
-/// Time spent in the parts of a window [s], and the results of the multiplier step.
-struct FluidTimings {
-    double projection = 0.0, transport = 0.0, viscosity = 0.0, points = 0.0, multipliers = 0.0,
-           correction = 0.0, output = 0.0;
-
-    double together() const {
-        return projection + transport + viscosity + points + multipliers + correction + output;
-    }
-};
-
 class FluidWindow;
+class FoamStore;
+struct FluidRank;
 
 class FoamAdapter final : public FluidAdapter {
  public:
@@ -61,8 +54,11 @@ class FoamAdapter final : public FluidAdapter {
     double pressure(int i, int j) const;
 
  private:
+    FluidRank of_this_rank() const;
+
     std::filesystem::path directory_;
     RankGroup ranks_;
+    std::unique_ptr<FoamStore> store_;
     std::unique_ptr<FluidWindow> window_;
 };
 

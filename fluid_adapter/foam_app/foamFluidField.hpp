@@ -9,16 +9,16 @@
 #include <memory>
 #include <vector>
 
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
-#include "fluid_adapter/multiplier/collocation_points.hpp"
 #include "fluid_adapter/ranks/halo_exchange.hpp"
 #include "fluid_adapter/ranks/local_block.hpp"
 #include "fluid_adapter/ranks/shared_grains.hpp"
 
 namespace turbidite {
 
-class FoamFluidField final : public FluidField {
+class FoamFluidField final : public StoredField {
  public:
     /// Throws Failure, on every rank, if the mesh is not the grid of the case.
     FoamFluidField(FluidFields& fields, const FluidDomain& domain);
@@ -45,20 +45,11 @@ class FoamFluidField final : public FluidField {
     /// u of one of this rank's cells, wherever it is [m/s].
     std::array<double, 2> velocity_of(int cell) const;
 
-    /// Adds a velocity to u in every cell [m/s].
-    void accelerate(const std::array<double, 2>& change);
-
-    /// Momentum of all fluid.
-    FluidMomentum momentum() const;
-
-    /// From U, cells of these points and those that other ranks know; no other is read.
-    void load(const CollocationPoints& points);
-
-    /// To U, cells of these points only.
-    void store(const CollocationPoints& points);
-
-    /// lambda = -rho_f (u - u3)/dt in the cells of these points, u3 from U; before `store`.
-    void put_force_density(const CollocationPoints& points);
+    void accelerate(const std::array<double, 2>& change) override;
+    FluidMomentum momentum() const override;
+    void load(const CollocationPoints& points) override;
+    void store(const CollocationPoints& points) override;
+    void put_force_density(const CollocationPoints& points) override;
 
  private:
     template <class Visit>

@@ -3,7 +3,7 @@
 // Steps 1 to 3 by OpenFOAM's operators, on any mesh and with any scheme of its tables.
 #pragma once
 
-#include "fluid_adapter/foam_app/fluidStep.hpp"
+#include "fluid_adapter/fluid_window/fluid_step.hpp"
 #include "fluid_adapter/foam_app/stokesProjection.hpp"
 #include "fluid_adapter/foam_app/viscousDiffusion.hpp"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/fluid_window/fluid_step.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
 
@@ -17,7 +17,7 @@ namespace turbidite {
 struct FluidRank {
     FluidFields& fields;
     FluidStep& step;
-    const std::vector<int>& cells;
+    std::vector<int> cells;
 };
 
 /// `step.put_velocity` and `put_pressure` must have been called. Collective.

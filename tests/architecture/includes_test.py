@@ -44,6 +44,7 @@ RULES = [
     ("fluid_adapter/multiplier/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/coupled_step/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "corrections with rigid grains know no host"),
+    ("fluid_adapter/fluid_window/*.[hc]pp", [TRANSPORT, OPENFOAM], "a window knows no host: its store does"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
     ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
     ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "output does not depend on who computed it"),

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // One window of the fluid, step by step as in the paper (Topin 2011, section 2.2):
 //
@@ -9,30 +9,24 @@
 //                    (correct_fluid: pressure and viscosity with rigid grains, coupled_step.hpp)
 //     impose         writes the u of the multipliers; kicks              ends the window
 //
-// A StepWatch (stepWatch.hpp) runs each step; it knows clocks and names. What crosses the
-// boundaries is entered in the ledger (momentumLedger.hpp).
+// A StepWatch (step_watch.hpp) runs each step; it knows clocks and names. What crosses the
+// boundaries is entered in the ledger (momentum_ledger.hpp). The fields are a store's
+// (fluid_store.hpp), whatever program it is. Valid C++17.
 #pragma once
 
-#include <memory>
-
-#include "coupler/participant/adapter.hpp"
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
-#include "fluid_adapter/foam_app/foamAdapter.hpp"
-#include "fluid_adapter/foam_app/foamFluidField.hpp"
-#include "fluid_adapter/foam_app/momentumLedger.hpp"
-#include "fluid_adapter/foam_app/outputFields.hpp"
-#include "fluid_adapter/foam_app/probes.hpp"
-#include "fluid_adapter/foam_app/sideVelocity.hpp"
-#include "fluid_adapter/foam_app/stepWatch.hpp"
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
+#include "fluid_adapter/fluid_window/fluid_timings.hpp"
+#include "fluid_adapter/fluid_window/momentum_ledger.hpp"
+#include "fluid_adapter/fluid_window/step_watch.hpp"
 #include "fluid_adapter/multiplier/immersed_step.hpp"
 
 namespace turbidite {
 
 class FluidWindow {
  public:
-    /// Opens the OpenFOAM case. Throws Failure (bad_input) naming the key that does not fit.
-    FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
-                const Settings& settings, const ShapeTable& shapes);
+    /// `store` is kept by reference.
+    FluidWindow(FluidStore& store, const Settings& settings, const ShapeTable& shapes);
 
     /// Steps 1 to 3.
     void advance(const Window& window);
@@ -50,18 +44,15 @@ class FluidWindow {
     /// Writes u back; returns the kicks and the window's report.
     Kicks impose();
 
-    /// Copies what the steps keep internally into the fields, for output, function objects and a
-    /// saved state.
+    /// Copies what the steps keep internally into the fields, for output, those who look at them
+    /// and a saved state.
     void put_fields();
 
-    // Changes from outside, between windows:
+    // What was changed from outside, between windows:
 
-    void add_velocity(const Foam::vector& change);  ///< to u everywhere [m/s]
-    void fields_replaced();                         ///< of all that a saved state holds
+    void velocity_changed();  ///< u of the fields
+    void fields_replaced();   ///< all that a saved state holds
 
-    FluidFields& fields() { return fields_; }
-    FluidStep& step() { return *step_; }
-    const FoamFluidField& field() const { return field_; }
     const CollocationPoints& points() const { return multipliers_.points(); }
     const FluidTimings& timings() const { return timings_; }
 
@@ -83,21 +74,17 @@ class FluidWindow {
     bool fields_due() const;
 
     const RunValues run_;
-    const FluidDomain domain_;
-    bool allow_coarse_;  // grains may reach stretched rows
-    FluidFields fields_;
-    FoamFluidField field_;
-    SideVelocity sides_;
-    std::unique_ptr<FluidStep> step_;
+    FluidStore& store_;
+    StoredField& field_;
+    FluidStep& step_;
+    double highest_grain_;  // that rows of cells resolve, or the case allows [m]
     MomentumLedger ledger_;
     ImmersedStep multipliers_;
     CoupledLimits coupled_limits_;
-    OutputFields output_;
-    Probes probes_;
 
     Window window_;  ///< the present one
     bool grains_taken_ = false;
-    bool fields_follow_ = true;  ///< U, p and phi hold what the steps know
+    bool fields_follow_ = true;  ///< the fields hold what the steps know
     StepWatch watch_;
     FluidTimings timings_;
     TransportParts parts_;

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Checks the momentum balance of the fluid: its momentum changes only by what crosses its
 // boundaries, by the body force of the case and by what the grains take. Per window,
@@ -15,17 +15,16 @@
 #include <optional>
 #include <vector>
 
-#include "fluid_adapter/foam_app/fluidStep.hpp"
-#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
 
 namespace turbidite {
 
 class MomentumLedger {
  public:
-    MomentumLedger(const FluidFields& fields, const FoamFluidField& field)
-        : fields_(fields), field_(field) {}
+    /// `density`: rho_f [kg/m3].
+    MomentumLedger(const StoredField& field, double density) : field_(field), density_(density) {}
 
-    void open();  ///< before step 1: records P^n
+    void open(double dt);  ///< before step 1 of a window of this length [s]: records P^n
 
     /// Adds what crossed the boundaries during `share` of dt.
     void add(const BoundaryForce& force, double share = 1.0);
@@ -40,20 +39,21 @@ class MomentumLedger {
     bool finite() const;
 
     /// P^{n+1}, after `close`.
-    const Foam::vector& momentum() const { return *current_; }
+    const Vec3& momentum() const { return *current_; }
 
     /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the
     /// largest of the terms, or over what their rounding could be if that is larger; zero if all
     /// of them are zero.
-    double close(const Foam::vector& to_grains);
+    double close(const Vec3& to_grains);
 
  private:
-    const FluidFields& fields_;
-    const FoamFluidField& field_;
-    std::optional<Foam::vector> current_;  // P as it is
-    Foam::vector before_{Foam::Zero};
-    Foam::vector impulses_{Foam::Zero};
-    Foam::scalar largest_ = 0.0;
+    const StoredField& field_;
+    double density_;
+    double dt_ = 0.0;
+    std::optional<Vec3> current_;  // P as it is
+    Vec3 before_{};
+    Vec3 impulses_{};
+    double largest_ = 0.0;
 };
 
 }  // namespace turbidite

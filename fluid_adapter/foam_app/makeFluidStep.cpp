@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fluid_adapter/foam_app/fluidStep.hpp"
+#include "fluid_adapter/foam_app/makeFluidStep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,24 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/protocol/splitting.hpp"
-#include "fluid_adapter/foam_app/boxFluidStep.hpp"
+#include "fluid_adapter/foam_app/foamRows.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/operatorStep.hpp"
+#include "fluid_adapter/ranks/rank_rows.hpp"
 
 namespace turbidite {
 namespace {
 
 /// |div phi| D / u_c required of the projection: half of what the run accepts.
 constexpr double divergence_goal = 5e-5;
+
+/// Transport on rows of a box (box_step.hpp).
+struct TransportMethod {
+    double limiter = 1.0;
+    std::optional<double> central;
+    bool second_order = false;
+    bool coupled = false;  ///< pressure and viscosity are corrected together with the grains
+};
 
 /// Whether a gradient scheme of the case is Gauss' linear one.
 bool gauss_linear(const FluidFields& fields, const Foam::word& gradient) {
@@ -100,6 +109,57 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
                                           in_second_order(settings), central_share(fields));
 }
 
+/// The operator with the spacing of the mesh in metres; of a stretched grid, that of its first row.
+PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size, const CellGrid& grid) {
+    plane.x.spacing = box_size.x() / plane.x.cells;
+    plane.y.spacing = box_size.y() / plane.y.cells;
+    plane.y.sizes.clear();
+    for (int j = 0; grid.stretched(1) && j < plane.y.cells; ++j)
+        plane.y.sizes.push_back(grid.size(1, j));
+    if (plane.y.stretched()) plane.y.spacing = grid.size(1, 0);
+    return plane;
+}
+
+/// OpenFOAM's operators do as the case says; rows of different heights know one interpolation.
+void demand_volume_weights(const Foam::fvMesh& mesh, const CellGrid& grid) {
+    if (grid.stretched(1) && Foam::word(mesh.interpolationScheme("flux(U)")) != "reverseLinear")
+        throw DoesNotFit("with rows of different heights interpolation must be reverseLinear");
+}
+
+BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const BoxCells& box,
+                   const CellGrid& grid) {
+    demand_volume_weights(fields.mesh, grid);
+    const Foam::vector size = fields.mesh.bounds().span();
+    return {in_metres(laplacian_with_values(fields.U, box).plane, size, grid),
+            in_metres(homogeneous_laplacian(fields.p, box).plane, size, grid),
+            fields.nu,
+            method.limiter,
+            method.central,
+            method.second_order};
+}
+
+std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& plane,
+                                  const CellRows& cells) {
+    if (!ranks.parallel()) return std::make_unique<AllRows>(plane);
+    try {
+        return std::make_unique<RankRows>(ranks, plane, cells);
+    } catch (const std::invalid_argument& why) {
+        throw DoesNotFit(why.what());
+    }
+}
+
+/// Throws DoesNotFit.
+std::unique_ptr<FluidStep> box_fluid_step(FluidFields& fields, const TransportMethod& method,
+                                          const BoxCells& box, const CellGrid& grid) {
+    const BoxFluid fluid = box_fluid(fields, method, box, grid);
+    auto own = std::make_unique<FoamRows>(fields, box);
+    if (method.coupled && !own->in_cell_order())
+        throw DoesNotFit("its ranks do not have complete rows of cells");
+    auto rows = box_rows(fields.ranks, fluid.pressure, own->rows());
+    return std::make_unique<BoxFluidStep>(fluid, std::move(rows), std::move(own), fields.ranks,
+                                          method.coupled);
+}
+
 }  // namespace
 
 std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
@@ -117,7 +177,7 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
         return operator_step(settings, fields, box);
     }
     try {
-        return std::make_unique<BoxFluidStep>(fields, *method, box, grid);
+        return box_fluid_step(fields, *method, box, grid);
     } catch (const DoesNotFit& why) {
         demand_marchuk_yanenko(settings, why.what());
         // Accepts more general cases, or reports what does not fit.

@@ -1,28 +1,23 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Interface of steps 1 to 3 of a window. There are two implementations, equal to rounding:
 //
-//     BoxFluidStep   rows of a uniform box, without OpenFOAM's operators; if fvSolution names FFT
-//                    for p and U, and with the default transport scheme
+//     BoxFluidStep   rows of a box (box_fluid_step.hpp), if the case's transport scheme is one they
+//                    know and its solvers are FFT
 //     OperatorStep   OpenFOAM's operators and tables with the solvers that fvSolution names, for
-//                    everything else
+//                    everything else (foam_app/operatorStep.hpp)
 //
 // A step that works on contiguous components keeps the velocity in them from window to window, for
-// the multiplier method as well, and U follows when somebody asks. For others U holds it before
-// `project` and after `diffuse`.
+// the multiplier method as well, and the field u of the store (fluid_store.hpp) follows when
+// somebody asks. For others the field holds it before `project` and after `diffuse`. Valid C++17.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
-#include "coupler/protocol/settings.hpp"
 #include "fluid_adapter/box_step/box_step.hpp"
 #include "fluid_adapter/box_step/second_order.hpp"
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
-#include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/multiplier/cell_grid.hpp"
 
 namespace turbidite {
 
@@ -33,14 +28,6 @@ using BoundaryForce = BoxStep::Force;
 struct Projection {
     FluxReport flux;
     BoundaryForce force;
-};
-
-/// Transport on rows of a box (box_step.hpp).
-struct TransportMethod {
-    double limiter = 1.0;
-    std::optional<double> central;
-    bool second_order = false;
-    bool coupled = false;  ///< pressure and viscosity are corrected together with the grains
 };
 
 /// How `memory` is made of arrays over complete rows of the box, for another number of ranks.
@@ -56,6 +43,9 @@ struct MemoryRows {
 class FluidStep {
  public:
     virtual ~FluidStep() = default;
+
+    /// A window of this length begins [s].
+    virtual void begin(double) {}
 
     // Each step returns what crossed the boundaries in it.
 
@@ -80,17 +70,17 @@ class FluidStep {
     virtual bool finite() = 0;
 
     /// One component of u over this rank's cells, in their order [m/s]: the velocity itself. Null
-    /// where U holds it.
+    /// where the field holds it.
     virtual double* velocity(int) { return nullptr; }
 
-    // Between the step's own values and those of the fields:
+    // Between the step's own values and the fields u and p:
 
-    virtual void put_velocity() {}                        ///< into U
+    virtual void put_velocity() {}                        ///< into u
     virtual void put_unconstrained() { put_velocity(); }  ///< before the grains, in their window
-    virtual void take_velocity() {}                       ///< from U, which was changed
+    virtual void take_velocity() {}                       ///< from u, which was changed
     virtual void put_pressure() {}                        ///< into p
 
-    /// The values that U holds on sides of the box were changed, before `project`.
+    /// The values that u holds on sides of the box were changed, before `project`.
     virtual void sides_changed() {}
 
     /// u was changed from outside: what the step knows of earlier windows' rates is void.
@@ -103,11 +93,5 @@ class FluidStep {
     virtual void set_memory(const std::vector<double>& values) = 0;
     virtual MemoryRows memory_rows() const { return {}; }
 };
-
-/// The implementation that fits the case. `cells`: the number i + nx j in the grid of each of this
-/// rank's cells. Throws Failure (bad_input), naming the key, if FFT does not fit the mesh or a
-/// boundary condition.
-std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
-                                           const CellGrid& grid, const std::vector<int>& cells);
 
 }  // namespace turbidite

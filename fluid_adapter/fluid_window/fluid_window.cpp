@@ -1,11 +1,12 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "fluid_adapter/foam_app/fluidWindow.hpp"
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/fluid_window.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "coupler/protocol/splitting.hpp"
-#include "fluid_adapter/foam_app/fluidStep.hpp"
 
 namespace turbidite {
 namespace {
@@ -25,6 +26,13 @@ CoupledLimits coupled_limits(const Settings& settings) {
     return limits;
 }
 
+/// Where rows of cells are stretched a grain is not resolved as the case asks.
+double highest_grain(const FluidStore& store, const Settings& settings) {
+    const double height = store.equal_height();
+    const bool any = std::isinf(height) || settings.flag("fluid.allow_coarse");
+    return any ? std::numeric_limits<double>::infinity() : height;
+}
+
 /// Contacts are about to change what is found: a few iterations of pressure are saved.
 CoupledLimits before_contacts(CoupledLimits limits) {
     limits.pressure.tolerance *= 3.0;
@@ -33,30 +41,24 @@ CoupledLimits before_contacts(CoupledLimits limits) {
 
 }  // namespace
 
-FluidWindow::FluidWindow(const std::filesystem::path& directory, const RankGroup& ranks,
-                         const Settings& settings, const ShapeTable& shapes)
+FluidWindow::FluidWindow(FluidStore& store, const Settings& settings, const ShapeTable& shapes)
     : run_(run_values(settings)),
-      domain_(fluid_domain(settings)),
-      allow_coarse_(!stretched(domain_) || settings.flag("fluid.allow_coarse")),
-      fields_(directory, ranks),
-      field_(fields_, domain_),
-      sides_(side_motions(settings), fields_),
-      step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
-      ledger_(fields_, field_),
+      store_(store),
+      field_(store.field()),
+      step_(store.step()),
+      highest_grain_(highest_grain(store, settings)),
+      ledger_(field_, store.density()),
       multipliers_(field_, settings, shapes),
       coupled_limits_(coupled_limits(settings)),
-      output_(fields_, settings),
-      probes_(settings) {
-    field_.work_on(step_->velocity(0), step_->velocity(1));
-}
+      watch_(store) {}
 
 void FluidWindow::advance(const Window& window) {
     begin(window);
-    ledger_.open();
+    ledger_.open(window.step);
     watch_.play("step 1 (projection)", timings_.projection, [&] { project(); });
     watch_.play("step 2 (transport)", timings_.transport, [&] { transport(); });
     watch_.play("step 3 (viscosity)", timings_.viscosity, [&] { diffuse(); });
-    check_finite(step_->finite(), "steps 1-3 (projection, transport, viscosity)");
+    check_finite(step_.finite(), "steps 1-3 (projection, transport, viscosity)");
 }
 
 void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
@@ -75,15 +77,17 @@ void FluidWindow::correct(const std::vector<GrainState>& grains) {
 }
 
 std::vector<FreeResponse> FluidWindow::responses() {
-    return watch_.play("step 5 (responses)", timings_.multipliers,
-                       [&] { return multipliers_.responses(); });
+    std::vector<FreeResponse> responses;
+    watch_.play("step 5 (responses)", timings_.multipliers,
+                [&] { responses = multipliers_.responses(); });
+    return responses;
 }
 
 Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
-        if (window_.write_output) step_->put_unconstrained();  // u3, for lambda
+        if (window_.write_output) step_.put_unconstrained();  // u3, for lambda
         multipliers_.impose();
-        for (const BoundaryForce& force : step_->end_coupled()) ledger_.add(force);
+        for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
         if (window_.write_output) field_.put_force_density(multipliers_.points());
         field_.store(multipliers_.points());
@@ -91,11 +95,10 @@ Kicks FluidWindow::impose() {
     });
     check_finite(ledger_.finite(), "step 5 (multipliers)");
     if (window_.write_output) watch_.play("output", timings_.output, [&] { write_fields(); });
-    // In the last window, lets function objects finish, as OpenFOAM's own loops do.
-    if (fields_.finished())
-        with_foam_errors("ending function objects", [&] {
-            if (!fields_.time.functionObjects().empty()) put_fields();
-            fields_.time.run();
+    if (store_.finished())
+        store_.guard("ending function objects", [&] {
+            if (store_.observed()) put_fields();
+            store_.end();
         });
     report_.wall_seconds = timings_.together();
     return {multipliers_.kicks(), report_};
@@ -107,20 +110,16 @@ void FluidWindow::begin(const Window& window) {
     timings_ = {};
     report_ = {};
     grains_taken_ = false;
-    if (CoupledStep* coupled = step_->coupled()) coupled->keep_unconstrained(window.write_output);
-    if (!fields_.time.functionObjects().empty()) put_fields();
-    fields_.time.setDeltaT(window.step);
-    if (sides_.set(window.time, window.step)) step_->sides_changed();
-    if (!fields_.time.loop())
-        throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
-                                                        " begins at or after endTime of " +
-                                                        "the fluid case's system/controlDict");
+    if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(window.write_output);
+    if (store_.observed()) put_fields();
+    if (store_.begin(window)) step_.sides_changed();
+    step_.begin(window.step);
     fields_follow_ = false;
 }
 
 void FluidWindow::project() {
     drive();
-    const Projection projection = step_->project();
+    const Projection projection = step_.project();
     ledger_.add(projection.force);
     report_.divergence = projection.flux.divergence;
     report_.courant = projection.flux.courant;
@@ -137,12 +136,12 @@ void FluidWindow::drive() {
 }
 
 void FluidWindow::transport() {
-    parts_ = step_->parts(report_.courant);
-    ledger_.add(step_->transport(parts_));
+    parts_ = step_.parts(report_.courant);
+    ledger_.add(step_.transport(parts_));
 }
 
 void FluidWindow::diffuse() {
-    ledger_.add(step_->diffuse());
+    ledger_.add(step_.diffuse());
 }
 
 /// Takes the grains of this window and solves for their multipliers.
@@ -153,19 +152,19 @@ void FluidWindow::answer(const char* name, Take take) {
         field_.load(multipliers_.points());
         note(multipliers_.solve());
     });
-    if (CoupledStep* coupled = step_->coupled()) coupled->place_grains(multipliers_.points());
+    if (CoupledStep* coupled = step_.coupled()) coupled->place_grains(multipliers_.points());
     correct_fluid(before_contacts(coupled_limits_));
     grains_taken_ = true;
 }
 
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.
 void FluidWindow::correct_fluid(const CoupledLimits& limits) {
-    CoupledStep* coupled = step_->coupled();
+    CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         multipliers_.impose();
         RigidGrains grains(multipliers_.system(), multipliers_.flow(),
-                           {step_->velocity(0), step_->velocity(1)}, multipliers_.continued());
+                           {step_.velocity(0), step_.velocity(1)}, multipliers_.continued());
         note(coupled->correct(grains, limits));
         report_.multiplier_iterations += grains.iterations();
         report_.multipliers_converged = report_.multipliers_converged && grains.converged();
@@ -189,84 +188,80 @@ void FluidWindow::note(const MultiplierResult& result) {
     report_.multiplier_iterations += result.iterations;
     report_.multiplier_residual = result.residual;
     report_.multipliers_converged = report_.multipliers_converged && result.converged;
-    if (!result.converged)
-        Foam::Info << "window " << window_.index << ": multipliers not converged after "
-                   << result.iterations << " iterations, rms slip " << result.residual
-                   << Foam::endl;
+    if (result.converged) return;
+    std::ostringstream line;
+    line << "window " << window_.index << ": multipliers not converged after " << result.iterations
+         << " iterations, rms slip " << result.residual;
+    store_.log(line.str());
 }
 
 void FluidWindow::close_ledger() {
     Planar to_grains = multipliers_.impulse_to_grains();
     field_.sum_over_ranks(to_grains.data(), 2);
     report_.momentum_defect = ledger_.close({to_grains.x(), to_grains.y(), 0.0});
-    const Foam::vector mean =
-        ledger_.momentum() / (run_.fluid_density * run_.size[0] * run_.size[1]);
-    report_.mean_velocity = {mean.x(), mean.y(), 0.0};
+    report_.mean_velocity = ledger_.momentum() / (run_.fluid_density * run_.size[0] * run_.size[1]);
 }
 
 void FluidWindow::check_finite(bool finite, const char* steps) const {
     if (!finite) watch_.refuse(steps, "the fluid velocity is not finite; use a smaller time.step");
 }
 
-/// Only where rows of cells are equal is a grain resolved as the case asks.
 void FluidWindow::check_rows(const std::vector<GrainState>& grains) const {
-    if (allow_coarse_) return;
+    if (std::isinf(highest_grain_)) return;
     const auto top = [](const GrainState& grain) { return grain.position[1] + grain.radius; };
     const auto highest =
         std::max_element(grains.begin(), grains.end(),
                          [&](const GrainState& a, const GrainState& b) { return top(a) < top(b); });
     double height = highest == grains.end() ? 0.0 : top(*highest);
     const double own = height;
-    fields_.ranks.max(&height, 1);
-    if (height <= domain_.equal_height * (1.0 + 1e-9)) return;
+    store_.ranks().max(&height, 1);
+    if (height <= highest_grain_ * (1.0 + 1e-9)) return;
     double id = height == own && highest != grains.end() ? static_cast<double>(highest->id) : -1.0;
-    fields_.ranks.max(&id, 1);
+    store_.ranks().max(&id, 1);
     std::ostringstream why;
     why << "grain " << static_cast<long long>(id) << " reaches y = " << height / run_.diameter
-        << " D, and rows of cells are stretched above " << domain_.equal_height / run_.diameter
+        << " D, and rows of cells are stretched above " << highest_grain_ / run_.diameter
         << " D; use a larger fluid.stretch_from, or fluid.allow_coarse = true";
     watch_.refuse("step 5 (rows of cells)", why.str());
 }
 
 void FluidWindow::write_fields() {
     put_fields();
-    report_.final_divergence = fields_.largest_divergence();
-    Foam::Info << "window " << window_.index << ": Courant number " << report_.courant
-               << ", transport in " << parts_.count << " parts; largest divergence "
-               << report_.divergence << " 1/s after step 1, " << report_.final_divergence
-               << " 1/s after step 5; multipliers " << report_.multiplier_iterations
-               << " iterations, rms slip " << report_.multiplier_residual << " m/s" << Foam::endl;
-    report_.probes = probes_.values(fields_, field_);
-    if (!fields_due()) return;
-    output_.compute(field_, multipliers_.grains());
-    fields_.time.writeNow();
+    report_.final_divergence = store_.largest_divergence();
+    std::ostringstream line;
+    line << "window " << window_.index << ": Courant number " << report_.courant
+         << ", transport in " << parts_.count << " parts; largest divergence " << report_.divergence
+         << " 1/s after step 1, " << report_.final_divergence << " 1/s after step 5; multipliers "
+         << report_.multiplier_iterations << " iterations, rms slip " << report_.multiplier_residual
+         << " m/s";
+    store_.log(line.str());
+    report_.probes = store_.probes();
+    if (fields_due()) store_.write(multipliers_.grains());
 }
 
 /// An output out of turn is that of an interrupted run.
 bool FluidWindow::fields_due() const {
     const std::int64_t done = window_.index + 1;
-    return done % run_.fields_every == 0 || done % run_.output_every != 0 || fields_.finished();
+    return done % run_.fields_every == 0 || done % run_.output_every != 0 || store_.finished();
 }
 
 void FluidWindow::put_fields() {
     if (fields_follow_) return;
-    step_->put_velocity();
-    step_->put_pressure();
-    fields_.interpolate_flux();
+    step_.put_velocity();
+    step_.put_pressure();
+    store_.interpolate_flux();
     fields_follow_ = true;
 }
 
-void FluidWindow::add_velocity(const Foam::vector& change) {
-    step_->put_velocity();
-    fields_.U.primitiveFieldRef() += change;
-    fields_.U.correctBoundaryConditions();
-    step_->take_velocity();
-    step_->forget_rates();
+void FluidWindow::velocity_changed() {
+    step_.take_velocity();
+    fields_follow_ = false;
+    step_.forget_rates();
     ledger_.forget();
 }
 
 void FluidWindow::fields_replaced() {
-    step_->take_velocity();
+    step_.take_velocity();
     ledger_.forget();
     fields_follow_ = true;
 }

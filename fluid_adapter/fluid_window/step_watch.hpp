@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Runs the steps of a window under their names: measures their time, and adds step and window to
 // the errors they throw.
@@ -7,8 +7,8 @@
 #include <chrono>
 #include <string>
 
-#include "coupler/protocol/records.hpp"
-#include "fluid_adapter/foam_app/foamErrors.hpp"
+#include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
 
 namespace turbidite {
 
@@ -28,15 +28,17 @@ class Stopwatch {
 
 class StepWatch {
  public:
+    explicit StepWatch(const FluidStore& store) : store_(store) {}
+
     void begin(const Window& window) { window_ = window.index; }
 
-    /// Throws what `work` throws: OpenFOAM's errors as Failure, PhysicsRefused with the name of the
-    /// step.
+    /// Throws what `work` throws: errors of the store's program as Failure, PhysicsRefused with the
+    /// name of the step.
     template <class Work>
-    auto play(const std::string& step, double& clock, Work work) const {
+    void play(const std::string& step, double& clock, Work work) const {
         const Stopwatch watch(clock);
         try {
-            return with_foam_errors(named(step), work);
+            store_.guard(named(step), work);
         } catch (const PhysicsRefused& refused) {
             refuse(step, refused.what());
         }
@@ -51,6 +53,7 @@ class StepWatch {
         return step + " of window " + std::to_string(window_);
     }
 
+    const FluidStore& store_;
     std::int64_t window_ = 0;
 };
 

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How much code the product has: lines of C++ without blanks and comments, by top folder, and the share of comments.
+
+    bench/product_lines.py [--rooms] [FOLDER of another checkout, to compare with]
+"""
+import argparse
+import re
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+HOUSES = ("coupler", "fluid_adapter", "granular_adapter", "launcher")
+SOURCES = (".cpp", ".hpp", ".h", ".def")
+# A string is read as a whole, so that no comment begins inside it.
+TOKEN = re.compile(r'R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/', re.DOTALL)
+
+
+def blank(token):
+    """A comment becomes its line ends; everything else stays."""
+    text = token.group(0)
+    return "\n" * text.count("\n") if text.startswith(("//", "/*")) else text
+
+
+def filled(text):
+    return sum(bool(line.strip()) for line in text.split("\n"))
+
+
+def count(root):
+    """Counters of lines of code by folder, of comment lines in sources (.cpp), and of lines in them."""
+    code, comments, lines = Counter(), 0, 0
+    for house in HOUSES:
+        for path in sorted((root / house).rglob("*")):
+            if path.suffix not in SOURCES:
+                continue
+            text = path.read_text(encoding="utf-8")
+            own = filled(TOKEN.sub(blank, text))
+            code[str(path.parent.relative_to(root))] += own
+            if path.suffix == ".cpp":
+                lines += filled(text)
+                comments += filled(text) - own
+    return code, comments, lines
+
+
+def by_house(code):
+    return {house: sum(n for folder, n in code.items() if folder.split("/")[0] == house) for house in HOUSES}
+
+
+def show(name, now, before):
+    print(f"{name:45} {now:6}" + (f" {before:6} {now - before:+6}" if before is not None else ""))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("before", nargs="?", type=Path, help="folder of another checkout")
+    parser.add_argument("--rooms", action="store_true", help="every folder")
+    options = parser.parse_args()
+    code, comments, lines = count(ROOT)
+    other = count(options.before)[0] if options.before else None
+    rows, others = (code, other) if options.rooms else (by_house(code), by_house(other) if other else None)
+    for name in sorted(set(rows) | set(others or ())):
+        show(name, rows.get(name, 0), others.get(name, 0) if others is not None else None)
+    show("together", sum(code.values()), sum(other.values()) if other is not None else None)
+    print(f"comments in sources (.cpp), without licence lines: {100 * (comments - licences()) / lines:.1f} %")
+
+
+def licences():
+    return sum(1 for house in HOUSES for _ in (ROOT / house).rglob("*.cpp"))
+
+
+if __name__ == "__main__":
+    main()

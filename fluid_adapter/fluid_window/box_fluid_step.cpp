@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/box_fluid_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fluid_adapter/box_step/transport_parts.hpp"
+
+namespace turbidite {
+BoxFluidStep::BoxFluidStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows,
+                           std::unique_ptr<RowFields> fields, const RankGroup& ranks, bool coupled)
+    : fields_(std::move(fields)),
+      ranks_(ranks),
+      step_(fluid, std::move(rows)),
+      in_second_order_(fluid.second_order),
+      largest_courant_(SecondOrder::largest_courant(fluid.central)),
+      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {
+    if (coupled) coupled_.emplace(step_);
+    take_velocity();
+    sides_changed();
+}
+
+double* BoxFluidStep::velocity(int axis) {
+    return fields_->in_cell_order() ? step_.velocity(axis) : nullptr;
+}
+
+void BoxFluidStep::put_velocity() {
+    if (fields_->in_cell_order()) store();
+}
+
+void BoxFluidStep::take_velocity() {
+    if (fields_->in_cell_order()) load();
+}
+
+void BoxFluidStep::sides_changed() {
+    const std::array<SideValues, 2> held = fields_->side_velocity();
+    for (int axis = 0; axis < 2; ++axis)
+        for (int side = 0; side < 4; ++side) {
+            std::vector<double>& own = step_.side_velocity(axis)[side];
+            std::copy_n(held[axis][side].begin() + (side < 2 ? fields_->first_row() : 0),
+                        own.size(), own.begin());
+        }
+}
+
+void BoxFluidStep::load() {
+    fields_->read_velocity(step_.velocity(0), step_.velocity(1));
+}
+
+void BoxFluidStep::store() {
+    fields_->write_velocity(step_.velocity(0), step_.velocity(1));
+}
+
+void BoxFluidStep::put_unconstrained() {
+    if (!coupled_) return put_velocity();
+    const RowsOfTwo s = coupled_->unconstrained();
+    fields_->write_velocity(s.x.data(), s.y.data());
+}
+
+BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
+    ranks_.sum(force.data(), static_cast<int>(force.size()));
+    return force;
+}
+
+/// Holds the flux of transport, where it is not phi1.
+FluxReport BoxFluidStep::solenoidal() {
+    const bool begins = !second_order_.goes_on();
+    if (in_second_order_ && !coupled_) return step_.project_and_hold_middle(dt_, begins);
+    if (!coupled_) return step_.project(dt_);
+    const FluxReport report = step_.hold_solenoidal_flux(dt_);
+    if (in_second_order_) step_.hold_middle_flux(begins);
+    return report;
+}
+
+Projection BoxFluidStep::project() {
+    if (!fields_->in_cell_order()) load();
+    const FluxReport report = solenoidal();
+    double largest[] = {report.divergence, report.courant};
+    ranks_.max(largest, 2);
+    const BoxStep::Force none{};
+    return {{largest[0], largest[1]}, coupled_ ? none : on_all_ranks(step_.pressure_force())};
+}
+
+/// Where pressure and viscosity know the grains, transport leaves viscosity to them.
+TransportParts BoxFluidStep::parts(double courant) const {
+    if (!in_second_order_) return {transport_parts(courant)};
+    const double decay = step_.fastest_decay(dt_);
+    return SecondOrder::parts(courant / largest_courant_, coupled_ ? INFINITY : decay);
+}
+
+std::vector<BoundaryForce> BoxFluidStep::transport(const TransportParts& parts) {
+    std::vector<BoundaryForce> forces =
+        in_second_order_ ? transport_in_second_order(parts) : transport_in_first_order(parts.count);
+    for (BoundaryForce& force : forces) force = on_all_ranks(force);
+    viscous_transport_ = parts.viscous;
+    step_.release_flux();
+    return forces;
+}
+
+std::vector<BoundaryForce> BoxFluidStep::transport_in_second_order(const TransportParts& parts) {
+    std::vector<BoundaryForce> forces = second_order_.transport(*this, dt_, parts);
+    if (coupled_) step_.add_impulses(second_order_.transported(), coupled_->begin(dt_));
+    return forces;
+}
+
+std::vector<BoundaryForce> BoxFluidStep::transport_in_first_order(int parts) {
+    if (parts > 1 && !step_.holds_flux()) step_.hold_flux();
+    ImpulsesOfWindow* impulses = coupled_ ? &coupled_->begin(dt_) : nullptr;
+    std::vector<BoundaryForce> forces;
+    for (int part = 1; part <= parts; ++part)
+        forces.push_back(convect(dt_ / parts, part == parts ? impulses : nullptr));
+    return forces;
+}
+
+BoundaryForce BoxFluidStep::diffuse() {
+    if (coupled_) {
+        coupled_->keep_transported();
+        return {};
+    }
+    BoundaryForce force{};
+    if (!in_second_order_) force = diffuse_implicitly(dt_);
+    if (in_second_order_ && !viscous_transport_) force = second_order_.diffuse(*this, dt_);
+    if (!fields_->in_cell_order()) store();
+    return on_all_ranks(force);
+}
+
+std::vector<BoundaryForce> BoxFluidStep::end_coupled() {
+    if (!coupled_) return {};
+    coupled_->end();
+    return {on_all_ranks(step_.pressure_force()), on_all_ranks(coupled_->viscous_force())};
+}
+
+std::vector<VelocityValues> BoxFluidStep::velocity_values() {
+    return {{step_.velocity(0), step_.cells()}, {step_.velocity(1), step_.cells()}};
+}
+
+SideForce BoxFluidStep::convect(double dt, ImpulsesOfWindow* impulses) {
+    const SideForce force = step_.convective_force();
+    step_.transport(dt, impulses);
+    return force;
+}
+
+SideForce BoxFluidStep::diffuse_implicitly(double dt) {
+    step_.diffuse(dt, [](int) {});
+    return step_.viscous_force();
+}
+
+/// A direct solve spreads one bad value over all rows of all ranks; without one, all cells count.
+bool BoxFluidStep::finite() {
+    double sum = 0.0;
+    const std::size_t some = coupled_ ? step_.cells() : std::min<std::size_t>(step_.cells(), 100);
+    for (int axis = 0; axis < 2; ++axis)
+        for (std::size_t c = 0; c < some; ++c) sum += std::abs(step_.velocity(axis)[c]);
+    return ranks_.all(std::isfinite(sum));
+}
+
+void BoxFluidStep::put_pressure() {
+    fields_->write_pressure(step_.pressure(), floating_);
+}
+
+std::vector<double> BoxFluidStep::memory() {
+    std::vector<double> values;
+    const auto append = [&](const std::vector<double>& more) {
+        values.insert(values.end(), more.begin(), more.end());
+    };
+    for (int axis = 0; axis < 2; ++axis) append(step_.excess(axis));
+    // The next window begins with p itself: the field has another level where no side fixes it.
+    if (coupled_) values.insert(values.end(), step_.pressure(), step_.pressure() + step_.cells());
+    if (!in_second_order_) return values;
+    for (int axis = 0; axis < 2; ++axis) append(step_.last_flux(axis));
+    second_order_.append_memory(*this, values);
+    return values;
+}
+
+void BoxFluidStep::set_memory(const std::vector<double>& values) {
+    const double* next = values.data();
+    const auto take = [&](double* to, std::size_t size) {
+        std::copy_n(next, size, to);
+        next += size;
+    };
+    const auto take_flux = [&](std::vector<double>& to) { take(to.data(), to.size()); };
+    for (int axis = 0; axis < 2; ++axis) take_flux(step_.excess(axis));
+    fields_->read_pressure(step_.pressure());
+    if (coupled_) take(step_.pressure(), step_.cells());
+    if (!in_second_order_) return;
+    for (int axis = 0; axis < 2; ++axis) take_flux(step_.last_flux(axis));
+    second_order_.set_memory(*this, next);
+}
+
+/// As `memory` appends them.
+MemoryRows BoxFluidStep::memory_rows() const {
+    const std::size_t nx = static_cast<std::size_t>(step_.columns());
+    const MemoryRows::Array cells{nx, 0}, single{};
+    const std::vector<MemoryRows::Array> flux{{nx + 1, 0}, {nx, 1}};
+    MemoryRows rows{static_cast<std::size_t>(fields_->first_row()), step_.cells() / nx, flux};
+    const auto append = [&](const std::vector<MemoryRows::Array>& more) {
+        rows.arrays.insert(rows.arrays.end(), more.begin(), more.end());
+    };
+    if (coupled_) append({cells});
+    if (in_second_order_) append(flux), append({single, cells, cells});
+    return rows;
+}
+
+}  // namespace turbidite

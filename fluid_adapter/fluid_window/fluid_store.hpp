@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What a window needs of the program that keeps the fluid: the fields that users and files see, and
+// the time they belong to. OpenFOAM is one such program (foam_app/foamStore.hpp). Valid C++17.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/records.hpp"
+#include "fluid_adapter/fluid_window/fluid_step.hpp"
+#include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/fluid_field.hpp"
+#include "fluid_adapter/ranks/rank_group.hpp"
+
+namespace turbidite {
+
+/// Per unit length in two dimensions.
+struct FluidMomentum {
+    Vec3 sum{};               ///< [N s]
+    double magnitudes = 0.0;  ///< of the cells' components, without their signs [N s]
+};
+
+/// The velocity for the multiplier method. Where a step keeps it (FluidStep::velocity), `load` and
+/// `store` have nothing to do.
+class StoredField : public FluidField {
+ public:
+    /// From the fields, in cells of these points and those that other ranks know; no other is read.
+    virtual void load(const CollocationPoints& points) = 0;
+
+    /// Into the fields, in cells of these points only.
+    virtual void store(const CollocationPoints& points) = 0;
+
+    /// lambda = -rho_f (u - u3)/dt in the cells of these points, with the u3 of the fields; before
+    /// `store`.
+    virtual void put_force_density(const CollocationPoints& points) = 0;
+
+    /// Adds a velocity to u in every cell [m/s].
+    virtual void accelerate(const std::array<double, 2>& change) = 0;
+
+    virtual FluidMomentum momentum() const = 0;  ///< of all fluid
+};
+
+class FluidStore {
+ public:
+    virtual ~FluidStore() = default;
+
+    virtual StoredField& field() = 0;
+    virtual FluidStep& step() = 0;
+    virtual const RankGroup& ranks() const = 0;
+    virtual double density() const = 0;  ///< rho_f [kg/m3]
+
+    /// Up to which rows of cells have the case's resolution [m]; infinite where all have it.
+    virtual double equal_height() const = 0;
+
+    /// Begins a window: its time, and the velocities of the box's sides. Returns whether any moves.
+    virtual bool begin(const Window& window) = 0;
+
+    /// Whether the present window is the last of the run.
+    virtual bool finished() const = 0;
+
+    /// Somebody looks at the fields between windows without an output.
+    virtual bool observed() const = 0;
+
+    /// Lets those who look at the fields finish; after the last window.
+    virtual void end() = 0;
+
+    /// The flux of the fields from their velocity.
+    virtual void interpolate_flux() = 0;
+    virtual double largest_divergence() const = 0;  ///< of that flux [1/s]
+
+    /// p/rho_f [m2/s2], u and v [m/s] of the fields at each point of output.probes.
+    virtual std::vector<double> probes() const = 0;
+
+    /// Writes the fields, with these grains where output.fields asks for them.
+    virtual void write(const std::vector<ImmersedGrain>& grains) = 0;
+
+    /// Runs `work`; errors of the program become a Failure that names the activity.
+    virtual void guard(const std::string& doing, const std::function<void()>& work) const = 0;
+
+    /// A line for the program's log.
+    virtual void log(const std::string& line) const = 0;
+};
+
+}  // namespace turbidite

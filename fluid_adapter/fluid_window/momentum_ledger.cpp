@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/momentum_ledger.hpp"
+
+#include <algorithm>
+
+namespace turbidite {
+namespace {
+
+/// Of the momenta of all cells, their signs apart. Where all impulses cancel, as in a shear flow,
+/// the terms are the rounding of that sum, some 1e-16 to 1e-14 of it, and say nothing.
+constexpr double beyond_rounding = 1e-7;
+
+}  // namespace
+
+void MomentumLedger::open(double dt) {
+    dt_ = dt;
+    before_ = current_ ? *current_ : field_.momentum().sum;
+    current_.reset();
+    impulses_ = {};
+    largest_ = 0.0;
+}
+
+void MomentumLedger::add(const BoundaryForce& force, double share) {
+    const Vec3 impulse = share * density_ * dt_ * Vec3{force[0], force[1], 0.0};
+    impulses_ = impulses_ + impulse;
+    largest_ = std::max(largest_, norm(impulse));
+}
+
+void MomentumLedger::add(const std::vector<BoundaryForce>& forces) {
+    for (const BoundaryForce& force : forces) add(force, 1.0 / static_cast<double>(forces.size()));
+}
+
+bool MomentumLedger::finite() const {
+    return current_ && is_finite(*current_);
+}
+
+double MomentumLedger::close(const Vec3& to_grains) {
+    const FluidMomentum now = field_.momentum();
+    current_ = now.sum;
+    const Vec3 change = now.sum - before_;
+    const double defect = norm(change + to_grains - impulses_);
+    const double scale =
+        std::max({largest_, norm(change), norm(to_grains), beyond_rounding * now.magnitudes});
+    return scale > 0.0 ? defect / scale : 0.0;
+}
+
+}  // namespace turbidite

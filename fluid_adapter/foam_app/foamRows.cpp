@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/foamRows.hpp"
+
+#include "fluid_adapter/foam_app/sideVelocity.hpp"
+
+namespace turbidite {
+
+FoamRows::FoamRows(FluidFields& fields, const BoxCells& box)
+    : fields_(fields), box_(box), rows_(fields.ranks, box.cells[0], box.cells[1], box.place) {}
+
+int FoamRows::first_row() const {
+    return rows_.rows_of_rank()[fields_.ranks.rank()].first;
+}
+
+void FoamRows::read_velocity(double* x, double* y) {
+    const Foam::vectorField& U = fields_.U.primitiveField();
+    rows_.gather([&](int c) { return U[c].x(); }, x);
+    rows_.gather([&](int c) { return U[c].y(); }, y);
+}
+
+void FoamRows::write_velocity(const double* x, const double* y) {
+    Foam::vectorField& U = fields_.U.primitiveFieldRef();
+    rows_.scatter(x, [&](int c, double value) { U[c].x() = value; });
+    rows_.scatter(y, [&](int c, double value) { U[c].y() = value; });
+    fields_.U.correctBoundaryConditions();
+}
+
+void FoamRows::read_pressure(double* rows) {
+    const Foam::scalarField& p = fields_.p.primitiveField();
+    rows_.gather([&](int c) { return p[c]; }, rows);
+}
+
+void FoamRows::write_pressure(const double* rows, bool floating) {
+    Foam::scalarField& p = fields_.p.primitiveFieldRef();
+    const double level = floating ? rows_.first(rows) : 0.0;
+    rows_.scatter(rows, [&](int c, double value) { p[c] = value - level; });
+    fields_.p.correctBoundaryConditions();
+}
+
+std::array<SideValues, 2> FoamRows::side_velocity() const {
+    return held_on_sides(fields_, box_);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// OpenFOAM's U and p by complete rows of the box, whatever the decomposition (ranks/cell_rows.hpp).
+#pragma once
+
+#include "fluid_adapter/fluid_window/box_fluid_step.hpp"
+#include "fluid_adapter/foam_app/createFields.hpp"
+#include "fluid_adapter/foam_solver/boxCells.hpp"
+#include "fluid_adapter/ranks/cell_rows.hpp"
+
+namespace turbidite {
+
+class FoamRows final : public RowFields {
+ public:
+    FoamRows(FluidFields& fields, const BoxCells& box);
+
+    bool in_cell_order() const override { return rows_.in_cell_order(); }
+    int first_row() const override;
+    void read_velocity(double* x, double* y) override;
+    void write_velocity(const double* x, const double* y) override;
+    void read_pressure(double* p) override;
+    void write_pressure(const double* p, bool floating) override;
+    std::array<SideValues, 2> side_velocity() const override;
+
+    const CellRows& rows() const { return rows_; }
+
+ private:
+    FluidFields& fields_;
+    BoxCells box_;
+    CellRows rows_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fluid_adapter/foam_app/foamStore.hpp"
+
+#include <limits>
+
+#include "fluid_adapter/foam_app/foamErrors.hpp"
+#include "fluid_adapter/foam_app/makeFluidStep.hpp"
+
+namespace turbidite {
+
+FoamStore::FoamStore(const std::filesystem::path& directory, const RankGroup& ranks,
+                     const Settings& settings)
+    : domain_(fluid_domain(settings)),
+      fields_(directory, ranks),
+      field_(fields_, domain_),
+      sides_(side_motions(settings), fields_),
+      step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
+      output_(fields_, settings),
+      probes_(settings) {
+    field_.work_on(step_->velocity(0), step_->velocity(1));
+}
+
+double FoamStore::equal_height() const {
+    return stretched(domain_) ? domain_.equal_height : std::numeric_limits<double>::infinity();
+}
+
+bool FoamStore::begin(const Window& window) {
+    fields_.time.setDeltaT(window.step);
+    const bool moved = sides_.set(window.time, window.step);
+    if (!fields_.time.loop())
+        throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
+                                                        " begins at or after endTime of " +
+                                                        "the fluid case's system/controlDict");
+    return moved;
+}
+
+void FoamStore::write(const std::vector<ImmersedGrain>& grains) {
+    output_.compute(field_, grains);
+    fields_.time.writeNow();
+}
+
+void FoamStore::guard(const std::string& doing, const std::function<void()>& work) const {
+    with_foam_errors(doing, work);
+}
+
+void FoamStore::log(const std::string& line) const {
+    Foam::Info << line << Foam::endl;
+}
+
+}  // namespace turbidite

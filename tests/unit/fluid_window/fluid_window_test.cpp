@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Windows of the fluid in plain arrays: a disc that sinks in a box, whose analytic answer is the
+// balance of momentum.
+#include "fluid_adapter/fluid_window/fluid_window.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/run_settings.hpp"
+#include "tests/unit/fluid_window/memory_store.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr int cells = 48;
+constexpr double edge = 1.0 / 8.0;
+constexpr double step = 0.01;
+
+Settings settings(const std::string& splitting) {
+    Settings result = run_settings();
+    result.set("run.slip_tolerance", 1e-10);
+    result.set("fluid.points", std::string("interior+boundary"));
+    result.set("fluid.point_spacing", 1.5);
+    result.set("fluid.multiplier_iterations", std::int64_t{200});
+    result.set("fluid.splitting", splitting);
+    result.set("fluid.splitting_iterations", std::int64_t{400});
+    result.set("fluid.splitting_tolerance", 1e-8);
+    return result;
+}
+
+GrainState sinking_disc() {
+    GrainState state;
+    state.id = 7;
+    state.radius = 0.5;
+    state.density = 1.5;
+    state.position = {3.013, 3.007, 0.0};
+    state.velocity = {0.05, -0.4, 0.0};
+    return state;
+}
+
+Window window_at(std::int64_t index, bool output = false) {
+    return {index, static_cast<double>(index) * step, step, output};
+}
+
+struct Scene {
+    explicit Scene(const std::string& splitting = "marchuk-yanenko")
+        : store(cells, edge, 0.01, splitting != "marchuk-yanenko"),
+          window(store, settings(splitting), {{"disc", {}}}) {}
+
+    /// A window in which the disc is where and as fast as it was.
+    Kicks play(std::int64_t index, bool output = false) {
+        window.advance(window_at(index, output));
+        window.correct({disc});
+        return window.impose();
+    }
+
+    MemoryStore store;
+    FluidWindow window;
+    GrainState disc = sinking_disc();
+};
+
+class EverySplitting : public testing::TestWithParam<std::string> {};
+
+bool corrects(const std::string& splitting) {
+    return splitting != "marchuk-yanenko";
+}
+
+TEST_P(EverySplitting, MomentumChangesOnlyByDiscAndWalls) {
+    Scene scene(GetParam());
+    for (int index = 0; index < 3; ++index) {
+        const Kicks kicks = scene.play(index);
+        ASSERT_EQ(kicks.kicks.size(), 1u);
+        EXPECT_EQ(kicks.kicks[0].id, 7);
+        EXPECT_GT(kicks.kicks[0].multiplier_impulse[1], 0.0) << "the fluid does not hold the disc";
+        EXPECT_LT(kicks.report.momentum_defect, 1e-9) << index;
+        EXPECT_TRUE(kicks.report.multipliers_converged);
+        scene.disc.velocity = kicks.kicks[0].velocity;
+    }
+}
+
+/// The disc, 1.5 times as dense as the fluid at rest that it covers, sets it in motion:
+///
+///     (rho_s - rho_f) V U0 = (rho_s + C rho_f) V U
+///
+/// with the added mass of the fluid around it, C = 1 in an infinite one and more in a box, where
+/// pressure knows the disc; without it C = 0, but for the cells that its points reach.
+TEST_P(EverySplitting, TheDiscSetsTheFluidInMotion) {
+    Scene scene(GetParam());
+    const Kick kick = scene.play(0).kicks.at(0);
+    const double added = 0.5 * scene.disc.velocity[1] / kick.velocity[1] - 1.5;
+    EXPECT_GT(added, corrects(GetParam()) ? 1.0 : 0.0);
+    EXPECT_LT(added, corrects(GetParam()) ? 1.6 : 0.4);
+    const int centre = scene.store.field().cell(24, 24, 0);
+    EXPECT_NEAR(scene.store.field().velocity(1)[centre], kick.velocity[1],
+                0.01 * std::abs(kick.velocity[1]));
+}
+
+/// Div u = 0 in a closed box: what goes down in the disc comes up around it.
+TEST_P(EverySplitting, OnlyACorrectedPressureLetsTheFluidGoRound) {
+    Scene scene(GetParam());
+    const Kick kick = scene.play(0).kicks.at(0);
+    const double of_disc = 0.25 * M_PI * kick.velocity[1];
+    const double together = scene.store.field().momentum().sum[1] / of_disc;
+    if (corrects(GetParam()))
+        EXPECT_LT(std::abs(together), 0.1);
+    else
+        EXPECT_GT(together, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, EverySplitting,
+                         testing::Values("marchuk-yanenko", "explicit-multiplier",
+                                         "implicit-multiplier"),
+                         [](const auto& info) {
+                             return info.param.substr(0, info.param.find('-'));
+                         });
+
+TEST(FluidWindow, FieldsFollowOnlyForThoseWhoLook) {
+    Scene scene;
+    scene.play(0);
+    scene.play(1);
+    EXPECT_EQ(scene.store.fluxes, 0);
+    scene.play(2, true);
+    EXPECT_EQ(scene.store.fluxes, 1);
+    EXPECT_EQ(scene.store.written, 1u);
+    scene.store.looks = true;
+    scene.play(3);
+    EXPECT_EQ(scene.store.fluxes, 1) << "they still are those of the output";
+    const double between = scene.store.field().velocity(0)[0];
+    EXPECT_NE(between, 0.0);
+    scene.play(4);
+    EXPECT_EQ(scene.store.fluxes, 2);
+    EXPECT_EQ(scene.store.rows().seen_x, between);
+}
+
+TEST(FluidWindow, TheLastWindowLetsTheStoreFinish) {
+    Scene scene;
+    scene.store.last = 2;
+    scene.play(0);
+    EXPECT_FALSE(scene.store.ended);
+    scene.play(1);
+    EXPECT_TRUE(scene.store.ended);
+}
+
+TEST(FluidWindow, AGrainThatReachesStretchedRowsIsRefused) {
+    MemoryStore store(cells, edge, 0.01, false);
+    store.resolved_height = 3.0;
+    Settings strict = settings("marchuk-yanenko");
+    strict.set("fluid.allow_coarse", false);
+    FluidWindow window(store, strict, {{"disc", {}}});
+    window.advance(window_at(0));
+    try {
+        window.correct({sinking_disc()});
+        FAIL() << "not refused";
+    } catch (const PhysicsRefused& refused) {
+        EXPECT_NE(std::string(refused.what()).find("grain 7 reaches y = 3.507 D"),
+                  std::string::npos)
+            << refused.what();
+    }
+}
+
+TEST(FluidWindow, AVelocityThatIsNoNumberIsRefusedByTheStepThatFindsIt) {
+    Scene scene;
+    scene.store.field().velocity(0)[100] = NAN;
+    try {
+        scene.window.advance(window_at(0));
+        FAIL() << "not refused";
+    } catch (const PhysicsRefused& refused) {
+        EXPECT_EQ(std::string(refused.what()),
+                  "steps 1-3 (projection, transport, viscosity) of window 0: the fluid velocity is "
+                  "not finite; use a smaller time.step");
+    }
+}
+
+}  // namespace
+}  // namespace turbidite
