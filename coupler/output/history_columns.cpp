@@ -184,7 +184,7 @@ const std::vector<Column> columns = {
      [](Cell c) {
          const auto& violation = c.row.state->report.contact_violation;
          return violation ? number(*violation / c.run.velocity) : std::string();
-      }},
+     }},
     {"motion_defect",
      [](Cell c) {
          return c.row.motion_defect ? number(*c.row.motion_defect / c.run.diameter) : "";

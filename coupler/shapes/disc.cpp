@@ -8,7 +8,9 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 }
 
-double Disc::volume(double radius) const { return pi * radius * radius; }
+double Disc::volume(double radius) const {
+    return pi * radius * radius;
+}
 
 Eigen::Matrix3d Disc::inertia_per_density(double radius) const {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The inertia with which an immersed grain enters steps 4 and 5 (Topin 2011, Eq. 9, c = 1 - rho_f/rho_s):
+// The inertia with which an immersed grain enters steps 4 and 5 (Topin 2011, Eq. 9, c = 1 -
+// rho_f/rho_s):
 //
 //     mass c M, inertia c I, weight c M g
 //
-// since the fluid that fills the fictitious domain already carries rho_f/rho_s of the grain's inertia.
-// With a hydrodynamic radius R_h < R the multipliers fill only V(R_h):
+// since the fluid that fills the fictitious domain already carries rho_f/rho_s of the grain's
+// inertia. With a hydrodynamic radius R_h < R the multipliers fill only V(R_h):
 //
 //     effective mass      M - rho_f V(R_h)         effective inertia   I - I_f(R_h)
 //     submerged weight    (M - rho_f V(R)) g       (buoyancy acts on the true volume)
@@ -18,17 +19,17 @@
 namespace turbidite {
 
 struct ImmersedBody {
-    double mass = 0.0;               ///< M [kg]
-    Eigen::Matrix3d inertia;         ///< I, body frame [kg m2]
-    double effective_mass = 0.0;     ///< M - rho_f V(R_h) [kg]
+    double mass = 0.0;            ///< M [kg]
+    Eigen::Matrix3d inertia;      ///< I, body frame [kg m2]
+    double effective_mass = 0.0;  ///< M - rho_f V(R_h) [kg]
     Eigen::Matrix3d effective_inertia;
-    double submerged_mass = 0.0;     ///< M - rho_f V(R): weight over g [kg]
-    double displaced_mass = 0.0;     ///< rho_f V(R_h): what F_h adds to the multipliers [kg]
+    double submerged_mass = 0.0;  ///< M - rho_f V(R): weight over g [kg]
+    double displaced_mass = 0.0;  ///< rho_f V(R_h): what F_h adds to the multipliers [kg]
     Eigen::Matrix3d displaced_inertia;
 };
 
-/// `hydrodynamic_radius` is R_h / R in (0, 1]. The effective mass and inertia of a grain that is not
-/// denser than the fluid are zero or negative: it moves only together with the fluid it covers.
+/// `hydrodynamic_radius` is R_h / R in (0, 1]. The effective mass and inertia of a grain that is
+/// not denser than the fluid are zero or negative: it moves only together with the fluid it covers.
 ImmersedBody immersed_body(const Shape& shape, double radius, double density, double fluid_density,
                            double hydrodynamic_radius);
 

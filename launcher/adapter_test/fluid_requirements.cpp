@@ -89,7 +89,8 @@ Finding respects_given_motion(const Candidate& candidate, const std::filesystem:
 }
 
 Finding responds(const Candidate& candidate, const std::filesystem::path& folder) {
-    const Trial split = play_trial(candidate, {"without_rounds", two_apart, {"time.end=0.3"}}, folder);
+    const Trial split =
+        play_trial(candidate, {"without_rounds", two_apart, {"time.end=0.3"}}, folder);
     if (!split.done()) return failure_of(split.outcome);
     const Trial joint = play_trial(
         candidate, {"responses", two_apart, {"time.end=0.3", "coupling.scheme=joint"}}, folder);

@@ -78,7 +78,8 @@ Finding judge_agreement(const Trial& trial, const std::string& fault) {
 }
 
 Finding uses_responses(const Candidate& candidate, const std::filesystem::path& folder) {
-    const Trial trial = play_trial(candidate, {"responses", apart, {"coupling.scheme=joint"}}, folder);
+    const Trial trial =
+        play_trial(candidate, {"responses", apart, {"coupling.scheme=joint"}}, folder);
     if (trial.outcome.code == ExitCode::handshake_refused)
         return {Grade::not_supported, "effective_inertia is not claimed"};
     return judge_agreement(trial, "the velocities of the responses are not taken");

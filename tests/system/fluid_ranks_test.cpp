@@ -126,8 +126,9 @@ TEST_F(FluidRanks, WithOpenFoamsSolvers) {
 
 /// The paper's transport in one step, where the default has stages.
 TEST_F(FluidRanks, WithFirstOrderInTime) {
-    const std::string first = " --set fluid.time_scheme=first-order --set "
-                              "'fluid.transport_scheme=Gauss limitedLinearV 1'";
+    const std::string first =
+        " --set fluid.time_scheme=first-order --set "
+        "'fluid.transport_scheme=Gauss limitedLinearV 1'";
     const std::vector<double> one = expect_two_ranks_the_same(first);
     EXPECT_GT(largest_difference(one, places("fluid.ranks=1")), 1e-6) << "is not the default";
 }

@@ -171,7 +171,9 @@ TEST_F(UsersScript, AnErrorInOneOfItsEnginesEndsTheRun) {
     for (const std::string& options : {std::string(), md}) {
         const Answer answer = run(" --force" + options);
         EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
-        EXPECT_SAYS(answer.err, "grains rank 0 (" + std::string(options.empty() ? "yade-nscd" : "yade-md") + ", host ");
+        EXPECT_SAYS(
+            answer.err,
+            "grains rank 0 (" + std::string(options.empty() ? "yade-nscd" : "yade-md") + ", host ");
         EXPECT_SAYS(answer.err, "no such column");
     }
 }

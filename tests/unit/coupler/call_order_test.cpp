@@ -248,7 +248,8 @@ TEST(Schemes, AnUnknownOneListsTheKnown) {
         find_scheme("jiont");
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "unknown scheme \"jiont\"; known: split, joint, sub-iterated, dry");
+        EXPECT_STREQ(error.what(),
+                     "unknown scheme \"jiont\"; known: split, joint, sub-iterated, dry");
     }
 }
 

@@ -36,8 +36,8 @@ struct Job {
     std::optional<SchemeEntry> scheme;  // instead of run.scheme
     std::filesystem::path recordings;   // folder for grains.frames and fluid.frames
     std::function<std::unique_ptr<GrainsAdapter>()> make_grains;  // instead of ScriptedGrains
-    std::string resume;                 // a checkpoint to go on from
-    bool grains_save = true;            // the grains can save their state
+    std::string resume;                                           // a checkpoint to go on from
+    bool grains_save = true;                                      // the grains can save their state
 
     RunStatus status;
     std::vector<Outcome> outcomes;
@@ -58,8 +58,8 @@ struct Job {
         for (int rank = 0; rank < grains_ranks; ++rank)
             threads.emplace_back([&, rank, end = grains_ends[rank].get()] {
                 const std::unique_ptr<GrainsAdapter> grains_program = grains_adapter();
-                outcomes[rank] =
-                    live(*make_session(*grains_program, *end, identity(folder, rank, grains_ranks)));
+                outcomes[rank] = live(
+                    *make_session(*grains_program, *end, identity(folder, rank, grains_ranks)));
             });
         for (int rank = 0; wet && rank < fluid_ranks; ++rank)
             threads.emplace_back([&, rank, end = fluid_ends[rank].get()] {
@@ -72,12 +72,11 @@ struct Job {
             Channel *to_grains_program = grains.get(), *to_fluid_program = fluid.get();
             std::optional<RecordingChannel> grains_recorded, fluid_recorded;
             if (!recordings.empty()) {
-                to_grains_program =
-                    &grains_recorded.emplace(*grains, recordings / "grains.frames");
+                to_grains_program = &grains_recorded.emplace(*grains, recordings / "grains.frames");
                 to_fluid_program = &fluid_recorded.emplace(*fluid, recordings / "fluid.frames");
             }
-            Hub hub({settings, {{"disc", {}}}, population, resumption(folder)},
-                    folder.files(), *to_grains_program, wet ? to_fluid_program : nullptr,
+            Hub hub({settings, {{"disc", {}}}, population, resumption(folder)}, folder.files(),
+                    *to_grains_program, wet ? to_fluid_program : nullptr,
                     scheme ? *scheme : find_scheme(settings.text("run.scheme")));
             status = hub.run();
         }

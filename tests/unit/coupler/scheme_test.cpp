@@ -133,9 +133,8 @@ TEST(AFourthScheme, OutOfOrderMessagesAreRefusedByTheCoupler) {
     };
     job.run(folder);
     EXPECT_EQ(job.status.code, ExitCode::participant_failed);
-    EXPECT_NE(job.status.reason.find(
-                  "): received \"kicks\" from the participant in window 1, but "
-                  "\"response\" from the participant is due"),
+    EXPECT_NE(job.status.reason.find("): received \"kicks\" from the participant in window 1, but "
+                                     "\"response\" from the participant is due"),
               std::string::npos)
         << job.status.reason;
 }

@@ -49,8 +49,8 @@ TEST(Shapes, AnUnknownNameListsTheKnownOnes) {
     }
 }
 
-// rho_s/rho_f = 1.5: c = 1/3. With R_h = 0.9 R the fluid fills 0.81 of the volume: M_eff = M (1 - 0.81/1.5) = 0.46 M,
-// while the weight keeps the true buoyancy, M/3.
+// rho_s/rho_f = 1.5: c = 1/3. With R_h = 0.9 R the fluid fills 0.81 of the volume: M_eff = M (1 -
+// 0.81/1.5) = 0.46 M, while the weight keeps the true buoyancy, M/3.
 TEST(ImmersedBody, FollowsTheDesignsFactors) {
     const auto disc = make_shape({"disc", {}});
     const ImmersedBody full = immersed_body(*disc, 0.5, 1.5, 1.0, 1.0);
@@ -59,8 +59,8 @@ TEST(ImmersedBody, FollowsTheDesignsFactors) {
     const ImmersedBody reduced = immersed_body(*disc, 0.5, 1.5, 1.0, 0.9);
     EXPECT_NEAR(reduced.effective_mass / reduced.mass, 0.46, 1e-15);
     EXPECT_NEAR(reduced.submerged_mass / reduced.mass, 1.0 / 3.0, 1e-15);
-    EXPECT_NEAR(reduced.effective_inertia(2, 2) / reduced.inertia(2, 2), 1 - 0.9 * 0.9 * 0.9 * 0.9 / 1.5,
-                1e-15);
+    EXPECT_NEAR(reduced.effective_inertia(2, 2) / reduced.inertia(2, 2),
+                1 - 0.9 * 0.9 * 0.9 * 0.9 / 1.5, 1e-15);
     const ImmersedBody neutral = immersed_body(*disc, 0.5, 1.0, 1.0, 1.0);
     EXPECT_NEAR(neutral.effective_mass / neutral.mass, 0.0, 1e-15);
     const ImmersedBody light = immersed_body(*disc, 0.5, 0.5, 1.0, 1.0);

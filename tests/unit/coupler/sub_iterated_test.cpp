@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// `sub-iterated` with grains that hold an impulse of the fluid and know nothing of its inertia: what
-// they and the fluid agree on is the motion of `joint`.
+// `sub-iterated` with grains that hold an impulse of the fluid and know nothing of its inertia:
+// what they and the fluid agree on is the motion of `joint`.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -132,8 +132,7 @@ TEST(QuasiNewton, SolvesALinearProblemInAsManyStepsAsItHasFactors) {
     Eigen::MatrixXd b = Eigen::MatrixXd::Zero(6, 6);
     b.diagonal() << 0.67, 0.67, 0.2, 0.2, -1.3, -1.3;
     const Eigen::VectorXd constant = Eigen::VectorXd::LinSpaced(6, -1.0, 2.0);
-    const Eigen::VectorXd solution =
-        (Eigen::MatrixXd::Identity(6, 6) - b).lu().solve(constant);
+    const Eigen::VectorXd solution = (Eigen::MatrixXd::Identity(6, 6) - b).lu().solve(constant);
     QuasiNewton iteration;
     Eigen::VectorXd x = Eigen::VectorXd::Zero(6);
     for (int n = 0; n < 4; ++n) x += iteration.step(b * x + constant - x);

@@ -73,8 +73,7 @@ class DenseReference {
         Eigen::VectorXd slip(2 * n);
         slip << B_ * ux, B_ * uy;
         slip -= T * free;
-        const Eigen::VectorXd moved =
-            free + inverse.cwiseProduct(T.transpose() * solved(S, slip));
+        const Eigen::VectorXd moved = free + inverse.cwiseProduct(T.transpose() * solved(S, slip));
         std::vector<Planar> result;
         for (std::size_t g = 0; g < grains_.size(); ++g) result.push_back(moved.segment<3>(3 * g));
         return result;
