@@ -32,7 +32,7 @@ class RowsInMemory final : public RowFields {
 /// The velocity is the step's own.
 class StepField final : public StoredField {
  public:
-    StepField(int cells, double edge) : place_(cells, cells, Side::wall, edge) {}
+    StepField(int cells, double edge, Side side) : place_(cells, cells, side, edge) {}
 
     void work_on(FluidStep& step) { velocity_ = {step.velocity(0), step.velocity(1)}; }
 
@@ -67,15 +67,17 @@ class StepField final : public StoredField {
 
 class MemoryStore final : public FluidStore {
  public:
-    /// A square of n x n cells of edge h between walls, rho_f = 1, at rest.
-    MemoryStore(int n, double h, double viscosity, bool coupled) : field_(n, h) {
+    /// A square of n x n cells of edge h between walls, or cyclic, rho_f = 1, at rest.
+    MemoryStore(int n, double h, double viscosity, bool coupled, Side side = Side::wall)
+        : field_(n, h, side) {
         const auto plane = [&](End end) {
             const AxisOperator axis{n, h, end, end};
             return PlaneOperator{axis, axis};
         };
         BoxFluid fluid;
-        fluid.velocity = plane(End::dirichlet);
-        fluid.pressure = plane(End::neumann);
+        const bool cyclic = side == Side::cyclic;
+        fluid.velocity = plane(cyclic ? End::periodic : End::dirichlet);
+        fluid.pressure = plane(cyclic ? End::periodic : End::neumann);
         fluid.viscosity = viscosity;
         fluid.second_order = true;
         fluid.central = 0.75;
