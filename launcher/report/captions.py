@@ -40,13 +40,22 @@ def collapse(run):
     if highest:
         text.append(f'Largest |<u>|: {highest.value:.4g} u_c at t = {highest.time:.4g} t_c.')
     text += [part for part in [relaxation.caption(run)] if part]
-    _, front = run.column('front_x')
-    if len(front):
-        text.append(f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.')
+    text += [part for part in [front_caption(run)] if part]
     removed = grains_lost(run)
     if removed:
         text.append(f'{removed} grains left the box; means are over the remaining ones.')
     return ' '.join(text + [rest(run)])
+
+
+def front_caption(run):
+    """Where the front goes; empty without one. At a wall it says no more than when it came there."""
+    _, front = run.column('front_x')
+    if not len(front):
+        return ''
+    arrival = run.front_arrives() if run.case.get('domain.right') == 'wall' else None
+    if arrival is not None:
+        return f'Front from {front[0]:.4g} D to the right wall, where it is at t = {arrival:.3g} t_c.'
+    return f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.'
 
 
 def grains_lost(run):

@@ -35,6 +35,12 @@ class RunData:
         """Width and height of the domain [D]."""
         return [float(v) for v in self.case['domain.size'].strip('[]').split(',')]
 
+    def front_arrives(self):
+        """Time at which the front is within a radius of the right side [t_c]; None if it never is."""
+        time, front = self.column('front_x')
+        arrived = [t for t, x in zip(time, front) if x >= self.size()[0] - 0.5]
+        return arrived[0] if arrived else None
+
     def is_wet(self):
         return self.case.get('fluid.enabled') != 'false'
 

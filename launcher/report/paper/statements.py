@@ -376,14 +376,13 @@ def told_wave(run):
 def wave_breaks(runs):
     """The mean horizontal velocity turns round after the front has reached the right wall."""
     for run in runs.of('closed'):
-        time, front = run.column('front_x')
-        arrived = np.flatnonzero(front >= run.size()[0] - 0.5)
-        _, velocity = run.column('mean_velocity_x')
-        if not len(arrived):
+        arrival = run.front_arrives()
+        time, velocity = run.column('mean_velocity_x')
+        if arrival is None:
             return 'the front does not reach the right wall', False
-        back = float(velocity[arrived[0]:].min())
+        back = float(velocity[time >= arrival].min())
         forth = float(velocity.max())
-        return (f'front at the right wall at {time[arrived[0]]:.3g} t_c; ⟨u_x⟩ up to {forth:.2g}, then down to '
+        return (f'front at the right wall at {arrival:.3g} t_c; ⟨u_x⟩ up to {forth:.2g}, then down to '
                 f'{back:.2g} u_c', back < -BACK * forth)
     return None
 

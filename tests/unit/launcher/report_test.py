@@ -205,6 +205,14 @@ class Report(RunFolderTest):
         page = self.make()
         self.assertIn(typeset('Largest |<u>|: 0.5 u_c at t = 1 t_c. Front from 25 D to 29 D. 2 grains left the box'), page)
 
+    def test_a_front_at_a_wall_is_told_with_its_time(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche').replace('[4, 6]', '[40, 6]')
+                   .replace('  left: wall', '  left: wall\n  right: wall'))
+        self.write('history.csv', 'step,time,mean_velocity_norm,front_x,grains\n0,0,0,25,9\n'
+                   '10,1,0.5,39.6,9\n20,2,0.25,39.5,9\n')
+        self.assertIn(typeset('Front from 25 D to the right wall, where it is at t = 1 t_c.'), self.make())
+
     def test_polygons_are_drawn_as_polygons(self):
         # The grains have ids 4 and 9; 4, at (1, 3), is a square that stands on a corner.
         self.write('grains_7.vtp', VTP.format(y=3))
