@@ -2,8 +2,8 @@
 //
 // turbidite-fluid -case RUN/fluid [-parallel]: OpenFOAM as the fluid participant. The coupler's
 // messages become calls of FoamAdapter (coupler/participant), and these the steps of a window,
-// which are listed in order in fluidWindow.cpp. `-parallel` is OpenFOAM's option for several ranks;
-// their number is known without it.
+// which are listed in order in fluid_window.hpp. `-parallel` is OpenFOAM's option for several
+// ranks; their number is known without it.
 #include <cstdio>
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 // The programs of the shipped cases (OpenFOAM, YADE with the contact engine, `joint`) on a bed
 // whose weight is carried by contacts: a column of 102 discs slumps in a box only slightly wider
 // than itself and comes to rest. Pores are open (hydrodynamic radius 0.85 R), so that water can
-// leave them and the bed comes to rest; with closed pores it creeps (docs/decisions.md).
+// leave them and the bed comes to rest; with closed pores it creeps (docs/splittings.md).
 #include <cmath>
 
 #include "tests/system/history_columns.hpp"

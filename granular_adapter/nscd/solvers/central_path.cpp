@@ -16,7 +16,7 @@ constexpr double stalling = 0.9;  ///< reduction of the deviation that counts as
 constexpr int shortenings = 40, trials = 14;
 // End of the convex stage. With a smaller value, the changes with s are no longer smooth, and
 // curves in s have turning points; with a larger one, more is left to the last stage
-// (docs/decisions.md).
+// (docs/decisions/contact-solvers.md).
 constexpr double convex_z = 1e-2;
 // |s| that one correction can reduce to zero.
 constexpr double nearly_coulomb = 0.02;

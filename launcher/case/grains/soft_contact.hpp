@@ -13,8 +13,8 @@
 //                           the deepest overlap of a bounce over v/w (1 undamped, 1/e critical)
 //
 // Unless given, v is 2 u_c in a fluid, and 2 sqrt(2 g h) without: more than the speed of a fall
-// from the top, since whole rows of grains land together (docs/decisions.md, "Molecular dynamics:
-// how stiff").
+// from the top, since whole rows of grains land together (docs/decisions/molecular-dynamics.md,
+// "How stiff").
 //
 // The restitution of a bounce follows from zeta; without attraction it is (Schwager and Poeschel,
 // Granular Matter 9 (2007) 465) 1 at zeta = 0 and exp(-2) = 0.135 at zeta = 1. More than critical

@@ -152,7 +152,8 @@ KeyGroup grains_keys() {
                  .range = {.lower = 1.0, .upper = 100.0},
                  .help = "largest radius over the smallest (generator random): radii lie between 2 "
                          "R/(1 + q) "
-                         "and 2 R q/(1 + q), uniform, so that grains.radius R stays the mean",
+                         "and 2 R q/(1 + q), uniform by number, so that grains.radius R stays "
+                         "the mean",
                  .idle = without_random},
                 {.name = "grains.density_ratio",
                  .type = KeyType::real,
