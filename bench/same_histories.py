@@ -79,7 +79,7 @@ SHORT = {
            triangles_yade=['grains.shape=triangle'] + YADE,
            rolling=['contact.rolling_friction=0.1', 'contact.law=static-dynamic', 'contact.static_friction=0.5'],
            bouncing=['contact.restitution=0.5'],
-           stored=['contact.solver=nlgs-stored'], central_path=['contact.solver=central-path'],
+           central_path=['contact.solver=central-path'],
            cohesion=['contact.adhesion=cohesion', 'contact.adhesion_force=5', 'contact.adhesion_range=0.05',
                      'contact.adhesion_shear=1']),
     # The same on grains to which the fluid is tied, and springs without a fluid.

@@ -16,21 +16,8 @@ std::vector<Choice> offered(const std::vector<nscd::NamedChoice>& names) {
     return choices;
 }
 
-bool resists_rolling(const Settings& s) {
-    return s.real("contact.rolling_friction") > 0.0;
-}
-
-Ruling solver_knows_rolling(const Settings& s) {
-    if (s.text("contact.solver") != "nlgs-stored" || !resists_rolling(s)) return std::nullopt;
-    return Objection{
-        fmt::format(
-            "nlgs-stored does not support rolling resistance, but contact.rolling_friction = {}.",
-            s.text("contact.rolling_friction")),
-        "Use nlgs or central-path."};
-}
-
 Ruling dumps_know_rolling(const Settings& s) {
-    if (!resists_rolling(s)) return std::nullopt;
+    if (s.real("contact.rolling_friction") == 0.0) return std::nullopt;
     return Objection{fmt::format("The files of Siconos do not support rolling resistance, but "
                                  "contact.rolling_friction = {}.",
                                  s.text("contact.rolling_friction")),
@@ -114,8 +101,7 @@ KeyGroup contact_problem_keys() {
                          "contacts/problem_STEP.dat, for Siconos",
                  .contacts = Contacts::rigid},
             },
-        .rules = {{"contact.solver", {"contact.rolling_friction"}, solver_knows_rolling},
-                  {"contact.dump_interval", {"contact.rolling_friction"}, dumps_know_rolling}},
+        .rules = {{"contact.dump_interval", {"contact.rolling_friction"}, dumps_know_rolling}},
         .notes = notes};
 }
 

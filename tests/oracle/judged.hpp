@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/siconos/siconos_problem.hpp"
-#include "granular_adapter/nscd/solvers/solver_list.hpp"
+#include "nlgs_stored.hpp"
 
 namespace turbidite::judged {
 
@@ -23,8 +23,8 @@ inline nscd::SolverResult ours(const std::string& solver, const nscd::ContactPro
     nscd::SolverSettings settings;
     settings.tolerance = tolerance;
     settings.max_iterations = 300000;
-    return nscd::make_solver(solver)->solve(problem, nscd::Impulses(problem.contacts.size()),
-                                            settings);
+    return nscd::make_solver(solver, nscd::solvers_and_reference())
+        ->solve(problem, nscd::Impulses(problem.contacts.size()), settings);
 }
 
 inline double norm(const std::vector<double>& x) {

@@ -102,7 +102,8 @@ TEST(Triangles, AreSolvedAsBySiconosWithEverySolver) {
                                              siconos::impulses_of(judgement.theirs.impulses, {})),
                   1e-5)
             << named.name;
-        for (const nscd::SolverEntry& entry : nscd::solver_list()) judgement.compare(entry.name);
+        for (const nscd::SolverEntry& entry : nscd::solvers_and_reference())
+            judgement.compare(entry.name);
         for (std::size_t k = 0; k < judgement.unique.size(); ++k)
             if (judgement.unique[k])
                 ++seen[status(named.problem, judgement.theirs.impulses, k, 1e-4)];

@@ -113,7 +113,7 @@ TEST(Columns, HaveTheVelocitiesOfSiconosWithEverySolver) {
             nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
             1e-6)
             << named.name;
-        for (const nscd::SolverEntry& entry : nscd::solver_list())
+        for (const nscd::SolverEntry& entry : nscd::solvers_and_reference())
             compare_with_siconos(named, judge, theirs, entry.name);
     }
 }
@@ -127,7 +127,7 @@ TEST(Siconos, AgreesOnImpulsesAndStatusesWhereTheyAreUnique) {
         const siconos::Problem judge(problem, {});
         const siconos::Solution theirs = judge.solve("nsgs", 1e-12, 300000);
         ASSERT_TRUE(theirs.converged) << seed;
-        for (const nscd::SolverEntry& entry : nscd::solver_list()) {
+        for (const nscd::SolverEntry& entry : nscd::solvers_and_reference()) {
             const nscd::SolverResult result = ours(entry.name, problem, 1e-12);
             const std::vector<double> r = siconos::flat(result.impulses, {});
             EXPECT_LT(relative_difference(theirs.impulses, r), 1e-8) << seed << entry.name;

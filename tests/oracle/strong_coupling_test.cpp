@@ -51,7 +51,7 @@ void judge(const ContactProblem& problem, const std::vector<double>& r, Tally& t
         ++tally.by_siconos;
         EXPECT_LT(relative_difference(theirs.impulses, r), 1e-6);
     }
-    for (const nscd::SolverEntry& entry : nscd::solver_list()) {
+    for (const nscd::SolverEntry& entry : nscd::solvers_and_reference()) {
         const nscd::SolverResult result = ours(entry.name, problem, 1e-11);
         if (!result.converged) continue;
         ++tally.by_us[entry.name];
@@ -79,7 +79,7 @@ TEST(StrongCoupling, EverySolverFindsTheOnlySolution) {
         const Tally tally = judge_hundred(scale);
         EXPECT_EQ(tally.unique, 100);
         EXPECT_EQ(tally.by_siconos, 100);
-        for (const nscd::SolverEntry& entry : nscd::solver_list())
+        for (const nscd::SolverEntry& entry : nscd::solvers_and_reference())
             EXPECT_EQ(tally.by_us.at(entry.name), 100) << entry.name;
         EXPECT_GT(tally.strongest, scale == 1.0 ? 0.45 : 0.6);
     }

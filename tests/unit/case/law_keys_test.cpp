@@ -54,6 +54,12 @@ TEST_F(LawKeys, UnknownLaws) {
     EXPECT_SAYS(refusal({"contact.impact=poisson"}), "newton, moreau");
 }
 
+TEST_F(LawKeys, UnknownSolversAndTheReferenceOfTheTests) {
+    const std::string text = refusal({"contact.solver=nlgs-stored"});
+    EXPECT_SAYS(text, "contact.solver = nlgs-stored");
+    EXPECT_SAYS(text, "nlgs, central-path");
+}
+
 TEST_F(LawKeys, ValuesOutOfRange) {
     EXPECT_SAYS(refusal({"contact.restitution=1.1"}), "contact.restitution = 1.1");
     EXPECT_SAYS(refusal({"contact.restitution=-0.1"}), "between 0 (no rebound) and 1 (no loss)");
@@ -83,10 +89,8 @@ TEST_F(LawKeys, MoreauHasOneRestitution) {
                 "contact.restitution_tangential = 0.1");
 }
 
-TEST_F(LawKeys, RollingResistanceNeedsDiscsAndASolverThatKnowsIt) {
+TEST_F(LawKeys, RollingResistanceNeedsDiscs) {
     EXPECT_EQ(refusal({"contact.rolling_friction=0.1"}), "");
-    EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "contact.solver=nlgs-stored"}),
-                "nlgs-stored does not support rolling resistance");
     EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "grains.shape=triangle"}),
                 "their faces resist rolling");
 }

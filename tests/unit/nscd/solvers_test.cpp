@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Requirements on every solver of solver_list.
+// Requirements on every solver, and on the reference for them.
 #include <gtest/gtest.h>
 
 #include <cstring>
 
 #include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
-#include "granular_adapter/nscd/solvers/solver_list.hpp"
 #include "planar.hpp"
 #include "problems.hpp"
 #include "scenes.hpp"
+#include "tests/oracle/nlgs_stored.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -26,7 +26,8 @@ SolverSettings tight(double tolerance = 1e-10) {
 
 SolverResult solve(const std::string& solver, const ContactProblem& problem,
                    const SolverSettings& settings) {
-    return make_solver(solver)->solve(problem, Impulses(problem.contacts.size()), settings);
+    return make_solver(solver, solvers_and_reference())
+        ->solve(problem, Impulses(problem.contacts.size()), settings);
 }
 
 bool same_bits(const Impulses& a, const Impulses& b) {
@@ -122,7 +123,7 @@ TEST_P(EverySolver, SaysThatItDidNotConverge) {
 
 TEST_P(EverySolver, StartsFromTheGuess) {
     const ContactProblem problem = settled_problem();
-    const auto solver = make_solver(GetParam());
+    const auto solver = make_solver(GetParam(), solvers_and_reference());
     const SolverResult cold = solve(GetParam(), problem, tight(1e-6));
     const SolverResult warm = solver->solve(problem, cold.impulses, tight(1e-6));
     EXPECT_LE(warm.iterations, 1);
@@ -154,7 +155,7 @@ TEST_P(EverySolver, RefusesSettingsThatMeanNothing) {
 
 std::vector<std::string> names() {
     std::vector<std::string> result;
-    for (const SolverEntry& entry : solver_list()) result.push_back(entry.name);
+    for (const SolverEntry& entry : solvers_and_reference()) result.push_back(entry.name);
     return result;
 }
 

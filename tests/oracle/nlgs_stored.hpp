@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Non-linear Gauss-Seidel (NLGS) on the assembled Delassus operator. For each contact, in the given
-// order,
+// Non-linear Gauss-Seidel (NLGS) on the assembled Delassus operator, the reference for `nlgs`. For
+// each contact, in the given order,
 //
 //     b = u_free,k + sum_{j != k} W_kj r_j,   r_k = exact solution of the contact alone
 //
 // A contact reads the impulses of its neighbours instead of two body velocities. In dense packings
 // of discs this is more than twice the work, but there are no body velocities on which rounding
-// could accumulate over many sweeps. It is the reference for `nlgs` and for codes that know only W.
+// could accumulate over many sweeps.
 #pragma once
 
-#include "granular_adapter/nscd/solvers/solver.hpp"
+#include <vector>
+
+#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
 
@@ -20,5 +22,8 @@ class NlgsStored final : public ContactSolver {
     SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                        const SolverSettings& settings) const override;
 };
+
+/// The solvers that a case may choose, and behind them `nlgs-stored`.
+const std::vector<SolverEntry>& solvers_and_reference();
 
 }  // namespace turbidite::nscd

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/solvers/nlgs_stored.hpp"
+#include "nlgs_stored.hpp"
 
 #include <stdexcept>
 
 #include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
-#include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -97,8 +96,16 @@ SolverResult NlgsStored::solve(const ContactProblem& problem, const Impulses& gu
     return result;
 }
 
-std::unique_ptr<const ContactSolver> make_nlgs_stored() {
-    return std::make_unique<NlgsStored>();
+const std::vector<SolverEntry>& solvers_and_reference() {
+    static const std::vector<SolverEntry> solvers = [] {
+        std::vector<SolverEntry> all(solver_list().begin(), solver_list().end());
+        all.push_back({"nlgs-stored", "Gauss-Seidel on the assembled Delassus operator",
+                       []() -> std::unique_ptr<const ContactSolver> {
+                           return std::make_unique<NlgsStored>();
+                       }});
+        return all;
+    }();
+    return solvers;
 }
 
 }  // namespace turbidite::nscd
