@@ -74,7 +74,7 @@ int solver_id(const std::string& name) {
 
 nscd::ContactProblem dimensionless(const nscd::ContactProblem& problem, const Scale& scale) {
     nscd::ContactProblem result = problem;
-    for (nscd::BodyMobility& m : result.bodies)
+    for (nscd::PlanarTensor& m : std::get<std::vector<nscd::PlanarTensor>>(result.bodies))
         for (double* entry : {&m.xx, &m.yy, &m.ss, &m.xy, &m.xs, &m.ys}) *entry *= scale.mass;
     const auto shrink = [&](Vec3& v) {
         for (double& x : v) x /= scale.speed;

@@ -29,7 +29,8 @@ std::string without_recovery(const Settings& s) {
 }
 
 void notes(const Settings& s, std::vector<std::string>& notes) {
-    // The solver begins with 8000 sweeps (granular_adapter/nscd/solvers/central_path_solver.cpp).
+    // The solver begins with 8000 sweeps
+    // (granular_adapter/nscd/solvers/plane/central_path_solver.cpp).
     if (constexpr std::int64_t enough = 20000;
         s.text("contact.solver") == "central-path" && s.integer("contact.iterations") < enough)
         notes.push_back(fmt::format(

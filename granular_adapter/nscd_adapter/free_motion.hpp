@@ -15,7 +15,7 @@ namespace turbidite {
 
 struct FreeMotion {
     std::vector<Twist> velocities;               ///< U^F, omega^F
-    std::vector<nscd::BodyMobility> mobilities;  ///< A^-1, A the effective inertia; 0: fixed
+    std::vector<nscd::PlanarTensor> mobilities;  ///< A^-1, A the effective inertia; 0: fixed
 };
 
 /// `when` ends the sentence of an error ("in window 3"). Throws std::runtime_error naming a grain

@@ -26,8 +26,8 @@ constexpr double alert_share = 0.02;
 constexpr double turn_share = 1e-5;
 constexpr int turn_rounds = 2;
 
-std::vector<BodyMobility> mobilities(const Bodies& bodies) {
-    std::vector<BodyMobility> result;
+Mobilities mobilities(const Bodies& bodies) {
+    std::vector<PlanarTensor> result;
     result.reserve(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
         result.push_back({bodies.inverse_mass(i), bodies.inverse_inertia(i)});
@@ -72,10 +72,9 @@ StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
     return step_from(free, mobilities(bodies_), dt);
 }
 
-StepReport Engine::step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
-                             double dt) {
+StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
     check_step(dt);
-    if (free.size() != bodies_.size() || mobilities.size() != bodies_.size())
+    if (free.size() != bodies_.size() || size(mobilities) != bodies_.size())
         throw std::invalid_argument(
             "a contact step needs one free velocity and one mobility per "
             "body");
@@ -130,7 +129,7 @@ std::vector<Wall> Engine::placed_walls(double reach) const {
 }
 
 /// Sets up the contact problem of these points under the laws, and the initial guess.
-void Engine::pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt) {
+void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
     problem_ =
         laws_.pose({points_, keys_, bodies_, placed_walls_}, free, std::move(mobilities), dt);
     guess_ = memory_.guesses(keys_, dt);
@@ -278,18 +277,18 @@ void Engine::sum_impulses() {
     std::fill(bodies_.contact_impulse.begin(), bodies_.contact_impulse.end(), Vec3{});
     std::fill(bodies_.contact_angular_impulse.begin(), bodies_.contact_angular_impulse.end(),
               Vec3{});
-    const auto add = [this](std::int32_t body, const Vec3& arm, const Vec3& p, double moment) {
+    const auto add = [this](std::int32_t body, const Vec3& arm, const Vec3& p, const Vec3& moment) {
         bodies_.contact_impulse[body] = bodies_.contact_impulse[body] + p;
         Vec3& sum = bodies_.contact_angular_impulse[body];
-        sum = sum + cross(arm, p);
-        sum[2] += moment;
+        sum = sum + cross(arm, p) + moment;
     };
     for (std::size_t k = 0; k < points_.size(); ++k) {
         if (impulses_[k] == ContactVector{}) continue;
         const Contact& contact = problem_.contacts[k];
         const Vec3 p = world_impulse(contact, impulses_[k]);
-        add(contact.b, contact.arm_b, p, impulses_[k].roll);
-        if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -impulses_[k].roll);
+        const Vec3 moment = world_moment(impulses_[k]);
+        add(contact.b, contact.arm_b, p, moment);
+        if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -moment);
     }
 }
 

@@ -93,8 +93,7 @@ class Engine {
     /// The same with mobilities from the caller, used as given: masses, moments of inertia and
     /// flags of the bodies are ignored. May be repeated before the move; each time the solver
     /// starts from the last impulses, and laws from their state at the last move.
-    StepReport step_from(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities,
-                         double dt);
+    StepReport step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt);
 
     /// Moves bodies with their present velocities and walls with their own, and accepts the step:
     /// the states that laws found in it become their memory.
@@ -145,7 +144,7 @@ class Engine {
     std::vector<Wall> placed_walls(double reach) const;
     bool may_meet_images() const;
     void detect(const std::vector<Twist>& free, double dt);
-    void pose(const std::vector<Twist>& free, std::vector<BodyMobility> mobilities, double dt);
+    void pose(const std::vector<Twist>& free, Mobilities mobilities, double dt);
     SolverResult solve(double dt);
     StepReport hand_out(SolverResult result, double dt);
     void sum_impulses();

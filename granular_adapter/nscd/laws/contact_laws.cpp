@@ -46,7 +46,7 @@ ContactVector wall_velocity(const DetectedContacts& contacts, const ContactPoint
     if (point.wall < 0 || !is_moving(wall_of(contacts, point))) return {};
     const Vec3 v =
         velocity_at(wall_of(contacts, point), contacts.bodies.position[point.b] + point.arm_b);
-    return in_plane(dot(contact.normal, v), dot(contact.tangent, v));
+    return in_frame(contact, v);
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ ContactSituation ContactLaws::situation(const DetectedContacts& contacts,
 }
 
 ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
-                                 std::vector<BodyMobility> mobilities, double step) {
+                                 Mobilities mobilities, double step) {
     check_materials(contacts);
     ContactProblem problem{std::move(mobilities), free, {}, 0.0};
     problem.contacts.reserve(contacts.points.size());

@@ -39,7 +39,7 @@ class ContactLaws {
     /// The contact problem of a step, from free velocities without contacts. Throws
     /// std::invalid_argument naming a body or wall whose material is not in the table.
     ContactProblem pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
-                        std::vector<BodyMobility> mobilities, double step);
+                        Mobilities mobilities, double step);
 
     /// r = r~ - dt c n: the impulses on the bodies, from the solution r~ of the last problem [N s].
     Impulses felt(const Impulses& solution) const;

@@ -13,9 +13,9 @@
 //
 //     |m| <= rolling r_n, and m = -rolling r_n w/|w| unless w = 0    rolling resistance
 //
-// and zero wherever `rolling` is zero. Vectors in contact frames are three-dimensional
-// (contact_vector.hpp); mobilities and the operators H and H^T are those of the plane. This file
-// does not depend on shapes, laws or solvers.
+// and zero wherever `rolling` is zero. The mobilities M^-1 are those of a kind of contact
+// (contact_kind.hpp); everything else is the same in the plane and in space. This file does not
+// depend on shapes, laws or solvers.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 #include "granular_adapter/nscd/problem/bodies.hpp"
 #include "granular_adapter/nscd/problem/contact_vector.hpp"
-#include "granular_adapter/nscd/problem/plane/mobility.hpp"
+#include "granular_adapter/nscd/problem/mobilities.hpp"
 
 namespace turbidite::nscd {
 
@@ -34,7 +34,7 @@ struct Contact {
     std::int32_t a = -1;  ///< -1: at rest and immovable
     std::int32_t b = -1;
     Vec3 normal{};   ///< n, from a to b
-    Vec3 tangent{};  ///< t = e_z x n
+    Vec3 tangent{};  ///< t, tangent_of(n)
     Vec3 arm_a{};    ///< from the centre of a to the contact point [m]
     Vec3 arm_b{};
     double friction = 0.0;  ///< mu
@@ -43,7 +43,7 @@ struct Contact {
 };
 
 struct ContactProblem {
-    std::vector<BodyMobility> bodies;
+    Mobilities bodies;
     std::vector<Twist> free;  ///< v_free
     std::vector<Contact> contacts;
     /// Speeds that may have cancelled in v_free, beyond those left in it; their rounding remains
@@ -51,17 +51,63 @@ struct ContactProblem {
     double cancelled = 0.0;
 };
 
-/// t = e_z x n.
+/// t = e_z x n, of length 1; e_x where n is along e_z.
 Vec3 tangent_of(const Vec3& normal);
 
-/// H_k^T v of one contact, without the bias: u_n, u_t and w.
-ContactVector contact_velocity(const Contact& contact, const std::vector<Twist>& v);
+/// s = n x t.
+inline Vec3 binormal_of(const Contact& contact) {
+    return cross(contact.normal, contact.tangent);
+}
+
+/// A vector in the frame of the contact.
+inline ContactVector in_frame(const Contact& contact, const Vec3& x) {
+    return {dot(contact.normal, x), dot(contact.tangent, x), dot(binormal_of(contact), x), 0.0};
+}
+
+/// H_k^T v of one contact, without the bias: the velocity and the spin of b relative to a. Inline,
+/// since most callers use few of the components.
+inline ContactVector contact_velocity(const Contact& contact, const std::vector<Twist>& v) {
+    const Twist& b = v[static_cast<std::size_t>(contact.b)];
+    Vec3 u = b.at(contact.arm_b);
+    double spin = b.spin[2];
+    if (contact.a >= 0) {
+        const Twist& a = v[static_cast<std::size_t>(contact.a)];
+        u = u - a.at(contact.arm_a);
+        spin -= a.spin[2];
+    }
+    ContactVector result = in_frame(contact, u);
+    result.roll = spin;
+    return result;
+}
+
+/// The force part of H_k r_k, as a vector in world axes [N s].
+inline Vec3 world_impulse(const Contact& contact, const ContactVector& r) {
+    const Vec3 p = r.n * contact.normal + r.t * contact.tangent;
+    return r.s == 0.0 ? p : p + r.s * binormal_of(contact);
+}
+
+/// The moment impulse of rolling resistance, likewise [N m s].
+inline Vec3 world_moment(const ContactVector& r) {
+    return {0.0, 0.0, r.roll};
+}
 
 /// v_free + M^-1 H r.
 std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r);
 
-/// The force part of H_k r_k, as a vector in world axes [N s]; the moment impulse r.roll is not
-/// included.
-Vec3 world_impulse(const Contact& contact, const ContactVector& r);
+/// The same for these mobilities, whatever the problem's.
+template <class Mobility>
+std::vector<Twist> body_velocities(const ContactProblem& problem,
+                                   const std::vector<Mobility>& bodies, const Impulses& r) {
+    std::vector<Twist> v = problem.free;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        if (r[k] == ContactVector{}) continue;
+        const Contact& contact = problem.contacts[k];
+        const Vec3 p = world_impulse(contact, r[k]);
+        push(v[contact.b], bodies[contact.b], contact.arm_b, p, r[k].roll);
+        if (contact.a >= 0)
+            push(v[contact.a], bodies[contact.a], contact.arm_a, -1.0 * p, -r[k].roll);
+    }
+    return v;
+}
 
 }  // namespace turbidite::nscd

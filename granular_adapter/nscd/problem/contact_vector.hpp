@@ -4,11 +4,10 @@
 //
 //     n      along the normal, from a to b                                    [m/s] [N s]
 //     t, s   along the two tangents, s = n x t                                [m/s] [N s]
-//     roll   about s: spin of b relative to a, moment impulse on b     [rad/s] [N m s]
+//     roll   about e_z: spin of b relative to a, moment impulse on b   [rad/s] [N m s]
 //
-// In the plane s = e_z: there is no motion along it, and every spin is about it. In space a second
-// rolling component, about t, is to be added beside `roll`; code that calls in_plane() needs
-// neither.
+// In the plane s = e_z: there is no motion along it, and every spin is about it. Only there can
+// contacts resist rolling.
 #pragma once
 
 #include <cmath>

@@ -26,14 +26,13 @@
 //
 // With rolling resistance the natural map projects n, t and roll on |r_t| <= mu r_n, |m| <= rho r_n
 // (rolling_contact.hpp). Moments are divided, and spins multiplied, by sqrt(W_nn/W_rr).
+//
+// For callers that have the operator of the problem: measures.hpp.
 #pragma once
 
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 namespace turbidite::nscd {
-
-class Delassus;
-struct Block;
 
 /// Residual of the natural map, >= 0; zero for a problem without contacts.
 double natural_map_residual(const ContactProblem& problem, const Impulses& r);
@@ -51,8 +50,8 @@ class RoundingFloor {
  public:
     explicit RoundingFloor(const ContactProblem& problem);
 
-    /// Of a contact with the diagonal block `w` [(N s)^2].
-    double term(const Contact& contact, const Block& w) const;
+    /// Of a contact whose diagonal block has the entry W_nn [(N s)^2].
+    double term(const Contact& contact, double nn) const;
 
  private:
     std::vector<double> speeds_;  ///< free speed of each body [m/s]
@@ -71,13 +70,5 @@ struct Measures {
     double residual = 0.0;
     ChangeMeasures change;
 };
-
-/// The same for a caller that already has the operator of this problem, v =
-/// body_velocities(problem, r), and the floor.
-double rounding_floor(const ContactProblem& problem, const Delassus& w);
-double natural_map_residual(const ContactProblem& problem, const Delassus& w,
-                            const std::vector<Twist>& v, const Impulses& r, double floor);
-Measures measures(const ContactProblem& problem, const Delassus& w, const std::vector<Twist>& v,
-                  const Impulses& r, double floor);
 
 }  // namespace turbidite::nscd

@@ -12,12 +12,12 @@
 // of their own, which sweeps skip; the measuring sweeps test them all and reactivate groups with a
 // closing contact.
 //
-// The fast implementation, with bitwise the same result: contact_schedule.hpp, sweep_kernel.hpp,
-// sweep_pipeline.hpp.
+// The fast implementation, with bitwise the same result: nlgs_iteration.hpp, contact_schedule.hpp,
+// sweep_pipeline.hpp, and the kernel of each kind of contact (plane/sweep_kernel.hpp).
 #pragma once
 
 #include "granular_adapter/nscd/solvers/solver.hpp"
-#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/instructions.hpp"
 
 namespace turbidite::nscd {
 

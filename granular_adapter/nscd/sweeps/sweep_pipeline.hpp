@@ -14,8 +14,7 @@
 #include <cstring>
 #include <vector>
 
-#include "granular_adapter/nscd/sweeps/plane/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
 #include "granular_adapter/nscd/sweeps/thread_team.hpp"
 
 namespace turbidite::nscd {
@@ -87,7 +86,7 @@ class SweepPipeline {
     }
 
     void update(const Stretch& stretch) {
-        PlaneBody* const bodies = layout_.bodies.data();
+        typename Rows::Body* const bodies = layout_.bodies.data();
         sweeps_.plain(row(stretch.active.first), row(stretch.active.last), bodies);
         for (std::int32_t group = next_awake(stretch.resting); group < stretch.resting.last;
              group = next_awake({group + 1, stretch.resting.last}))
@@ -95,7 +94,7 @@ class SweepPipeline {
     }
 
     void measure(const Stretch& stretch) {
-        PlaneBody* const bodies = layout_.bodies.data();
+        typename Rows::Body* const bodies = layout_.bodies.data();
         sweeps_.measured(row(stretch.active.first), row(stretch.active.last), bodies, active_sums_);
         if (stretch.resting.first < stretch.resting.last)
             sweeps_.asked(row(stretch.resting.first), row(stretch.resting.last), bodies,

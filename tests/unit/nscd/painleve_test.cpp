@@ -21,7 +21,7 @@ namespace {
 ContactProblem rod(double tangent, double friction, double fall, double slip) {
     const double phi = std::atan(tangent);
     ContactProblem problem;
-    problem.bodies = {{1.0, 3.0}};
+    problem.bodies = std::vector<PlanarTensor>{{1.0, 3.0}};
     problem.free = {{{slip, -fall, 0.0}, {}}};
     Contact contact;
     contact.b = 0;

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "coupler/rigid/vec3.hpp"
-#include "granular_adapter/nscd/problem/contact_problem.hpp"
+#include "planar.hpp"
 
 namespace turbidite::nscd::problems {
 
@@ -50,7 +50,7 @@ inline ContactProblem random_problem(const Recipe& recipe) {
                                          : BodyMobility(1.5 + any(random), 4.0 + any(random));
         if (i == 0) m = {};
         if (i == 1) m = {1.0, 0.0};
-        problem.bodies.push_back(m);
+        nscd::planar::bodies(problem).push_back(m);
         problem.free.push_back({{any(random), -2.0 + any(random), 0.0}, {0.0, 0.0, any(random)}});
     }
     problem.free[0] = {};
@@ -78,10 +78,11 @@ inline ContactProblem random_problem(const Recipe& recipe) {
 /// H^T M^-1 H by dense algebra, rows and columns (n, t) of each contact.
 inline Eigen::MatrixXd dense_delassus(const ContactProblem& problem) {
     const auto n = static_cast<int>(problem.contacts.size());
-    const auto m = static_cast<int>(problem.bodies.size());
+    const auto m = static_cast<int>(size(problem.bodies));
     Eigen::MatrixXd h = Eigen::MatrixXd::Zero(3 * m, 2 * n);
     Eigen::MatrixXd mobility = Eigen::MatrixXd::Zero(3 * m, 3 * m);
-    for (int i = 0; i < m; ++i) mobility.block<3, 3>(3 * i, 3 * i) = dense(problem.bodies[i]);
+    for (int i = 0; i < m; ++i)
+        mobility.block<3, 3>(3 * i, 3 * i) = dense(nscd::planar::bodies(problem)[i]);
     for (int k = 0; k < n; ++k) {
         const Contact& c = problem.contacts[k];
         const auto add = [&](std::int32_t body, const Vec3& arm, double sign) {

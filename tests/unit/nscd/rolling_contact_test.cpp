@@ -112,7 +112,7 @@ TEST(RollingResistance, HoldsADiscOnASlopeBelowItsAngle) {
         const double lever = 0.05;  // R = 1/2: limit 0.1
         ContactProblem problem;
         const Body body = scenes::disc(1, 0.0, 0.5);
-        problem.bodies = {{1.0 / body.mass, 1.0 / body.inertia}};
+        problem.bodies = std::vector<PlanarTensor>{{1.0 / body.mass, 1.0 / body.inertia}};
         const Vec3 g = scenes::tilted(std::atan(tangent));
         problem.free = {{0.01 * g, {}}};
         Contact contact;
@@ -145,7 +145,7 @@ TEST(RollingResistance, HoldsADiscOnASlopeBelowItsAngle) {
 
 TEST(RollingResistance, DelassusHasTheRowOfMoments) {
     ContactProblem problem;
-    problem.bodies = {{0.5, 1.0}, {0.25, 0.125}};
+    problem.bodies = std::vector<PlanarTensor>{{0.5, 1.0}, {0.25, 0.125}};
     problem.free.resize(2);
     Contact contact;
     contact.a = 0, contact.b = 1;

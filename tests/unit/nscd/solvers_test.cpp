@@ -88,7 +88,7 @@ TEST_P(EverySolver, FindsTheVelocitiesOfNlgs) {
         const ContactProblem problem = random_problem({.friction = 0.5, .seed = seed});
         const SolverResult a = solve("nlgs", problem, tight(1e-12));
         const SolverResult b = solve(GetParam(), problem, tight(1e-12));
-        for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+        for (std::size_t i = 0; i < size(problem.bodies); ++i) {
             EXPECT_LT(norm(a.velocities[i].velocity - b.velocities[i].velocity), 1e-9);
             EXPECT_NEAR(a.velocities[i].spin[2], b.velocities[i].spin[2], 1e-9);
         }
@@ -140,7 +140,7 @@ TEST_P(EverySolver, GivesTheSameBitsTwice) {
 
 TEST_P(EverySolver, HasNothingToDoWithoutContacts) {
     ContactProblem problem;
-    problem.bodies = {{1.0, 1.0}};
+    problem.bodies = std::vector<PlanarTensor>{{1.0, 1.0}};
     problem.free = {{{1.0, 2.0, 0.0}, {}}};
     const SolverResult result = solve(GetParam(), problem, tight());
     EXPECT_TRUE(result.converged);

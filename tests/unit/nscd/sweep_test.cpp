@@ -11,7 +11,7 @@
 #include "granular_adapter/nscd/detection/contact_order.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
-#include "granular_adapter/nscd/sweeps/plane/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/plane/sweep_pack.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
 #include "planar.hpp"
 #include "scenes.hpp"
@@ -32,7 +32,7 @@ ContactProblem lattice(int columns, int rows, Kind kind) {
         BodyMobility body(1.0 + 0.5 * any(random), i % 11 == 0 ? 0.0 : 4.0 + any(random));
         if (i % 17 == 0) body = {};
         if (general && i % 17 != 0) body.xy = 0.2 * any(random), body.ys = 0.2 * any(random);
-        problem.bodies.push_back(body);
+        planar::bodies(problem).push_back(body);
         problem.free.push_back({{any(random), -1.0 + 0.3 * any(random), 0.0}, {0, 0, any(random)}});
     }
     const auto touch = [&](int a, int b, double angle) {
@@ -70,9 +70,16 @@ std::vector<std::uint8_t> two_thirds(std::size_t contacts) {
     return active;
 }
 
+std::vector<MovedPair> moved_pairs(const ContactProblem& problem) {
+    const MovedBodies moved(planar::bodies(problem));
+    std::vector<MovedPair> pairs;
+    for (const Contact& contact : problem.contacts) pairs.push_back(moved.of(contact));
+    return pairs;
+}
+
 Schedule scheduled(const ContactProblem& problem, const ScheduleSettings& settings) {
     return make_schedule(moved_pairs(problem), two_thirds(problem.contacts.size()),
-                         problem.bodies.size(), settings);
+                         size(problem.bodies), settings);
 }
 
 template <class Rows>
@@ -242,7 +249,7 @@ TEST(Schedule, KeepsTheOrderOfContactsThatShareABodyAndTheirDistance) {
     const std::vector<std::int32_t> group = groups_of(schedule, pairs.size(), 4);
     EXPECT_EQ(schedule.lanes.size(), static_cast<std::size_t>(schedule.all) * 4);
     for (const bool resting : {false, true}) {
-        std::vector<std::int32_t> last(problem.bodies.size(), -3);
+        std::vector<std::int32_t> last(size(problem.bodies), -3);
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             EXPECT_EQ(active[k] != 0, group[k] < schedule.active);
             if ((active[k] == 0) != resting) continue;
@@ -263,7 +270,7 @@ TEST(Schedule, StretchesCoverAllGroupsAndKnowWhatTheyWaitFor) {
     const ContactProblem problem = lattice(25, 25, Kind::discs);
     const std::vector<MovedPair> pairs = moved_pairs(problem);
     const Schedule schedule = scheduled(problem, {.width = 4, .distance = 2, .stretch = 64});
-    std::vector<std::int32_t> last(problem.bodies.size(), 0);
+    std::vector<std::int32_t> last(size(problem.bodies), 0);
     std::vector<std::set<std::int32_t>> bodies;
     GroupRange active{0, 0}, resting{schedule.active, schedule.active};
     for (const Stretch& stretch : schedule.stretches) {
@@ -347,7 +354,7 @@ TEST(Sweep, MeasuresTheNaturalMapAlongTheWay) {
         const auto sum = [&]<class Rows>(Rows) {
             SweepLayout<Rows> layout(problem, w, pairs, r, v,
                                      make_schedule(pairs, std::vector<std::uint8_t>(r.size(), 1),
-                                                   problem.bodies.size(), {Rows::width, 1}));
+                                                   size(problem.bodies), {Rows::width, 1}));
             PassSums<Rows::width> sums;
             sweeps<Rows>(best_instructions())
                 .measured(layout.rows.data(), layout.rows.data() + layout.rows.size(),
@@ -377,7 +384,7 @@ void expect_state_survives_rearrangement(Kind kind) {
     layout.collect(before);
     const std::vector<std::uint8_t> loaded = layout.loaded(pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) EXPECT_EQ(loaded[k] != 0, before[k].n > 0.0);
-    layout.rearrange(make_schedule(pairs, loaded, problem.bodies.size(),
+    layout.rearrange(make_schedule(pairs, loaded, size(problem.bodies),
                                    {.width = Rows::width, .distance = 3, .stretch = 70}));
     layout.collect(after);
     EXPECT_TRUE(same_bits(before, after));
@@ -407,7 +414,7 @@ TEST(SweepLayout, GoesOnFromTheSameStateInOtherGroups) {
 // An inactive contact is not swept until a measuring sweep finds that it closes.
 TEST(SweepPipeline, ReactivatesClosingContacts) {
     ContactProblem problem;
-    problem.bodies.push_back(BodyMobility(1.0, 2.0));
+    planar::bodies(problem).push_back(BodyMobility(1.0, 2.0));
     problem.free.push_back({{0.0, -1.0, 0.0}, {}});
     Contact floor;
     floor.b = 0;

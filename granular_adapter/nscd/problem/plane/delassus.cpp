@@ -49,14 +49,14 @@ bool is_along_normal(const Contact& contact, const Vec3& arm) {
     return std::abs(cross_z(arm, contact.normal)) <= 1e-14 * norm(arm);
 }
 
-Block block_of(const ContactProblem& problem, const Contact& contact) {
+Block block_of(const std::vector<PlanarTensor>& bodies, const Contact& contact) {
     Block w;
     const auto add = [&](const Vec3& arm, const BodyMobility& body) {
         add_share(w, contact, arm, body);
         if (contact.rolling > 0.0) add_rolling_share(w, contact, arm, body);
     };
-    add(contact.arm_b, problem.bodies[contact.b]);
-    if (contact.a >= 0) add(contact.arm_a, problem.bodies[contact.a]);
+    add(contact.arm_b, bodies[contact.b]);
+    if (contact.a >= 0) add(contact.arm_a, bodies[contact.a]);
     drop_rounding(w);
     return w;
 }
@@ -67,11 +67,12 @@ Block block_of(const ContactProblem& problem, const Contact& contact) {
 // driven body has none.
 Delassus::Delassus(const ContactProblem& problem)
     : problem_(problem),
-      diagonal_(std::all_of(problem.bodies.begin(), problem.bodies.end(),
+      bodies_(std::get<std::vector<PlanarTensor>>(problem.bodies)),
+      diagonal_(std::all_of(bodies_.begin(), bodies_.end(),
                             [](const BodyMobility& body) { return body.isotropic(); })) {
     blocks_.reserve(problem.contacts.size());
     for (const Contact& contact : problem.contacts) {
-        const Block w = block_of(problem, contact);
+        const Block w = block_of(bodies_, contact);
         diagonal_ = diagonal_ && w.nt == 0.0 && w.nr == 0.0 &&
                     is_along_normal(contact, contact.arm_b) &&
                     is_along_normal(contact, contact.arm_a);

@@ -11,16 +11,20 @@
 
 #include <vector>
 
-#include "granular_adapter/nscd/problem/contact_problem.hpp"
-#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
+#include "granular_adapter/nscd/problem/contact_kind.hpp"
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 
 namespace turbidite::nscd {
 
 class Delassus {
  public:
-    /// Keeps a reference to the problem, which must outlive it.
+    using Mobility = PlanarTensor;
+    using Block = nscd::Block;
+
+    /// Keeps a reference to the problem, which must be one of the plane and outlive it.
     explicit Delassus(const ContactProblem& problem);
 
+    const std::vector<PlanarTensor>& bodies() const { return bodies_; }
     const Block& block(std::size_t contact) const { return blocks_[contact]; }
 
     /// W r: the changes of u_n, u_t and w of every contact.
@@ -36,8 +40,49 @@ class Delassus {
 
  private:
     const ContactProblem& problem_;
+    const std::vector<PlanarTensor>& bodies_;
     std::vector<Block> blocks_;
     bool diagonal_ = true, rolling_ = false;
 };
+
+inline Delassus operator_of(const ContactProblem& problem, const std::vector<PlanarTensor>&) {
+    return Delassus(problem);
+}
+
+// One contact with its diagonal block, as contact_kind.hpp asks for it. Inline, for the loops of
+// measures.hpp.
+
+inline MapTerms rolling_terms(const Contact& contact, const Block& w, const ContactVector& r,
+                              const ContactVector& u) {
+    const double length = rolling_length(w), moment = r.roll / length;
+    const ContactVector f =
+        rolling_natural_map(r, u, contact.friction, contact.rolling, 1.0 / w.nn, length);
+    return {f.n * f.n + f.t * f.t + f.roll * f.roll, r.n * r.n + r.t * r.t + moment * moment};
+}
+
+inline MapTerms map_terms(const Contact& contact, const Block& w, const ContactVector& r,
+                          const ContactVector& u) {
+    if (w.rr > 0.0) return rolling_terms(contact, w, r, u);
+    const Plane f = natural_map({r.n, r.t}, {u.n, u.t}, contact.friction, 1.0 / w.nn);
+    return {f[0] * f[0] + f[1] * f[1], r.n * r.n + r.t * r.t};
+}
+
+inline ContactVector solution(const Contact& contact, const Block& w, const ContactVector& b) {
+    return w.rr > 0.0 ? solve_rolling_contact(w, b, contact.friction, contact.rolling)
+                      : without_rolling(w, b, contact.friction);
+}
+
+inline ContactVector product(const Block& w, const ContactVector& r) {
+    return in_plane(w.nn * r.n + w.nt * r.t + w.nr * r.roll,
+                    w.nt * r.n + w.tt * r.t + w.tr * r.roll,
+                    w.nr * r.n + w.tr * r.t + w.rr * r.roll);
+}
+
+inline double squared(const Block& w, const ContactVector& u) {
+    const double rolling = w.rr > 0.0 ? u.roll * u.roll * (w.nn / w.rr) : 0.0;
+    return u.n * u.n + u.t * u.t + rolling;
+}
+
+static_assert(ContactOperator<Delassus>);
 
 }  // namespace turbidite::nscd

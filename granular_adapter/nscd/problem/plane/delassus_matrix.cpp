@@ -28,13 +28,12 @@ End end_of(const Contact& contact, std::int32_t index, bool at_b) {
 }
 
 /// The contacts of every movable body, in order.
-std::vector<std::vector<End>> ends_by_body(const ContactProblem& problem) {
-    std::vector<std::vector<End>> ends(problem.bodies.size());
+std::vector<std::vector<End>> ends_by_body(const ContactProblem& problem,
+                                           const std::vector<PlanarTensor>& bodies) {
+    std::vector<std::vector<End>> ends(bodies.size());
     const auto add = [&](std::int32_t body, std::int32_t k, bool at_b) {
         if (body < 0) return;
-        const BodyMobility& m = problem.bodies[body];
-        if (m.xx != 0.0 || m.yy != 0.0 || m.ss != 0.0)
-            ends[body].push_back(end_of(problem.contacts[k], k, at_b));
+        if (!is_immovable(bodies[body])) ends[body].push_back(end_of(problem.contacts[k], k, at_b));
     };
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(problem.contacts.size()); ++k) {
         add(problem.contacts[k].a, k, false);
@@ -85,7 +84,7 @@ void collect(std::vector<RowEntry>& row, const BodyMobility& body, const std::ve
 
 DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
     const Delassus blocks(problem);
-    const std::vector<std::vector<End>> ends = ends_by_body(problem);
+    const std::vector<std::vector<End>> ends = ends_by_body(problem, blocks.bodies());
     row_start.push_back(0);
     std::vector<RowEntry> row;
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(problem.contacts.size()); ++k) {
@@ -93,7 +92,8 @@ DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
         diagonal.push_back(blocks.block(k));
         row.clear();
         for (const std::int32_t body : {contact.a, contact.b})
-            if (body >= 0 && !ends[body].empty()) collect(row, problem.bodies[body], ends[body], k);
+            if (body >= 0 && !ends[body].empty())
+                collect(row, blocks.bodies()[body], ends[body], k);
         std::stable_sort(row.begin(), row.end());
         for (const RowEntry& entry : row) {
             const bool same = std::int64_t(column.size()) > row_start.back() &&

@@ -2,10 +2,12 @@
 //
 // The mobility of a body in the plane: an impulse changes (U, omega) by M^-1 (J, K), where M^-1 is
 // any symmetric matrix over (x, y, spin). A dry body has diag(1/m, 1/m, 1/I); one with tied fluid
-// has a full matrix. In space it will be the same over six components.
+// has a full matrix.
 #pragma once
 
 #include <optional>
+
+#include "coupler/rigid/rigid_motion.hpp"
 
 namespace turbidite::nscd {
 
@@ -40,6 +42,19 @@ struct PlanarTensor {
 
 /// M^-1; zero for an immovable body [1/kg, 1/(kg m), 1/(kg m2)].
 using BodyMobility = PlanarTensor;
+
+inline bool is_immovable(const BodyMobility& body) {
+    return body.xx == 0.0 && body.yy == 0.0 && body.ss == 0.0;
+}
+
+/// Adds the change of velocity by an impulse p at the end of `arm` and a moment impulse about e_z.
+inline void push(Twist& twist, const BodyMobility& body, const Vec3& arm, const Vec3& p,
+                 double moment) {
+    const PlanarVector change = body * PlanarVector{p[0], p[1], cross_z(arm, p) + moment};
+    twist.velocity[0] += change.x;
+    twist.velocity[1] += change.y;
+    twist.spin[2] += change.spin;
+}
 
 /// Empty unless the tensor is positive definite; isotropic tensors stay isotropic.
 std::optional<PlanarTensor> inverse(const PlanarTensor& tensor);

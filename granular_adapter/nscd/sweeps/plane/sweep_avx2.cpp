@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The sweeps for AVX2. Only the code of sweep_kernel.hpp is compiled for it; everything included
+// The sweeps for AVX2. Only the code of the kernels is compiled for it; everything included
 // before stays portable, since its inline functions may be used in any other part of a program.
 #include <stdexcept>
 
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#ifdef TURBIDITE_AVX2
 
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace turbidite::nscd::avx2 {
+#include "granular_adapter/nscd/sweeps/lane_kernel.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_kernel.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_loops.hpp"
 }  // namespace turbidite::nscd::avx2
 #pragma GCC pop_options
 
 namespace turbidite::nscd {
-
-bool available(Instructions instructions) {
-    return instructions == Instructions::portable || __builtin_cpu_supports("avx2");
-}
 
 template <class Rows>
 Sweeps<Rows> avx2_sweeps() {
@@ -32,10 +30,6 @@ Sweeps<Rows> avx2_sweeps() {
 #else
 
 namespace turbidite::nscd {
-
-bool available(Instructions instructions) {
-    return instructions == Instructions::portable;
-}
 
 template <class Rows>
 Sweeps<Rows> avx2_sweeps() {

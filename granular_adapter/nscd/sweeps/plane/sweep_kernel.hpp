@@ -1,55 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The loops over packed groups (sweep_rows.hpp). This file is included once per instruction set,
-// inside a namespace of that name. Values are vectors of four doubles or single doubles; every
-// operation rounds lane by lane, so neither the width nor the instruction set changes a bit.
+// The update of a group of contacts in the plane (sweep_rows.hpp). This file is included once per
+// instruction set, between lane_kernel.hpp and sweep_loops.hpp.
 //
 //     u = H_k^T v + b_k,   r_k' = exact solution of the contact alone,   v += M^-1 H_k (r_k' - r_k)
-
-#define TURBIDITE_INLINE [[gnu::always_inline]] inline
-
-using Four = double __attribute__((vector_size(32)));
-
-template <int width>
-struct RealOf {
-    using Type = Four;
-};
-template <>
-struct RealOf<1> {
-    using Type = double;
-};
-template <int width>
-using Real = typename RealOf<width>::Type;
-
-template <int width>
-TURBIDITE_INLINE Real<width> load(const Lanes<width>& lanes) {
-    Real<width> value;
-    __builtin_memcpy(&value, lanes.v, sizeof value);
-    return value;
-}
-
-template <int width>
-TURBIDITE_INLINE void store(Lanes<width>& lanes, const Real<width>& value) {
-    __builtin_memcpy(lanes.v, &value, sizeof value);
-}
-
-// Same semantics as std::max and std::min: the second argument if the comparison fails.
-template <class R>
-TURBIDITE_INLINE R larger(const R& a, const R& b) {
-    return a > b ? a : b;
-}
-template <class R>
-TURBIDITE_INLINE R smaller(const R& a, const R& b) {
-    return a < b ? a : b;
-}
-template <class R>
-TURBIDITE_INLINE R clamped(const R& x, const R& limit) {
-    return smaller(larger(x, R(-limit)), limit);
-}
-template <class R>
-TURBIDITE_INLINE R magnitude(const R& x) {
-    return larger(x, R(-x));
-}
 
 template <class R>
 struct BodyValues {
@@ -113,13 +67,6 @@ TURBIDITE_INLINE void add_map(PassSums<width>& sums, const R& rn, const R& rt, c
     const R fn = rn - on, ft = rt - clamped(t, R(mu * on));  // r - P_K(...)
     store(sums.error, R(load(sums.error) + (fn * fn + ft * ft)));
     store(sums.size, R(load(sums.size) + (rn * rn + rt * rt)));
-}
-
-/// Counts contacts whose new impulse is not zero.
-template <int width, class R>
-TURBIDITE_INLINE void count_loaded(PassSums<width>& sums, const R& rn) {
-    const R one = R{} + 1.0;
-    store(sums.loaded, R(load(sums.loaded) + (rn > R{} ? one : R{})));
 }
 
 /// The state of a group before its update: velocities of its bodies, impulses, friction.
@@ -311,24 +258,6 @@ TURBIDITE_INLINE void update(GeneralRollingRows<1>& row, PlaneBody* bodies, Pass
     met.keep(row, next.n, next.t, bodies);
 }
 
-template <class Rows>
-void sweep_plain(Rows* begin, Rows* end, PlaneBody* bodies) {
-    PassSums<Rows::width> unused;
-    for (Rows* row = begin; row != end; ++row) update<false>(*row, bodies, unused);
-}
-
-template <class Rows>
-void sweep_measured(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width>& sums) {
-    for (Rows* row = begin; row != end; ++row) update<true>(*row, bodies, sums);
-}
-
-TURBIDITE_INLINE bool any(double x) {
-    return x != 0.0;
-}
-TURBIDITE_INLINE bool any(const Four& x) {
-    return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0 || x[3] != 0.0;
-}
-
 /// Whether some contact of the group has an impulse or closes.
 template <class Rows>
 TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
@@ -336,21 +265,3 @@ TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     const Real<Rows::width> zero{};
     return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
 }
-
-template <class Rows>
-void sweep_asked(Rows* begin, Rows* end, PlaneBody* bodies, PassSums<Rows::width>& sums,
-                 std::uint8_t* awake) {
-    for (Rows* row = begin; row != end; ++row, ++awake) {
-        *awake = 0;
-        if (!needs_update(*row, bodies)) continue;
-        update<true>(*row, bodies, sums);
-        *awake = any(load(row->rn)) ? 1 : 0;
-    }
-}
-
-template <class Rows>
-Sweeps<Rows> sweeps() {
-    return {sweep_plain<Rows>, sweep_measured<Rows>, sweep_asked<Rows>};
-}
-
-#undef TURBIDITE_INLINE

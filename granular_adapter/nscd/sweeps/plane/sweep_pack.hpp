@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Packs one contact into a lane of a group (sweep_rows.hpp).
+// Packs one contact into a lane of a group (sweep_rows.hpp), as sweep_layout.hpp asks for it.
 #pragma once
 
-#include <cstddef>
-#include <cstring>
+#include <concepts>
+#include <type_traits>
 
-#include "granular_adapter/nscd/problem/contact_problem.hpp"
+#include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
 
 namespace turbidite::nscd {
 
-/// A contact with the data to be packed; an immovable body has zero mobility.
-struct PackedContact {
-    const Contact& contact;
-    const Block& w;
-    BodyMobility a, b;
-    ContactVector r;
-    std::int32_t slot_a, slot_b;
-};
+using PackedContact = ContactToPack<PlanarTensor, Block>;
 
 template <int lanes>
 void fill(DiscRows<lanes>& rows, int lane, const PackedContact& packed);
@@ -28,30 +22,18 @@ template <int lanes>
 void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed);
 void fill(GeneralRollingRows<1>& rows, int lane, const PackedContact& packed);
 
-/// A lane without a contact.
 template <class Rows>
+concept PlaneRows = std::derived_from<Rows, RowBase<Rows::width>>;
+
+/// A lane without a contact.
+template <PlaneRows Rows>
 void fill_empty(Rows& rows, int lane, std::int32_t slot) {
     rows.a[lane] = rows.b[lane] = slot;
     rows.bias_n.v[lane] = 1.0;
     if constexpr (requires { rows.length.v; }) rows.length.v[lane] = 1.0;
 }
 
-/// Copies a lane: all members of Rows are lanes of doubles, apart from the body slots.
-template <class Rows>
-void copy_lane(const Rows& from, int lane_from, Rows& to, int lane_to) {
-    using Base = RowBase<Rows::width>;
-    constexpr std::size_t size = sizeof(typename Base::Values), value = sizeof(double);
-    constexpr std::size_t places = offsetof(Base, a);
-    static_assert(sizeof(Rows) % size == 0 && places % size == 0 && 2 * sizeof(Base::a) == size);
-    const auto* const source = reinterpret_cast<const std::byte*>(&from) + value * lane_from;
-    auto* const target = reinterpret_cast<std::byte*>(&to) + value * lane_to;
-    for (std::size_t at = 0; at < sizeof(Rows); at += size)
-        if (at != places) std::memcpy(target + at, source + at, value);
-    to.a[lane_to] = from.a[lane_from];
-    to.b[lane_to] = from.b[lane_from];
-}
-
-template <class Rows>
+template <PlaneRows Rows>
 ContactVector impulse(const Rows& rows, int lane) {
     ContactVector r = in_plane(rows.rn.v[lane], rows.rt.v[lane]);
     if constexpr (requires { rows.roll.v; })
@@ -59,6 +41,21 @@ ContactVector impulse(const Rows& rows, int lane) {
     else if constexpr (requires { rows.roll; })
         r.roll = rows.roll;
     return r;
+}
+
+inline PlaneBody packed_body(const Twist& v, const PlanarTensor& mobility) {
+    return {v.velocity[0], v.velocity[1], v.spin[2], mobility.xx};
+}
+
+/// The rows for the contacts of an operator.
+template <class Use>
+auto with_rows(const Delassus& w, const Use& use) {
+    using std::type_identity;
+    if (w.diagonal())
+        return w.rolling() ? use(type_identity<RollingDiscRows<4>>())
+                           : use(type_identity<DiscRows<4>>());
+    return w.rolling() ? use(type_identity<GeneralRollingRows<1>>())
+                       : use(type_identity<GeneralRows<4>>());
 }
 
 }  // namespace turbidite::nscd

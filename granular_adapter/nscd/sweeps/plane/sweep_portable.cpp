@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The sweeps for any processor, and the selection of the instruction set at run time.
-#include <stdexcept>
-
+// The sweeps for any processor.
 #include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
@@ -14,26 +12,22 @@
 
 namespace turbidite::nscd {
 namespace portable {
+#include "granular_adapter/nscd/sweeps/lane_kernel.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_kernel.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_loops.hpp"
 }  // namespace portable
 
-Instructions best_instructions() {
-    return available(Instructions::avx2) ? Instructions::avx2 : Instructions::portable;
-}
-
 template <class Rows>
-Sweeps<Rows> sweeps(Instructions instructions) {
-    if (!available(instructions))
-        throw std::invalid_argument("contact sweeps: this processor has no AVX2");
-    return instructions == Instructions::avx2 ? avx2_sweeps<Rows>() : portable::sweeps<Rows>();
+Sweeps<Rows> portable_sweeps() {
+    return portable::sweeps<Rows>();
 }
 
-template Sweeps<DiscRows<4>> sweeps(Instructions);
-template Sweeps<DiscRows<1>> sweeps(Instructions);
-template Sweeps<RollingDiscRows<4>> sweeps(Instructions);
-template Sweeps<RollingDiscRows<1>> sweeps(Instructions);
-template Sweeps<GeneralRows<4>> sweeps(Instructions);
-template Sweeps<GeneralRows<1>> sweeps(Instructions);
-template Sweeps<GeneralRollingRows<1>> sweeps(Instructions);
+template Sweeps<DiscRows<4>> portable_sweeps();
+template Sweeps<DiscRows<1>> portable_sweeps();
+template Sweeps<RollingDiscRows<4>> portable_sweeps();
+template Sweeps<RollingDiscRows<1>> portable_sweeps();
+template Sweeps<GeneralRows<4>> portable_sweeps();
+template Sweeps<GeneralRows<1>> portable_sweeps();
+template Sweeps<GeneralRollingRows<1>> portable_sweeps();
 
 }  // namespace turbidite::nscd

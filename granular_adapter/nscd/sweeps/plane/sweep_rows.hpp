@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "granular_adapter/nscd/problem/plane/one_contact.hpp"
+#include "granular_adapter/nscd/sweeps/sweeps.hpp"
 
 namespace turbidite::nscd {
 
@@ -20,15 +21,11 @@ struct alignas(32) PlaneBody {
     double inverse_mass = 0.0;  ///< used if mobilities are isotropic
 };
 
-/// One value for each contact of a group.
-template <int width>
-struct alignas(8 * width) Lanes {
-    double v[width] = {};
-};
-
 template <int lanes>
 struct RowBase {
     static constexpr int width = lanes;
+    using Base = RowBase;
+    using Body = PlaneBody;
     using Values = Lanes<lanes>;
 
     // The three cache lines read by the test of groups at rest; updates write one of them.
@@ -84,48 +81,5 @@ struct GeneralRollingRows : GeneralRows<lanes> {
     double length = 1.0;
     Block w;
 };
-
-/// Sums over the contacts of a sweep, lane by lane.
-template <int width>
-struct PassSums {
-    Lanes<width> error;   ///< |natural map|^2
-    Lanes<width> size;    ///< |r|^2
-    Lanes<width> loaded;  ///< number of contacts with an impulse after their update
-};
-
-template <int width>
-double total(const Lanes<width>& lanes) {
-    double sum = 0.0;
-    for (const double value : lanes.v) sum += value;
-    return sum;
-}
-
-/// Updates every contact of the groups [begin, end). `measured` also adds the state of each contact
-/// before its update to the sums. `asked` is for groups at rest: it updates only those in which a
-/// contact has an impulse or closes, and reports in `awake` which groups have an impulse
-/// afterwards.
-template <class Rows>
-struct Sweeps {
-    using Sums = PassSums<Rows::width>;
-    void (*plain)(Rows* begin, Rows* end, PlaneBody* bodies) = nullptr;
-    void (*measured)(Rows* begin, Rows* end, PlaneBody* bodies, Sums& sums) = nullptr;
-    void (*asked)(Rows* begin, Rows* end, PlaneBody* bodies, Sums& sums,
-                  std::uint8_t* awake) = nullptr;
-};
-
-/// Instruction set for which the loops are compiled; the results are bitwise the same.
-enum class Instructions { portable, avx2 };
-
-bool available(Instructions instructions);
-Instructions best_instructions();
-
-/// Throws std::invalid_argument if the processor lacks the instructions. Instantiated for the four
-/// kinds of Rows with four lanes (GeneralRollingRows: one lane) and, as the reference in tests,
-/// with one.
-template <class Rows>
-Sweeps<Rows> sweeps(Instructions instructions);
-
-template <class Rows>
-Sweeps<Rows> avx2_sweeps();  ///< sweep_avx2.cpp
 
 }  // namespace turbidite::nscd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/solvers/central_path.hpp"
+#include "granular_adapter/nscd/solvers/plane/central_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,23 +2,47 @@
 //
 // A contact problem in the memory layout for sweeps: schedule, packed groups (Rows), and the bodies
 // in the order in which the schedule first uses them, so that a sweep reads memory sequentially.
+//
+// A kind of contact (contact_kind.hpp) gives for its rows
+//
+//     Rows::width, Rows::Body, Rows::Base    lanes; the data of a body; where `a` and `b` are
+//     rows.a, rows.b, rows.rn                slots of the bodies, normal impulses
+//     fill(rows, lane, contact)              packs a contact, from a ContactToPack
+//     fill_empty(rows, lane, slot)           a lane without one, which never closes
+//     impulse(rows, lane)                    the impulse of a packed contact
+//     packed_body(twist, mobility)           a Rows::Body
 #pragma once
 
+#include <cstddef>
+#include <cstring>
 #include <vector>
 
-#include "granular_adapter/nscd/problem/plane/delassus.hpp"
+#include "granular_adapter/nscd/problem/contact_kind.hpp"
 #include "granular_adapter/nscd/sweeps/contact_schedule.hpp"
-#include "granular_adapter/nscd/sweeps/plane/sweep_pack.hpp"
+#include "granular_adapter/nscd/sweeps/sweeps.hpp"
 
 namespace turbidite::nscd {
 
-/// Bodies without mobility are ignored: any number of contacts may use one at the same time.
-std::vector<MovedPair> moved_pairs(const ContactProblem& problem);
+/// A contact with the data to be packed; an immovable body has zero mobility.
+template <class Mobility, class Block>
+struct ContactToPack {
+    const Contact& contact;
+    const Block& w;
+    Mobility a, b;
+    ContactVector r;
+    std::int32_t slot_a, slot_b;
+};
 
-/// The same contact by contact.
+/// The bodies that the impulse of a contact can move. Bodies without mobility are ignored: any
+/// number of contacts may use one at the same time.
 class MovedBodies {
  public:
-    explicit MovedBodies(const ContactProblem& problem);
+    template <MobilityKind Mobility>
+    explicit MovedBodies(const std::vector<Mobility>& bodies) : moved_(bodies.size()) {
+        for (std::size_t i = 0; i < moved_.size(); ++i)
+            moved_[i] = is_immovable(bodies[i]) ? -1 : static_cast<std::int32_t>(i);
+    }
+
     MovedPair of(const Contact& contact) const {
         return {contact.a < 0 ? -1 : moved_[static_cast<std::size_t>(contact.a)],
                 moved_[static_cast<std::size_t>(contact.b)]};
@@ -31,48 +55,59 @@ class MovedBodies {
 /// Memory slots for the bodies of a schedule. A movable body has one. Everything else (a wall, an
 /// immovable body, the body of an empty lane) gets one per contact, so that no update has to wait
 /// for another because of it.
+template <class Body, class Mobility>
 class BodySlots {
  public:
-    BodySlots(std::size_t bodies, const std::vector<Twist>& velocities,
-              const std::vector<BodyMobility>& mobilities)
-        : slot_(bodies, -1), velocities_(velocities), mobilities_(mobilities) {}
+    BodySlots(const std::vector<Twist>& velocities, const std::vector<Mobility>& mobilities)
+        : slot_(mobilities.size(), -1), velocities_(velocities), mobilities_(mobilities) {}
 
     /// Slot of a body in the next contact; `body` -1: at rest.
     std::int32_t meet(std::int32_t body, bool moved) {
-        if (moved && slot_[static_cast<std::size_t>(body)] >= 0)
-            return slot_[static_cast<std::size_t>(body)];
+        const auto i = static_cast<std::size_t>(body);
+        if (moved && slot_[i] >= 0) return slot_[i];
         const auto slot = static_cast<std::int32_t>(bodies.size());
-        if (moved) slot_[static_cast<std::size_t>(body)] = slot;
-        bodies.push_back(body < 0 ? PlaneBody{} : plane_body(static_cast<std::size_t>(body)));
+        if (moved) slot_[i] = slot;
+        bodies.push_back(body < 0 ? Body{} : packed_body(velocities_[i], mobilities_[i]));
         return slot;
     }
 
-    std::vector<PlaneBody> bodies;
+    std::vector<Body> bodies;
 
  private:
-    PlaneBody plane_body(std::size_t i) const {
-        const Twist& v = velocities_[i];
-        return {v.velocity[0], v.velocity[1], v.spin[2], mobilities_[i].xx};
-    }
-
     std::vector<std::int32_t> slot_;
     const std::vector<Twist>& velocities_;
-    const std::vector<BodyMobility>& mobilities_;
+    const std::vector<Mobility>& mobilities_;
 };
+
+/// Copies a lane: all members of Rows are lanes of doubles, apart from the body slots.
+template <class Rows>
+void copy_lane(const Rows& from, int lane_from, Rows& to, int lane_to) {
+    using Base = typename Rows::Base;
+    constexpr std::size_t size = sizeof(Lanes<Rows::width>), value = sizeof(double);
+    constexpr std::size_t places = offsetof(Base, a);
+    static_assert(sizeof(Rows) % size == 0 && places % size == 0 && 2 * sizeof(Base::a) == size);
+    const auto* const source = reinterpret_cast<const std::byte*>(&from) + value * lane_from;
+    auto* const target = reinterpret_cast<std::byte*>(&to) + value * lane_to;
+    for (std::size_t at = 0; at < sizeof(Rows); at += size)
+        if (at != places) std::memcpy(target + at, source + at, value);
+    to.a[lane_to] = from.a[lane_from];
+    to.b[lane_to] = from.b[lane_from];
+}
 
 template <class Rows>
 struct SweepLayout {
     Schedule schedule;
-    std::vector<PlaneBody> bodies;
+    std::vector<typename Rows::Body> bodies;
     std::vector<Rows> rows;
     /// Per group at rest: 1 if it is swept nevertheless, because a contact has gained an impulse.
     std::vector<std::uint8_t> awake;
 
-    SweepLayout(const ContactProblem& problem, const Delassus& w,
-                const std::vector<MovedPair>& pairs, const Impulses& r,
-                const std::vector<Twist>& velocities, Schedule laid)
+    template <ContactOperator W>
+    SweepLayout(const ContactProblem& problem, const W& w, const std::vector<MovedPair>& pairs,
+                const Impulses& r, const std::vector<Twist>& velocities, Schedule laid)
         : schedule(std::move(laid)) {
-        BodySlots slots(problem.bodies.size(), velocities, problem.bodies);
+        using Mobility = typename W::Mobility;
+        BodySlots<typename Rows::Body, Mobility> slots(velocities, w.bodies());
         make_room();
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
             Rows& row = row_of(i);
@@ -86,8 +121,9 @@ struct SweepLayout {
             const std::int32_t slot_a = slots.meet(c.a, pairs[k].a >= 0);
             const std::int32_t slot_b = slots.meet(c.b, pairs[k].b >= 0);
             fill(row, lane,
-                 {c, w.block(k), c.a < 0 ? BodyMobility() : problem.bodies[c.a],
-                  problem.bodies[c.b], r[k], slot_a, slot_b});
+                 ContactToPack<Mobility, typename W::Block>{c, w.block(k),
+                                                            c.a < 0 ? Mobility() : w.bodies()[c.a],
+                                                            w.bodies()[c.b], r[k], slot_a, slot_b});
         }
         bodies = std::move(slots.bodies);
     }

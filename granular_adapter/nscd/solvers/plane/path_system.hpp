@@ -28,7 +28,7 @@
 #include <array>
 #include <vector>
 
-#include "granular_adapter/nscd/solvers/body_factors.hpp"
+#include "granular_adapter/nscd/solvers/plane/body_factors.hpp"
 
 namespace turbidite::nscd {
 

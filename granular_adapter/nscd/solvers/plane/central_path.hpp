@@ -20,7 +20,7 @@
 
 #include <cstdint>
 
-#include "granular_adapter/nscd/solvers/path_system.hpp"
+#include "granular_adapter/nscd/solvers/plane/path_system.hpp"
 
 namespace turbidite::nscd {
 

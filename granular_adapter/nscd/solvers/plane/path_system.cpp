@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/solvers/path_system.hpp"
+#include "granular_adapter/nscd/solvers/plane/path_system.hpp"
 
 #include <algorithm>
 #include <cmath>

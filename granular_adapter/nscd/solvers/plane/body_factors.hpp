@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "granular_adapter/nscd/solvers/scaled_contacts.hpp"
+#include "granular_adapter/nscd/solvers/plane/scaled_contacts.hpp"
 
 namespace turbidite::nscd {
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/solvers/central_path_solver.hpp"
+#include "granular_adapter/nscd/solvers/plane/central_path_solver.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include "granular_adapter/nscd/problem/measures.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
-#include "granular_adapter/nscd/solvers/central_path.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
+#include "granular_adapter/nscd/solvers/plane/central_path.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {

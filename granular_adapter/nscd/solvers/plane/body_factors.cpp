@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/solvers/body_factors.hpp"
+#include "granular_adapter/nscd/solvers/plane/body_factors.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/OrderingMethods>

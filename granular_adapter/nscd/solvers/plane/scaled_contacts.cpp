@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/solvers/scaled_contacts.hpp"
+#include "granular_adapter/nscd/solvers/plane/scaled_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ Matrix3d rows(const Contact& contact, const Vec3& arm, const BodyMobility& body,
 }  // namespace
 
 ScaledContacts::ScaledContacts(const ContactProblem& problem, const Delassus& w)
-    : bodies_(problem.bodies.size()) {
+    : bodies_(w.bodies().size()) {
     contacts_.reserve(problem.contacts.size());
     for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
         const Contact& contact = problem.contacts[k];
@@ -51,9 +51,9 @@ ScaledContacts::ScaledContacts(const ContactProblem& problem, const Delassus& w)
         scaled.length = block.rr > 0.0 ? rolling_length(block) : 0.0;
         scaled.friction = contact.friction;
         scaled.rolling = block.rr > 0.0 ? contact.rolling / scaled.length : 0.0;
-        scaled.at_b = rows(contact, contact.arm_b, problem.bodies[contact.b], scaled);
+        scaled.at_b = rows(contact, contact.arm_b, w.bodies()[contact.b], scaled);
         if (contact.a >= 0)
-            scaled.at_a = rows(contact, contact.arm_a, problem.bodies[contact.a], scaled);
+            scaled.at_a = rows(contact, contact.arm_a, w.bodies()[contact.a], scaled);
         const ContactVector u = contact_velocity(contact, problem.free) + contact.bias;
         scaled.free = Vector3d(u.n, u.t, u.roll * scaled.length) / scaled.impulse;
         contacts_.push_back(scaled);

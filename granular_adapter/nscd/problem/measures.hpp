@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The measures of residual.hpp for a caller that already has the operator W of a problem, of any
+// kind of contact, and v = body_velocities(problem, r).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "granular_adapter/nscd/problem/contact_kind.hpp"
+#include "granular_adapter/nscd/problem/residual.hpp"
+
+namespace turbidite::nscd {
+
+inline ContactVector biased_velocity(const Contact& contact, const std::vector<Twist>& v) {
+    return contact_velocity(contact, v) + contact.bias;
+}
+
+/// The natural map, summed over the contacts.
+struct MapSums {
+    double error = 0.0, size = 0.0;
+
+    template <class Block>
+    void add(const Contact& contact, const Block& w, const ContactVector& r,
+             const ContactVector& u) {
+        const MapTerms term = map_terms(contact, w, r, u);
+        error += term.error;
+        size += term.size;
+    }
+
+    double residual(double floor) const {
+        return error == 0.0 ? 0.0 : std::sqrt(error / (size + floor));
+    }
+};
+
+/// Quad and max, summed over the contacts.
+struct ChangeSums {
+    double change = 0.0, largest = 0.0, scale = 0.0;
+
+    template <class Block>
+    void add(const Contact& contact, const Block& w, const ContactVector& old,
+             const ContactVector& u) {
+        if (old == ContactVector{} && u.n >= 0.0) return;
+        const ContactVector next = solution(contact, w, u - product(w, old));
+        const double du = squared(w, product(w, next - old));
+        change += du;
+        largest = std::max(largest, du);
+        scale += squared(w, product(w, 0.5 * (next + old)));
+    }
+
+    ChangeMeasures measures(std::size_t contacts) const {
+        if (change == 0.0) return {};
+        return {std::sqrt(change / scale),
+                std::sqrt(largest * static_cast<double>(contacts) / scale)};
+    }
+};
+
+template <ContactOperator W>
+double rounding_floor(const ContactProblem& problem, const W& w) {
+    const RoundingFloor floor(problem);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+        sum += floor.term(problem.contacts[k], w.block(k).nn);
+    return sum;
+}
+
+/// `floor`: rounding_floor(problem, w).
+template <ContactOperator W>
+double natural_map_residual(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
+                            const Impulses& r, double floor) {
+    MapSums map;
+    for (std::size_t k = 0; k < r.size(); ++k)
+        map.add(problem.contacts[k], w.block(k), r[k], biased_velocity(problem.contacts[k], v));
+    return map.residual(floor);
+}
+
+template <ContactOperator W>
+Measures measures(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
+                  const Impulses& r, double floor) {
+    MapSums map;
+    ChangeSums change;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        const Contact& contact = problem.contacts[k];
+        const ContactVector u = biased_velocity(contact, v);
+        map.add(contact, w.block(k), r[k], u);
+        change.add(contact, w.block(k), r[k], u);
+    }
+    return {map.residual(floor), change.measures(r.size())};
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The mobilities of a problem's bodies, all of one kind of contact (contact_kind.hpp). The list of
+// kinds: the general code visits it and names none of them.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "granular_adapter/nscd/problem/plane/mobility.hpp"
+
+namespace turbidite::nscd {
+
+/// M^-1 of every body.
+using Mobilities = std::variant<std::vector<PlanarTensor>>;
+
+inline std::size_t size(const Mobilities& mobilities) {
+    return std::visit([](const auto& bodies) { return bodies.size(); }, mobilities);
+}
+
+}  // namespace turbidite::nscd
