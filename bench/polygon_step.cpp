@@ -62,13 +62,12 @@ nscd::Bodies tiling(int rows) {
 double detect(const nscd::NarrowPhase& narrow, const nscd::Bodies& bodies,
               const std::vector<nscd::Pair>& pairs, std::vector<nscd::ContactPoint>& points) {
     using namespace nscd;
-    const PlacedPolygons polygons = narrow.place(bodies);
+    const PlacedShapes placed = narrow.place(bodies);
     double near = 0.0;
     for (const Pair& pair : pairs) {
         const std::size_t before = points.size();
         const Vec3 offset = bodies.position[pair.b] - bodies.position[pair.a];
-        narrow.pair({bodies, pair.a, pair.b, offset, 2.0 * alert_share * radius, &polygons},
-                    points);
+        narrow.pair({bodies, pair.a, pair.b, offset, 2.0 * alert_share * radius, &placed}, points);
         near += points.size() > before ? 1.0 : 0.0;
     }
     return near;

@@ -9,20 +9,20 @@ namespace turbidite::soft {
 
 void OverlapFinder::find(const nscd::Bodies& bodies) {
     overlaps_.clear();
-    const nscd::PlacedPolygons polygons = narrow_.place(bodies);
-    for (const Near& near : neighbours_.of(bodies, walls_)) detect(bodies, near, polygons);
+    const nscd::PlacedShapes placed = narrow_.place(bodies);
+    for (const Near& near : neighbours_.of(bodies, walls_)) detect(bodies, near, placed);
 }
 
 void OverlapFinder::detect(const nscd::Bodies& bodies, const Near& near,
-                           const nscd::PlacedPolygons& polygons) {
+                           const nscd::PlacedShapes& placed) {
     constexpr double alert = 0.0;  // overlaps only
     points_.clear();
     if (near.wall < 0)
         narrow_.pair({bodies, near.a, near.b, bodies.position[near.b] - bodies.position[near.a],
-                      alert, &polygons},
+                      alert, &placed},
                      points_);
     else
-        narrow_.wall({bodies, near.b, walls_[near.wall], near.wall, alert, &polygons}, points_);
+        narrow_.wall({bodies, near.b, walls_[near.wall], near.wall, alert, &placed}, points_);
     if (points_.empty()) return;
     std::sort(points_.begin(), points_.end(),
               [](const auto& x, const auto& y) { return x.feature < y.feature; });
@@ -34,7 +34,7 @@ void OverlapFinder::detect(const nscd::Bodies& bodies, const Near& near,
 }
 
 bool OverlapFinder::has_corners(const nscd::Bodies& bodies, std::int32_t body) const {
-    return narrow_.polygons()[bodies.shape[body]].corners > 0;
+    return narrow_.has_corners(bodies.shape[body]);
 }
 
 double OverlapFinder::mass_of_point(const nscd::Bodies& bodies, const Near& near) const {

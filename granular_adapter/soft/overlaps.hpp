@@ -41,7 +41,7 @@ class OverlapFinder {
     void forget() { neighbours_.forget(); }
 
  private:
-    void detect(const nscd::Bodies& bodies, const Near& near, const nscd::PlacedPolygons& polygons);
+    void detect(const nscd::Bodies& bodies, const Near& near, const nscd::PlacedShapes& placed);
     bool has_corners(const nscd::Bodies& bodies, std::int32_t body) const;
     double mass_of_point(const nscd::Bodies& bodies, const Near& near) const;
 

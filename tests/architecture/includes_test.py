@@ -75,6 +75,19 @@ RULES = [
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
     ("fluid_adapter/foam_solver/*.[hc]pp", [EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
 ]
+# In the contact engine, plane/ holds what is of contacts in the plane; everything else is for any kind of contact. The
+# doors at which a kind is chosen, the only other files that include or name anything of plane/:
+ENGINE_ROOM = "granular_adapter/nscd/"
+PLANE_DOORS = {
+    "problem/mobilities.hpp": "lists the kinds of mobility that a problem may have",
+    "problem/mobilities.cpp": "makes the mobilities of dry bodies",
+    "problem/residual.cpp": "measures a problem with the operator of its kind",
+    "solvers/nlgs.cpp": "solves a problem with the rows of its kind",
+    "detection/narrow_phase.hpp": "holds the shapes that have corners",
+    "detection/narrow_phase.cpp": "lists the detectors of all pairs of shapes, and what walls may do",
+}
+PLANE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/plane/', re.MULTILINE)
+PLANE_TYPE = re.compile(r"\b(Plan(?:ar|e)[A-Z]\w*|Placed?Polygons?|Polygon[A-Z]\w*|Delassus\w*)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
@@ -125,6 +138,15 @@ class Includes(unittest.TestCase):
                 files, found = violations(self.root, pattern, forbidden)
                 self.assertTrue(files, f"no file matches {pattern}: the rule checks nothing")
                 self.assertEqual(found, [], f"{reason}; forbidden here:\n" + "\n".join(found))
+
+    def test_only_doors_of_the_contact_engine_know_the_plane(self):
+        files = {str(path.relative_to(self.root / ENGINE_ROOM)): path.read_text()
+                 for path in (self.root / ENGINE_ROOM).rglob("*.[hc]pp") if path.parent.name != "plane"}
+        self.assertGreater(len(files), 50)
+        including = {name for name, text in files.items() if PLANE_HEADER.search(text)}
+        naming = {name for name, text in files.items() if PLANE_TYPE.search(re.sub("//.*", "", text))}
+        self.assertEqual(including, set(PLANE_DOORS))
+        self.assertLessEqual(naming, set(PLANE_DOORS))
 
     def test_every_folder_says_what_it_is_for(self):
         table = "\n".join(line for line in (self.root / "README.md").read_text().splitlines() if line.startswith("| `"))

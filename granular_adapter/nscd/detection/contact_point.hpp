@@ -15,7 +15,7 @@
 
 namespace turbidite::nscd {
 
-class PlacedPolygons;
+struct PlacedShapes;
 
 struct ContactPoint {
     std::int32_t a = -1;       ///< body with the smaller id; -1 for a wall
@@ -38,8 +38,8 @@ struct PairView {
     std::int32_t a;
     std::int32_t b;
     Vec3 offset;
-    double alert;                              ///< only gaps below this are reported [m]
-    const PlacedPolygons* polygons = nullptr;  ///< required if a shape has corners
+    double alert;                          ///< only gaps below this are reported [m]
+    const PlacedShapes* placed = nullptr;  ///< required if a shape has corners
 };
 
 /// A body and a wall.
@@ -49,7 +49,7 @@ struct WallView {
     const Wall& wall;
     std::int32_t wall_index;
     double alert;
-    const PlacedPolygons* polygons = nullptr;
+    const PlacedShapes* placed = nullptr;
 };
 
 }  // namespace turbidite::nscd

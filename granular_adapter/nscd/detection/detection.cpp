@@ -20,12 +20,12 @@ double deepest(const std::vector<ContactPoint>& points) {
 
 }  // namespace
 
-void Detection::add_pair(const Bodies& bodies, Pair pair, double alert,
-                         const PlacedPolygons& polygons, std::vector<ContactPoint>& points) const {
+void Detection::add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedShapes& placed,
+                         std::vector<ContactPoint>& points) const {
     if (bodies.fixed[pair.a] && bodies.fixed[pair.b]) return;
     if (bodies.id[pair.a] > bodies.id[pair.b]) std::swap(pair.a, pair.b);
     const Vec3 offset = box_.minimum_image(bodies.position[pair.b] - bodies.position[pair.a]);
-    narrow_.pair({bodies, pair.a, pair.b, offset, alert, &polygons}, points);
+    narrow_.pair({bodies, pair.a, pair.b, offset, alert, &placed}, points);
 }
 
 /// A pair of bodies, or a body b and a wall.
@@ -38,17 +38,17 @@ struct Detection::Look {
     const Bodies& bodies;
     const std::vector<Wall>& walls;
     double reach, share;
-    PlacedPolygons polygons;
+    PlacedShapes placed;
 };
 
 void Detection::add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const {
     const std::vector<double>& radius = look.bodies.radius;
     if (near.wall < 0)
         return add_pair(look.bodies, {near.a, near.b},
-                        look.reach + look.share * (radius[near.a] + radius[near.b]), look.polygons,
+                        look.reach + look.share * (radius[near.a] + radius[near.b]), look.placed,
                         points);
     narrow_.wall({look.bodies, near.b, look.walls[static_cast<std::size_t>(near.wall)], near.wall,
-                  look.reach + look.share * 2.0 * radius[near.b], &look.polygons},
+                  look.reach + look.share * 2.0 * radius[near.b], &look.placed},
                  points);
 }
 
@@ -104,14 +104,14 @@ double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>&
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls,
                                   const std::vector<ContactPoint>& of) const {
-    const PlacedPolygons polygons = narrow_.place(bodies);
+    const PlacedShapes placed = narrow_.place(bodies);
     std::vector<ContactPoint> points;
     for (const ContactPoint& pair : of)
         if (pair.wall < 0)
-            add_pair(bodies, {pair.a, pair.b}, 0.0, polygons, points);
+            add_pair(bodies, {pair.a, pair.b}, 0.0, placed, points);
         else
             narrow_.wall({bodies, pair.b, walls[static_cast<std::size_t>(pair.wall)], pair.wall,
-                          0.0, &polygons},
+                          0.0, &placed},
                          points);
     return deepest(points);
 }

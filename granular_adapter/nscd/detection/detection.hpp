@@ -20,7 +20,7 @@ class Detection {
     Detection(const ShapeTable& shapes, const PeriodicBox& box) : narrow_(shapes), box_(box) {}
 
     bool has_corners() const { return narrow_.has_corners(); }
-    const PolygonShapes& polygons() const { return narrow_.polygons(); }
+    const NarrowPhase& narrow_phase() const { return narrow_; }
 
     /// Contact points with a gap below `reach` plus `share` of the sum of both radii (of the
     /// diameter at a wall), except those between fixed bodies. Ordered along gravity.
@@ -38,7 +38,7 @@ class Detection {
     struct Near;
     struct Look;
 
-    void add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedPolygons& polygons,
+    void add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedShapes& placed,
                   std::vector<ContactPoint>& points) const;
     void add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const;
     template <class Visit>

@@ -11,6 +11,11 @@
 
 namespace turbidite::nscd {
 
+/// The shapes with corners of all bodies of a configuration, in world axes.
+struct PlacedShapes {
+    PlacedPolygons polygons;
+};
+
 using PairDetector = void (*)(const PairView&, std::vector<ContactPoint>&);
 using WallDetector = void (*)(const WallView&, std::vector<ContactPoint>&);
 
@@ -35,10 +40,13 @@ class NarrowPhase {
     /// Throws std::invalid_argument naming a shape or a pair of shapes without a detector.
     explicit NarrowPhase(const ShapeTable& shapes);
 
-    /// Corners in world axes, once per configuration; views refer to the result.
-    PlacedPolygons place(const Bodies& bodies) const { return {polygons_, bodies}; }
+    /// Throws std::invalid_argument for a wall that these shapes cannot touch (walls.hpp).
+    void check(const Wall& wall) const;
+
+    /// Once per configuration; views refer to the result.
+    PlacedShapes place(const Bodies& bodies) const { return {{polygons_, bodies}}; }
     bool has_corners() const { return polygons_.any(); }
-    const PolygonShapes& polygons() const { return polygons_; }
+    bool has_corners(std::int32_t shape) const { return polygons_[shape].corners > 0; }
 
     /// Append the contact points of a pair or of a body and a wall, if their gap is below the alert
     /// distance.

@@ -25,7 +25,7 @@ double speed_range(const std::vector<Twist>& twists) {
 double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
     double fastest = 0.0;
     for (std::size_t i = 0; i < twists.size(); ++i)
-        fastest = std::max(fastest, bodies.radius[i] * std::abs(twists[i].spin[2]));
+        fastest = std::max(fastest, bodies.radius[i] * norm(twists[i].spin));
     return fastest;
 }
 

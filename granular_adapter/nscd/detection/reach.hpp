@@ -11,7 +11,7 @@
 namespace turbidite::nscd {
 
 /// An upper bound over all pairs of bodies, and of bodies and walls, for one step [m]. Rotation
-/// does not bring discs closer; `corners` tells that some bodies are not discs.
+/// does not bring round bodies closer; `corners` tells that some bodies are not round.
 double approach_bound(const Bodies& bodies, const std::vector<Wall>& walls,
                       const std::vector<Twist>& twists, bool corners, double step);
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "coupler/rigid/vec3.hpp"
+#include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -32,7 +33,7 @@ struct Extent {
 Extent extent(const Bodies& bodies) {
     Extent all{bodies.position.front(), bodies.position.front()};
     for (const Vec3& x : bodies.position)
-        for (std::size_t axis = 0; axis < 2; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             all.low[axis] = std::min(all.low[axis], x[axis]);
             all.high[axis] = std::max(all.high[axis], x[axis]);
         }
@@ -42,22 +43,24 @@ Extent extent(const Bodies& bodies) {
 Shifts shifts(const Wall& wall, std::size_t axis, const Extent& all, const PeriodicBox& box,
               double reach) {
     if (!box.repeats(static_cast<int>(axis))) return {};
-    const double along = std::abs(wall.normal[1 - axis]);  // of the tangent
+    const double along = std::abs(tangent_of(wall.normal)[axis]);
     return shifts(wall.point[axis], reach + along * wall.half_length + wall.half_thickness,
                   all.low[axis], all.high[axis], box.length[axis]);
 }
 
 void add_images(const Wall& wall, const Extent& all, const PeriodicBox& box, double reach,
                 std::vector<Wall>& images) {
-    const Shifts x = shifts(wall, 0, all, box, reach), y = shifts(wall, 1, all, box, reach);
+    const Shifts x = shifts(wall, 0, all, box, reach), y = shifts(wall, 1, all, box, reach),
+                 z = shifts(wall, 2, all, box, reach);
     for (int i = x.first; i <= x.last; ++i)
-        for (int j = y.first; j <= y.last; ++j) {
-            if (i == 0 && j == 0) continue;
-            const Vec3 shift{i * box.length[0], j * box.length[1], 0.0};
-            images.push_back(wall);
-            images.back().point = wall.point + shift;
-            images.back().pivot = wall.pivot + shift;
-        }
+        for (int j = y.first; j <= y.last; ++j)
+            for (int k = z.first; k <= z.last; ++k) {
+                if (i == 0 && j == 0 && k == 0) continue;
+                const Vec3 shift{i * box.length[0], j * box.length[1], k * box.length[2]};
+                images.push_back(wall);
+                images.back().point = wall.point + shift;
+                images.back().pivot = wall.pivot + shift;
+            }
 }
 
 }  // namespace
@@ -65,7 +68,7 @@ void add_images(const Wall& wall, const Extent& all, const PeriodicBox& box, dou
 std::vector<Wall> with_images(const std::vector<Wall>& walls, const Bodies& bodies,
                               const PeriodicBox& box, double reach) {
     std::vector<Wall> all = walls;
-    if (bodies.size() == 0 || !(box.repeats(0) || box.repeats(1))) return all;
+    if (bodies.size() == 0 || !box.repeats()) return all;
     const Extent where = extent(bodies);
     for (const Wall& wall : walls)
         if (std::isfinite(wall.half_length)) add_images(wall, where, box, reach, all);

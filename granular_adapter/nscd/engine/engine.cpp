@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "coupler/rigid/vec3.hpp"
-#include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
+#include "granular_adapter/nscd/detection/corner_turn.hpp"
 #include "granular_adapter/nscd/detection/reach.hpp"
 #include "granular_adapter/nscd/detection/wall_images.hpp"
 #include "granular_adapter/nscd/engine/engine_state.hpp"
@@ -21,18 +21,10 @@ namespace {
 // contact that opens by rounding does not appear and disappear. Larger values only cost time.
 constexpr double alert_share = 0.02;
 
-// A step is solved again while rotating polygons would overlap by more than this fraction of a
+// A step is solved again while rotating corners would overlap by more than this fraction of a
 // radius.
 constexpr double turn_share = 1e-5;
 constexpr int turn_rounds = 2;
-
-Mobilities mobilities(const Bodies& bodies) {
-    std::vector<PlanarTensor> result;
-    result.reserve(bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        result.push_back({bodies.inverse_mass(i), bodies.inverse_inertia(i)});
-    return result;
-}
 
 SurfaceTable surface_table(const EngineSettings& settings) {
     if (!settings.surfaces.empty()) return SurfaceTable(settings.surfaces, settings.surface_pairs);
@@ -54,7 +46,7 @@ Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::ve
       laws_(settings.law, settings.law_settings, surface_table(settings), shapes, settings.laws),
       solver_(make_solver(settings.solver, settings.solvers)) {
     check_theta(settings_.theta, laws_.surfaces().largest_restitution());
-    for (const Wall& wall : walls_) check_wall(wall);
+    for (const Wall& wall : walls_) detection_.narrow_phase().check(wall);
 }
 
 void Engine::set_surfaces(std::vector<Surface> surfaces, std::vector<SurfacePair> pairs) {
@@ -69,7 +61,7 @@ StepReport Engine::step(double dt) {
 }
 
 StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
-    return step_from(free, mobilities(bodies_), dt);
+    return step_from(free, mobilities_of(bodies_), dt);
 }
 
 StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
@@ -116,9 +108,9 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
 /// Whether a body that crosses a side may touch another image of a wall than before.
 bool Engine::may_meet_images() const {
     const PeriodicBox& box = settings_.box;
-    return (box.repeats(0) || box.repeats(1)) &&
-           std::any_of(walls_.begin(), walls_.end(),
-                       [](const Wall& wall) { return std::isfinite(wall.half_length); });
+    return box.repeats() && std::any_of(walls_.begin(), walls_.end(), [](const Wall& wall) {
+               return std::isfinite(wall.half_length);
+           });
 }
 
 /// The walls, and what a body that looks `reach` beyond its surface may see of their images.
@@ -135,7 +127,7 @@ void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double 
     guess_ = memory_.guesses(keys_, dt);
 }
 
-/// Solves the problem; if polygons rotate fast, again with gaps reduced by the shortfall
+/// Solves the problem; if corners rotate fast, again with gaps reduced by the shortfall
 /// (corner_turn.hpp). The iterations are summed over all solves.
 SolverResult Engine::solve(double dt) {
     SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
@@ -156,7 +148,7 @@ double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<doub
                           double dt) {
     const std::vector<double> found =
         gap_shortfalls({points_, problem_.contacts, bodies_, placed_walls_, velocities, dt},
-                       detection_.polygons());
+                       detection_.narrow_phase());
     double largest = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         Contact& contact = problem_.contacts[k];

@@ -7,12 +7,12 @@ namespace turbidite::nscd {
 namespace {
 
 constexpr std::uint64_t bodies_format = 0x334445534354ULL;
-constexpr std::uint64_t memory_format = 0x344d454d4354ULL;
+constexpr std::uint64_t memory_format = 0x354d454d4354ULL;
 
 /// Position and motion of a wall; everything else comes from the settings.
 template <class Visit, class AnyWall>
 void for_each_state(AnyWall& wall, Visit&& visit) {
-    visit(wall.point), visit(wall.normal), visit(wall.twist.velocity), visit(wall.twist.spin[2]);
+    visit(wall.point), visit(wall.normal), visit(wall.twist.velocity), visit(wall.twist.spin);
     visit(wall.pivot);
 }
 

@@ -7,12 +7,16 @@
 #include <variant>
 #include <vector>
 
+#include "granular_adapter/nscd/problem/bodies.hpp"
 #include "granular_adapter/nscd/problem/plane/mobility.hpp"
 
 namespace turbidite::nscd {
 
 /// M^-1 of every body.
 using Mobilities = std::variant<std::vector<PlanarTensor>>;
+
+/// From masses, moments of inertia and flags.
+Mobilities mobilities_of(const Bodies& bodies);
 
 inline std::size_t size(const Mobilities& mobilities) {
     return std::visit([](const auto& bodies) { return bodies.size(); }, mobilities);

@@ -14,6 +14,7 @@ struct PeriodicBox {
     Vec3 length{};  ///< [m]; zero for an axis that is not periodic
 
     bool repeats(int axis) const { return length[axis] > 0.0; }
+    bool repeats() const { return repeats(0) || repeats(1) || repeats(2); }
 
     /// The shortest periodic image of a distance vector.
     Vec3 minimum_image(Vec3 d) const {

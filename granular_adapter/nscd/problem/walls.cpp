@@ -34,11 +34,6 @@ void move(Wall& wall, double step) {
     wall.normal = (1.0 / norm(wall.normal)) * wall.normal;
 }
 
-double along(const Wall& wall, const Vec3& point) {
-    const Vec3 tangent{-wall.normal[1], wall.normal[0], 0.0};
-    return dot(tangent, point - wall.point);
-}
-
 void check_wall(const Wall& wall) {
     const std::string name = "wall " + std::to_string(wall.key) + ": ";
     if (!(std::abs(norm(wall.normal) - 1.0) < 1e-9))
@@ -52,8 +47,6 @@ void check_wall(const Wall& wall) {
     const auto& [velocity, spin] = wall.twist;
     if (!is_finite(velocity) || !is_finite(wall.pivot) || !is_finite(spin))
         throw std::invalid_argument(name + "its motion must be finite");
-    if (velocity[2] != 0.0 || spin[0] != 0.0 || spin[1] != 0.0)
-        throw std::invalid_argument(name + "it must move in the plane");
 }
 
 }  // namespace turbidite::nscd

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Straight walls: half-planes, solid behind the normal, or segments (`half_length` finite). A
-// segment is a thin plate with grains on both sides; a grain is held on the side on which its
-// centre lies. Walls are at rest or follow a prescribed motion,
+// Flat walls: half-spaces, solid behind the normal, or in the plane segments (`half_length`
+// finite). A segment is a thin plate with grains on both sides; a grain is held on the side on
+// which its centre lies. Walls are at rest or follow a prescribed motion,
 //
 //     v(x) = velocity + spin x (x - pivot)
 //
@@ -22,7 +22,7 @@ struct Wall {
     Vec3 point{};                ///< on the wall; the midpoint of a segment [m]
     Vec3 normal{0.0, 1.0, 0.0};  ///< inward, unit
     double friction = 0.0;       ///< mu of contacts with this wall, if it has no material
-    /// Of a segment; infinite for a half-plane [m].
+    /// Of a segment; infinite for a half-space [m].
     double half_length = std::numeric_limits<double>::infinity();
     /// A segment is all that is nearer to its line than this, with round ends [m].
     double half_thickness = 0.0;
@@ -41,14 +41,11 @@ Vec3 velocity_at(const Wall& wall, const Vec3& place);
 /// Advances the wall by its prescribed motion over a step [s].
 void move(Wall& wall, double step);
 
-/// Distance of a point from the line of the wall, positive on the side of the normal [m].
+/// Distance of a point from the surface of the wall, positive on the side of the normal [m].
 double signed_distance(const Wall& wall, const Vec3& point);
 
-/// Coordinate of a point along the wall, zero at `wall.point` [m].
-double along(const Wall& wall, const Vec3& point);
-
 /// Throws std::invalid_argument unless the normal is a unit vector, friction is >= 0, the half
-/// length is positive, and the motion is finite and in the plane.
+/// length is positive, and the motion is finite.
 void check_wall(const Wall& wall);
 
 }  // namespace turbidite::nscd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
+#include "granular_adapter/nscd/detection/corner_turn.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(CornerTurn, ShortfallIsZeroWithoutTurn) {
     engine.bodies().add(scenes::unit_square(shapes, 2, 0.2, 1.503));
     engine.bodies().twist[1].velocity = {0.7, -0.3, 0.0};
     engine.step(0.01);
-    const PolygonShapes table(shapes);
+    const NarrowPhase table(shapes);
     std::vector<Twist> straight = engine.bodies().twist;
     for (Twist& twist : straight) twist.spin = {};
     for (const double shortfall : gap_shortfalls({engine.points(), engine.problem().contacts,
@@ -72,7 +72,7 @@ TEST(CornerTurn, ForeseesTheGapAtTheEnd) {
     ASSERT_EQ(engine.points().size(), 1u);
     const ContactPoint point = engine.points()[0];
     ASSERT_NE(point.turns_with, 0);
-    const PolygonShapes table(shapes);
+    const NarrowPhase table(shapes);
     const double shortfall = gap_shortfalls({engine.points(),
                                              engine.problem().contacts,
                                              engine.bodies(),

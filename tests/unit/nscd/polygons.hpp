@@ -96,19 +96,19 @@ inline Engine falling_triangles(int count, double width, double height,
 inline std::vector<ContactPoint> between(const ShapeTable& shapes, const Bodies& bodies, int a,
                                          int b, double alert) {
     const NarrowPhase narrow(shapes);
-    const PlacedPolygons polygons = narrow.place(bodies);
+    const PlacedShapes placed = narrow.place(bodies);
     const Vec3 &xa = bodies.position[a], &xb = bodies.position[b];
     std::vector<ContactPoint> points;
-    narrow.pair({bodies, a, b, {xb[0] - xa[0], xb[1] - xa[1], 0.0}, alert, &polygons}, points);
+    narrow.pair({bodies, a, b, {xb[0] - xa[0], xb[1] - xa[1], 0.0}, alert, &placed}, points);
     return points;
 }
 
 inline std::vector<ContactPoint> at_wall(const ShapeTable& shapes, const Bodies& bodies,
                                          const Wall& wall, double alert) {
     const NarrowPhase narrow(shapes);
-    const PlacedPolygons polygons = narrow.place(bodies);
+    const PlacedShapes placed = narrow.place(bodies);
     std::vector<ContactPoint> points;
-    narrow.wall({bodies, 0, wall, 0, alert, &polygons}, points);
+    narrow.wall({bodies, 0, wall, 0, alert, &placed}, points);
     return points;
 }
 

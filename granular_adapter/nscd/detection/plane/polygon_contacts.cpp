@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "coupler/rigid/vec3.hpp"
+#include "granular_adapter/nscd/detection/narrow_phase.hpp"
 #include "granular_adapter/nscd/detection/plane/polygon_manifold.hpp"
 
 namespace turbidite::nscd {
@@ -74,8 +75,8 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     const double sign = dot(view.wall.normal, offset) < 0.0 ? -1.0 : 1.0;
     const Plate plate(view.wall, sign * view.wall.normal);
     const Manifold manifold =
-        polygon_manifold(plate.view(view.wall.half_length), (*view.polygons)[view.body], offset[0],
-                         offset[1], view.alert);
+        polygon_manifold(plate.view(view.wall.half_length), view.placed->polygons[view.body],
+                         offset[0], offset[1], view.alert);
     for (int i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
         const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
@@ -88,7 +89,7 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
 }
 
 void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points) {
-    const PolygonView polygon = (*view.polygons)[view.body];
+    const PolygonView polygon = view.placed->polygons[view.body];
     const Vec3& normal = view.wall.normal;
     const double centre = signed_distance(view.wall, view.bodies.position[view.body]);
     const auto gap = [&](int k) {
@@ -121,7 +122,7 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
 void polygon_polygon(const PairView& view, std::vector<ContactPoint>& points) {
     const bool in_order = view.bodies.id[view.a] < view.bodies.id[view.b];
     const double sign = in_order ? 1.0 : -1.0;
-    const PolygonView a = (*view.polygons)[view.a], b = (*view.polygons)[view.b];
+    const PolygonView a = view.placed->polygons[view.a], b = view.placed->polygons[view.b];
     const Manifold manifold =
         polygon_manifold(in_order ? a : b, in_order ? b : a, sign * view.offset[0],
                          sign * view.offset[1], view.alert);
@@ -144,7 +145,7 @@ void polygon_polygon(const PairView& view, std::vector<ContactPoint>& points) {
 
 void disc_polygon(const PairView& view, std::vector<ContactPoint>& points) {
     const double radius = view.bodies.radius[view.a];
-    const PolygonView polygon = (*view.polygons)[view.b];
+    const PolygonView polygon = view.placed->polygons[view.b];
     const double x = -view.offset[0], y = -view.offset[1];
     const Nearest nearest = nearest_side(polygon, x, y);
     if (!(nearest.height - radius < view.alert)) return;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The error in the gaps of rotating polygons. A step keeps g + dt u_n >= 0 with the normals and
-// arms at its start. Bodies rotate by dt omega meanwhile, and the gap at the end of the step is
+// The error in the gaps of rotating bodies with corners. A step keeps g + dt u_n >= 0 with the
+// normals and arms at its start. Bodies rotate by dt omega meanwhile, and the gap at the end of the
+// step is
 //
 //     g' = n' . D' ,   n' = R_O n ,   D' = g n + dt (v_I - v_O) + (R_I - 1) s_I - (R_O - 1) s_O
 //
@@ -15,7 +16,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/detection/contact_point.hpp"
-#include "granular_adapter/nscd/detection/plane/placed_polygons.hpp"
+#include "granular_adapter/nscd/detection/narrow_phase.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 namespace turbidite::nscd {
@@ -31,6 +32,6 @@ struct SolvedStep {
 };
 
 /// g + dt u_n - g' of every contact; zero where the normal is fixed to no side [m].
-std::vector<double> gap_shortfalls(const SolvedStep& step, const PolygonShapes& shapes);
+std::vector<double> gap_shortfalls(const SolvedStep& step, const NarrowPhase& shapes);
 
 }  // namespace turbidite::nscd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/detection/plane/corner_turn.hpp"
+#include "granular_adapter/nscd/detection/corner_turn.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -18,7 +18,7 @@ struct Partner {
 
 class Shortfall {
  public:
-    Shortfall(const SolvedStep& step, const PolygonShapes& shapes) : step_(step), shapes_(shapes) {}
+    Shortfall(const SolvedStep& step, const NarrowPhase& shapes) : step_(step), shapes_(shapes) {}
 
     double operator()(std::size_t k) const {
         const ContactPoint& p = step_.points[k];
@@ -51,7 +51,7 @@ class Shortfall {
     }
 
     bool is_round(std::int32_t body) const {
-        return shapes_[step_.bodies.shape[static_cast<std::size_t>(body)]].corners == 0;
+        return !shapes_.has_corners(step_.bodies.shape[static_cast<std::size_t>(body)]);
     }
 
     // Contact points lie half-way across the gap; at walls on the surface of the body.
@@ -68,12 +68,12 @@ class Shortfall {
     }
 
     const SolvedStep& step_;
-    const PolygonShapes& shapes_;
+    const NarrowPhase& shapes_;
 };
 
 }  // namespace
 
-std::vector<double> gap_shortfalls(const SolvedStep& step, const PolygonShapes& shapes) {
+std::vector<double> gap_shortfalls(const SolvedStep& step, const NarrowPhase& shapes) {
     const Shortfall shortfall(step, shapes);
     std::vector<double> result;
     result.reserve(step.points.size());
