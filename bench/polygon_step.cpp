@@ -36,7 +36,7 @@ nscd::Body triangle(GrainId id, double x, double y, double angle) {
     nscd::Body body;
     body.id = id;
     body.radius = radius;
-    body.density = body.mass = body.weight_mass = body.inertia = 1.0;  // no body moves
+    body.inertia = body.density = body.mass = body.weight_mass = 1.0;  // no body moves
     body.position = {x, y, 0.0};
     body.orientation = {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
     return body;

@@ -152,8 +152,9 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
         const Twist& found = bodies_.twist[i];
         held[i].impulse =
             held[i].impulse + bodies_.mass[i] * (ordered[i]->velocity - found.velocity);
-        held[i].angular_impulse = held[i].angular_impulse +
-                                  bodies_.inertia[i] * (ordered[i]->angular_velocity - found.spin);
+        held[i].angular_impulse =
+            held[i].angular_impulse +
+            bodies_.world_inertia(i) * (ordered[i]->angular_velocity - found.spin);
     }
     restore(start_);
     held_ = std::move(held);
@@ -191,7 +192,7 @@ void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepRep
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Vec3 weight{0.0, -bodies_.weight_mass[i] * run_.gravity * dt, 0.0};
         const Vec3 gained = bodies_.mass[i] * (bodies_.twist[i].velocity - before[i].velocity);
-        const Vec3 turned = bodies_.inertia[i] * (bodies_.twist[i].spin - before[i].spin);
+        const Vec3 turned = bodies_.world_inertia(i) * (bodies_.twist[i].spin - before[i].spin);
         const Held& held = held_[i];
         Vec3& impulse = bodies_.contact_impulse[i];
         Vec3& angular = bodies_.contact_angular_impulse[i];

@@ -29,7 +29,7 @@ python::dict grain_dict(const nscd::Bodies& bodies, std::size_t i) {
     grain["radius"] = bodies.radius[i];
     grain["density"] = bodies.density[i];
     grain["mass"] = bodies.mass[i];
-    grain["inertia"] = bodies.inertia[i];
+    grain["inertia"] = bodies.inertia[i].zz;
     grain["position"] = triple(bodies.position[i]);
     const Quaternion& q = bodies.orientation[i];
     grain["orientation"] = python::make_tuple(q[0], q[1], q[2], q[3]);

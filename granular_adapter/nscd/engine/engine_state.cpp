@@ -6,7 +6,7 @@
 namespace turbidite::nscd {
 namespace {
 
-constexpr std::uint64_t bodies_format = 0x334445534354ULL;
+constexpr std::uint64_t bodies_format = 0x344445534354ULL;
 constexpr std::uint64_t memory_format = 0x354d454d4354ULL;
 
 /// Position and motion of a wall; everything else comes from the settings.

@@ -7,10 +7,20 @@
 namespace turbidite::nscd {
 namespace {
 
-void demand_positive(const Body& body, double value, const char* name) {
-    if (value > 0.0) return;  // also refuses NaN
-    throw std::invalid_argument("body " + std::to_string(body.id) + ": " + name + " = " +
-                                std::to_string(value) + " must be positive");
+[[noreturn]] void refuse(const Body& body, const std::string& fault) {
+    throw std::invalid_argument("body " + std::to_string(body.id) + ": " + fault);
+}
+
+void demand_positive(const Body& body, double value, const std::string& name) {
+    if (!(value > 0.0))  // also NaN
+        refuse(body, name + " = " + std::to_string(value) + " must be positive");
+}
+
+void demand_inertia(const Body& body) {
+    const Symmetric3& i = body.inertia;
+    if (!positive_definite(i))
+        refuse(body, "inertia = " + std::to_string(i.xx) + ", " + std::to_string(i.yy) + ", " +
+                         std::to_string(i.zz) + " about its axes must be positive definite");
 }
 
 }  // namespace
@@ -18,7 +28,7 @@ void demand_positive(const Body& body, double value, const char* name) {
 void Bodies::add(const Body& body) {
     demand_positive(body, body.radius, "radius");
     demand_positive(body, body.mass, "mass");
-    demand_positive(body, body.inertia, "inertia");
+    demand_inertia(body);
     id.push_back(body.id);
     shape.push_back(body.shape);
     material.push_back(body.material);

@@ -4,11 +4,12 @@
 //
 //     position      q, the detection configuration of the theta-scheme [m]
 //     mass          inertia in the contact problem: M when dry, c M when immersed [kg]
-//     inertia       moment about z, dry or immersed alike [kg m2]
+//     inertia       moments about body axes, dry or immersed alike [kg m2]
 //     weight_mass   weight over g: M when dry, M - rho_f V when immersed [kg]
 //     force,torque  loads other than weight and contacts, constant over a step [N, N m]
 //
-// In two dimensions z components of vectors are zero and only the z component of spin is used.
+// In two dimensions z components of vectors are zero and only the z component of spin is used, and
+// of the moments zz alone.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,7 @@
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/rigid/rigid_motion.hpp"
+#include "coupler/rigid/symmetric3.hpp"
 
 namespace turbidite::nscd {
 
@@ -28,7 +30,7 @@ struct Body {
     double radius = 0.0;        ///< circumscribed [m]
     double density = 0.0;       ///< [kg/m3]
     double mass = 0.0;
-    double inertia = 0.0;
+    Symmetric3 inertia;
     double weight_mass = 0.0;
     Vec3 position{};
     Quaternion orientation{1.0, 0.0, 0.0, 0.0};
@@ -45,7 +47,7 @@ struct Bodies {
     std::vector<double> radius;
     std::vector<double> density;
     std::vector<double> mass;
-    std::vector<double> inertia;
+    std::vector<Symmetric3> inertia;
     std::vector<double> weight_mass;
     std::vector<Vec3> position;
     std::vector<Quaternion> orientation;
@@ -59,14 +61,20 @@ struct Bodies {
 
     std::size_t size() const { return id.size(); }
 
-    /// Zero for fixed bodies [1/kg, 1/(kg m2)].
-    double inverse_mass(std::size_t i) const { return fixed[i] ? 0.0 : 1.0 / mass[i]; }
-    double inverse_inertia(std::size_t i) const {
-        return fixed[i] || rotation_blocked[i] ? 0.0 : 1.0 / inertia[i];
+    /// About world axes: R I R^T.
+    Symmetric3 world_inertia(std::size_t i) const {
+        if (inertia[i].isotropic()) return inertia[i];
+        return turned(inertia[i], rotation(orientation[i]));
     }
 
-    /// Throws std::invalid_argument naming the body and the value if mass, inertia or radius is not
-    /// positive.
+    /// Zero for fixed bodies; about world axes [1/kg, 1/(kg m2)].
+    double inverse_mass(std::size_t i) const { return fixed[i] ? 0.0 : 1.0 / mass[i]; }
+    Symmetric3 inverse_inertia(std::size_t i) const {
+        return fixed[i] || rotation_blocked[i] ? Symmetric3() : inverse(world_inertia(i));
+    }
+
+    /// Throws std::invalid_argument naming the body and the value if mass or radius is not
+    /// positive, or the inertia not positive definite.
     void add(const Body& body);
 
     /// Removes every body whose entry is zero; the order of the others stays.

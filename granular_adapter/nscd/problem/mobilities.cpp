@@ -9,7 +9,7 @@ Mobilities mobilities_of(const Bodies& bodies) {
     std::vector<PlanarTensor> result;
     result.reserve(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        result.push_back({bodies.inverse_mass(i), bodies.inverse_inertia(i)});
+        result.push_back({bodies.inverse_mass(i), bodies.inverse_inertia(i).zz});
     return result;
 }
 

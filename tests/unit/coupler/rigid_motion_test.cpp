@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/rigid/rigid_motion.hpp"
 
+#include "coupler/rigid/symmetric3.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -56,6 +58,20 @@ TEST(RigidMotion, InThePlaneARotationIsCosineAndSine) {
         const Vec3 by_quaternion{cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1], 0.0};
         EXPECT_EQ(rotation(q)(v), by_quaternion) << angle;
     }
+}
+
+TEST(Symmetric3, IsTurnedAndInvertedAsAMatrix) {
+    Symmetric3 m(2.0);
+    m.yy = 3.0, m.zz = 5.0, m.xy = 0.4, m.xz = -0.7, m.yz = 1.1;
+    const Rotation r = rotation(some_angle);
+    const Symmetric3 world = turned(m, r);
+    EXPECT_LT(norm(world * some_vector - r(m * r.back(some_vector))), 1e-14);
+    EXPECT_LT(norm(inverse(world) * (world * some_vector) - some_vector), 1e-14);
+    EXPECT_TRUE(positive_definite(world));
+    m.yz = 4.0;
+    EXPECT_FALSE(positive_definite(m));
+    EXPECT_FALSE(positive_definite(NAN));
+    EXPECT_EQ(inverse(7.0).zz, 1.0 / 7.0);
 }
 
 TEST(RigidMotion, APointMovesWithItsBody) {

@@ -81,7 +81,7 @@ class LeapFrogHost final : public MdHost {
         Twist& twist = bodies_.twist[i];
         twist.velocity[0] += delta * load.force[0] / bodies_.mass[i];
         twist.velocity[1] += delta * (load.force[1] / bodies_.mass[i] - gravity_);
-        twist.spin[2] += delta * load.torque[2] / bodies_.inertia[i];
+        twist.spin[2] += delta * load.torque[2] / bodies_.inertia[i].zz;
         for (int axis = 0; axis < 2; ++axis)
             bodies_.position[i][axis] += delta * twist.velocity[axis];
         bodies_.orientation[i] = rotated(bodies_.orientation[i], {0, 0, delta * twist.spin[2]});

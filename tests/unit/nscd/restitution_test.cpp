@@ -25,7 +25,7 @@ double kinetic_energy(const Bodies& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < b.size(); ++i)
         sum += 0.5 * b.mass[i] * dot(b.twist[i].velocity, b.twist[i].velocity) +
-               0.5 * b.inertia[i] * dot(b.twist[i].spin, b.twist[i].spin);
+               0.5 * dot(b.twist[i].spin, b.inertia[i] * b.twist[i].spin);
     return sum;
 }
 

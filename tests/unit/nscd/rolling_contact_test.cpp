@@ -112,7 +112,7 @@ TEST(RollingResistance, HoldsADiscOnASlopeBelowItsAngle) {
         const double lever = 0.05;  // R = 1/2: limit 0.1
         ContactProblem problem;
         const Body body = scenes::disc(1, 0.0, 0.5);
-        problem.bodies = std::vector<PlanarTensor>{{1.0 / body.mass, 1.0 / body.inertia}};
+        problem.bodies = std::vector<PlanarTensor>{{1.0 / body.mass, 1.0 / body.inertia.zz}};
         const Vec3 g = scenes::tilted(std::atan(tangent));
         problem.free = {{0.01 * g, {}}};
         Contact contact;

@@ -80,7 +80,7 @@ struct Scene {
         double energy = 0.0;
         for (std::size_t i = 0; i < bodies.size(); ++i)
             energy += 0.5 * bodies.mass[i] * dot(velocity(i), velocity(i)) +
-                      0.5 * bodies.inertia[i] * spin(i) * spin(i);
+                      0.5 * bodies.inertia[i].zz * spin(i) * spin(i);
         return energy;
     }
 
@@ -94,7 +94,7 @@ struct Scene {
     double angular_momentum(const Vec3& about = {}) const {
         double sum = 0.0;
         for (std::size_t i = 0; i < bodies.size(); ++i)
-            sum += bodies.inertia[i] * spin(i) +
+            sum += bodies.inertia[i].zz * spin(i) +
                    bodies.mass[i] * cross_z(bodies.position[i] - about, velocity(i));
         return sum;
     }
