@@ -109,8 +109,6 @@ void BoxOperators::gradient_rows(double step, double* x, double* y) {
 
 /// y = -step G along y of row j of what p_ reads.
 void BoxOperators::gradient_across(int j, double step, double* y) {
-    if (heights_.equal_to_both(j))
-        return difference_row(nx_, -0.5 * step / heights_.size(j), p_.row(j - 1), p_.row(j + 1), y);
     std::fill_n(y, nx_, 0.0);
     differences().correct_across(j, step, p_, y, y);
 }
@@ -150,14 +148,8 @@ void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v
     const double* below = v.row(j - 1);
     const double* across = v.row(j);
     const double* above = v.row(j + 1);
-    const double x = 0.5 * share / hx_, y = 0.5 * share / heights_.size(j);
-    if (heights_.equal_to_both(j))
-        return divergence_row(nx_, x, here - 1, here + 1, y, below, above, out);
-    // (S.v_{+1/2} - S.v_{-1/2})/h_j,  S.v = (h_{-1} v_{-1} + h v)/(2d)
-    const double per_low = y / heights_.distance(j), per_high = y / heights_.distance(j + 1);
-    divergence_row(nx_, x, here - 1, here + 1, 0.0, below, above, out);
-    add_rows(nx_, {-per_low * heights_.size(j - 1), per_high * heights_.size(j + 1)},
-             (per_high - per_low) * heights_.size(j), below, across, above, out);
+    central_divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1,
+                           heights_.central_difference(j, share), below, across, above, out);
 }
 
 double BoxOperators::flux_residual(double step, const double* p, double* x, double* y,
@@ -237,7 +229,7 @@ void BoxOperators::begin_smoothing(const double* w, const double* p) {
 void BoxOperators::second_difference_along(int j) {
     const double* p = p_.row(j);
     double* inside = along_.data() + RowReader::beyond;
-    weighted_difference(nx_, w_.row(j), p - 1, p, p + 1, inside);
+    weighted_difference(nx_, ones, w_.row(j), p - 1, p, p + 1, inside);
     ends_.extend(inside, j);
 }
 
@@ -246,27 +238,18 @@ void BoxOperators::second_difference_across(int j, Row& q) {
     const double* below = p_.row(j - 1);
     const double* here = p_.row(j);
     const double* above = p_.row(j + 1);
-    if (heights_.equal_to_both(j))
-        return weighted_difference(nx_, w_.row(j), below, here, above, q.data());
-    const double h = heights_.size(j);
-    weighted_difference(nx_, {h / heights_.distance(j), h / heights_.distance(j + 1)}, w_.row(j),
-                        below, here, above, q.data());
+    weighted_difference(nx_, heights_.over_distances(j, heights_.size(j)), w_.row(j), below, here,
+                        above, q.data());
 }
 
 /// out += share Q p of row j; rows in ascending order.
 void BoxOperators::add_smoothing(int j, double share, double* out) {
-    const double x = 0.25 * share / (hx_ * hx_), h = heights_.size(j);
-    const bool equal = heights_.equal_to_both(j);
-    const double y = equal ? 0.25 * share / (h * h) : 0.0;
+    const double x = 0.25 * share / (hx_ * hx_);
+    const RowShares y = heights_.over_volumes(j, 0.25 * share);
     const double* q = along_.data() + RowReader::beyond;
     second_difference_along(j);
     second_difference_across(j + 1, above_);
     add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(), out);
-    if (!equal) {
-        const double low = 0.25 * share / (h * heights_.distance(j));
-        const double high = 0.25 * share / (h * heights_.distance(j + 1));
-        add_rows(nx_, {low, high}, -low - high, below_.data(), here_.data(), above_.data(), out);
-    }
     below_.swap(here_);
     here_.swap(above_);
 }

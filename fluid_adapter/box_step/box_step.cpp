@@ -61,39 +61,24 @@ double BoxStep::kept_on_row(int j) const {
 
 /// S.u + k e on the x faces of row j.
 void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
-    mean_flux(nx_ + 1, u - 1, u, kept, excess_x(j), flux);
+    mean_flux(nx_ + 1, halves, u - 1, u, kept, excess_x(j), flux);
     if (fluid_.velocity.x.periodic()) return;
     flux[0] = 0.5 * (u[-1] + u[0]);
     flux[nx_] = 0.5 * (u[nx_ - 1] + u[nx_]);
 }
 
-/// Of S between two rows of different heights: volumes over their sum.
-RowShares BoxStep::shares_at(int j) const {
-    const double both = heights_.size(j - 1) + heights_.size(j);
-    return {heights_.size(j - 1) / both, heights_.size(j) / both};
-}
-
 /// S.v + k e on the faces below row j.
 void BoxStep::flux_across(int j, double kept, double* flux) {
     const double* low = v_.row(j - 1);
-    const double* high = v_.row(j);
-    if (heights_.equal_beside(j))
-        mean_flux(nx_, low, high, kept, excess_y(j), flux);
-    else
-        mean_flux(nx_, shares_at(j), low, high, kept, excess_y(j), flux);
+    mean_flux(nx_, heights_.volume_shares(j), low, v_.row(j), kept, excess_y(j), flux);
 }
 
 /// S.v + k e - dt dp/dy on the faces below row j.
 void BoxStep::projected_across(int j, double dt, double* flux) {
     const double* low = v_.row(j - 1);
-    const double* high = v_.row(j);
     const double* p_low = p_.row(j - 1);
-    const double* p_high = p_.row(j);
-    const double step = dt / heights_.distance(j), kept = kept_on_row(j);
-    if (heights_.equal_beside(j))
-        projected_flux(nx_, low, high, kept, excess_y(j), step, p_low, p_high, flux);
-    else
-        projected_flux(nx_, shares_at(j), low, high, kept, excess_y(j), step, p_low, p_high, flux);
+    projected_flux(nx_, heights_.volume_shares(j), low, v_.row(j), kept_on_row(j), excess_y(j),
+                   dt / heights_.distance(j), p_low, p_.row(j), flux);
 }
 
 FluxReport BoxStep::project(double dt) {
@@ -138,12 +123,8 @@ void BoxStep::correct_row(int j, double dt) {
     if (j >= 0) {
         // phi1 = S.v + k e - dt dp/dy,   e = phi1 - S.v1
         projected_across(j, dt, flux_above_.data());
-        if (heights_.equal_beside(j))
-            excess_of(nx_, flux_above_.data(), corrected_below_.data(), corrected_here_.data(),
-                      excess_y(j));
-        else
-            excess_of(nx_, shares_at(j), flux_above_.data(), corrected_below_.data(),
-                      corrected_here_.data(), excess_y(j));
+        excess_of(nx_, heights_.volume_shares(j), flux_above_.data(), corrected_below_.data(),
+                  corrected_here_.data(), excess_y(j));
     }
     const std::size_t row = j;
     if (j >= 0) hold_middle(1, row * nx_, nx_, flux_above_.data());
@@ -165,7 +146,7 @@ void BoxStep::correct_across(int j, double dt, const double* p) {
     // phi1 = S.u + k e - dt dp/dx,   e = phi1 - S.u1
     flux_along(j, u, kept_, flux_x_.data());
     correct(nx_ + 1, dt / hx_, p - 1, p, flux_x_.data(), flux_x_.data());
-    excess_of(nx_ + 1, flux_x_.data(), corrected - 1, corrected, excess_x(j));
+    excess_of(nx_ + 1, halves, flux_x_.data(), corrected - 1, corrected, excess_x(j));
     std::copy_n(corrected, nx_, row_of(0, j));
     std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
 }
@@ -290,7 +271,7 @@ void BoxStep::hold_flux() {
     for (int j = 0; j <= ny_; ++j) {
         const double* u = u_.row(j);
         // phi1 = S.u1 + e
-        if (j < ny_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), held_x(j));
+        if (j < ny_) mean_flux(nx_ + 1, halves, u - 1, u, 1.0, excess_x(j), held_x(j));
         flux_across(j, 1.0, held_y(j));
     }
     held_ = true;
@@ -330,24 +311,13 @@ void BoxStep::hold_middle_flux(bool begins) {
 }
 
 /// By the scheme of the case, inside the box.
-void BoxStep::carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
-                    std::array<Row, 2>& carried) const {
+void BoxStep::carry(int count, const FacePlace& face, const double* flux, const AcrossFaces& u,
+                    const AcrossFaces& v, std::array<Row, 2>& carried) const {
+    const CarriedRows rows{carried[0].data(), carried[1].data()};
     if (fluid_.central)
-        blended_flux(count, *fluid_.central, flux, u, v, carried[0].data(), carried[1].data());
+        blended_flux(count, *fluid_.central, face, flux, {u, v}, rows);
     else
-        convective_flux(count, 2.0 / fluid_.limiter, flux, u, v, carried[0].data(),
-                        carried[1].data());
-}
-
-/// The same between rows of different heights.
-void BoxStep::carry_between_rows(const FaceBetweenRows& face, const double* flux,
-                                 const AcrossFaces& u, const AcrossFaces& v,
-                                 std::array<Row, 2>& carried) const {
-    if (fluid_.central)
-        blended_flux(nx_, *fluid_.central, face, flux, u, v, carried[0].data(), carried[1].data());
-    else
-        convective_flux(nx_, 2.0 / fluid_.limiter, face, flux, u, v, carried[0].data(),
-                        carried[1].data());
+        convective_flux(count, 2.0 / fluid_.limiter, face, flux, {u, v}, rows);
 }
 
 /// Momentum carried through the faces above row j.
@@ -356,10 +326,7 @@ void BoxStep::carry_above(int j) {
     const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
     const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
     if (!held_) flux_across(j + 1, 1.0, flux_above_.data());
-    if (heights_.equal_around(j + 1))
-        carry(nx_, flux, u, v, carried_above_);
-    else
-        carry_between_rows(heights_.face(j + 1), flux, u, v, carried_above_);
+    carry(nx_, heights_.face(j + 1), flux, u, v, carried_above_);
     const bool side = (j == -1 && !rows_->open_below()) || (j == ny_ - 1 && !rows_->open_above());
     for (int i = 0; side && i < nx_; ++i) {  // the boundary value
         carried_above_[0][i] = 0.5 * flux[i] * (u.low[i] + u.high[i]);
@@ -371,8 +338,8 @@ void BoxStep::carry_above(int j) {
 void BoxStep::carry_along(int j) {
     const double *u = u_.row(j), *v = v_.row(j);
     const double* flux = held_ ? held_x(j) : flux_x_.data();
-    if (!held_) mean_flux(nx_ + 1, u - 1, u, 1.0, excess_x(j), flux_x_.data());
-    carry(nx_ + 1, flux, along_row(u), along_row(v), carried_x_);
+    if (!held_) mean_flux(nx_ + 1, halves, u - 1, u, 1.0, excess_x(j), flux_x_.data());
+    carry(nx_ + 1, {}, flux, along_row(u), along_row(v), carried_x_);
     if (!fluid_.velocity.x.periodic())
         for (const int face : {0, nx_}) {  // the boundary value
             carried_x_[0][face] = 0.5 * flux[face] * (u[face - 1] + u[face]);

@@ -170,14 +170,11 @@ class BoxStep {
     void play_row(int j, const VelocityStage& stage);
     void begin_impulses(ImpulsesOfWindow& impulses);
     void add_impulses(int j, ImpulsesOfWindow& impulses);
-    void carry(int count, const double* flux, const AcrossFaces& u, const AcrossFaces& v,
-               std::array<Row, 2>& carried) const;
-    void carry_between_rows(const FaceBetweenRows& face, const double* flux, const AcrossFaces& u,
-                            const AcrossFaces& v, std::array<Row, 2>& carried) const;
+    void carry(int count, const FacePlace& face, const double* flux, const AcrossFaces& u,
+               const AcrossFaces& v, std::array<Row, 2>& carried) const;
     void flux_along(int j, const double* u, double kept, double* flux);
     void flux_across(int j, double kept, double* flux);
     void projected_across(int j, double dt, double* flux);
-    RowShares shares_at(int j) const;
     double kept_on_row(int j) const;
     void add_side_velocity(double dt);
     double at_side(int axis, int side, int at) const { return side_velocity_[axis][side][at]; }

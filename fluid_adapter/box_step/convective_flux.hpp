@@ -7,7 +7,7 @@
 //
 //     u_f = u_upwind +- l d/2,    l = clamp((2/k) r, 0, 1),    r = d . d'/d . d
 //
-// which is linear interpolation where u is smooth. Both components share one limiter. OpenFOAM
+// which is linear interpolation where u is smooth. All components share one limiter. OpenFOAM
 // writes r with the gradient at the upwind cell, 2 d . (h grad u)/d . d - 1; on equal cells with
 // mirror images beyond the sides the two are the same.
 //
@@ -29,7 +29,7 @@
 // Valid C++17.
 #pragma once
 
-#include "fluid_adapter/box_step/row_heights.hpp"
+#include "fluid_adapter/box_step/components.hpp"
 
 namespace turbidite {
 
@@ -38,21 +38,23 @@ struct AcrossFaces {
     const double *far_low, *low, *high, *far_high;
 };
 
-/// carried = flux u_f for both components; two_by_k: 2/k of the limiter.
-void convective_flux(int count, double two_by_k, const double* flux, const AcrossFaces& u,
-                     const AcrossFaces& v, double* carried_u, double* carried_v);
+/// Where a row of faces lies between the centres on either side of it.
+struct FacePlace {
+    double behind = 1.0,
+           ahead = 1.0;            ///< d/d_behind, d/d_ahead: distances of centres, here and next
+    double low = 0.5, high = 0.5;  ///< from the centre of either cell to the face, over d
+    bool equal = true;             ///< the cells around are of the same size
+};
 
-/// The same through a row of faces between rows of different heights.
-void convective_flux(int count, double two_by_k, const FaceBetweenRows& face, const double* flux,
-                     const AcrossFaces& u, const AcrossFaces& v, double* carried_u,
-                     double* carried_v);
+using VelocityAcross = Components<AcrossFaces>;
+using CarriedRows = Components<double*>;
+
+/// carried = flux u_f for all components; two_by_k: 2/k of the limiter.
+void convective_flux(int count, double two_by_k, const FacePlace& face, const double* flux,
+                     const VelocityAcross& u, const CarriedRows& carried);
 
 /// With the share `central` of linear interpolation.
-void blended_flux(int count, double central, const double* flux, const AcrossFaces& u,
-                  const AcrossFaces& v, double* carried_u, double* carried_v);
-
-/// The same through a row of faces between rows of different heights.
-void blended_flux(int count, double central, const FaceBetweenRows& face, const double* flux,
-                  const AcrossFaces& u, const AcrossFaces& v, double* carried_u, double* carried_v);
+void blended_flux(int count, double central, const FacePlace& face, const double* flux,
+                  const VelocityAcross& u, const CarriedRows& carried);
 
 }  // namespace turbidite

@@ -20,13 +20,23 @@ RowHeights::RowHeights(const AxisOperator& axis, const BoxRows& rows)
                                     : size_);
 }
 
-bool RowHeights::equal_around(int j) const {
-    return size(j - 2) == size(j - 1) && size(j - 1) == size(j) && size(j) == size(j + 1);
+FacePlace RowHeights::face(int j) const {
+    const double d = distance(j);
+    return {d / distance(j - 1), d / distance(j + 1), 0.5 * size(j - 1) / d, 0.5 * size(j) / d,
+            equal_to_both(j - 1) && equal_to_both(j)};
 }
 
-FaceBetweenRows RowHeights::face(int j) const {
-    const double d = distance(j);
-    return {d / distance(j - 1), d / distance(j + 1), 0.5 * size(j - 1) / d, 0.5 * size(j) / d};
+RowShares RowHeights::volume_shares(int j) const {
+    const double both = size(j - 1) + size(j);
+    return {size(j - 1) / both, size(j) / both, equal_beside(j)};
+}
+
+ThreeRows RowHeights::central_difference(int j, double share) const {
+    const double h = size(j), y = 0.5 * share / h;
+    if (equal_to_both(j)) return {-y, 0.0, y, true};
+    // S.v = (h_{-1} v_{-1} + h v)/(2d)
+    const double low = y / distance(j), high = y / distance(j + 1);
+    return {-low * size(j - 1), (high - low) * h, high * size(j + 1), false};
 }
 
 }  // namespace turbidite

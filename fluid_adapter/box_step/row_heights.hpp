@@ -16,14 +16,10 @@
 #include <vector>
 
 #include "fluid_adapter/box_step/box_rows.hpp"
+#include "fluid_adapter/box_step/convective_flux.hpp"
+#include "fluid_adapter/box_step/row_work.hpp"
 
 namespace turbidite {
-
-/// The heights around the face between two rows, as convective_flux.hpp needs them.
-struct FaceBetweenRows {
-    double behind, ahead;  ///< d/d_behind, d/d_ahead: distances of centres across the face and next
-    double low, high;      ///< from the centre of either cell to the face, over d
-};
 
 class RowHeights {
  public:
@@ -40,16 +36,30 @@ class RowHeights {
     /// h_j over that of the rows that are not stretched: the volume of a cell over theirs.
     double relative(int j) const { return size(j) / size_; }
 
-    // Of the face below row j:
+    /// The places of centres around the face below row j.
+    FacePlace face(int j) const;
 
-    bool equal_beside(int j) const { return size(j - 1) == size(j); }
-    bool equal_around(int j) const;  ///< for stencils of two rows on each side
-    FaceBetweenRows face(int j) const;
+    /// Of S at the face below row j: volumes over their sum.
+    RowShares volume_shares(int j) const;
 
-    /// Whether row j is as high as the rows below and above it.
-    bool equal_to_both(int j) const { return equal_beside(j) && equal_beside(j + 1); }
+    /// share/d below and above row j.
+    RowShares over_distances(int j, double share) const {
+        return {share / distance(j), share / distance(j + 1), equal_to_both(j)};
+    }
+
+    /// share/(h_j d) below and above row j.
+    RowShares over_volumes(int j, double share) const {
+        return {share / (size(j) * distance(j)), share / (size(j) * distance(j + 1)),
+                equal_to_both(j)};
+    }
+
+    /// share (S.v_{+1} - S.v)/h_j, from the rows below, here and above.
+    ThreeRows central_difference(int j, double share) const;
 
  private:
+    bool equal_beside(int j) const { return size(j - 1) == size(j); }
+    bool equal_to_both(int j) const { return equal_beside(j) && equal_beside(j + 1); }
+
     double size_;
     bool stretched_;
     std::vector<double> sizes_;

@@ -6,9 +6,9 @@
 namespace turbidite {
 
 TURBIDITE_ROW_WORK
-void mean_flux(int count, const double* __restrict low, const double* __restrict high, double kept,
-               const double* __restrict extra, double* __restrict face) {
-    for (int i = 0; i < count; ++i) face[i] = 0.5 * (low[i] + high[i]) + kept * extra[i];
+void mean_flux(int count, RowShares s, const double* __restrict low, const double* __restrict high,
+               double kept, const double* __restrict extra, double* __restrict face) {
+    for (int i = 0; i < count; ++i) face[i] = s.low * low[i] + s.high * high[i] + kept * extra[i];
 }
 
 TURBIDITE_ROW_WORK
@@ -40,18 +40,29 @@ void correct(int count, double step, const double* __restrict low, const double*
 }
 
 TURBIDITE_ROW_WORK
-void projected_flux(int count, const double* __restrict low, const double* __restrict high,
-                    double kept, const double* __restrict extra, double step,
-                    const double* __restrict p_low, const double* __restrict p_high,
-                    double* __restrict face) {
+void correct_across(int count, RowShares s, const double* __restrict below,
+                    const double* __restrict here, const double* __restrict above, const double* in,
+                    double* out) {
+    const bool equal = s.equal;
     for (int i = 0; i < count; ++i)
-        face[i] = 0.5 * (low[i] + high[i]) + kept * extra[i] - step * (p_high[i] - p_low[i]);
+        out[i] = equal ? in[i] - s.low * (above[i] - below[i])
+                       : in[i] - s.low * (here[i] - below[i]) - s.high * (above[i] - here[i]);
 }
 
 TURBIDITE_ROW_WORK
-void excess_of(int count, const double* __restrict face, const double* __restrict low,
+void projected_flux(int count, RowShares s, const double* __restrict low,
+                    const double* __restrict high, double kept, const double* __restrict extra,
+                    double step, const double* __restrict p_low, const double* __restrict p_high,
+                    double* __restrict face) {
+    for (int i = 0; i < count; ++i)
+        face[i] =
+            s.low * low[i] + s.high * high[i] + kept * extra[i] - step * (p_high[i] - p_low[i]);
+}
+
+TURBIDITE_ROW_WORK
+void excess_of(int count, RowShares s, const double* __restrict face, const double* __restrict low,
                const double* __restrict high, double* __restrict extra) {
-    for (int i = 0; i < count; ++i) extra[i] = face[i] - 0.5 * (low[i] + high[i]);
+    for (int i = 0; i < count; ++i) extra[i] = face[i] - (s.low * low[i] + s.high * high[i]);
 }
 
 TURBIDITE_ROW_WORK
@@ -74,28 +85,50 @@ void keep_largest_outflow(int count, double x, const double* __restrict left,
 }
 
 TURBIDITE_ROW_WORK
-void laplacian_row(int count, double x, double y, const double* __restrict below,
-                   const double* __restrict u, const double* __restrict above,
-                   double* __restrict out) {
+void central_divergence_row(int count, double x, const double* __restrict left,
+                            const double* __restrict right, const ThreeRows& y,
+                            const double* __restrict below, const double* __restrict here,
+                            const double* __restrict above, double* __restrict out) {
+    const auto [low, middle, high, equal] = y;
     for (int i = 0; i < count; ++i)
-        out[i] = x * (u[i - 1] - 2.0 * u[i] + u[i + 1]) + y * (below[i] - 2.0 * u[i] + above[i]);
+        out[i] = x * (right[i] - left[i]) +
+                 (equal ? high * (above[i] - below[i])
+                        : low * below[i] + middle * here[i] + high * above[i]);
 }
 
 TURBIDITE_ROW_WORK
-void weighted_difference(int count, const double* __restrict w, const double* __restrict low,
-                         const double* __restrict here, const double* __restrict high,
-                         double* __restrict out) {
-    for (int i = 0; i < count; ++i) out[i] = w[i] * (low[i] - 2.0 * here[i] + high[i]);
+void laplacian_row(int count, double x, RowShares s, const double* __restrict below,
+                   const double* __restrict u, const double* __restrict above,
+                   double* __restrict out) {
+    const bool equal = s.equal;
+    for (int i = 0; i < count; ++i)
+        out[i] = x * (u[i - 1] - 2.0 * u[i] + u[i + 1]) +
+                 (equal ? s.low * (below[i] - 2.0 * u[i] + above[i])
+                        : s.low * (below[i] - u[i]) + s.high * (above[i] - u[i]));
+}
+
+TURBIDITE_ROW_WORK
+void weighted_difference(int count, RowShares s, const double* __restrict w,
+                         const double* __restrict low, const double* __restrict here,
+                         const double* __restrict high, double* __restrict out) {
+    const bool equal = s.equal;
+    for (int i = 0; i < count; ++i)
+        out[i] = w[i] * (equal ? low[i] - 2.0 * here[i] + high[i]
+                               : s.high * (high[i] - here[i]) - s.low * (here[i] - low[i]));
 }
 
 TURBIDITE_ROW_WORK
 void add_differences(int count, double x, const double* __restrict left,
-                     const double* __restrict here_x, const double* __restrict right, double y,
+                     const double* __restrict here_x, const double* __restrict right, RowShares s,
                      const double* __restrict below, const double* __restrict here_y,
                      const double* __restrict above, double* __restrict out) {
-    for (int i = 0; i < count; ++i)
-        out[i] += x * (left[i] - 2.0 * here_x[i] + right[i]) +
-                  y * (below[i] - 2.0 * here_y[i] + above[i]);
+    const bool equal = s.equal;
+    const double here = -s.low - s.high;
+    for (int i = 0; i < count; ++i) {
+        const double along = x * (left[i] - 2.0 * here_x[i] + right[i]);
+        out[i] = equal ? out[i] + (along + s.low * (below[i] - 2.0 * here_y[i] + above[i]))
+                       : out[i] + along + (s.low * below[i] + here * here_y[i] + s.high * above[i]);
+    }
 }
 
 TURBIDITE_ROW_WORK
@@ -190,60 +223,6 @@ TURBIDITE_ROW_WORK
 void subtract_difference(int count, double share, const double* __restrict low,
                          const double* __restrict high, double* __restrict carried) {
     for (int i = 0; i < count; ++i) carried[i] -= share * (high[i] - low[i]);
-}
-
-TURBIDITE_ROW_WORK
-void mean_flux(int count, RowShares s, const double* __restrict low, const double* __restrict high,
-               double kept, const double* __restrict extra, double* __restrict face) {
-    for (int i = 0; i < count; ++i) face[i] = s.low * low[i] + s.high * high[i] + kept * extra[i];
-}
-
-TURBIDITE_ROW_WORK
-void projected_flux(int count, RowShares s, const double* __restrict low,
-                    const double* __restrict high, double kept, const double* __restrict extra,
-                    double step, const double* __restrict p_low, const double* __restrict p_high,
-                    double* __restrict face) {
-    for (int i = 0; i < count; ++i)
-        face[i] =
-            s.low * low[i] + s.high * high[i] + kept * extra[i] - step * (p_high[i] - p_low[i]);
-}
-
-TURBIDITE_ROW_WORK
-void excess_of(int count, RowShares s, const double* __restrict face, const double* __restrict low,
-               const double* __restrict high, double* __restrict extra) {
-    for (int i = 0; i < count; ++i) extra[i] = face[i] - (s.low * low[i] + s.high * high[i]);
-}
-
-TURBIDITE_ROW_WORK
-void correct(int count, RowShares s, const double* __restrict below, const double* __restrict here,
-             const double* __restrict above, const double* in, double* out) {
-    for (int i = 0; i < count; ++i)
-        out[i] = in[i] - s.low * (here[i] - below[i]) - s.high * (above[i] - here[i]);
-}
-
-TURBIDITE_ROW_WORK
-void laplacian_row(int count, double x, RowShares s, const double* __restrict below,
-                   const double* __restrict u, const double* __restrict above,
-                   double* __restrict out) {
-    for (int i = 0; i < count; ++i)
-        out[i] = x * (u[i - 1] - 2.0 * u[i] + u[i + 1]) +
-                 (s.low * (below[i] - u[i]) + s.high * (above[i] - u[i]));
-}
-
-TURBIDITE_ROW_WORK
-void add_rows(int count, RowShares s, double share, const double* __restrict below,
-              const double* __restrict here, const double* __restrict above,
-              double* __restrict out) {
-    for (int i = 0; i < count; ++i)
-        out[i] += s.low * below[i] + share * here[i] + s.high * above[i];
-}
-
-TURBIDITE_ROW_WORK
-void weighted_difference(int count, RowShares s, const double* __restrict w,
-                         const double* __restrict low, const double* __restrict here,
-                         const double* __restrict high, double* __restrict out) {
-    for (int i = 0; i < count; ++i)
-        out[i] = w[i] * (s.high * (high[i] - here[i]) - s.low * (here[i] - low[i]));
 }
 
 }  // namespace turbidite

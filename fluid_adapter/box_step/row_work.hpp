@@ -4,7 +4,11 @@
 // can vectorise them. They are also compiled for AVX2, and the version is selected at program start
 // by the features of the processor; selecting by processor name would leave unknown models with the
 // plain code. Without fused operations both versions give the same bits. Face i of a row lies
-// between cells i - 1 and i. Valid C++17.
+// between cells i - 1 and i.
+//
+// Rows below and above may have other heights (row_heights.hpp), and count with shares of their
+// own; where these are equal, so are the rows, and a difference takes fewer operations. Valid
+// C++17.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +21,18 @@ namespace turbidite {
 #define TURBIDITE_ROW_WORK
 #endif
 
-/// face[i] = (low[i] + high[i])/2 + kept extra[i]
-void mean_flux(int count, const double* low, const double* high, double kept, const double* extra,
-               double* face);
+/// What the values on either side of a face, or the differences below and above a row, count for.
+struct RowShares {
+    double low, high;
+    bool equal;  ///< the rows around are of the same height, and so are the shares
+};
+
+/// Of cells of the same size.
+inline constexpr RowShares halves{0.5, 0.5, true}, ones{1.0, 1.0, true};
+
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i]
+void mean_flux(int count, RowShares s, const double* low, const double* high, double kept,
+               const double* extra, double* face);
 
 /// out[i] = x (right[i] - left[i]) + y (above[i] - below[i])
 void divergence_row(int count, double x, const double* left, const double* right, double y,
@@ -37,13 +50,18 @@ void correct(int count, double step, const double* low, const double* high, cons
 void advance_row(int count, const double* in, double x, const double* left, const double* right,
                  double y, const double* below, const double* above, double* out);
 
-/// face[i] = (low[i] + high[i])/2 + kept extra[i] - step (p_high[i] - p_low[i])
-void projected_flux(int count, const double* low, const double* high, double kept,
+/// out[i] = in[i] - s.low (here[i] - below[i]) - s.high (above[i] - here[i]); out may alias in
+void correct_across(int count, RowShares s, const double* below, const double* here,
+                    const double* above, const double* in, double* out);
+
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i] - step (p_high[i] - p_low[i])
+void projected_flux(int count, RowShares s, const double* low, const double* high, double kept,
                     const double* extra, double step, const double* p_low, const double* p_high,
                     double* face);
 
-/// extra[i] = face[i] - (low[i] + high[i])/2
-void excess_of(int count, const double* face, const double* low, const double* high, double* extra);
+/// extra[i] = face[i] - (s.low low[i] + s.high high[i])
+void excess_of(int count, RowShares s, const double* face, const double* low, const double* high,
+               double* extra);
 
 /// largest[i] = max(largest[i], |value[i]|)
 void keep_largest(int count, const double* value, double* largest);
@@ -52,17 +70,30 @@ void keep_largest(int count, const double* value, double* largest);
 void keep_largest_outflow(int count, double x, const double* left, const double* right, double y,
                           const double* below, const double* above, double* largest);
 
-/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + y (below[i] - 2 u[i] + above[i])
-void laplacian_row(int count, double x, double y, const double* below, const double* u,
+/// What three rows, one above the other, count for.
+struct ThreeRows {
+    double below, here, above;
+    bool equal;  ///< they are of the same height: `here` is zero
+};
+
+/// out[i] = x (right[i] - left[i]) + y.below below[i] + y.here here[i] + y.above above[i], where
+/// the sum of y is zero
+void central_divergence_row(int count, double x, const double* left, const double* right,
+                            const ThreeRows& y, const double* below, const double* here,
+                            const double* above, double* out);
+
+/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + s.low (below[i] - u[i]) + s.high (above[i] - u[i])
+void laplacian_row(int count, double x, RowShares s, const double* below, const double* u,
                    const double* above, double* out);
 
-/// out[i] = w[i] (low[i] - 2 here[i] + high[i])
-void weighted_difference(int count, const double* w, const double* low, const double* here,
-                         const double* high, double* out);
+/// out[i] = w[i] (s.high (high[i] - here[i]) - s.low (here[i] - low[i])); of equal rows s is 1
+void weighted_difference(int count, RowShares s, const double* w, const double* low,
+                         const double* here, const double* high, double* out);
 
-/// out[i] += x (left[i] - 2 here_x[i] + right[i]) + y (below[i] - 2 here_y[i] + above[i])
+/// out[i] += x (left[i] - 2 here_x[i] + right[i])
+///           + s.low (below[i] - here_y[i]) + s.high (above[i] - here_y[i])
 void add_differences(int count, double x, const double* left, const double* here_x,
-                     const double* right, double y, const double* below, const double* here_y,
+                     const double* right, RowShares s, const double* below, const double* here_y,
                      const double* above, double* out);
 
 /// out[i] = share (high[i] - low[i])
@@ -109,41 +140,5 @@ void extrapolate(int count, double share, const double* flux, double* last, doub
 /// carried[i] -= share (high[i] - low[i])
 void subtract_difference(int count, double share, const double* low, const double* high,
                          double* carried);
-
-// The same between rows of different heights (row_heights.hpp), with a factor for each row.
-
-/// What a row below and a row above a face count for.
-struct RowShares {
-    double low, high;
-};
-
-/// face[i] = s.low low[i] + s.high high[i] + kept extra[i]
-void mean_flux(int count, RowShares s, const double* low, const double* high, double kept,
-               const double* extra, double* face);
-
-/// face[i] = s.low low[i] + s.high high[i] + kept extra[i] - step (p_high[i] - p_low[i])
-void projected_flux(int count, RowShares s, const double* low, const double* high, double kept,
-                    const double* extra, double step, const double* p_low, const double* p_high,
-                    double* face);
-
-/// extra[i] = face[i] - (s.low low[i] + s.high high[i])
-void excess_of(int count, RowShares s, const double* face, const double* low, const double* high,
-               double* extra);
-
-/// out[i] = in[i] - s.low (here[i] - below[i]) - s.high (above[i] - here[i]); out may alias in
-void correct(int count, RowShares s, const double* below, const double* here, const double* above,
-             const double* in, double* out);
-
-/// out[i] = x (u[i-1] - 2 u[i] + u[i+1]) + s.low (below[i] - u[i]) + s.high (above[i] - u[i])
-void laplacian_row(int count, double x, RowShares s, const double* below, const double* u,
-                   const double* above, double* out);
-
-/// out[i] += s.low below[i] + share here[i] + s.high above[i]
-void add_rows(int count, RowShares s, double share, const double* below, const double* here,
-              const double* above, double* out);
-
-/// out[i] = w[i] (s.high (high[i] - here[i]) - s.low (here[i] - low[i]))
-void weighted_difference(int count, RowShares s, const double* w, const double* low,
-                         const double* here, const double* high, double* out);
 
 }  // namespace turbidite

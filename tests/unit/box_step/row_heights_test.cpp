@@ -26,7 +26,8 @@ TEST(RowHeights, OfEqualRowsAreExactlyTheSpacing) {
     }
     for (int j = 0; j <= 5; ++j) {
         EXPECT_EQ(heights.distance(j), 0.1);
-        EXPECT_TRUE(heights.equal_around(j));
+        EXPECT_TRUE(heights.face(j).equal);
+        EXPECT_EQ(heights.volume_shares(j).low, 0.5);
     }
 }
 
@@ -37,17 +38,17 @@ TEST(RowHeights, AreMirroredBeyondSides) {
     EXPECT_EQ(heights.size(5), 1.5);
     EXPECT_EQ(heights.size(6), 1.0);
     EXPECT_EQ(heights.relative(4), 1.5);
-    EXPECT_TRUE(heights.equal_beside(5));
-    EXPECT_FALSE(heights.equal_to_both(4));
+    EXPECT_TRUE(heights.volume_shares(5).equal);
+    EXPECT_FALSE(heights.over_distances(4, 1.0).equal);
 }
 
 TEST(RowHeights, BetweenTwoRowsGiveDistancesAndShares) {
     const AxisOperator axis = five_rows();
     const RowHeights heights(axis, all_rows(axis));
-    EXPECT_TRUE(heights.equal_around(2));
-    EXPECT_FALSE(heights.equal_around(3));  // its stencil reaches row 4
+    EXPECT_TRUE(heights.face(2).equal);
+    EXPECT_FALSE(heights.face(3).equal);  // its stencil reaches row 4
     EXPECT_EQ(heights.distance(4), 1.25);
-    const FaceBetweenRows face = heights.face(4);
+    const FacePlace face = heights.face(4);
     EXPECT_DOUBLE_EQ(face.low, 0.5 / 1.25);
     EXPECT_DOUBLE_EQ(face.high, 0.75 / 1.25);
     EXPECT_DOUBLE_EQ(face.behind, 1.25);
