@@ -10,7 +10,7 @@ namespace turbidite {
 namespace {
 
 /// The grid of a plane, with values that sides leave alone.
-PlaneOperator even(PlaneOperator plane) {
+SeparableOperator even(SeparableOperator plane) {
     for (AxisOperator* axis : {&plane.x, &plane.y})
         if (!axis->periodic()) axis->lower = axis->upper = End::neumann;
     return plane;
@@ -18,7 +18,7 @@ PlaneOperator even(PlaneOperator plane) {
 
 }  // namespace
 
-BoxOperators::BoxOperators(const PlaneOperator& velocity, const PlaneOperator& pressure,
+BoxOperators::BoxOperators(const SeparableOperator& velocity, const SeparableOperator& pressure,
                            BoxRows& rows, const std::array<SideValues, 2>& sides)
     : nx_(pressure.x.cells),
       ny_(rows.count()),

@@ -74,8 +74,8 @@ struct PendingChange {
 class BoxOperators {
  public:
     /// `rows` and the values on the sides, of both components, must outlive it.
-    BoxOperators(const PlaneOperator& velocity, const PlaneOperator& pressure, BoxRows& rows,
-                 const std::array<SideValues, 2>& sides);
+    BoxOperators(const SeparableOperator& velocity, const SeparableOperator& pressure,
+                 BoxRows& rows, const std::array<SideValues, 2>& sides);
 
     std::size_t size() const { return static_cast<std::size_t>(nx_) * ny_; }
 

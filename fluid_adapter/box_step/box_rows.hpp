@@ -38,8 +38,8 @@ class BoxRows {
 /// The whole box on one rank.
 class AllRows final : public BoxRows {
  public:
-    explicit AllRows(const PlaneOperator& plane)
-        : columns_(plane.x.cells), rows_(plane.y.cells), periodic_(plane.y.periodic()) {}
+    explicit AllRows(const SeparableOperator& plane)
+        : columns_(plane.layer()), rows_(plane.y.cells), periodic_(plane.y.periodic()) {}
 
     int first() const override { return 0; }
     int count() const override { return rows_; }

@@ -372,7 +372,7 @@ void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
     differences.correct_across(j, dt, p_, row_of(1, j), row_of(1, j));
 }
 
-void BoxStep::diffuse(double dt, const SeparableSolve::RowWork& take) {
+void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {
     if (factorised_for_ != dt)
         for (SeparableSolve& solve : viscous_) solve.factorise({1.0, fluid_.viscosity * dt});
     factorised_for_ = dt;
@@ -425,13 +425,13 @@ BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
 
 namespace {
 
-End end_at(const PlaneOperator& plane, int side) {
+End end_at(const SeparableOperator& plane, int side) {
     const AxisOperator& axis = side < 2 ? plane.x : plane.y;
     return side % 2 == 0 ? axis.lower : axis.upper;
 }
 
 /// Value at the boundary face over the value in the cell next to it.
-double at_face(const PlaneOperator& plane, int side) {
+double at_face(const SeparableOperator& plane, int side) {
     return 0.5 * (1.0 + mirrored(end_at(plane, side)));
 }
 

@@ -31,9 +31,9 @@
 namespace turbidite {
 
 struct BoxFluid {
-    PlaneOperator velocity, pressure;  ///< grid, and the boundary conditions of u and p
-    double viscosity = 0.0;            ///< nu [m2/s]
-    double limiter = 1.0;              ///< k of limitedLinearV (not the k of step 1)
+    SeparableOperator velocity, pressure;  ///< grid, and the boundary conditions of u and p
+    double viscosity = 0.0;                ///< nu [m2/s]
+    double limiter = 1.0;                  ///< k of limitedLinearV (not the k of step 1)
     /// Share of linear interpolation where transport is not limited (convective_flux.hpp).
     std::optional<double> central;
     bool second_order = false;  ///< in time (second_order.hpp)
@@ -143,7 +143,7 @@ class BoxStep {
     std::vector<double>& last_flux(int axis) { return last_flux_[axis]; }
 
     /// Step 3 over dt [s]: u2 becomes u3, implicitly. Calls `take(j)` when row j is complete.
-    void diffuse(double dt, const SeparableSolve::RowWork& take);
+    void diffuse(double dt, const SeparableSolve::LayerWork& take);
 
     // What crosses this rank's sides of the box: the rate of change of the fluid's momentum it
     // causes, over rho_f and per unit length out of the plane [m3/s2].

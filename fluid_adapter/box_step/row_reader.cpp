@@ -10,7 +10,7 @@ double mirrored(End end) {
     return end == End::dirichlet ? -1.0 : 1.0;
 }
 
-RowReader::RowReader(const PlaneOperator& plane, BoxRows& rows, const SideValues* sides)
+RowReader::RowReader(const SeparableOperator& plane, BoxRows& rows, const SideValues* sides)
     : plane_(plane),
       rows_(rows),
       sides_(sides),

@@ -23,7 +23,7 @@ class RowReader {
     static constexpr int beyond = BoxRows::beyond;
 
     /// `rows` must outlive it, and so must the values on the sides; null: none are prescribed.
-    RowReader(const PlaneOperator& plane, BoxRows& rows, const SideValues* sides = nullptr);
+    RowReader(const SeparableOperator& plane, BoxRows& rows, const SideValues* sides = nullptr);
 
     /// Restarts at the first row. `values`: the rank's rows of x.cells values, contiguous. Called
     /// by every rank.
@@ -53,7 +53,7 @@ class RowReader {
     void mirror(int from, int to, int side);
     double on_side(int side, int j) const;
 
-    PlaneOperator plane_;
+    SeparableOperator plane_;
     BoxRows& rows_;
     const SideValues* sides_;
     const double* values_ = nullptr;

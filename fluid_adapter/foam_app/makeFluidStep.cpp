@@ -110,7 +110,7 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
 }
 
 /// The operator with the spacing of the mesh in metres; of a stretched grid, that of its first row.
-PlaneOperator in_metres(PlaneOperator plane, const Foam::vector& box_size, const CellGrid& grid) {
+SeparableOperator in_metres(SeparableOperator plane, const Foam::vector& box_size, const CellGrid& grid) {
     plane.x.spacing = box_size.x() / plane.x.cells;
     plane.y.spacing = box_size.y() / plane.y.cells;
     plane.y.sizes.clear();
@@ -138,7 +138,7 @@ BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const Box
             method.second_order};
 }
 
-std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const PlaneOperator& plane,
+std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const SeparableOperator& plane,
                                   const CellRows& cells) {
     if (!ranks.parallel()) return std::make_unique<AllRows>(plane);
     try {

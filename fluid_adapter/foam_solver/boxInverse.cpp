@@ -9,7 +9,7 @@ bool same(const AxisOperator& a, const AxisOperator& b) {
            a.upper == b.upper && a.sizes == b.sizes;
 }
 
-bool same(const PlaneOperator& a, const PlaneOperator& b) {
+bool same(const SeparableOperator& a, const SeparableOperator& b) {
     return same(a.x, b.x) && same(a.y, b.y);
 }
 

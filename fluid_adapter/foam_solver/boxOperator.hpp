@@ -33,11 +33,11 @@ struct SolverMatrix {
 };
 
 struct BoxOperator {
-    double sign = 1.0;      ///< s
-    PlaneOperator plane;    ///< spacing 1 along x and sqrt(c_x/c_y) along y, times g_j
-    Helmholtz problem;      ///< alpha, and beta = c_x
-    int reference = -1;     ///< place of the cell with delta; -1: none
-    double stiffening = 0;  ///< delta
+    double sign = 1.0;        ///< s
+    SeparableOperator plane;  ///< spacing 1 along x and sqrt(c_x/c_y) along y, times g_j
+    Helmholtz problem;        ///< alpha, and beta = c_x
+    int reference = -1;       ///< place of the cell with delta; -1: none
+    double stiffening = 0;    ///< delta
 
     /// Constants are in the kernel of the operator without the reference.
     /// g_j of row j.

@@ -19,19 +19,23 @@ void check(const Helmholtz& problem) {
 
 }  // namespace
 
-ColumnSolve::ColumnSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes)
-    : across_(across), along_(along), modes_(modes) {
-    for (int k = 0; k < modes.count; ++k) mu_.push_back(across.eigenvalue(modes.first + k));
+LineSolve::LineSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes,
+                     double mu, std::size_t stride)
+    : across_(across),
+      along_(along),
+      modes_(modes),
+      stride_(stride),
+      has_constants_(mu == 0.0 && modes.first == 0 && modes.count > 0 && across.has_zero_mode() &&
+                     along.has_zero_mode()) {
+    for (int k = 0; k < modes.count; ++k) mu_.push_back(across.eigenvalue(modes.first + k) + mu);
     if (!along_.periodic()) return;
-    w_.resize(at(open_length()));
+    w_.resize(of_w(open_length()));
     closing_.resize(modes.count);
     closed_.resize(modes.count);
 }
 
-void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
-    check(problem);
-    singular_ = problem.alpha == 0.0 && modes_.first == 0 && modes_.count > 0 &&
-                across_.has_zero_mode() && along_.has_zero_mode();
+void LineSolve::factorise(const Helmholtz& problem, double normalisation) {
+    singular_ = problem.alpha == 0.0 && has_constants_;
     constants_.assign(singular_ ? along_.cells : 0, 0.0);
     normalisation_ = normalisation;
     const double per_r = 1.0 / along_.coupling();
@@ -51,7 +55,7 @@ void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
 }
 
 /// g_j, a_j and what is left of the diagonal.
-std::vector<EliminationRow> ColumnSolve::rows_over_r(double per_r) const {
+std::vector<EliminationRow> LineSolve::rows_over_r(double per_r) const {
     std::vector<EliminationRow> rows;
     for (int j = 0; j < open_length(); ++j) {
         if (!along_.stretched()) {
@@ -69,27 +73,20 @@ std::vector<EliminationRow> ColumnSolve::rows_over_r(double per_r) const {
 }
 
 /// w = T^-1 (e_first + e_last) by the same recurrences, and the divisor for the last unknown.
-void ColumnSolve::close_the_ring(const std::vector<double>& diagonal) {
+void LineSolve::close_the_ring(const std::vector<double>& diagonal) {
     const int last = open_length() - 1;
     for (int j = 0; j <= last; ++j)
         e_.for_row(j, [&](int begin, int end, const double* e) {
             const double given = j == 0 || j == last ? 1.0 : 0.0;
             for (int k = begin; k < end; ++k)
-                w_[at(j) + k] = ((j > 0 ? w_[at(j - 1) + k] : 0.0) + given) * e[k - begin];
+                w_[of_w(j) + k] = ((j > 0 ? w_[of_w(j - 1) + k] : 0.0) + given) * e[k - begin];
         });
-    for (int j = last - 1; j >= 0; --j) substitute(j, w_.data());
+    for (int j = last - 1; j >= 0; --j) substitute(j, w_.data() + of_w(j), w_.data() + of_w(j + 1));
     for (int k = 0; k < modes_.count; ++k)
-        closing_[k] = 1.0 / (diagonal[k] - w_[k] - w_[at(last) + k]);
+        closing_[k] = 1.0 / (diagonal[k] - w_[k] - w_[of_w(last) + k]);
 }
 
-double ColumnSolve::solve(double* values) {
-    for (int j = 0; j < along_.cells; ++j) up(j, values);
-    const double taken = turn(values);
-    for (int j = along_.cells - 1; j >= 0; --j) down(j, values);
-    return taken;
-}
-
-void ColumnSolve::up(int j, double* values) {
+void LineSolve::up(int j, double* values) {
     if (singular_) constants_[j] = values[at(j)];
     if (j >= open_length()) return;
     double* row = values + at(j);
@@ -106,24 +103,22 @@ void ColumnSolve::up(int j, double* values) {
 }
 
 /// Back substitution: x_j = z_j + a_j e_j x_{j+1}.
-void ColumnSolve::substitute(int j, double* values) const {
-    double* row = values + at(j);
-    const double* above = values + at(j + 1);
+void LineSolve::substitute(int j, double* row, const double* above) const {
     const double a = rows_[j].above;
     e_.for_row(j, [&](int begin, int end, const double* e) {
         for (int k = begin; k < end; ++k) row[k] += e[k - begin] * (a * above[k]);
     });
 }
 
-double ColumnSolve::turn(double* values) {
+double LineSolve::turn(double* values) {
     if (along_.periodic()) close_last(values);
     return singular_ ? solve_constants() : 0.0;
 }
 
 /// x_{n-1} of a periodic axis, which needs all of z.
-void ColumnSolve::close_last(double* values) {
+void LineSolve::close_last(double* values) {
     const int n = along_.cells;
-    for (int j = n - 3; j >= 0; --j) substitute(j, values);
+    for (int j = n - 3; j >= 0; --j) substitute(j, values + at(j), values + at(j + 1));
     double* last = values + at(n - 1);
     // x_{n-1} = (s f_{n-1} + z_0 + z_{n-2})/(d_{n-1} - w_0 - w_{n-2})
     for (int k = 0; k < modes_.count; ++k)
@@ -131,14 +126,14 @@ void ColumnSolve::close_last(double* values) {
     std::copy_n(last, modes_.count, closed_.begin());
 }
 
-void ColumnSolve::down(int j, double* values) {
+void LineSolve::down(int j, double* values) {
     const int last = along_.cells - 1;
     if (along_.periodic() && j < last) {
-        const double* w = w_.data() + at(j);
+        const double* w = w_.data() + of_w(j);
         double* row = values + at(j);
         for (int k = 0; k < modes_.count; ++k) row[k] += w[k] * closed_[k];  // x' = z + w x_{n-1}
     } else if (j < last) {
-        substitute(j, values);
+        substitute(j, values + at(j), values + at(j + 1));
     }
     if (!singular_) return;
     if (j < last) values[at(j + 1)] = constants_[j + 1];
@@ -147,7 +142,7 @@ void ColumnSolve::down(int j, double* values) {
 
 /// The mode of constants, with D_j = a_j (x_{j+1} - x_j) = D_{j-1} - g_j s f_j summed twice from
 /// one end. There is no D_{-1} beyond a neumann end; on a periodic axis the D sum to zero.
-double ColumnSolve::solve_constants() {
+double LineSolve::solve_constants() {
     const int n = along_.cells;
     const auto size = [&](int j) { return along_.stretched() ? rows_[j].size : 1.0; };
     double mean = 0.0, length = 0.0;
@@ -170,6 +165,44 @@ double ColumnSolve::solve_constants() {
     }
     for (double& value : constants_) value -= sum / length;
     return mean / normalisation_;  // mode 0 of a row is its mean times the normalisation
+}
+
+ColumnSolve::ColumnSolve(const SeparableOperator& grid, ModeRange modes) : cells_(grid.y.cells) {
+    const int nx = grid.x.cells, end = modes.first + modes.count;
+    for (int first = modes.first; first < end;) {
+        const int line = first / nx, next = std::min(end, (line + 1) * nx);
+        lines_.push_back({LineSolve(grid.x, grid.y, {first - line * nx, next - first},
+                                    grid.z.eigenvalue(line), modes.count),
+                          static_cast<std::size_t>(first - modes.first)});
+        first = next;
+    }
+}
+
+void ColumnSolve::factorise(const Helmholtz& problem, double normalisation) {
+    check(problem);
+    for (Line& line : lines_) line.solve.factorise(problem, normalisation);
+}
+
+void ColumnSolve::up(int j, double* values) {
+    for (Line& line : lines_) line.solve.up(j, values + line.first);
+}
+
+/// Only one line has the mode of constants.
+double ColumnSolve::turn(double* values) {
+    double taken = 0.0;
+    for (Line& line : lines_) taken += line.solve.turn(values + line.first);
+    return taken;
+}
+
+void ColumnSolve::down(int j, double* values) {
+    for (Line& line : lines_) line.solve.down(j, values + line.first);
+}
+
+double ColumnSolve::solve(double* values) {
+    for (int j = 0; j < cells_; ++j) up(j, values);
+    const double taken = turn(values);
+    for (int j = cells_ - 1; j >= 0; --j) down(j, values);
+    return taken;
 }
 
 }  // namespace turbidite

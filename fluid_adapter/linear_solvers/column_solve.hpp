@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// For each mode k of x, the tridiagonal system along y that remains,
+// For each mode k of x and l of z, the tridiagonal system along y that remains,
 //
-//     (alpha + beta (mu_k + L)) x = f / normalisation       mu_k, L: separable_operator.hpp
+//     (alpha + beta (mu_k + mu_l + L)) x = f / normalisation    mu, L: separable_operator.hpp
 //
-// solved by elimination for all modes at once, so that the inner loop runs over contiguous modes. A
-// row is the values of one y. Divided by r = beta/h2 the matrix has off-diagonals -1, and the
-// recurrences are
+// solved by elimination for all modes k of a line, those with one l, at once, so that the inner
+// loop runs over contiguous modes. In the plane there is one line. A row is the values of one y and
+// one line. Divided by r = beta/h2 the matrix has off-diagonals -1, and the recurrences are
 //
 //     e_j = 1/(d_j - e_{j-1})             d_j  diagonal over r, > 2 or nearly so: no pivoting
 //     z_j = (s f_j + z_{j-1}) e_j         s = 1/(r normalisation)
@@ -58,15 +58,18 @@ struct ModeRange {
     int count = 0;
 };
 
-class ColumnSolve {
+/// The modes of x that share a mode of z.
+class LineSolve {
  public:
-    /// `across` was transformed, the solve is `along`; `modes`: those of this rank.
-    ColumnSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes);
+    /// `across` was transformed, the solve is `along`; `modes`: those of this rank; `mu`: of the
+    /// mode of z. From one y to the next it is `stride` values.
+    LineSolve(const AxisOperator& across, const AxisOperator& along, ModeRange modes, double mu,
+              std::size_t stride);
 
     /// Computes e and w. `normalisation`: that of the transform along the other axis.
     void factorise(const Helmholtz& problem, double normalisation);
 
-    // `values` holds, for every y, the modes contiguously; it is solved in place.
+    // `values` holds, for every y, the line's modes contiguously; it is solved in place.
 
     void up(int j, double* values);  ///< called for j = 0, 1, ..., cells - 1
 
@@ -78,21 +81,21 @@ class ColumnSolve {
     /// row 0.
     void down(int j, double* values);
 
-    /// The whole solve; returns what `turn` returns.
-    double solve(double* values);
-
  private:
     std::vector<EliminationRow> rows_over_r(double per_r) const;
     void close_the_ring(const std::vector<double>& diagonal);
     void close_last(double* values);
-    void substitute(int j, double* values) const;
+    void substitute(int j, double* row, const double* above) const;
     double solve_constants();
 
-    std::size_t at(int j) const { return static_cast<std::size_t>(j) * modes_.count; }
+    std::size_t at(int j) const { return j * stride_; }
+    std::size_t of_w(int j) const { return static_cast<std::size_t>(j) * modes_.count; }
     int open_length() const { return along_.periodic() ? along_.cells - 1 : along_.cells; }
 
     AxisOperator across_, along_;
     ModeRange modes_;
+    std::size_t stride_;
+    bool has_constants_;     // mode 0 of x and z
     bool singular_ = false;  // only in mode 0, and only on the rank that holds it
     double scale_ = 1.0;     // s
     double normalisation_ = 1.0;
@@ -102,6 +105,32 @@ class ColumnSolve {
     std::vector<double> closing_;    // 1/(d_{n-1} - w_0 - w_{n-2})
     std::vector<double> closed_;     // x_{n-1}
     std::vector<double> constants_;  // f, then x, of the mode of constants
+};
+
+class ColumnSolve {
+ public:
+    /// `modes`: those of this rank, of the nx nz of a layer; mode k + nx l belongs to line l.
+    ColumnSolve(const SeparableOperator& grid, ModeRange modes);
+
+    /// Computes e and w. `normalisation`: that of the transforms along x and z.
+    void factorise(const Helmholtz& problem, double normalisation);
+
+    // As of LineSolve; `values` holds, for every y, the modes of all lines contiguously.
+
+    void up(int j, double* values);
+    double turn(double* values);
+    void down(int j, double* values);
+
+    /// The whole solve; returns what `turn` returns.
+    double solve(double* values);
+
+ private:
+    struct Line {
+        LineSolve solve;
+        std::size_t first;  // place of its first mode in a layer's modes of this rank
+    };
+    int cells_;  // along y
+    std::vector<Line> lines_;
 };
 
 }  // namespace turbidite

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Where a separable solve keeps its values. Transforms need complete rows (all x of some y), the
-// tridiagonal solves complete columns (all y of some modes of x). On several ranks these are two
-// distributions with a transpose between them; on one rank they are the same array. Valid C++17.
+// Where a separable solve keeps its values. Transforms need complete rows, here those of a matrix
+// with a row per layer (all x and z of some y), the tridiagonal solves its complete columns (all y
+// of some modes). On several ranks these are two distributions with a transpose between them; on
+// one rank they are the same array. Valid C++17.
 #pragma once
 
 #include <cstddef>

@@ -72,4 +72,12 @@ void check(const AxisOperator& axis) {
     check_sizes(axis);
 }
 
+void check(const SeparableOperator& grid) {
+    check(grid.x);
+    check(grid.y);
+    if (grid.in_space()) check(grid.z);
+    if (grid.x.stretched() || grid.z.stretched())
+        throw std::invalid_argument("cells along x have different sizes; only rows may differ");
+}
+
 }  // namespace turbidite

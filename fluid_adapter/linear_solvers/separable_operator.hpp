@@ -54,9 +54,26 @@ struct AxisOperator {
     double eigenvalue(int k) const;                                ///< mu_k [1/m2]
 };
 
+/// The sum of the operators of all axes of a grid. The cells of one y are a layer, numbered i + nx
+/// k: nz rows along x, a single one in the plane.
+struct SeparableOperator {
+    AxisOperator x, y;
+    AxisOperator z = {1, 1.0, End::periodic, End::periodic};  ///< that of the plane: no difference
+
+    bool in_space() const { return z.cells > 1; }
+    int layer() const { return x.cells * z.cells; }  ///< number of cells of one y
+    bool has_zero_mode() const {
+        return x.has_zero_mode() && y.has_zero_mode() && z.has_zero_mode();
+    }
+};
+
 /// Throws std::invalid_argument unless there are at least three cells, the spacing is positive, and
 /// either both ends or none are periodic. A stretched axis has a positive size for every cell, and
 /// is not periodic.
 void check(const AxisOperator& axis);
+
+/// Throws std::invalid_argument if an axis is refused, but for the single cell of the plane, or if
+/// x or z is stretched.
+void check(const SeparableOperator& grid);
 
 }  // namespace turbidite

@@ -14,9 +14,9 @@ constexpr int upward_tag = 7, downward_tag = 8;
 
 }  // namespace
 
-RankRows::RankRows(const RankGroup& group, const PlaneOperator& plane, const CellRows& cells)
+RankRows::RankRows(const RankGroup& group, const SeparableOperator& plane, const CellRows& cells)
     : group_(group),
-      columns_(plane.x.cells),
+      columns_(plane.layer()),
       rows_(plane.y.cells),
       periodic_(plane.y.periodic()),
       spans_(cells.rows_of_rank()) {

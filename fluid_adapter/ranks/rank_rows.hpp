@@ -14,7 +14,7 @@ namespace turbidite {
 class RankRows final : public BoxRows {
  public:
     /// Throws std::invalid_argument, on every rank, if a rank has fewer than `beyond` rows.
-    RankRows(const RankGroup& group, const PlaneOperator& plane, const CellRows& cells);
+    RankRows(const RankGroup& group, const SeparableOperator& plane, const CellRows& cells);
 
     int first() const override { return own().first; }
     int count() const override { return own().count; }

@@ -38,7 +38,8 @@ TEST(RowReader, GivesImagesBeyondTheSides) {
     const std::vector<double> field = some_field();
     for (const auto& x : ends)
         for (const auto& y : ends) {
-            const PlaneOperator plane{{nx, 1.0, x.first, x.second}, {ny, 1.0, y.first, y.second}};
+            const SeparableOperator plane{{nx, 1.0, x.first, x.second},
+                                          {ny, 1.0, y.first, y.second}};
             AllRows rows(plane);
             RowReader reader(plane, rows);
             reader.begin(field.data());
@@ -57,7 +58,7 @@ TEST(RowReader, KeepsWhatIsOverwrittenBehindIt) {
     const AxisOperator x{nx, 1.0, End::periodic, End::periodic};
     for (const End end : {End::neumann, End::periodic}) {
         field = some_field();
-        const PlaneOperator plane{x, {ny, 1.0, end, end}};
+        const SeparableOperator plane{x, {ny, 1.0, end, end}};
         AllRows rows(plane);
         RowReader reader(plane, rows);
         reader.begin(field.data());

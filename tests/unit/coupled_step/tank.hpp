@@ -49,7 +49,7 @@ inline BoxFluid box_fluid(const TankSides& sides, double viscosity) {
     const Side side = sides.side;
     const auto plane = [&](End end) {
         const AxisOperator axis{cells_across, cell_size, end, end};
-        PlaneOperator both{axis, axis};
+        SeparableOperator both{axis, axis};
         if (sides.stretched) both.y.sizes = stretched_rows();
         return both;
     };

@@ -72,7 +72,7 @@ class MemoryStore final : public FluidStore {
         : field_(n, h, side) {
         const auto plane = [&](End end) {
             const AxisOperator axis{n, h, end, end};
-            return PlaneOperator{axis, axis};
+            return SeparableOperator{axis, axis};
         };
         BoxFluid fluid;
         const bool cyclic = side == Side::cyclic;

@@ -46,15 +46,20 @@ inline Eigen::MatrixXd dense_axis(const AxisOperator& axis) {
     return L;
 }
 
-/// Values numbered i + nx j.
-inline Eigen::MatrixXd dense_plane(const PlaneOperator& plane) {
-    const int nx = plane.x.cells, ny = plane.y.cells;
-    const Eigen::MatrixXd Lx = dense_axis(plane.x), Ly = dense_axis(plane.y);
-    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(nx * ny, nx * ny);
-    for (int j = 0; j < ny; ++j) L.block(nx * j, nx * j, nx, nx) += Lx;
+/// Values numbered i + nx (k + nz j).
+inline Eigen::MatrixXd dense_grid(const SeparableOperator& grid) {
+    const int nx = grid.x.cells, ny = grid.y.cells, nz = grid.z.cells;
+    const Eigen::MatrixXd Lx = dense_axis(grid.x), Ly = dense_axis(grid.y);
+    const Eigen::MatrixXd Lz = nz > 1 ? dense_axis(grid.z) : Eigen::MatrixXd::Zero(1, 1);
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(grid.layer() * ny, grid.layer() * ny);
+    const auto at = [&](int i, int j, int k) { return i + nx * (k + nz * j); };
     for (int j = 0; j < ny; ++j)
-        for (int m = 0; m < ny; ++m)
-            for (int i = 0; i < nx; ++i) L(i + nx * j, i + nx * m) += Ly(j, m);
+        for (int k = 0; k < nz; ++k)
+            for (int i = 0; i < nx; ++i) {
+                for (int m = 0; m < nx; ++m) L(at(i, j, k), at(m, j, k)) += Lx(i, m);
+                for (int m = 0; m < ny; ++m) L(at(i, j, k), at(i, m, k)) += Ly(j, m);
+                for (int m = 0; m < nz; ++m) L(at(i, j, k), at(i, j, m)) += Lz(k, m);
+            }
     return L;
 }
 

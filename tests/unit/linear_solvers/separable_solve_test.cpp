@@ -18,8 +18,8 @@
 namespace turbidite {
 namespace {
 
-std::vector<PlaneOperator> all_planes() {
-    std::vector<PlaneOperator> planes;
+std::vector<SeparableOperator> all_planes() {
+    std::vector<SeparableOperator> planes;
     for (const Ends& x : all_ends())
         for (const Ends& y : all_ends())
             for (const auto& [nx, ny] : {std::array{6, 8}, {7, 5}, {3, 3}, {12, 9}})
@@ -27,9 +27,28 @@ std::vector<PlaneOperator> all_planes() {
     return planes;
 }
 
+/// Of an even and an odd number of rows per layer, so that layers are transformed in pairs or not,
+/// with more columns than are copied together, and an odd number of them.
+std::vector<SeparableOperator> all_boxes() {
+    std::vector<SeparableOperator> boxes;
+    for (const Ends& x : all_ends())
+        for (const Ends& y : all_ends())
+            for (const Ends& z : all_ends())
+                for (const auto& [nx, ny, nz] : {std::array{4, 5, 4}, {9, 3, 3}})
+                    boxes.push_back(
+                        {axis_of(nx, 0.25, x), axis_of(ny, 0.4, y), axis_of(nz, 0.3, z)});
+    return boxes;
+}
+
+std::vector<SeparableOperator> all_grids() {
+    std::vector<SeparableOperator> grids = all_planes();
+    for (const SeparableOperator& box : all_boxes()) grids.push_back(box);
+    return grids;
+}
+
 /// Values without any order, scale or symmetry.
-Eigen::VectorXd some_values(const PlaneOperator& plane) {
-    Eigen::VectorXd f(plane.x.cells * plane.y.cells);
+Eigen::VectorXd some_values(const SeparableOperator& plane) {
+    Eigen::VectorXd f(plane.layer() * plane.y.cells);
     for (int i = 0; i < f.size(); ++i) f[i] = std::sin(3.7 * i * i + 1.0) + 0.3;
     return f;
 }
@@ -41,17 +60,13 @@ Eigen::VectorXd solved(SeparableSolve& solve, const Eigen::VectorXd& f) {
     return values;
 }
 
-bool singular(const PlaneOperator& plane) {
-    return plane.x.has_zero_mode() && plane.y.has_zero_mode();
-}
-
 TEST(SeparableSolve, EqualsADenseSolveForEveryPairOfEnds) {
-    for (const PlaneOperator& plane : all_planes()) {
+    for (const SeparableOperator& plane : all_grids()) {
         SeparableSolve solve(plane);
-        const Eigen::MatrixXd L = dense_plane(plane);
+        const Eigen::MatrixXd L = dense_grid(plane);
         const Eigen::VectorXd f = some_values(plane);
         for (const Helmholtz& problem : {Helmholtz{1.0, 0.02}, {3.0, 50.0}, {0.0, 0.7}}) {
-            if (problem.alpha == 0.0 && singular(plane)) continue;
+            if (problem.alpha == 0.0 && plane.has_zero_mode()) continue;
             solve.factorise(problem);
             const Eigen::MatrixXd A =
                 problem.alpha * Eigen::MatrixXd::Identity(f.size(), f.size()) + problem.beta * L;
@@ -65,8 +80,8 @@ TEST(SeparableSolve, EqualsADenseSolveForEveryPairOfEnds) {
 /// solution for g, which is that of least norm.
 TEST(SeparableSolve, FreeConstantsTakeTheMeanOffAndGiveZeroMean) {
     int seen = 0;
-    for (const PlaneOperator& plane : all_planes()) {
-        if (!singular(plane)) continue;
+    for (const SeparableOperator& plane : all_grids()) {
+        if (!plane.has_zero_mode()) continue;
         ++seen;
         SeparableSolve solve(plane);
         solve.factorise({0.0, 0.7});
@@ -76,22 +91,22 @@ TEST(SeparableSolve, FreeConstantsTakeTheMeanOffAndGiveZeroMean) {
         x = g.array() + 5.0;
         EXPECT_NEAR(solve.solve(), 5.0, 1e-13);
         const Eigen::VectorXd expected =
-            (0.7 * dense_plane(plane)).completeOrthogonalDecomposition().solve(g);
+            (0.7 * dense_grid(plane)).completeOrthogonalDecomposition().solve(g);
         EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
         EXPECT_NEAR(x.mean(), 0.0, 1e-14);
     }
-    EXPECT_EQ(seen, 4 * 4);  // neumann or periodic along x and along y, four grids each
+    EXPECT_EQ(seen, 4 * 4 + 8 * 2);  // neumann or periodic along every axis, four planes, two boxes
 }
 
 /// On a large grid the residual is rounding: eps |A| |x|, with a margin of 100.
 TEST(SeparableSolve, LeavesARoundingResidualOnALargeGrid) {
     for (const Ends& x_ends : all_ends())
         for (const Ends& y_ends : all_ends()) {
-            const PlaneOperator plane{axis_of(100, 0.25, x_ends), axis_of(200, 0.25, y_ends)};
+            const SeparableOperator plane{axis_of(100, 0.25, x_ends), axis_of(200, 0.25, y_ends)};
             SeparableSolve solve(plane);
             solve.factorise({0.0, 1.0});
             Eigen::VectorXd f = some_values(plane);
-            if (singular(plane)) f.array() -= f.mean();
+            if (plane.has_zero_mode()) f.array() -= f.mean();
             const Eigen::VectorXd solution = solved(solve, f);
             const auto x = Eigen::Map<const Eigen::MatrixXd>(solution.data(), 100, 200);
             const Eigen::MatrixXd image =
@@ -106,7 +121,7 @@ TEST(SeparableSolve, LeavesARoundingResidualOnALargeGrid) {
 TEST(SeparableSolve, TheHundredthSolveIsAsGoodAsTheFirst) {
     // Rows are transformed in pairs, also the last of an odd number. What it leaves in the row that
     // stands in for the missing one must not return.
-    for (const PlaneOperator& plane : all_planes()) {
+    for (const SeparableOperator& plane : all_grids()) {
         SeparableSolve solve(plane);
         solve.factorise({1.0, 0.02});
         const Eigen::VectorXd f = some_values(plane), first = solved(solve, f);
@@ -118,8 +133,8 @@ TEST(SeparableSolve, TheHundredthSolveIsAsGoodAsTheFirst) {
 
 /// A second problem with the same plans, and then the first again, bit for bit.
 TEST(SeparableSolve, CanBeFactorisedAgain) {
-    const PlaneOperator plane{axis_of(7, 0.25, {End::neumann, End::neumann}),
-                              axis_of(6, 0.4, {End::periodic, End::periodic})};
+    const SeparableOperator plane{axis_of(7, 0.25, {End::neumann, End::neumann}),
+                                  axis_of(6, 0.4, {End::periodic, End::periodic})};
     SeparableSolve solve(plane);
     const Eigen::VectorXd f = some_values(plane);
     solve.factorise({0.0, 1.0});
@@ -140,7 +155,7 @@ TEST(SeparableSolve, RefusesWhatIsNotPositive) {
 
 /// Stock OpenFOAM applications abort at the first division by zero.
 TEST(SeparableSolve, FreeConstantsAreNoDivisionByZero) {
-    for (const PlaneOperator& plane : all_planes()) {
+    for (const SeparableOperator& plane : all_grids()) {
         SeparableSolve solve(plane);
         std::feclearexcept(FE_ALL_EXCEPT);
         solve.factorise({0.0, 1.0});

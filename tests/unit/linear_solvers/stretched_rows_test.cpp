@@ -31,8 +31,8 @@ std::vector<double> irregular(int rows) {
     return sizes;
 }
 
-std::vector<PlaneOperator> stretched_planes() {
-    std::vector<PlaneOperator> planes;
+std::vector<SeparableOperator> stretched_planes() {
+    std::vector<SeparableOperator> planes;
     for (const Ends& x : all_ends())
         for (const Ends& y : all_ends()) {
             if (y[0] == End::periodic) continue;
@@ -46,28 +46,28 @@ std::vector<PlaneOperator> stretched_planes() {
     return planes;
 }
 
-Eigen::VectorXd some_values(const PlaneOperator& plane) {
+Eigen::VectorXd some_values(const SeparableOperator& plane) {
     Eigen::VectorXd f(plane.x.cells * plane.y.cells);
     for (int i = 0; i < f.size(); ++i) f[i] = std::sin(3.7 * i * i + 1.0) + 0.3;
     return f;
 }
 
 /// Heights of the rows, for every cell.
-Eigen::VectorXd heights(const PlaneOperator& plane) {
+Eigen::VectorXd heights(const SeparableOperator& plane) {
     Eigen::VectorXd all(plane.x.cells * plane.y.cells);
     for (int c = 0; c < all.size(); ++c) all[c] = plane.y.sizes[c / plane.x.cells];
     return all;
 }
 
-bool singular(const PlaneOperator& plane) {
+bool singular(const SeparableOperator& plane) {
     return plane.x.has_zero_mode() && plane.y.has_zero_mode();
 }
 
 TEST(StretchedRows, EqualADenseSolve) {
     int seen = 0;
-    for (const PlaneOperator& plane : stretched_planes()) {
+    for (const SeparableOperator& plane : stretched_planes()) {
         SeparableSolve solve(plane);
-        const Eigen::MatrixXd L = dense_plane(plane);
+        const Eigen::MatrixXd L = dense_grid(plane);
         const Eigen::VectorXd f = some_values(plane);
         for (const Helmholtz& problem : {Helmholtz{1.0, 0.02}, {3.0, 50.0}, {0.0, 0.7}}) {
             if (problem.alpha == 0.0 && singular(plane)) continue;
@@ -88,7 +88,7 @@ TEST(StretchedRows, EqualADenseSolve) {
 /// The mean over the volume is taken off f, and the solution's is zero.
 TEST(StretchedRows, FreeConstantsAreThoseOfTheVolume) {
     int seen = 0;
-    for (const PlaneOperator& plane : stretched_planes()) {
+    for (const SeparableOperator& plane : stretched_planes()) {
         if (!singular(plane)) continue;
         ++seen;
         SeparableSolve solve(plane);
@@ -100,15 +100,15 @@ TEST(StretchedRows, FreeConstantsAreThoseOfTheVolume) {
         x = g.array() + 5.0;
         EXPECT_NEAR(solve.solve(), 5.0, 1e-13);
         EXPECT_NEAR(volume.dot(x), 0.0, 1e-13);
-        EXPECT_LT((0.7 * dense_plane(plane) * x - g).norm(), 1e-12 * g.norm());
+        EXPECT_LT((0.7 * dense_grid(plane) * x - g).norm(), 1e-12 * g.norm());
     }
     EXPECT_EQ(seen, 8);
 }
 
 TEST(StretchedRows, OfTheReferenceHeightAreEqualRows) {
-    PlaneOperator equal{axis_of(12, h, {End::neumann, End::neumann}),
-                        axis_of(40, h, {End::dirichlet, End::neumann})};
-    PlaneOperator stretched = equal;
+    SeparableOperator equal{axis_of(12, h, {End::neumann, End::neumann}),
+                            axis_of(40, h, {End::dirichlet, End::neumann})};
+    SeparableOperator stretched = equal;
     stretched.y.sizes.assign(40, h);
     SeparableSolve one(equal), other(stretched);
     const Eigen::VectorXd f = some_values(equal);

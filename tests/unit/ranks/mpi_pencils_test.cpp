@@ -23,20 +23,20 @@ struct Solved {
     double mean;
 };
 
-Solved on_one_rank(const PlaneOperator& plane, const Helmholtz& problem) {
+Solved on_one_rank(const SeparableOperator& plane, const Helmholtz& problem) {
     SeparableSolve solve(plane);
     solve.factorise(problem);
-    const int cells = plane.x.cells * plane.y.cells;
+    const int cells = plane.layer() * plane.y.cells;
     for (int c = 0; c < cells; ++c) solve.values()[c] = some_value(c);
     const double mean = solve.solve();
     return {{solve.values(), solve.values() + cells}, mean};
 }
 
-void expect_equal_on_all_ranks(const PlaneOperator& plane, const Helmholtz& problem,
+void expect_equal_on_all_ranks(const SeparableOperator& plane, const Helmholtz& problem,
                                const Decomposition& decomposition) {
     SCOPED_TRACE(decomposition.name);
     const RankGroup group(MPI_COMM_WORLD);
-    const int nx = plane.x.cells, ny = plane.y.cells;
+    const int nx = plane.layer(), ny = plane.y.cells;
     const std::vector<int> cells =
         cells_of(decomposition, nx, ny, group.rank(), group.size(), decomposition.name == "random");
     CellRows rows(group, nx, ny, cells);
@@ -53,6 +53,15 @@ void expect_equal_on_all_ranks(const PlaneOperator& plane, const Helmholtz& prob
     });
     EXPECT_NEAR(mean, expected.mean, 1e-14);
     EXPECT_NEAR(rows.first(solve.values()), expected.values[0], 1e-13);
+}
+
+TEST(MpiPencils, SolveBoxesAsOneRankDoes) {
+    for (const Ends& z : all_ends())
+        for (const Decomposition& decomposition : all_decompositions())
+            for (const double alpha : {0.0, 1.0})
+                expect_equal_on_all_ranks({axis_of(5, 0.25, all_ends()[0]),
+                                           axis_of(12, 0.4, all_ends()[4]), axis_of(3, 0.3, z)},
+                                          {alpha, 0.02}, decomposition);
 }
 
 TEST(MpiPencils, SolveAsOneRankDoesForEveryPairOfEnds) {
