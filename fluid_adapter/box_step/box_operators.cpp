@@ -9,122 +9,131 @@
 namespace turbidite {
 namespace {
 
-/// The grid of a plane, with values that sides leave alone.
-SeparableOperator even(SeparableOperator plane) {
-    for (AxisOperator* axis : {&plane.x, &plane.y})
+/// The grid, with values that sides leave alone.
+SeparableOperator even(SeparableOperator grid) {
+    for (AxisOperator* axis : {&grid.x, &grid.y, &grid.z})
         if (!axis->periodic()) axis->lower = axis->upper = End::neumann;
-    return plane;
+    return grid;
 }
 
 }  // namespace
 
 BoxOperators::BoxOperators(const SeparableOperator& velocity, const SeparableOperator& pressure,
-                           BoxRows& rows, const std::array<SideValues, 2>& sides)
-    : nx_(pressure.x.cells),
-      ny_(rows.count()),
-      hx_(pressure.x.spacing),
-      heights_(pressure.y, rows),
-      periodic_(pressure.x.periodic()),
-      rows_(rows),
-      velocity_{RowReader(velocity, rows, &sides[0]), RowReader(velocity, rows, &sides[1])},
-      change_{RowReader(velocity, rows), RowReader(velocity, rows)},
+                           BoxRows& rows, const VelocityOnSides& sides)
+    : layers_(pressure, rows),
       p_(pressure, rows),
       w_(even(pressure), rows),
-      ends_(pressure, rows) {
-    along_.resize(nx_ + RowReader::padding);
-    face_along_.resize(nx_ + 1);
-    for (Row* row : {&below_, &here_, &above_, &image_, &face_below_, &face_above_})
-        row->resize(nx_);
+      ends_(pressure, rows),
+      q_x_(layers_.nx, 1),
+      q_z_(layers_.nx, layers_.nz),
+      below_(layers_.layer()),
+      here_(below_),
+      above_(below_),
+      image_(below_),
+      none_(layers_.nx, 0.0),
+      faces_{Layer(layers_.nx + 1), below_, below_, none_, none_} {
+    for (int axis = 0; axis < layers_.components(); ++axis) {
+        velocity_.emplace_back(velocity, rows, &sides[axis]);
+        change_.emplace_back(velocity, rows);
+    }
+}
+
+/// work(j, k, the first cell of row k of layer j)
+template <class Work>
+void BoxOperators::for_rows(Work work) const {
+    for (int j = 0; j < layers_.ny; ++j)
+        for (int k = 0; k < layers_.nz; ++k) work(j, k, layers_.row(j, k));
 }
 
 double BoxOperators::sum_of_cells(const std::vector<double>& values) const {
-    if (!heights_.stretched()) return std::accumulate(values.begin(), values.end(), 0.0);
+    if (!layers_.heights.stretched()) return std::accumulate(values.begin(), values.end(), 0.0);
     double sum = 0.0;
-    for (int j = 0; j < ny_; ++j)
-        sum += heights_.relative(j) *
-               std::accumulate(values.begin() + at(j), values.begin() + at(j + 1), 0.0);
+    for (int j = 0; j < layers_.ny; ++j)
+        sum += layers_.heights.relative(j) * std::accumulate(values.begin() + layers_.row(j, 0),
+                                                             values.begin() + layers_.row(j + 1, 0),
+                                                             0.0);
     return sum;
 }
 
 double BoxOperators::dot(const std::vector<double>& a, const std::vector<double>& b) const {
     double sum = 0.0;
-    for (int j = 0; j < ny_; ++j)
-        sum += heights_.relative(j) * dot_row(nx_, a.data() + at(j), b.data() + at(j));
+    for_rows([&](int j, int, std::size_t c) {
+        sum += layers_.heights.relative(j) * dot_row(layers_.nx, a.data() + c, b.data() + c);
+    });
     return sum;
 }
 
 double BoxOperators::volume() const {
     double sum = 0.0;
-    for (int j = 0; j < ny_; ++j) sum += heights_.relative(j) * nx_;
+    for (int j = 0; j < layers_.ny; ++j)
+        sum += layers_.heights.relative(j) * static_cast<double>(layers_.layer());
     return sum;
 }
 
-/// Of row j, whose rows these are.
+/// Of a row of layer j, whose values these are.
 void BoxOperators::add_products(int j, const double* image, const double* d, const double* r,
                                 ImageProducts& products) const {
-    const double volume = heights_.relative(j);
-    products.direction += volume * dot_row(nx_, image, d);
-    products.residual += volume * dot_row(nx_, image, r);
-    products.itself += volume * dot_row(nx_, image, image);
-    products.step += volume * dot_row(nx_, r, d);
+    const double volume = layers_.heights.relative(j);
+    const int nx = layers_.nx;
+    products.direction += volume * dot_row(nx, image, d);
+    products.residual += volume * dot_row(nx, image, r);
+    products.itself += volume * dot_row(nx, image, image);
+    products.step += volume * dot_row(nx, r, d);
 }
 
 void BoxOperators::laplacian(double share, int axis, const double* u, double* f) {
     RowReader& rows = velocity_[axis];
     rows.begin(u);
-    for (int j = 0; j < ny_; ++j) differences().laplacian(j, share, rows, f + at(j));
+    for_rows(
+        [&](int j, int k, std::size_t c) { differences().laplacian(j, k, share, rows, f + c); });
 }
 
-void BoxOperators::add_impulses(double sign, double step, const double* p, const RowsOfTwo& f,
-                                double* x, double* y) {
+void BoxOperators::add_impulses(double sign, double step, const double* p, const VelocityRows& f,
+                                const VelocityPointers& u) {
     p_.begin(p);
-    for (int j = 0; j < ny_; ++j) {
-        const double* here = p_.row(j);
-        add_row(nx_, sign, f.x.data() + at(j), x + at(j));
-        add_row(nx_, sign, f.y.data() + at(j), y + at(j));
-        correct(nx_, 0.5 * sign * step / hx_, here - 1, here + 1, x + at(j), x + at(j));
-        differences().correct_across(j, sign * step, p_, y + at(j), y + at(j));
-    }
+    for_rows([&](int j, int k, std::size_t c) {
+        for (int axis = 0; axis < u.size(); ++axis) {
+            add_row(layers_.nx, sign, f[axis].data() + c, u[axis] + c);
+            differences().correct(axis, j, k, sign * step, p_, u[axis] + c, u[axis] + c);
+        }
+    });
 }
 
-void BoxOperators::gradient(double step, const double* p, double* x, double* y) {
+void BoxOperators::gradient(double step, const double* p, const VelocityPointers& u) {
     p_.begin(p);
-    gradient_rows(step, x, y);
+    gradient_rows(step, u);
 }
 
-void BoxOperators::direction(double step, const double* z, double beta, double* d, double* x,
-                             double* y) {
-    p_.begin(d, [this, z, beta, d](int j) { next_direction(nx_, z + at(j), beta, d + at(j)); });
-    gradient_rows(step, x, y);
+void BoxOperators::direction(double step, const double* z, double beta, double* d,
+                             const VelocityPointers& u) {
+    p_.begin(d, [this, z, beta, d](int j) {
+        const std::size_t c = layers_.row(j, 0);
+        next_direction(static_cast<int>(layers_.layer()), z + c, beta, d + c);
+    });
+    gradient_rows(step, u);
 }
 
-/// x, y = -step G of what p_ reads.
-void BoxOperators::gradient_rows(double step, double* x, double* y) {
-    for (int j = 0; j < ny_; ++j) {
-        const double* here = p_.row(j);
-        difference_row(nx_, -0.5 * step / hx_, here - 1, here + 1, x + at(j));
-        gradient_across(j, step, y + at(j));
-    }
-}
-
-/// y = -step G along y of row j of what p_ reads.
-void BoxOperators::gradient_across(int j, double step, double* y) {
-    std::fill_n(y, nx_, 0.0);
-    differences().correct_across(j, step, p_, y, y);
+/// u = -step G of what p_ reads.
+void BoxOperators::gradient_rows(double step, const VelocityPointers& u) {
+    for_rows([&](int j, int k, std::size_t c) {
+        for (int axis = 0; axis < u.size(); ++axis)
+            differences().correct(axis, j, k, step, p_, none_.data(), u[axis] + c);
+    });
 }
 
 ViscousSums BoxOperators::viscous_residual(double share, int axis, const double* u, const double* f,
                                            double* r, double* again) {
     RowReader& rows = velocity_[axis];
+    const int nx = layers_.nx;
     rows.begin(u);
     ViscousSums sums;
-    for (int j = 0; j < ny_; ++j) {
-        differences().laplacian(j, share, rows, r + at(j));
-        add_row(nx_, -1.0, f + at(j), r + at(j));
-        std::copy_n(r + at(j), nx_, again + at(j));
-        sums.square += heights_.relative(j) * dot_row(nx_, r + at(j), r + at(j));
-        sums.sum += heights_.relative(j) * sum_row(nx_, r + at(j));
-    }
+    for_rows([&](int j, int k, std::size_t c) {
+        differences().laplacian(j, k, share, rows, r + c);
+        add_row(nx, -1.0, f + c, r + c);
+        std::copy_n(r + c, nx, again + c);
+        sums.square += layers_.heights.relative(j) * dot_row(nx, r + c, r + c);
+        sums.sum += layers_.heights.relative(j) * sum_row(nx, r + c);
+    });
     return sums;
 }
 
@@ -133,87 +142,120 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
     RowReader& rows = change_[axis];
     rows.begin(v);
     ImageProducts products;
-    for (int j = 0; j < ny_; ++j) {
-        double* out = image ? image + at(j) : image_.data();
-        differences().laplacian(j, -share, rows, out);
-        add_row(nx_, 1.0, d + at(j), out);
-        add_products(j, out, rows.row(j), r + at(j), products);
-    }
+    for_rows([&](int j, int k, std::size_t c) {
+        double* out = image ? image + c : image_.data();
+        differences().laplacian(j, k, -share, rows, out);
+        add_row(layers_.nx, 1.0, d + c, out);
+        add_products(j, out, rows.row(j, k), r + c, products);
+    });
     return products;
 }
 
-/// out = share D (u, v) of row j.
-void BoxOperators::divergence_of(int j, double share, RowReader& u, RowReader& v, double* out) {
-    const double* here = u.row(j);
-    const double* below = v.row(j - 1);
-    const double* across = v.row(j);
-    const double* above = v.row(j + 1);
-    central_divergence_row(nx_, 0.5 * share / hx_, here - 1, here + 1,
-                           heights_.central_difference(j, share), below, across, above, out);
+/// out = share D u of layer j.
+void BoxOperators::divergence_of(int j, double share, std::vector<RowReader>& u, double* out) {
+    const int nx = layers_.nx;
+    const ThreeRows y = layers_.heights.central_difference(j, share);
+    for (int k = 0; k < layers_.nz; ++k, out += nx) {
+        const double* here = u[0].row(j, k);
+        const double* below = u[1].row(j - 1, k);
+        const double* across = u[1].row(j, k);
+        const double* above = u[1].row(j + 1, k);
+        central_divergence_row(nx, 0.5 * share / layers_.hx, here - 1, here + 1, y, below, across,
+                               above, out);
+        if (layers_.in_space())
+            subtract_difference(nx, -0.5 * share / layers_.hz, u[2].row(j, k - 1),
+                                u[2].row(j, k + 1), out);
+    }
 }
 
-double BoxOperators::flux_residual(double step, const double* p, double* x, double* y,
+double BoxOperators::flux_residual(double step, const double* p, const VelocityPointers& u,
                                    const ExcessFlux& excess, const PendingChange& change,
                                    double* r) {
-    begin_velocity(x, y, change);
+    begin_velocity(u, change);
     begin_smoothing(excess.w, p);
-    kept_across(0, excess, face_below_.data());
+    kept_below(0, excess, faces_.below.data());
     double sum = 0.0;
-    for (int j = 0; j < ny_; ++j) {
-        double* out = r + at(j);
-        divergence_of(j, -1.0, velocity_[0], velocity_[1], out);
-        kept_along(j, excess, face_along_.data());
-        kept_across(j + 1, excess, face_above_.data());
-        add_divergence_row(nx_, -1.0 / hx_, face_along_.data(), face_along_.data() + 1,
-                           -1.0 / heights_.size(j), face_below_.data(), face_above_.data(), out);
-        face_below_.swap(face_above_);
+    for (int j = 0; j < layers_.ny; ++j) {
+        double* out = r + layers_.row(j, 0);
+        divergence_of(j, -1.0, velocity_, out);
+        add_divergence_of_excess(j, excess, out);
         add_smoothing(j, -step, out);
-        sum += heights_.relative(j) * dot_row(nx_, out, out);
+        for (int k = 0; k < layers_.nz; ++k, out += layers_.nx)
+            sum += layers_.heights.relative(j) * dot_row(layers_.nx, out, out);
     }
     return sum;
 }
 
-void BoxOperators::begin_velocity(double* x, double* y, const PendingChange& change) {
-    if (change.share == 0.0) {
-        velocity_[0].begin(x);
-        velocity_[1].begin(y);
-        return;
+/// out -= div of what remains of e, of layer j; layers in ascending order.
+void BoxOperators::add_divergence_of_excess(int j, const ExcessFlux& excess, double* out) {
+    const int nx = layers_.nx;
+    kept_below(j + 1, excess, faces_.above.data());
+    if (layers_.in_space()) kept_behind(j, 0, excess, faces_.before.data());
+    for (int k = 0; k < layers_.nz; ++k, out += nx) {
+        const std::size_t row = static_cast<std::size_t>(k) * nx;
+        kept_along(j, k, excess, faces_.along.data());
+        add_divergence_row(nx, -1.0 / layers_.hx, faces_.along.data(), faces_.along.data() + 1,
+                           -1.0 / layers_.heights.size(j), faces_.below.data() + row,
+                           faces_.above.data() + row, out);
+        if (!layers_.in_space()) break;
+        faces_.behind.swap(faces_.before);
+        kept_behind(j, k + 1, excess, faces_.before.data());
+        subtract_difference(nx, 1.0 / layers_.hz, faces_.behind.data(), faces_.before.data(), out);
     }
-    const auto made = [&](double* u, const double* by) {
-        return [this, u, by, share = change.share](int j) {
-            add_row(nx_, share, by + at(j), u + at(j));
+    faces_.below.swap(faces_.above);
+}
+
+void BoxOperators::begin_velocity(const VelocityPointers& u, const PendingChange& pending) {
+    for (int axis = 0; axis < u.size(); ++axis) {
+        if (pending.share == 0.0) {
+            velocity_[axis].begin(u[axis]);
+            continue;
+        }
+        const auto change = [this, to = u[axis], by = pending.change[axis],
+                             share = pending.share](int j) {
+            const std::size_t c = layers_.row(j, 0);
+            add_row(static_cast<int>(layers_.layer()), share, by + c, to + c);
         };
-    };
-    velocity_[0].begin(x, made(x, change.x));
-    velocity_[1].begin(y, made(y, change.y));
+        velocity_[axis].begin(u[axis], change);
+    }
 }
 
-/// What remains of e on the x faces of row j, whose w has been read.
-void BoxOperators::kept_along(int j, const ExcessFlux& excess, double* face) {
-    const double* w = w_.row(j);
-    kept_row(nx_ + 1, excess.k, w - 1, w, excess.x + along(j), face);
-    if (!periodic_) face[0] = face[nx_] = 0.0;
+/// What remains of e on the faces along row k of layer j, whose w has been read.
+void BoxOperators::kept_along(int j, int k, const ExcessFlux& excess, double* face) {
+    const double* w = w_.row(j, k);
+    const int nx = layers_.nx;
+    kept_row(nx + 1, excess.k, w - 1, w, excess.e[0] + layers_.face_row(0, j, k), face);
+    if (!layers_.periodic_x) face[0] = face[nx] = 0.0;
 }
 
-/// What remains of e on the faces below row j.
-void BoxOperators::kept_across(int j, const ExcessFlux& excess, double* face) {
-    const bool side = (j == 0 && !rows_.open_below()) || (j == ny_ && !rows_.open_above());
-    const double* below = w_.row(j - 1);
-    kept_row(nx_, side ? 0.0 : excess.k, below, w_.row(j), excess.y + at(j), face);
+/// What remains of e on the faces below layer j.
+void BoxOperators::kept_below(int j, const ExcessFlux& excess, double* faces) {
+    const double kept = layers_.side_below(j) ? 0.0 : excess.k;
+    for (int k = 0; k < layers_.nz; ++k, faces += layers_.nx) {
+        const double* below = w_.row(j - 1, k);
+        kept_row(layers_.nx, kept, below, w_.row(j, k), excess.e[1] + layers_.face_row(1, j, k),
+                 faces);
+    }
+}
+
+/// What remains of e on the faces behind row k of layer j.
+void BoxOperators::kept_behind(int j, int k, const ExcessFlux& excess, double* face) {
+    const double kept = layers_.side_behind(k) ? 0.0 : excess.k;
+    kept_row(layers_.nx, kept, w_.row(j, k - 1), w_.row(j, k),
+             excess.e[2] + layers_.face_row(2, j, k), face);
 }
 
 ImageProducts BoxOperators::flux_image(double step, const double* w, const double* d,
-                                       const double* x, const double* y, const double* r,
-                                       double* image) {
-    change_[0].begin(x);
-    change_[1].begin(y);
+                                       const VelocityPointers& u, const double* r, double* image) {
+    for (int axis = 0; axis < u.size(); ++axis) change_[axis].begin(u[axis]);
     begin_smoothing(w, d);
     ImageProducts products;
-    for (int j = 0; j < ny_; ++j) {
-        double* out = image ? image + at(j) : image_.data();
-        divergence_of(j, 1.0, change_[0], change_[1], out);
+    for (int j = 0; j < layers_.ny; ++j) {
+        double* out = image ? image + layers_.row(j, 0) : image_.data();
+        divergence_of(j, 1.0, change_, out);
         add_smoothing(j, step, out);
-        add_products(j, out, d + at(j), r + at(j), products);
+        for (int k = 0; k < layers_.nz; ++k, out += layers_.nx)
+            add_products(j, out, d + layers_.row(j, k), r + layers_.row(j, k), products);
     }
     return products;
 }
@@ -225,52 +267,84 @@ void BoxOperators::begin_smoothing(const double* w, const double* p) {
     second_difference_across(0, here_);
 }
 
-/// along = w d2 p along x of row j, extended beyond both ends as p is.
-void BoxOperators::second_difference_along(int j) {
-    const double* p = p_.row(j);
-    double* inside = along_.data() + RowReader::beyond;
-    weighted_difference(nx_, ones, w_.row(j), p - 1, p, p + 1, inside);
-    ends_.extend(inside, j);
+/// q = w d2 p along row k of layer j, extended beyond both ends as p is.
+const double* BoxOperators::second_difference_along(int j, int k) {
+    const double* p = p_.row(j, k);
+    weighted_difference(layers_.nx, ones, w_.row(j, k), p - 1, p, p + 1, q_x_.row(0));
+    ends_.extend(q_x_.row(0), j, k);
+    return q_x_.row(0);
 }
 
-/// q along y of row j.
-void BoxOperators::second_difference_across(int j, Row& q) {
-    const double* below = p_.row(j - 1);
-    const double* here = p_.row(j);
-    const double* above = p_.row(j + 1);
-    weighted_difference(nx_, heights_.over_distances(j, heights_.size(j)), w_.row(j), below, here,
-                        above, q.data());
+/// q along y of layer j.
+void BoxOperators::second_difference_across(int j, Layer& q) {
+    const RowShares shares = layers_.heights.over_distances(j, layers_.heights.size(j));
+    for (int k = 0; k < layers_.nz; ++k) {
+        const double* below = p_.row(j - 1, k);
+        const double* here = p_.row(j, k);
+        const double* above = p_.row(j + 1, k);
+        weighted_difference(layers_.nx, shares, w_.row(j, k), below, here, above,
+                            q.data() + static_cast<std::size_t>(k) * layers_.nx);
+    }
 }
 
-/// out += share Q p of row j; rows in ascending order.
+/// q along z of layer j, extended as p is.
+void BoxOperators::second_difference_between(int j) {
+    for (int k = 0; k < layers_.nz; ++k)
+        weighted_difference(layers_.nx, ones, w_.row(j, k), p_.row(j, k - 1), p_.row(j, k),
+                            p_.row(j, k + 1), q_z_.row(k));
+    ends_.extend(q_z_, j);
+}
+
+/// out += share Q p of layer j; layers in ascending order.
 void BoxOperators::add_smoothing(int j, double share, double* out) {
-    const double x = 0.25 * share / (hx_ * hx_);
-    const RowShares y = heights_.over_volumes(j, 0.25 * share);
-    const double* q = along_.data() + RowReader::beyond;
-    second_difference_along(j);
+    const double x = 0.25 * share / (layers_.hx * layers_.hx);
+    const double z = 0.25 * share / (layers_.hz * layers_.hz);
+    const RowShares y = layers_.heights.over_volumes(j, 0.25 * share);
+    if (layers_.in_space()) second_difference_between(j);
     second_difference_across(j + 1, above_);
-    add_differences(nx_, x, q - 1, q, q + 1, y, below_.data(), here_.data(), above_.data(), out);
+    for (int k = 0; k < layers_.nz; ++k, out += layers_.nx) {
+        const std::size_t row = static_cast<std::size_t>(k) * layers_.nx;
+        const double* q = second_difference_along(j, k);
+        add_differences(layers_.nx, x, q - 1, q, q + 1, y, below_.data() + row, here_.data() + row,
+                        above_.data() + row, out);
+        if (layers_.in_space())
+            add_second_difference(layers_.nx, z, q_z_.row(k - 1), q_z_.row(k), q_z_.row(k + 1),
+                                  out);
+    }
     below_.swap(here_);
     here_.swap(above_);
 }
 
 void BoxOperators::update_excess(double step, const double* p, const ExcessFlux& excess) {
     begin_smoothing(excess.w, p);
-    const double x = 0.25 * step / hx_;
-    const double* q = along_.data() + RowReader::beyond;
-    for (int j = 0; j <= ny_; ++j) {
-        double* across = excess.y + at(j);
-        const double y = 0.25 * step / heights_.distance(j);
-        kept_across(j, excess, across);
-        correct(nx_, -y, below_.data(), here_.data(), across, across);
-        if (j == ny_) break;
-        second_difference_along(j);
+    for (int j = 0; j <= layers_.ny; ++j) {
+        double* faces = excess.e[1] + layers_.face_row(1, j, 0);
+        kept_below(j, excess, faces);
+        correct(static_cast<int>(layers_.layer()), -0.25 * step / layers_.heights.distance(j),
+                below_.data(), here_.data(), faces, faces);
+        if (j == layers_.ny) break;
+        update_excess_within(j, step, excess);
         second_difference_across(j + 1, above_);
-        double* left = excess.x + along(j);
-        kept_along(j, excess, left);
-        correct(nx_ + 1, -x, q - 1, q, left, left);
         below_.swap(here_);
         here_.swap(above_);
+    }
+}
+
+/// On the faces of the rows of layer j along x and z.
+void BoxOperators::update_excess_within(int j, double step, const ExcessFlux& excess) {
+    const double x = 0.25 * step / layers_.hx, z = 0.25 * step / layers_.hz;
+    for (int k = 0; k < layers_.nz; ++k) {
+        const double* q = second_difference_along(j, k);
+        double* left = excess.e[0] + layers_.face_row(0, j, k);
+        kept_along(j, k, excess, left);
+        correct(layers_.nx + 1, -x, q - 1, q, left, left);
+    }
+    if (!layers_.in_space()) return;
+    second_difference_between(j);
+    for (int k = 0; k <= layers_.nz; ++k) {
+        double* behind = excess.e[2] + layers_.face_row(2, j, k);
+        kept_behind(j, k, excess, behind);
+        correct(layers_.nx, -z, q_z_.row(k - 1), q_z_.row(k), behind, behind);
     }
 }
 

@@ -19,25 +19,16 @@
 // the slope of p between two rows: q = w h (s_{+1} - s), e = dt (q_{+1} - q)/(4d), and Q p is the
 // divergence of e. All products are weighted by volumes: in them G and D, Q and L are symmetric.
 //
-// Each function reads and writes its arrays once, a row at a time; sums that the caller needs are
+// Each function reads and writes its arrays once, a layer at a time; sums that the caller needs are
 // taken while a row is in cache, and are those of this rank. Valid C++17.
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "fluid_adapter/box_step/box_fluid.hpp"
 #include "fluid_adapter/box_step/row_differences.hpp"
 
 namespace turbidite {
-
-/// Components over a rank's rows, an array each: a kernel reads one at a time.
-struct RowsOfTwo {
-    std::vector<double> x, y;
-
-    void resize(std::size_t size) { x.resize(size), y.resize(size); }
-    std::vector<double>& operator[](int axis) { return axis == 0 ? x : y; }
-    const std::vector<double>& operator[](int axis) const { return axis == 0 ? x : y; }
-};
 
 /// Of the image A d of a direction d.
 struct ImageProducts {
@@ -57,27 +48,28 @@ struct ViscousSums {
     double sum = 0.0;     ///< of r
 };
 
-/// Both components of the excess flux of the last window, laid out as BoxStep::excess, of which the
-/// part k remains on faces with a cell of w = 1, and nothing on others and on the sides of the box.
+/// The excess flux of the last window, laid out as BoxStep::excess, of which the part k remains on
+/// faces with a cell of w = 1, and nothing on others and on the sides of the box.
 struct ExcessFlux {
-    double *x, *y;
+    VelocityPointers e;
     double k = 1.0;
     const double* w;  ///< over the rank's cells
 };
 
-/// A change of velocity, u += share (x, y), still to be made by the kernel that next reads u.
+/// A change of velocity, u += share change, still to be made by the kernel that next reads u.
 struct PendingChange {
     double share = 0.0;
-    const double *x = nullptr, *y = nullptr;
+    Components<const double*> change = Components<const double*>();
 };
 
 class BoxOperators {
  public:
-    /// `rows` and the values on the sides, of both components, must outlive it.
+    /// `rows` and the values on the sides must outlive it.
     BoxOperators(const SeparableOperator& velocity, const SeparableOperator& pressure,
-                 BoxRows& rows, const std::array<SideValues, 2>& sides);
+                 BoxRows& rows, const VelocityOnSides& sides);
 
-    std::size_t size() const { return static_cast<std::size_t>(nx_) * ny_; }
+    std::size_t size() const { return layers_.cells(); }
+    int components() const { return layers_.components(); }
 
     /// Sum over the rank's cells, weighted by volumes over those of cells that are not stretched.
     double sum_of_cells(const std::vector<double>& values) const;
@@ -94,15 +86,15 @@ class BoxOperators {
     /// f = share L u, of the component of a velocity along `axis`
     void laplacian(double share, int axis, const double* u, double* f);
 
-    /// x, y += sign (f - step G p), one component of f each
-    void add_impulses(double sign, double step, const double* p, const RowsOfTwo& f, double* x,
-                      double* y);
+    /// u += sign (f - step G p)
+    void add_impulses(double sign, double step, const double* p, const VelocityRows& f,
+                      const VelocityPointers& u);
 
-    /// x, y = -step G p
-    void gradient(double step, const double* p, double* x, double* y);
+    /// u = -step G p
+    void gradient(double step, const double* p, const VelocityPointers& u);
 
-    /// d = z + beta d, x, y = -step G d
-    void direction(double step, const double* z, double beta, double* d, double* x, double* y);
+    /// d = z + beta d, u = -step G d
+    void direction(double step, const double* z, double beta, double* d, const VelocityPointers& u);
 
     /// r = share L u - f, of the component of a velocity. `again`: a second copy of r.
     ViscousSums viscous_residual(double share, int axis, const double* u, const double* f,
@@ -114,46 +106,52 @@ class BoxOperators {
                                 const double* r, double* image);
 
     /// r = -(D u + div e + step Q p) of a velocity, which is changed first; returns r.r
-    double flux_residual(double step, const double* p, double* x, double* y,
+    double flux_residual(double step, const double* p, const VelocityPointers& u,
                          const ExcessFlux& excess, const PendingChange& change, double* r);
 
-    /// A d = D (x, y) + step Q d of a change of velocity; its products with d, r, itself, and that
+    /// A d = D u + step Q d of a change of velocity; its products with d, r, itself, and that
     /// of r with d. `image`: where it is kept, unless null.
-    ImageProducts flux_image(double step, const double* w, const double* d, const double* x,
-                             const double* y, const double* r, double* image);
+    ImageProducts flux_image(double step, const double* w, const double* d,
+                             const VelocityPointers& u, const double* r, double* image);
 
     /// e = what remains of it + step (q_{+1} - q)/(4h)
     void update_excess(double step, const double* p, const ExcessFlux& excess);
 
  private:
-    using Row = std::vector<double>;
+    using Layer = std::vector<double>;
 
-    RowDifferences differences() const { return {nx_, hx_, heights_}; }
-    std::size_t at(int j) const { return static_cast<std::size_t>(j) * nx_; }
-    std::size_t along(int j) const { return static_cast<std::size_t>(j) * (nx_ + 1); }
+    /// Kept excess on the faces of a row along x, of two layers, and in space of two rows.
+    struct Faces {
+        Layer along, below, above, behind, before;
+    };
+
+    RowDifferences differences() const { return {layers_}; }
+    template <class Work>
+    void for_rows(Work work) const;
     void add_products(int j, const double* image, const double* d, const double* r,
                       ImageProducts& products) const;
-    void gradient_rows(double step, double* x, double* y);
-    void gradient_across(int j, double step, double* y);
-    void divergence_of(int j, double share, RowReader& u, RowReader& v, double* out);
-    void begin_velocity(double* x, double* y, const PendingChange& change);
-    void kept_along(int j, const ExcessFlux& excess, double* face);
-    void kept_across(int j, const ExcessFlux& excess, double* face);
+    void gradient_rows(double step, const VelocityPointers& u);
+    void divergence_of(int j, double share, std::vector<RowReader>& u, double* out);
+    void add_divergence_of_excess(int j, const ExcessFlux& excess, double* out);
+    void begin_velocity(const VelocityPointers& u, const PendingChange& pending);
+    void kept_along(int j, int k, const ExcessFlux& excess, double* face);
+    void kept_below(int j, const ExcessFlux& excess, double* faces);
+    void kept_behind(int j, int k, const ExcessFlux& excess, double* face);
     void begin_smoothing(const double* w, const double* p);
-    void second_difference_along(int j);
-    void second_difference_across(int j, Row& q);
+    const double* second_difference_along(int j, int k);
+    void second_difference_across(int j, Layer& q);
+    void second_difference_between(int j);
     void add_smoothing(int j, double share, double* out);
+    void update_excess_within(int j, double step, const ExcessFlux& excess);
 
-    int nx_, ny_;
-    double hx_;
-    RowHeights heights_;
-    bool periodic_;
-    BoxRows& rows_;
-    std::array<RowReader, 2> velocity_, change_;
+    BoxLayers layers_;
+    std::vector<RowReader> velocity_, change_;  // by component
     RowReader p_, w_;
-    RowReader ends_;  // extends rows of q
-    Row along_, below_, here_, above_, image_;
-    Row face_along_, face_below_, face_above_;
+    RowReader ends_;              // extends q
+    PaddedLayer q_x_, q_z_;       // q along x of a row, along z of a layer
+    Layer below_, here_, above_;  // q along y of three layers
+    Layer image_, none_;
+    Faces faces_;
 };
 
 }  // namespace turbidite

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The rows of a box that belong to a rank, and what lies beyond them: rows of another rank, rows
-// from the opposite end of a cyclic box, or a side of the box. A row is all cells with the same y.
-// Valid C++17.
+// The layers of a box that belong to a rank, and what lies beyond them: layers of another rank,
+// layers from the opposite end of a cyclic box, or a side of the box. A layer is all cells with the
+// same y; where only its place counts it is called a row. Valid C++17.
 #pragma once
 
 #include <memory>

@@ -4,17 +4,24 @@
 #include <algorithm>
 #include <utility>
 
-#include "fluid_adapter/box_step/row_work.hpp"
-
 namespace turbidite {
 namespace {
 
-double largest(const std::vector<double>& values) {
-    return *std::max_element(values.begin(), values.end());
+FaceValues values_on_faces(const BoxLayers& layers) {
+    FaceValues values(layers.components());
+    for (int axis = 0; axis < layers.components(); ++axis)
+        values[axis].assign(layers.faces(axis), 0.0);
+    return values;
 }
 
-AcrossFaces along_row(const double* u) {
-    return {u - 2, u - 1, u, u + 1};
+VelocityOnSides at_rest(const BoxLayers& layers) {
+    VelocityOnSides sides;
+    const std::size_t sizes[] = {
+        static_cast<std::size_t>(layers.ny) * layers.nz, layers.layer(),
+        layers.in_space() ? static_cast<std::size_t>(layers.nx) * layers.ny : 0};
+    for (SideValues& values : sides)
+        for (int side = 0; side < 6; ++side) values[side].assign(sizes[side / 2], 0.0);
+    return sides;
 }
 
 }  // namespace
@@ -25,256 +32,123 @@ BoxStep::BoxStep(const BoxFluid& fluid)
 BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
     : fluid_(fluid),
       rows_(std::move(rows)),
-      nx_(fluid.pressure.x.cells),
-      ny_(rows_->count()),
-      hx_(fluid.pressure.x.spacing),
-      heights_(fluid.pressure.y, *rows_),
+      layers_(fluid.pressure, *rows_),
       pressure_(fluid.pressure, rows_->pencils()),
-      viscous_{SeparableSolve(fluid.velocity, rows_->pencils()),
-               SeparableSolve(fluid.velocity, rows_->pencils())},
-      u_(fluid.velocity, *rows_, &side_velocity_[0]),
-      v_(fluid.velocity, *rows_, &side_velocity_[1]),
-      p_(fluid.pressure, *rows_) {
+      excess_(values_on_faces(layers_)),
+      side_velocity_(at_rest(layers_)),
+      p_(fluid.pressure, *rows_),
+      projection_(layers_, fluid.pressure, *rows_, u_, excess_, held_),
+      transport_(fluid_, layers_, u_, excess_, held_),
+      forces_(fluid_, layers_, side_velocity_) {
     pressure_.factorise({0.0, 1.0});
-    excess_[0].assign(static_cast<std::size_t>(nx_ + 1) * ny_, 0.0);
-    excess_[1].assign(static_cast<std::size_t>(nx_) * (ny_ + 1), 0.0);
-    flux_x_.resize(nx_ + 1);
-    corrected_u_.resize(nx_ + RowReader::padding);
-    for (Row* row : {&flux_below_, &flux_above_, &corrected_below_, &corrected_here_, &result_,
-                     &largest_divergence_, &largest_outflow_, &divergence_})
-        row->resize(nx_);
-    for (SideValues& values : side_velocity_)
-        for (int side = 0; side < 4; ++side) values[side].assign(side < 2 ? ny_ : nx_, 0.0);
-    for (int axis = 0; axis < 2; ++axis) {
-        carried_x_[axis].resize(nx_ + 1);
-        carried_below_[axis].resize(nx_);
-        carried_above_[axis].resize(nx_);
-        if (fluid.second_order) last_flux_[axis].assign(excess_[axis].size(), 0.0);
+    for (int axis = 0; axis < layers_.components(); ++axis) {
+        viscous_.emplace_back(fluid.velocity, rows_->pencils());
+        u_.emplace_back(fluid.velocity, *rows_, &side_velocity_[axis]);
     }
+    if (fluid.second_order) held_.last = values_on_faces(layers_);
 }
 
-/// k on the faces below row j. On the sides of the box it is 0: e is not carried over there.
-double BoxStep::kept_on_row(int j) const {
-    const bool side = (j == 0 && !rows_->open_below()) || (j == ny_ && !rows_->open_above());
-    return side ? 0.0 : kept_;
+VelocityPointers BoxStep::velocity() {
+    VelocityPointers u(layers_.components());
+    for (int axis = 0; axis < u.size(); ++axis) u[axis] = velocity(axis);
+    return u;
 }
 
-/// S.u + k e on the x faces of row j.
-void BoxStep::flux_along(int j, const double* u, double kept, double* flux) {
-    mean_flux(nx_ + 1, halves, u - 1, u, kept, excess_x(j), flux);
-    if (fluid_.velocity.x.periodic()) return;
-    flux[0] = 0.5 * (u[-1] + u[0]);
-    flux[nx_] = 0.5 * (u[nx_ - 1] + u[nx_]);
+VelocityPointers BoxStep::excess_pointers() {
+    VelocityPointers e(layers_.components());
+    for (int axis = 0; axis < e.size(); ++axis) e[axis] = excess_[axis].data();
+    return e;
 }
 
-/// S.v + k e on the faces below row j.
-void BoxStep::flux_across(int j, double kept, double* flux) {
-    const double* low = v_.row(j - 1);
-    mean_flux(nx_, heights_.volume_shares(j), low, v_.row(j), kept, excess_y(j), flux);
+VelocityStage::Values BoxStep::values_of_velocity() {
+    const VelocityPointers u = velocity();
+    return {u.begin(), u.end()};
 }
 
-/// S.v + k e - dt dp/dy on the faces below row j.
-void BoxStep::projected_across(int j, double dt, double* flux) {
-    const double* low = v_.row(j - 1);
-    const double* p_low = p_.row(j - 1);
-    projected_flux(nx_, heights_.volume_shares(j), low, v_.row(j), kept_on_row(j), excess_y(j),
-                   dt / heights_.distance(j), p_low, p_.row(j), flux);
+void BoxStep::begin_velocity(const VelocityStage::Values& u) {
+    for (std::size_t axis = 0; axis < u.size(); ++axis) u_[axis].begin(u[axis]);
 }
 
 FluxReport BoxStep::project(double dt) {
-    kept_ = kept_excess(dt);
-    begin_projection(dt);
-    for (int j = -1; j <= ny_; ++j) correct_row(j, dt);
-    return checked(dt);
-}
-
-/// Solves for the p that makes S.u + k e solenoidal, and begins to read u and p.
-void BoxStep::begin_projection(double dt) {
-    u_.begin(velocity(0));
-    v_.begin(velocity(1));
-    flux_across(0, kept_on_row(0), flux_below_.data());
-    pressure_.solve([&](int j) { right_hand_side(j, dt); }, [](int) {});
-    u_.begin(velocity(0));
-    v_.begin(velocity(1));
-    p_.begin(pressure_.values());
-    std::fill(largest_divergence_.begin(), largest_divergence_.end(), 0.0);
-    std::fill(largest_outflow_.begin(), largest_outflow_.end(), 0.0);
-}
-
-FluxReport BoxStep::checked(double dt) const {
-    return {largest(largest_divergence_), 0.5 * dt * largest(largest_outflow_)};
-}
-
-/// -div(S.u + k e)/dt of row j, written into the right-hand side of the pressure solve.
-void BoxStep::right_hand_side(int j, double dt) {
-    flux_along(j, u_.row(j), kept_, flux_x_.data());
-    flux_across(j + 1, kept_on_row(j + 1), flux_above_.data());
-    divergence_row(nx_, -1.0 / (hx_ * dt), flux_x_.data(), flux_x_.data() + 1,
-                   -1.0 / (heights_.size(j) * dt), flux_below_.data(), flux_above_.data(),
-                   pressure_.values() + static_cast<std::size_t>(j) * nx_);
-    flux_below_.swap(flux_above_);
-}
-
-/// u1 of row j, and phi1 and e on the faces below it and on its x faces; row j - 1 then has all its
-/// fluxes and is checked.
-void BoxStep::correct_row(int j, double dt) {
-    // v1 = v - dt dp/dy
-    RowDifferences{nx_, hx_, heights_}.correct_across(j, dt, p_, v_.row(j), corrected_here_.data());
-    if (j >= 0) {
-        // phi1 = S.v + k e - dt dp/dy,   e = phi1 - S.v1
-        projected_across(j, dt, flux_above_.data());
-        excess_of(nx_, heights_.volume_shares(j), flux_above_.data(), corrected_below_.data(),
-                  corrected_here_.data(), excess_y(j));
-    }
-    const std::size_t row = j;
-    if (j >= 0) hold_middle(1, row * nx_, nx_, flux_above_.data());
-    if (j >= 1) check_row(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data());
-    if (j >= 0 && j < ny_) {
-        correct_across(j, dt, p_.row(j));
-        hold_middle(0, row * (nx_ + 1), nx_ + 1, flux_x_.data());
-    }
-    flux_below_.swap(flux_above_);
-    corrected_below_.swap(corrected_here_);
-}
-
-/// The x component of u1, phi1 and e on the x faces of row j, and u1 of the row into u.
-void BoxStep::correct_across(int j, double dt, const double* p) {
-    const double* u = u_.row(j);
-    double* corrected = corrected_u_.data() + RowReader::beyond;
-    correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, u, corrected);  // u1 = u - dt dp/dx
-    u_.extend(corrected, j);
-    // phi1 = S.u + k e - dt dp/dx,   e = phi1 - S.u1
-    flux_along(j, u, kept_, flux_x_.data());
-    correct(nx_ + 1, dt / hx_, p - 1, p, flux_x_.data(), flux_x_.data());
-    excess_of(nx_ + 1, halves, flux_x_.data(), corrected - 1, corrected, excess_x(j));
-    std::copy_n(corrected, nx_, row_of(0, j));
-    std::copy(corrected_here_.begin(), corrected_here_.end(), row_of(1, j));
-}
-
-/// Divergence and Courant number of row j, from its x fluxes and the fluxes below and above.
-void BoxStep::check_row(int j, const double* along, const double* below, const double* above) {
-    const double hy = heights_.size(j);
-    divergence_row(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy, below, above, divergence_.data());
-    keep_largest(nx_, divergence_.data(), largest_divergence_.data());
-    keep_largest_outflow(nx_, 1.0 / hx_, along, along + 1, 1.0 / hy, below, above,
-                         largest_outflow_.data());
+    return projection_.project(pressure_, velocity(), dt, kept_excess(dt));
 }
 
 FluxReport BoxStep::hold_solenoidal_flux(double dt) {
-    for (int axis = 0; axis < 2; ++axis) flux_[axis].resize(excess_[axis].size());
-    kept_ = 1.0;
-    begin_projection(dt);
-    for (int j = 0; j <= ny_; ++j) correct_held_row(j, dt);
-    held_ = true;
-    return checked(dt);
-}
-
-/// S.u + e - dt S.grad p on the faces below row j and on its x faces; row j - 1 then has all its
-/// fluxes and is checked.
-void BoxStep::correct_held_row(int j, double dt) {
-    projected_across(j, dt, held_y(j));
-    if (j >= 1) check_row(j - 1, held_x(j - 1), held_y(j - 1), held_y(j));
-    if (j == ny_) return;
-    flux_along(j, u_.row(j), kept_, held_x(j));
-    const double* p = p_.row(j);
-    correct(nx_ + 1, dt / hx_, p - 1, p, held_x(j), held_x(j));
+    return projection_.hold_solenoidal_flux(pressure_, velocity(), dt);
 }
 
 void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
-    u_.begin(velocity(0));
-    v_.begin(velocity(1));
+    begin_velocity(values_of_velocity());
     if (impulses) begin_impulses(*impulses);
-    for (int j = -1; j < ny_; ++j) {
-        carry_above(j);
-        if (j >= 0) transport_row(j, dt);
-        if (j >= 0 && impulses) add_impulses(j, *impulses);
-        carried_below_.swap(carried_above_);
+    transport_.begin(false);
+    for (int j = 0; j < layers_.ny; ++j) {
+        transport_.advance(j, dt, velocity());
+        if (impulses) add_impulses(j, *impulses);
     }
 }
 
-/// Rows are read before they are written, so u may be the result.
+/// Layers are read before they are written, so u may be the result.
 BoxStep::Force BoxStep::play(const VelocityStage& stage) {
-    Force force = convective_force(stage.u[0], stage.u[1]);
+    Force force = convective_force(stage.u);
     if (stage.viscous) {
-        const Force viscous = viscous_force(stage.u[0], stage.u[1]);
-        for (int axis = 0; axis < 2; ++axis) force[axis] += viscous[axis];
+        const Force viscous = forces_.viscous(stage.u);
+        for (int axis = 0; axis < 3; ++axis) force[axis] += viscous[axis];
     }
-    u_.begin(stage.u[0]);
-    v_.begin(stage.u[1]);
-    for (int j = -1; j < ny_; ++j) {
-        carry_above(j);
-        if (stage.viscous) diffuse_between(j + 1);
-        if (j >= 0) play_row(j, stage);
-        carried_below_.swap(carried_above_);
-    }
+    begin_velocity(stage.u);
+    transport_.begin(stage.viscous);
+    for (int j = 0; j < layers_.ny; ++j) transport_.play(j, stage);
     return force;
-}
-
-/// The flux of momentum by viscosity, nu du/dy, through the faces below row j.
-void BoxStep::diffuse_between(int j) {
-    const double share = fluid_.viscosity / heights_.distance(j);
-    subtract_difference(nx_, share, u_.row(j - 1), u_.row(j), carried_above_[0].data());
-    subtract_difference(nx_, share, v_.row(j - 1), v_.row(j), carried_above_[1].data());
-}
-
-void BoxStep::play_row(int j, const VelocityStage& stage) {
-    const std::array<const double*, 2> u{u_.row(j), v_.row(j)};
-    carry_along(j);
-    const std::size_t first = static_cast<std::size_t>(j) * nx_;
-    for (int axis = 0; axis < 2; ++axis) {
-        double* across = carried_x_[axis].data();
-        if (stage.viscous)
-            subtract_difference(nx_ + 1, fluid_.viscosity / hx_, u[axis] - 1, u[axis], across);
-        const StageRows rows{stage.old,
-                             stage.fresh,
-                             stage.rate,
-                             stage.v[axis] + first,
-                             stage.now[axis] + first,
-                             stage.before[axis] + first};
-        stage_row(nx_, rows, u[axis], -stage.dt / hx_, across, across + 1,
-                  -stage.dt / heights_.size(j), carried_below_[axis].data(),
-                  carried_above_[axis].data(), result_.data());
-        std::copy(result_.begin(), result_.end(), stage.result[axis] + first);
-        if (!stage.copy.empty())
-            std::copy(result_.begin(), result_.end(), stage.copy[axis] + first);
-    }
 }
 
 void BoxStep::add_impulses(const VelocityStage::Values& u2, ImpulsesOfWindow& impulses) {
     begin_impulses(impulses);
-    u_.begin(velocity(0));
-    v_.begin(velocity(1));
-    for (int j = 0; j < ny_; ++j) {
-        u_.row(j + 1);  // before row j is written
-        v_.row(j + 1);
-        for (int axis = 0; axis < 2; ++axis)
-            std::copy_n(u2[axis] + static_cast<std::size_t>(j) * nx_, nx_, row_of(axis, j));
+    begin_velocity(values_of_velocity());
+    for (int j = 0; j < layers_.ny; ++j) {
+        for (std::size_t axis = 0; axis < u2.size(); ++axis) {
+            u_[axis].row(j + 1);  // before layer j is written
+            std::copy_n(u2[axis] + layers_.row(j, 0), layers_.layer(),
+                        velocity(static_cast<int>(axis)) + layers_.row(j, 0));
+        }
         add_impulses(j, impulses);
     }
 }
 
 void BoxStep::begin_impulses(ImpulsesOfWindow& impulses) {
-    impulses.f.resize(static_cast<std::size_t>(nx_) * ny_);
+    impulses.f.resize(layers_.components(), cells());
     impulses.sum_f = {};
     p_.begin(pressure());
 }
 
+/// Of layer j, after its transport; u_ still reads u1.
+void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
+    const double dt = impulses.dt;
+    const RowDifferences differences{layers_};
+    for (int k = 0; k < layers_.nz; ++k)
+        for (int axis = 0; axis < layers_.components(); ++axis) {
+            double* f = impulses.f[axis].data() + layers_.row(j, k);
+            double* u = velocity(axis) + layers_.row(j, k);
+            differences.laplacian(j, k, fluid_.viscosity * dt, u_[axis], f);
+            impulses.sum_f[axis] += layers_.heights.relative(j) * sum_row(layers_.nx, f);
+            add_row(layers_.nx, 1.0, f, u);
+            differences.correct(axis, j, k, dt, p_, u, u);
+        }
+}
+
 double BoxStep::fastest_decay(double dt) const {
-    const double hy = fluid_.pressure.y.spacing;
-    return 4.0 * fluid_.viscosity * dt * (1.0 / (hx_ * hx_) + 1.0 / (hy * hy));
+    const double hx = layers_.hx, hy = fluid_.pressure.y.spacing, hz = layers_.hz;
+    const double across = layers_.in_space() ? 1.0 / (hz * hz) : 0.0;
+    return 4.0 * fluid_.viscosity * dt * (1.0 / (hx * hx) + 1.0 / (hy * hy) + across);
 }
 
 void BoxStep::hold_flux() {
-    for (int axis = 0; axis < 2; ++axis) flux_[axis].resize(excess_[axis].size());
-    u_.begin(velocity(0));
-    v_.begin(velocity(1));
-    for (int j = 0; j <= ny_; ++j) {
-        const double* u = u_.row(j);
-        // phi1 = S.u1 + e
-        if (j < ny_) mean_flux(nx_ + 1, halves, u - 1, u, 1.0, excess_x(j), held_x(j));
-        flux_across(j, 1.0, held_y(j));
-    }
-    held_ = true;
+    held_.resize(layers_);
+    begin_velocity(values_of_velocity());
+    for (int axis = 0; axis < layers_.components(); ++axis)
+        for (int j = 0; j < layers_.ny + (axis == 1); ++j)
+            for (int k = 0; k < layers_.nz + (axis == 2); ++k)  // phi1 = S.u1 + e
+                face_flux(layers_, axis, j, k, 1.0, u_[axis], excess_,
+                          held_.flux[axis].data() + layers_.face_row(axis, j, k));
+    held_.held = true;
 }
 
 namespace {
@@ -286,90 +160,21 @@ double windows_to_the_middle(bool begins) {
 }  // namespace
 
 FluxReport BoxStep::project_and_hold_middle(double dt, bool begins) {
-    for (int axis = 0; axis < 2; ++axis) flux_[axis].resize(excess_[axis].size());
-    extrapolated_ = windows_to_the_middle(begins);
+    held_.resize(layers_);
+    held_.extrapolated = windows_to_the_middle(begins);
     const FluxReport report = project(dt);
-    extrapolated_.reset();
-    held_ = true;
+    held_.extrapolated.reset();
+    held_.held = true;
     return report;
 }
 
-/// Of a row of phi1 over |S|, which begins at `first`.
-void BoxStep::hold_middle(int axis, std::size_t first, int count, const double* flux) {
-    if (extrapolated_)
-        extrapolate(count, *extrapolated_, flux, last_flux_[axis].data() + first,
-                    flux_[axis].data() + first);
-}
-
 void BoxStep::hold_middle_flux(bool begins) {
-    for (int axis = 0; axis < 2; ++axis) {
-        std::vector<double>& last = last_flux_[axis];
-        std::swap(flux_[axis], last);  // phi1 is the next window's last flux
-        if (begins) flux_[axis] = last;
-        if (!begins) combine(last.size(), -0.5, flux_[axis].data(), 1.5, last.data());
+    for (int axis = 0; axis < layers_.components(); ++axis) {
+        std::vector<double>& last = held_.last[axis];
+        std::swap(held_.flux[axis], last);  // phi1 is the next window's last flux
+        if (begins) held_.flux[axis] = last;
+        if (!begins) combine(last.size(), -0.5, held_.flux[axis].data(), 1.5, last.data());
     }
-}
-
-/// By the scheme of the case, inside the box.
-void BoxStep::carry(int count, const FacePlace& face, const double* flux, const AcrossFaces& u,
-                    const AcrossFaces& v, std::array<Row, 2>& carried) const {
-    const CarriedRows rows{carried[0].data(), carried[1].data()};
-    if (fluid_.central)
-        blended_flux(count, *fluid_.central, face, flux, {u, v}, rows);
-    else
-        convective_flux(count, 2.0 / fluid_.limiter, face, flux, {u, v}, rows);
-}
-
-/// Momentum carried through the faces above row j.
-void BoxStep::carry_above(int j) {
-    const AcrossFaces u{u_.row(j - 1), u_.row(j), u_.row(j + 1), u_.row(j + 2)};
-    const AcrossFaces v{v_.row(j - 1), v_.row(j), v_.row(j + 1), v_.row(j + 2)};
-    const double* flux = held_ ? held_y(j + 1) : flux_above_.data();
-    if (!held_) flux_across(j + 1, 1.0, flux_above_.data());
-    carry(nx_, heights_.face(j + 1), flux, u, v, carried_above_);
-    const bool side = (j == -1 && !rows_->open_below()) || (j == ny_ - 1 && !rows_->open_above());
-    for (int i = 0; side && i < nx_; ++i) {  // the boundary value
-        carried_above_[0][i] = 0.5 * flux[i] * (u.low[i] + u.high[i]);
-        carried_above_[1][i] = 0.5 * flux[i] * (v.low[i] + v.high[i]);
-    }
-}
-
-/// Momentum carried through the x faces of row j.
-void BoxStep::carry_along(int j) {
-    const double *u = u_.row(j), *v = v_.row(j);
-    const double* flux = held_ ? held_x(j) : flux_x_.data();
-    if (!held_) mean_flux(nx_ + 1, halves, u - 1, u, 1.0, excess_x(j), flux_x_.data());
-    carry(nx_ + 1, {}, flux, along_row(u), along_row(v), carried_x_);
-    if (!fluid_.velocity.x.periodic())
-        for (const int face : {0, nx_}) {  // the boundary value
-            carried_x_[0][face] = 0.5 * flux[face] * (u[face - 1] + u[face]);
-            carried_x_[1][face] = 0.5 * flux[face] * (v[face - 1] + v[face]);
-        }
-}
-
-void BoxStep::transport_row(int j, double dt) {
-    const double *u = u_.row(j), *v = v_.row(j);
-    carry_along(j);
-    for (int axis = 0; axis < 2; ++axis) {
-        const double* across = carried_x_[axis].data();
-        advance_row(nx_, axis == 0 ? u : v, -dt / hx_, across, across + 1, -dt / heights_.size(j),
-                    carried_below_[axis].data(), carried_above_[axis].data(), row_of(axis, j));
-    }
-}
-
-/// Of row j, after its transport; u_ and v_ still read u1.
-void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
-    const double dt = impulses.dt;
-    const RowDifferences differences{nx_, hx_, heights_};
-    for (int axis = 0; axis < 2; ++axis) {
-        double* f = impulses.f[axis].data() + static_cast<std::size_t>(j) * nx_;
-        differences.laplacian(j, fluid_.viscosity * dt, axis == 0 ? u_ : v_, f);
-        impulses.sum_f[axis] += heights_.relative(j) * sum_row(nx_, f);
-        add_row(nx_, 1.0, f, row_of(axis, j));
-    }
-    const double* p = p_.row(j);
-    correct(nx_, 0.5 * dt / hx_, p - 1, p + 1, row_of(0, j), row_of(0, j));
-    differences.correct_across(j, dt, p_, row_of(1, j), row_of(1, j));
 }
 
 void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {
@@ -377,108 +182,50 @@ void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {
         for (SeparableSolve& solve : viscous_) solve.factorise({1.0, fluid_.viscosity * dt});
     factorised_for_ = dt;
     add_side_velocity(dt);
-    viscous_[0].solve();
-    viscous_[1].solve([](int) {}, take);
+    for (std::size_t axis = 0; axis + 1 < viscous_.size(); ++axis) viscous_[axis].solve();
+    viscous_.back().solve([](int) {}, take);
 }
 
 /// What a prescribed u_b contributes to the right-hand side of step 3: dt nu 2 u_b/h2, since the
 /// solve itself takes the image beyond the side to be -u.
 void BoxStep::add_side_velocity(double dt) {
-    const double across_x = 2.0 * fluid_.viscosity * dt / (hx_ * hx_);
-    const auto across_y = [&](int j) {
-        return 2.0 * fluid_.viscosity * dt / (heights_.size(j) * heights_.size(j));
-    };
-    const double at_bottom = across_y(0), at_top = across_y(ny_ - 1);
-    for (int axis = 0; axis < 2; ++axis) {
-        for (int j = 0; j < ny_; ++j) {
-            row_of(axis, j)[0] += across_x * at_side(axis, 0, j);
-            row_of(axis, j)[nx_ - 1] += across_x * at_side(axis, 1, j);
+    const BoxLayers& l = layers_;
+    const auto across = [&](double h) { return 2.0 * fluid_.viscosity * dt / (h * h); };
+    const double across_x = across(l.hx), across_z = across(l.hz);
+    const double at_bottom = across(l.heights.size(0)), at_top = across(l.heights.size(l.ny - 1));
+    for (int axis = 0; axis < l.components(); ++axis) {
+        const SideValues& held = side_velocity_[axis];
+        for (int row = 0; row < l.ny * l.nz; ++row) {
+            double* u = velocity(axis) + static_cast<std::size_t>(row) * l.nx;
+            u[0] += across_x * held[0][row];
+            u[l.nx - 1] += across_x * held[1][row];
         }
-        for (int i = 0; i < nx_; ++i) {
-            if (!rows_->open_below()) row_of(axis, 0)[i] += at_bottom * at_side(axis, 2, i);
-            if (!rows_->open_above()) row_of(axis, ny_ - 1)[i] += at_top * at_side(axis, 3, i);
+        double *bottom = velocity(axis), *top = velocity(axis) + l.row(l.ny - 1, 0);
+        for (std::size_t i = 0; i < l.layer(); ++i) {
+            if (!l.open_below) bottom[i] += at_bottom * held[2][i];
+            if (!l.open_above) top[i] += at_top * held[3][i];
         }
+        for (int j = 0; l.in_space() && j < l.ny; ++j)
+            for (int side = 4; side < 6; ++side)
+                add_row(l.nx, across_z, held[side].data() + static_cast<std::size_t>(j) * l.nx,
+                        velocity(axis) + l.row(j, side == 4 ? 0 : l.nz - 1));
     }
 }
 
-/// Sums per_cell(side, at, cell, face) |S| over the cells along the non-cyclic sides. Sides 0 to 3
-/// are left, right, bottom, top; `at` is the place along the side, `face` the index of the boundary
-/// face in excess(side/2).
-template <class PerCell>
-BoxStep::Force BoxStep::over_sides(PerCell per_cell) {
-    Force sum{};
-    const auto add = [&](int side, int at, std::size_t cell, std::size_t face, double length) {
-        const Force one = per_cell(side, at, cell, face);
-        for (int axis = 0; axis < 2; ++axis) sum[axis] += length * one[axis];
-    };
-    const std::size_t nx = nx_, ny = ny_;
-    if (!fluid_.velocity.x.periodic())
-        for (std::size_t j = 0; j < ny; ++j) {
-            add(0, j, j * nx, j * (nx + 1), heights_.size(j));
-            add(1, j, j * nx + nx - 1, j * (nx + 1) + nx, heights_.size(j));
-        }
-    for (std::size_t i = 0; i < nx && !rows_->open_below(); ++i) add(2, i, i, i, hx_);
-    for (std::size_t i = 0; i < nx && !rows_->open_above(); ++i)
-        add(3, i, (ny - 1) * nx + i, ny * nx + i, hx_);
-    return sum;
-}
-
-namespace {
-
-End end_at(const SeparableOperator& plane, int side) {
-    const AxisOperator& axis = side < 2 ? plane.x : plane.y;
-    return side % 2 == 0 ? axis.lower : axis.upper;
-}
-
-/// Value at the boundary face over the value in the cell next to it.
-double at_face(const SeparableOperator& plane, int side) {
-    return 0.5 * (1.0 + mirrored(end_at(plane, side)));
-}
-
-}  // namespace
-
 BoxStep::Force BoxStep::pressure_force() {
-    return over_sides([&](int side, int, std::size_t cell, std::size_t) {
-        Force force{};
-        force[side / 2] =
-            (side % 2 == 0 ? 1.0 : -1.0) * at_face(fluid_.pressure, side) * pressure()[cell];
-        return force;
-    });
+    return forces_.pressure(pressure());
 }
 
 BoxStep::Force BoxStep::convective_force() {
-    return convective_force(velocity(0), velocity(1));
+    return convective_force(values_of_velocity());
 }
 
-BoxStep::Force BoxStep::convective_force(const double* u_x, const double* u_y) {
-    return over_sides([&](int side, int at, std::size_t cell, std::size_t face) {
-        const double share = at_face(fluid_.velocity, side);
-        const Force u{share * u_x[cell] + at_side(0, side, at),
-                      share * u_y[cell] + at_side(1, side, at)};
-        const int axis = side / 2;
-        const double flux = held_ ? flux_[axis][face] : u[axis] + excess_[axis][face];
-        const double inward = side % 2 == 0 ? flux : -flux;
-        return Force{inward * u[0], inward * u[1]};
-    });
+BoxStep::Force BoxStep::convective_force(const VelocityStage::Values& u) {
+    return forces_.convective(u, held_.held ? held_.flux : excess_, !held_.held);
 }
 
 BoxStep::Force BoxStep::viscous_force() {
-    return viscous_force(velocity(0), velocity(1));
-}
-
-BoxStep::Force BoxStep::viscous_force(const double* u_x, const double* u_y) {
-    const auto across = [&](int side) {  // h
-        return side < 2 ? hx_ : heights_.size(side == 2 ? 0 : ny_ - 1);
-    };
-    return over_sides([&](int side, int at, std::size_t cell, std::size_t) {
-        const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
-        const double per_length = fluid_.viscosity / across(side);
-        const auto rate = [&](int axis) {  // nu (u_{-1} - u_0)/h
-            return per_length *
-                   (difference * (axis == 0 ? u_x : u_y)[cell] + 2.0 * at_side(axis, side, at));
-        };
-        return Force{rate(0), rate(1)};
-    });
+    return forces_.viscous(values_of_velocity());
 }
 
 }  // namespace turbidite

@@ -74,14 +74,24 @@ void keep_largest(int count, const double* __restrict value, double* __restrict 
 }
 
 TURBIDITE_ROW_WORK
-void keep_largest_outflow(int count, double x, const double* __restrict left,
-                          const double* __restrict right, double y, const double* __restrict below,
-                          const double* __restrict above, double* __restrict largest) {
+void keep_largest_outflow(int count, FacesOfRow x, FacesOfRow y, FacesOfRow z,
+                          double* __restrict largest) {
+    const auto through = [](const FacesOfRow& faces, int i) {
+        return faces.per_size * (std::abs(faces.low[i]) + std::abs(faces.high[i]));
+    };
+    const bool space = z.low != nullptr;
     for (int i = 0; i < count; ++i) {
-        const double sum = x * (std::abs(left[i]) + std::abs(right[i])) +
-                           y * (std::abs(below[i]) + std::abs(above[i]));
+        double sum = through(x, i) + through(y, i);
+        if (space) sum += through(z, i);
         largest[i] = largest[i] < sum ? sum : largest[i];
     }
+}
+
+TURBIDITE_ROW_WORK
+void add_second_difference(int count, double share, const double* __restrict low,
+                           const double* __restrict here, const double* __restrict high,
+                           double* __restrict out) {
+    for (int i = 0; i < count; ++i) out[i] += share * (low[i] - 2.0 * here[i] + high[i]);
 }
 
 TURBIDITE_ROW_WORK
@@ -129,12 +139,6 @@ void add_differences(int count, double x, const double* __restrict left,
         out[i] = equal ? out[i] + (along + s.low * (below[i] - 2.0 * here_y[i] + above[i]))
                        : out[i] + along + (s.low * below[i] + here * here_y[i] + s.high * above[i]);
     }
-}
-
-TURBIDITE_ROW_WORK
-void difference_row(int count, double share, const double* __restrict low,
-                    const double* __restrict high, double* __restrict out) {
-    for (int i = 0; i < count; ++i) out[i] = share * (high[i] - low[i]);
 }
 
 TURBIDITE_ROW_WORK

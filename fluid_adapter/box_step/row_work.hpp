@@ -66,9 +66,15 @@ void excess_of(int count, RowShares s, const double* face, const double* low, co
 /// largest[i] = max(largest[i], |value[i]|)
 void keep_largest(int count, const double* value, double* largest);
 
-/// largest[i] = max(largest[i], x (|left| + |right|) + y (|below| + |above|))
-void keep_largest_outflow(int count, double x, const double* left, const double* right, double y,
-                          const double* below, const double* above, double* largest);
+/// The faces of a row of cells normal to one axis, and 1/h along it.
+struct FacesOfRow {
+    double per_size;
+    const double *low, *high;
+};
+
+/// largest[i] = max(largest[i], sum over the axes of (|low| + |high|)/h); z.low is null in the
+/// plane
+void keep_largest_outflow(int count, FacesOfRow x, FacesOfRow y, FacesOfRow z, double* largest);
 
 /// What three rows, one above the other, count for.
 struct ThreeRows {
@@ -86,6 +92,10 @@ void central_divergence_row(int count, double x, const double* left, const doubl
 void laplacian_row(int count, double x, RowShares s, const double* below, const double* u,
                    const double* above, double* out);
 
+/// out[i] += share (low[i] - 2 here[i] + high[i])
+void add_second_difference(int count, double share, const double* low, const double* here,
+                           const double* high, double* out);
+
 /// out[i] = w[i] (s.high (high[i] - here[i]) - s.low (here[i] - low[i])); of equal rows s is 1
 void weighted_difference(int count, RowShares s, const double* w, const double* low,
                          const double* here, const double* high, double* out);
@@ -95,9 +105,6 @@ void weighted_difference(int count, RowShares s, const double* w, const double* 
 void add_differences(int count, double x, const double* left, const double* here_x,
                      const double* right, RowShares s, const double* below, const double* here_y,
                      const double* above, double* out);
-
-/// out[i] = share (high[i] - low[i])
-void difference_row(int count, double share, const double* low, const double* high, double* out);
 
 /// d[i] = z[i] + beta d[i]; d is not read if beta = 0
 void next_direction(int count, const double* z, double beta, double* d);

@@ -16,7 +16,7 @@ const double diagonal = 1.0 - std::sqrt(0.5);  // g
 constexpr double largest_decay = 2.0;
 
 void add(SideForce& sum, double share, const SideForce& force) {
-    for (int axis = 0; axis < 2; ++axis) sum[axis] += share * force[axis];
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += share * force[axis];
 }
 
 VelocityStage::Values pieces_of(SecondOrderHost& host) {

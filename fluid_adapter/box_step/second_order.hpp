@@ -46,8 +46,8 @@ struct VelocityValues {
     std::size_t count;
 };
 
-/// What crosses the sides, as BoxStep::Force.
-using SideForce = std::array<double, 2>;
+/// What crosses the sides, as BoxForce.
+using SideForce = std::array<double, 3>;
 
 /// The step that knows mesh and operators.
 class SecondOrderHost {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What one component of u is on the four sides of a box where it is prescribed: on a wall that
-// slides, or where fluid enters. Zero on all others, so that beyond a side lies
+// What one component of u is on the sides of a box where it is prescribed: on a wall that slides,
+// or where fluid enters. Zero on all others, so that beyond a side lies
 //
 //     u_{-1} = f u_0 + 2 u_b          f: +-1, row_reader.hpp;  u_b: 0 unless f = -1
 //
@@ -13,7 +13,11 @@
 
 namespace turbidite {
 
-/// Left and right by row of this rank, bottom and top by column [m/s].
-using SideValues = std::array<std::vector<double>, 4>;
+/// Left and right by row of this rank, k + nz j; bottom and top by cell of a layer, i + nx k; in
+/// space also before the first and after the last row of a layer, i + nx j [m/s].
+using SideValues = std::array<std::vector<double>, 6>;
+
+/// Of all components of u.
+using VelocityOnSides = std::array<SideValues, 3>;
 
 }  // namespace turbidite

@@ -19,15 +19,16 @@ void add(IterationResult& total, IterationResult latest) {
 /// s without the impulses that it has.
 void CoupledStep::keep_transported() {
     if (!keep_) return;
-    const double *x = step_.velocity(0), *y = step_.velocity(1);
-    transported_.x.assign(x, x + box_.size());
-    transported_.y.assign(y, y + box_.size());
+    transported_.resize(box_.components(), box_.size());
+    for (int axis = 0; axis < box_.components(); ++axis)
+        std::copy_n(step_.velocity(axis), box_.size(), transported_[axis].begin());
+
     add_impulses(-1.0, transported_);
 }
 
 /// u += sign (f - dt G p)
-void CoupledStep::add_impulses(double sign, RowsOfTwo& u) {
-    box_.add_impulses(sign, dt_, step_.pressure(), viscosity_.impulse(), u.x.data(), u.y.data());
+void CoupledStep::add_impulses(double sign, VelocityRows& u) {
+    box_.add_impulses(sign, dt_, step_.pressure(), viscosity_.impulse(), u.pointers());
 }
 
 void CoupledStep::place_grains(const CollocationPoints& points) {
@@ -95,16 +96,16 @@ bool CoupledStep::correct_pressure(RigidGrains& grains, const CoupledLimits& lim
     return result.iterations > 0;
 }
 
-RowsOfTwo CoupledStep::unconstrained() {
-    RowsOfTwo s = transported_;
+VelocityRows CoupledStep::unconstrained() {
+    VelocityRows s = transported_;
     add_impulses(1.0, s);
     return s;
 }
 
 BoxStep::Force CoupledStep::viscous_force() {
-    const std::array<double, 2> sum = viscosity_.sum(box_);
-    const double per_time = step_.cell_area() / dt_;
-    return {per_time * sum[0], per_time * sum[1]};
+    BoxForce force = viscosity_.sum(box_);
+    for (double& component : force) component *= step_.cell_volume() / dt_;
+    return force;
 }
 
 }  // namespace turbidite

@@ -55,7 +55,7 @@ class CoupledStep {
     CoupledReport correct(RigidGrains& grains, const CoupledLimits& limits);
 
     /// s of the window with its last f and p, if kept [m/s].
-    RowsOfTwo unconstrained();
+    VelocityRows unconstrained();
 
     /// Ends the window: e becomes that of p.
     void end() { pressure_.end(box_); }
@@ -71,13 +71,13 @@ class CoupledStep {
     bool one_viscous_iteration_will_do() const;
     double slip_reduction() const;
     IterationLimit one_viscous_correction(int most) const;
-    void add_impulses(double sign, RowsOfTwo& u);
+    void add_impulses(double sign, VelocityRows& u);
 
     BoxStep& step_;
     BoxOperators box_;
     RigidPressure pressure_;
     RigidViscosity viscosity_;
-    RowsOfTwo transported_;
+    VelocityRows transported_;
     double dt_ = 0.0;
     bool keep_ = false;
 };

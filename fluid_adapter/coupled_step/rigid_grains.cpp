@@ -9,7 +9,7 @@ RigidGrains::RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelo
                          const MultiplierSettings& settings)
     : system_(system),
       flow_(flow),
-      velocity_(velocity),
+      velocity_{velocity.x, velocity.y},
       settings_(settings),
       cells_(system.field().owned_cells()) {}
 
@@ -36,10 +36,9 @@ void RigidGrains::note(const MultiplierResult& result) {
 }
 
 void RigidGrains::combine(RigidChange& change, double keep, const RigidChange& other) const {
-    for (std::size_t c = 0; c < cells_; ++c) {
-        change.x[c] = keep * change.x[c] + other.x[c];
-        change.y[c] = keep * change.y[c] + other.y[c];
-    }
+    for (int axis = 0; axis < change.u.size(); ++axis)
+        for (std::size_t c = 0; c < cells_; ++c)
+            change.u[axis][c] = keep * change.u[axis][c] + other.u[axis][c];
     change.grains.scale(keep);
     change.grains.add(other.grains, 1.0);
 }
@@ -51,7 +50,9 @@ void RigidGrains::add(const RigidChange& change, double share) {
 
 void RigidGrains::add_later(const RigidChange& change, double share) {
     velocity();
-    pending_ = {share, change.x.data(), change.y.data()};
+    pending_ = {share, Components<const double*>(change.u.size())};
+    for (int axis = 0; axis < change.u.size(); ++axis)
+        pending_.change[axis] = change.u[axis].data();
     flow_.add(change.grains, share);
 }
 
@@ -59,12 +60,11 @@ PendingChange RigidGrains::take_pending() {
     return std::exchange(pending_, {});
 }
 
-CellVelocity RigidGrains::velocity() {
-    const PendingChange change = take_pending();
-    for (std::size_t c = 0; change.share != 0.0 && c < cells_; ++c) {
-        velocity_.x[c] += change.share * change.x[c];
-        velocity_.y[c] += change.share * change.y[c];
-    }
+VelocityPointers RigidGrains::velocity() {
+    const PendingChange pending = take_pending();
+    for (int axis = 0; pending.share != 0.0 && axis < velocity_.size(); ++axis)
+        for (std::size_t c = 0; c < cells_; ++c)
+            velocity_[axis][c] += pending.share * pending.change[axis][c];
     return velocity_;
 }
 

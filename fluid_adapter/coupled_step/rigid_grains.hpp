@@ -15,13 +15,10 @@ namespace turbidite {
 
 /// A change of the fluid's velocity made rigid, and what it does to the grains.
 struct RigidChange {
-    std::vector<double> x, y;  ///< over the rank's cells [m/s]
+    VelocityRows u;  ///< over the rank's cells [m/s]
     ConstrainedFlow grains;
 
-    void resize(std::size_t cells) { x.resize(cells), y.resize(cells); }
-    std::vector<double>& operator[](int axis) { return axis == 0 ? x : y; }
-    const std::vector<double>& operator[](int axis) const { return axis == 0 ? x : y; }
-    CellVelocity velocity() { return {x.data(), y.data()}; }
+    CellVelocity velocity() { return {u[0].data(), u[1].data()}; }
 };
 
 class RigidGrains {
@@ -55,7 +52,7 @@ class RigidGrains {
     }
 
     /// Of the window, with what is pending made unless it was taken.
-    CellVelocity velocity();
+    VelocityPointers velocity();
 
     /// Iterations of all solves so far, and whether all of them converged.
     std::int64_t iterations() const { return iterations_; }
@@ -66,7 +63,7 @@ class RigidGrains {
 
     SaddleOperator& system_;
     ConstrainedFlow& flow_;
-    CellVelocity velocity_;
+    VelocityPointers velocity_;
     PendingChange pending_;
     MultiplierSettings settings_;
     MultiplierWorkspace work_;

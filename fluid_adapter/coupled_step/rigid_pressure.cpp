@@ -11,7 +11,7 @@ void RigidPressure::begin(const CollocationPoints& points, double dt, double k) 
     dt_ = dt;
     kept_ = k;
     residual_.resize(step_.cells());
-    rigid_.resize(step_.cells());
+    rigid_.u.resize(step_.layers().components(), step_.cells());
     outside_.assign(step_.cells(), 1.0);
     for (const InteriorCell& inside : points.interior) outside_[inside.cell] = 0.0;
 }
@@ -29,10 +29,9 @@ IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
 /// r = -(D u + div e); returns |r|^2.
 ResidualSquare RigidPressure::find_residual(BoxOperators& box, RigidGrains& grains) {
     const PendingChange change = grains.take_pending();  // made as the velocity is read
-    const CellVelocity u = grains.velocity();
     ResidualSquare square;
-    square.sum =
-        box.flux_residual(dt_, step_.pressure(), u.x, u.y, excess(), change, residual_.data());
+    square.sum = box.flux_residual(dt_, step_.pressure(), grains.velocity(), excess(), change,
+                                   residual_.data());
     square.cells = box.volume();
     grains.sum_over_ranks(square.data(), ResidualSquare::count);
     return square;
@@ -41,15 +40,18 @@ ResidualSquare RigidPressure::find_residual(BoxOperators& box, RigidGrains& grai
 /// z = -(1/dt) laplacian^-1 r, left in the solver; returns r.z.
 double RigidPressure::precondition(const RigidGrains& grains) {
     double* z = step_.pressure_solve().values();
-    const auto nx = static_cast<std::size_t>(step_.columns());
+    const BoxLayers& layers = step_.layers();
     double product = 0.0;
     step_.pressure_solve().solve(
         [&](int j) {
-            for (std::size_t c = j * nx; c < (j + 1) * nx; ++c) z[c] = residual_[c] / dt_;
+            for (std::size_t c = layers.row(j, 0); c < layers.row(j + 1, 0); ++c)
+                z[c] = residual_[c] / dt_;
         },
         [&](int j) {
-            product += step_.heights().relative(j) *
-                       dot_row(step_.columns(), residual_.data() + j * nx, z + j * nx);
+            for (int k = 0; k < layers.nz; ++k)
+                product +=
+                    layers.heights.relative(j) *
+                    dot_row(layers.nx, residual_.data() + layers.row(j, k), z + layers.row(j, k));
         });
     grains.sum_over_ranks(&product, 1);
     return product;
@@ -63,11 +65,10 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
     const double* z = step_.pressure_solve().values();
     if (limit.most > 1) {
         later_.resize(residual_.size());
-        box.direction(dt_, z, first ? 0.0 : rz / last, later_.data(), rigid_.x.data(),
-                      rigid_.y.data());
+        box.direction(dt_, z, first ? 0.0 : rz / last, later_.data(), rigid_.u.pointers());
         direction_ = later_.data();
     } else {
-        box.gradient(dt_, z, rigid_.x.data(), rigid_.y.data());
+        box.gradient(dt_, z, rigid_.u.pointers());
         direction_ = z;
     }
     grains.make_rigid(rigid_, limit.slip_reduction);
@@ -76,9 +77,8 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
 /// A d, kept if there may be another iteration.
 ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
     if (keep) image_.resize(residual_.size());
-    ImageProducts products =
-        box.flux_image(dt_, outside_.data(), direction_, rigid_.x.data(), rigid_.y.data(),
-                       residual_.data(), keep ? image_.data() : nullptr);
+    ImageProducts products = box.flux_image(dt_, outside_.data(), direction_, rigid_.u.pointers(),
+                                            residual_.data(), keep ? image_.data() : nullptr);
     grains.sum_over_ranks(products.data(), ImageProducts::count);
     return products;
 }

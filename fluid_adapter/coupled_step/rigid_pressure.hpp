@@ -37,9 +37,7 @@ class RigidPressure {
                           const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
     void move(RigidGrains& grains, double alpha, bool again);
-    ExcessFlux excess() {
-        return {step_.excess(0).data(), step_.excess(1).data(), kept_, outside_.data()};
-    }
+    ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data()}; }
 
     BoxStep& step_;
     double dt_ = 0.0, kept_ = 1.0;

@@ -14,17 +14,17 @@ ImpulsesOfWindow& RigidViscosity::begin(double dt, double nu) {
     return window_;
 }
 
-const RowsOfTwo& RigidViscosity::impulse() {
+const VelocityRows& RigidViscosity::impulse() {
     const double share = std::exchange(pending_, 0.0);
-    for (int axis = 0; share != 0.0 && axis < 2; ++axis)
+    for (int axis = 0; share != 0.0 && axis < window_.f.size(); ++axis)
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)
             window_.f[axis][c] += share * residual_[axis][c];
     return window_.f;
 }
 
-std::array<double, 2> RigidViscosity::sum(const BoxOperators& box) {
+BoxForce RigidViscosity::sum(const BoxOperators& box) {
     if (!std::exchange(summed_, true))
-        for (int axis = 0; axis < 2; ++axis)
+        for (int axis = 0; axis < box.components(); ++axis)
             window_.sum_f[axis] = box.sum_of_cells(impulse()[axis]);
     return window_.sum_f;
 }
@@ -42,15 +42,15 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
 
 /// r = dt nu L u - f; returns |r|^2.
 ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
-    residual_.resize(box.size());
-    rigid_residual_.resize(box.size());
-    const CellVelocity u = grains.velocity();
-    const RowsOfTwo& f = impulse();
+    residual_.resize(box.components(), box.size());
+    rigid_residual_.u.resize(box.components(), box.size());
+    const VelocityPointers u = grains.velocity();
+    const VelocityRows& f = impulse();
     ResidualSquare square;
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < u.size(); ++axis) {
         const ViscousSums one =
-            box.viscous_residual(per_laplacian_, axis, axis == 0 ? u.x : u.y, f[axis].data(),
-                                 residual_[axis].data(), rigid_residual_[axis].data());
+            box.viscous_residual(per_laplacian_, axis, u[axis], f[axis].data(),
+                                 residual_[axis].data(), rigid_residual_.u[axis].data());
         square.sum += one.square;
         sum_residual_[axis] = one.sum;
     }
@@ -62,10 +62,7 @@ ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& gra
 /// z = W r, and d = r + beta d with W d.
 void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grains, bool first,
                                       double& rz, const IterationLimit& limit) {
-    if (!first) {
-        rigid_residual_.x = residual_.x;
-        rigid_residual_.y = residual_.y;
-    }
+    if (!first) rigid_residual_.u = residual_;
     grains.make_rigid(rigid_residual_, limit.slip_reduction);
     if (first) {
         std::swap(rigid_direction_, rigid_residual_);
@@ -73,10 +70,12 @@ void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grai
         return;
     }
     const double last = rz;
-    rz = box.dot(residual_.x, rigid_residual_.x) + box.dot(residual_.y, rigid_residual_.y);
+    rz = 0.0;
+    for (int axis = 0; axis < residual_.size(); ++axis)
+        rz += box.dot(residual_[axis], rigid_residual_.u[axis]);
     grains.sum_over_ranks(&rz, 1);
     const double beta = rz / last;
-    for (int axis = 0; axis < 2; ++axis)
+    for (int axis = 0; axis < residual_.size(); ++axis)
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)
             later_[axis][c] = beta * later_[axis][c] + residual_[axis][c];
     grains.combine(rigid_direction_, beta, rigid_residual_);
@@ -85,12 +84,12 @@ void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grai
 
 /// A d = d - dt nu L W d, kept if there may be another iteration.
 ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
-    if (keep) image_.resize(box.size());
-    const RowsOfTwo& d = direction_ ? *direction_ : residual_;
+    if (keep) image_.resize(box.components(), box.size());
+    const VelocityRows& d = direction_ ? *direction_ : residual_;
     ImageProducts sum;
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < d.size(); ++axis) {
         const ImageProducts one =
-            box.viscous_image(per_laplacian_, axis, d[axis].data(), rigid_direction_[axis].data(),
+            box.viscous_image(per_laplacian_, axis, d[axis].data(), rigid_direction_.u[axis].data(),
                               residual_[axis].data(), keep ? image_[axis].data() : nullptr);
         sum.direction += one.direction;
         sum.residual += one.residual;
@@ -104,20 +103,21 @@ ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains
 /// The same for an only iteration, where d = r and later iterations need neither.
 void RigidViscosity::move_only(RigidGrains& grains, double alpha) {
     pending_ = alpha;
-    for (int axis = 0; axis < 2; ++axis) window_.sum_f[axis] += alpha * sum_residual_[axis];
+    for (int axis = 0; axis < residual_.size(); ++axis)
+        window_.sum_f[axis] += alpha * sum_residual_[axis];
     grains.add_later(rigid_direction_, alpha);
 }
 
 /// f += alpha d, u += alpha W d, r -= alpha A d.
 void RigidViscosity::move(RigidGrains& grains, double alpha, bool again) {
     if (!again) return move_only(grains, alpha);
-    const RowsOfTwo& d = direction_ ? *direction_ : residual_;
-    for (int axis = 0; axis < 2; ++axis)
+    const VelocityRows& d = direction_ ? *direction_ : residual_;
+    for (int axis = 0; axis < d.size(); ++axis)
         for (std::size_t c = 0; c < d[axis].size(); ++c) window_.f[axis][c] += alpha * d[axis][c];
     summed_ = false;
     grains.add(rigid_direction_, alpha);
     if (!direction_) later_ = residual_;  // the first direction
-    for (int axis = 0; axis < 2; ++axis)
+    for (int axis = 0; axis < image_.size(); ++axis)
         for (std::size_t c = 0; c < image_[axis].size(); ++c)
             residual_[axis][c] -= alpha * image_[axis][c];
 }

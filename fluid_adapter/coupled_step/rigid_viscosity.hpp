@@ -27,10 +27,10 @@ class RigidViscosity {
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
     /// f over the rank's cells [m/s].
-    const RowsOfTwo& impulse();
+    const VelocityRows& impulse();
 
     /// Its sum over the rank's cells, weighted by volumes as in box_operators.hpp.
-    std::array<double, 2> sum(const BoxOperators& box);
+    BoxForce sum(const BoxOperators& box);
 
  private:
     ResidualSquare find_residual(BoxOperators& box, RigidGrains& grains);
@@ -44,10 +44,10 @@ class RigidViscosity {
     ImpulsesOfWindow window_;
     bool summed_ = true;    // the sum of f is known
     double pending_ = 0.0;  // f lacks this share of r
-    RowsOfTwo residual_, image_;
-    std::array<double, 2> sum_residual_{};  // over the rank's cells, before the first iteration
-    RowsOfTwo later_;                       // d of all iterations but the first, where it is r
-    const RowsOfTwo* direction_ = nullptr;  // null: r
+    VelocityRows residual_, image_;
+    BoxForce sum_residual_{};                  // over the rank's cells, before the first iteration
+    VelocityRows later_;                       // d of all iterations but the first, where it is r
+    const VelocityRows* direction_ = nullptr;  // null: r
     RigidChange rigid_residual_, rigid_direction_;
 };
 

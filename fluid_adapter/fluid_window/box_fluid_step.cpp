@@ -53,8 +53,8 @@ void BoxFluidStep::store() {
 
 void BoxFluidStep::put_unconstrained() {
     if (!coupled_) return put_velocity();
-    const RowsOfTwo s = coupled_->unconstrained();
-    fields_->write_velocity(s.x.data(), s.y.data());
+    const VelocityRows s = coupled_->unconstrained();
+    fields_->write_velocity(s[0].data(), s[1].data());
 }
 
 BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
@@ -189,7 +189,7 @@ void BoxFluidStep::set_memory(const std::vector<double>& values) {
 
 /// As `memory` appends them.
 MemoryRows BoxFluidStep::memory_rows() const {
-    const std::size_t nx = static_cast<std::size_t>(step_.columns());
+    const std::size_t nx = static_cast<std::size_t>(step_.layers().nx);
     const MemoryRows::Array cells{nx, 0}, single{};
     const std::vector<MemoryRows::Array> flux{{nx + 1, 0}, {nx, 1}};
     MemoryRows rows{static_cast<std::size_t>(fields_->first_row()), step_.cells() / nx, flux};

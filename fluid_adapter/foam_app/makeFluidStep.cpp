@@ -110,7 +110,8 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
 }
 
 /// The operator with the spacing of the mesh in metres; of a stretched grid, that of its first row.
-SeparableOperator in_metres(SeparableOperator plane, const Foam::vector& box_size, const CellGrid& grid) {
+SeparableOperator in_metres(SeparableOperator plane, const Foam::vector& box_size,
+                            const CellGrid& grid) {
     plane.x.spacing = box_size.x() / plane.x.cells;
     plane.y.spacing = box_size.y() / plane.y.cells;
     plane.y.sizes.clear();

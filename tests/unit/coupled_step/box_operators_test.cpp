@@ -15,8 +15,8 @@ class Operators : public testing::TestWithParam<TankSides> {
     /// D (-dt G p) + dt Q p with this w, and its product with r.
     std::vector<double> image_of(const std::vector<double>& p, const std::vector<double>& w) {
         std::vector<double> x(size()), y(size()), image(size()), r(size(), 0.0);
-        box.gradient(time_step, p.data(), x.data(), y.data());
-        box.flux_image(time_step, w.data(), p.data(), x.data(), y.data(), r.data(), image.data());
+        box.gradient(time_step, p.data(), {x.data(), y.data()});
+        box.flux_image(time_step, w.data(), p.data(), {x.data(), y.data()}, r.data(), image.data());
         return image;
     }
 
@@ -49,9 +49,9 @@ TEST_P(Operators, GradientAndDivergenceAreTransposed) {
     fill_randomly(p, 1), fill_randomly(x, 2), fill_randomly(y, 3);
     const std::vector<double> none(size(), 0.0);
     std::vector<double> divergence(size());
-    box.flux_image(0.0, none.data(), none.data(), x.data(), y.data(), none.data(),
+    box.flux_image(0.0, none.data(), none.data(), {x.data(), y.data()}, none.data(),
                    divergence.data());
-    box.gradient(-1.0, p.data(), gx.data(), gy.data());
+    box.gradient(-1.0, p.data(), {gx.data(), gy.data()});
     const double by_gradient = product(gx, x) + product(gy, y);
     EXPECT_NEAR(product(p, divergence), -by_gradient, 1e-10 * std::abs(by_gradient));
     EXPECT_GT(std::abs(by_gradient), 1.0);
@@ -72,7 +72,7 @@ TEST_P(Operators, ProductsAreThoseOfTheImages) {
     const std::vector<double> w(size(), 1.0);
     fill_randomly(p, 1), fill_randomly(x, 2), fill_randomly(y, 3), fill_randomly(r, 4);
     const ImageProducts of =
-        box.flux_image(time_step, w.data(), p.data(), x.data(), y.data(), r.data(), image.data());
+        box.flux_image(time_step, w.data(), p.data(), {x.data(), y.data()}, r.data(), image.data());
     EXPECT_NEAR(of.direction, product(image, p), 1e-10 * std::abs(of.itself));
     EXPECT_NEAR(of.residual, product(image, r), 1e-10 * std::abs(of.itself));
     EXPECT_NEAR(of.itself, product(image, image), 1e-10 * std::abs(of.itself));
@@ -96,11 +96,11 @@ TEST_P(Operators, TheExcessIsTheFluxOfTheResidual) {
     std::vector<double> p(size()), w(size()), before(size());
     fill_randomly(p, 1), fill_randomly(w, 3);
     for (double& value : w) value = value > 0.0 ? 1.0 : 0.0;
-    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data(), 0.5, w.data()};
+    const ExcessFlux excess{step.excess_pointers(), 0.5, w.data()};
     fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
     double *x = step.velocity(0), *y = step.velocity(1);
     std::fill_n(x, size(), 0.0), std::fill_n(y, size(), 0.0);
-    box.flux_residual(time_step, p.data(), x, y, excess, {}, before.data());
+    box.flux_residual(time_step, p.data(), {x, y}, excess, {}, before.data());
     box.update_excess(time_step, p.data(), excess);
     const std::vector<double> after = flux_defect(step);
     EXPECT_GT(product(before, before), 1.0);
@@ -111,7 +111,7 @@ TEST_P(Operators, NoExcessBetweenCellsInsideGrains) {
     std::vector<double> w(size(), 0.0), p(size());
     fill_randomly(p, 4);
     fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
-    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data(), 0.5, w.data()};
+    const ExcessFlux excess{step.excess_pointers(), 0.5, w.data()};
     box.update_excess(time_step, p.data(), excess);
     for (int axis = 0; axis < 2; ++axis)
         for (const double e : step.excess(axis)) ASSERT_EQ(e, 0.0);
@@ -120,18 +120,18 @@ TEST_P(Operators, NoExcessBetweenCellsInsideGrains) {
 /// What is done while a velocity is read equals what is done before it is read.
 TEST_P(Operators, APendingChangeIsMadeOnce) {
     std::vector<double> w(size(), 1.0), p(size()), together(size()), apart(size());
-    RowsOfTwo change, u;
-    change.resize(size()), u.resize(size());
+    VelocityRows change, u;
+    change.resize(2, size()), u.resize(2, size());
     for (int axis = 0; axis < 2; ++axis) {
         fill_randomly(change[axis], 10 + axis), fill_randomly(u[axis], 20 + axis);
         std::copy(u[axis].begin(), u[axis].end(), step.velocity(axis));
         for (std::size_t c = 0; c < size(); ++c) u[axis][c] += 0.7 * change[axis][c];
     }
     fill_randomly(p, 4);
-    const ExcessFlux excess{step.excess(0).data(), step.excess(1).data(), 1.0, w.data()};
-    box.flux_residual(time_step, p.data(), step.velocity(0), step.velocity(1), excess,
-                      {0.7, change.x.data(), change.y.data()}, together.data());
-    box.flux_residual(time_step, p.data(), u.x.data(), u.y.data(), excess, {}, apart.data());
+    const ExcessFlux excess{step.excess_pointers(), 1.0, w.data()};
+    box.flux_residual(time_step, p.data(), {step.velocity(0), step.velocity(1)}, excess,
+                      {0.7, {change[0].data(), change[1].data()}}, together.data());
+    box.flux_residual(time_step, p.data(), u.pointers(), excess, {}, apart.data());
     EXPECT_EQ(together, apart);
     for (int axis = 0; axis < 2; ++axis)
         for (std::size_t c = 0; c < size(); ++c) ASSERT_EQ(step.velocity(axis)[c], u[axis][c]);
@@ -143,9 +143,9 @@ TEST_P(Operators, ADirectionIsTheGradientOfItsSum) {
     fill_randomly(z, 1), fill_randomly(d, 2);
     std::vector<double> sum = d;
     for (std::size_t c = 0; c < size(); ++c) sum[c] = z[c] + 0.3 * d[c];
-    box.direction(time_step, z.data(), 0.3, d.data(), x.data(), y.data());
+    box.direction(time_step, z.data(), 0.3, d.data(), {x.data(), y.data()});
     EXPECT_EQ(d, sum);
-    box.gradient(time_step, sum.data(), again_x.data(), again_y.data());
+    box.gradient(time_step, sum.data(), {again_x.data(), again_y.data()});
     EXPECT_EQ(x, again_x);
     EXPECT_EQ(y, again_y);
     EXPECT_GT(product(x, x) + product(y, y), 0.01);
@@ -165,16 +165,16 @@ TEST_P(Operators, TransportAddsTheImpulsesOfItsVelocity) {
             std::copy(u.begin(), u.end(), each->velocity(axis));
         }
     }
-    RowsOfTwo f;
-    f.resize(size());
+    VelocityRows f;
+    f.resize(2, size());
     for (int axis = 0; axis < 2; ++axis)
         box.laplacian(0.01 * time_step, axis, step.velocity(axis), f[axis].data());
     ImpulsesOfWindow impulses;
     impulses.dt = time_step;
     step.transport(time_step, &impulses);
     other.transport(time_step);
-    other.operators().add_impulses(1.0, time_step, other.pressure(), f, other.velocity(0),
-                                   other.velocity(1));
+    other.operators().add_impulses(1.0, time_step, other.pressure(), f,
+                                   {other.velocity(0), other.velocity(1)});
     for (int axis = 0; axis < 2; ++axis) {
         EXPECT_EQ(impulses.f[axis], f[axis]);
         EXPECT_NEAR(impulses.sum_f[axis], box.sum_of_cells(f[axis]), 1e-12);

@@ -103,12 +103,12 @@ TEST_P(Correction, WithoutGrainsOneIterationIsExact) {
 TEST_P(Correction, ViscosityIsImplicit) {
     for (const double viscosity : {0.1, 5.0}) {
         Tank tank(GetParam(), viscosity);
-        RowsOfTwo s;
-        s.resize(tank.size());
+        VelocityRows s;
+        s.resize(2, tank.size());
         for (int axis = 0; axis < 2; ++axis)
             std::copy_n(tank.step.velocity(axis), tank.size(), s[axis].begin());
         RigidViscosity implicit;
-        implicit.begin(time_step, viscosity).f.resize(tank.size());  // none yet
+        implicit.begin(time_step, viscosity).f.resize(2, tank.size());  // none yet
         RigidGrains grains = tank.rigid();
         const IterationLimit limit{400, 1e-4 * viscosity};  // of accelerations of some 500 nu
         EXPECT_GE(implicit.correct(tank.box, grains, limit).iterations, 2);
@@ -119,8 +119,8 @@ TEST_P(Correction, ViscosityIsImplicit) {
         EXPECT_TRUE(grains.settle().converged);
         EXPECT_LT(deformation(tank), 1e-10);
 
-        RowsOfTwo f, again;
-        f.resize(tank.size()), again.resize(tank.size());
+        VelocityRows f, again;
+        f.resize(2, tank.size()), again.resize(2, tank.size());
         for (int axis = 0; axis < 2; ++axis) {
             tank.box.laplacian(viscosity * time_step, axis, tank.step.velocity(axis),
                                f[axis].data());
@@ -138,7 +138,7 @@ TEST_P(Correction, ViscosityIsImplicit) {
                                      tank.grains[g].effective_inertia)
                                   .cwiseProduct(before.flow.motions()[g]));
         ConstrainedFlow check;
-        check.begin(tank.system, {again.x.data(), again.y.data()}, momenta,
+        check.begin(tank.system, {again[0].data(), again[1].data()}, momenta,
                     prescribed_motions(tank.grains));
         uzawa_cg(check, tank.settings, tank.work);
         check.impose();

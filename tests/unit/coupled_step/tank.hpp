@@ -80,15 +80,14 @@ inline double product(const std::vector<double>& a, const std::vector<double>& b
 inline std::vector<double> flux_defect(BoxStep& step) {
     const std::vector<double> none(step.cells(), 0.0);
     std::vector<double> r(step.cells());
-    step.operators().flux_residual(time_step, none.data(), step.velocity(0), step.velocity(1),
-                                   {step.excess(0).data(), step.excess(1).data(), 0.0, none.data()},
-                                   {}, r.data());
+    step.operators().flux_residual(time_step, none.data(), {step.velocity(0), step.velocity(1)},
+                                   {step.excess_pointers(), 0.0, none.data()}, {}, r.data());
     const std::vector<double>&x = step.excess(0), &y = step.excess(1);
     constexpr int n = cells_across;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
             r[j * n + i] -= (x[j * (n + 1) + i + 1] - x[j * (n + 1) + i]) / cell_size +
-                            (y[(j + 1) * n + i] - y[j * n + i]) / step.heights().size(j);
+                            (y[(j + 1) * n + i] - y[j * n + i]) / step.layers().heights.size(j);
     return r;
 }
 
