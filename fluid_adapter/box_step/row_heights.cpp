@@ -21,14 +21,16 @@ RowHeights::RowHeights(const AxisOperator& axis, const BoxRows& rows)
 }
 
 FacePlace RowHeights::face(int j) const {
+    if (equal_to_both(j - 1) && equal_to_both(j)) return {};
     const double d = distance(j);
     return {d / distance(j - 1), d / distance(j + 1), 0.5 * size(j - 1) / d, 0.5 * size(j) / d,
-            equal_to_both(j - 1) && equal_to_both(j)};
+            false};
 }
 
 RowShares RowHeights::volume_shares(int j) const {
+    if (equal_beside(j)) return halves;
     const double both = size(j - 1) + size(j);
-    return {size(j - 1) / both, size(j) / both, equal_beside(j)};
+    return {size(j - 1) / both, size(j) / both, false};
 }
 
 ThreeRows RowHeights::central_difference(int j, double share) const {

@@ -41,7 +41,7 @@ class RowReader {
     /// `kept` remain valid.
     const double* row(int j, int k = 0) {
         while (loaded_ < j) load(++loaded_);
-        return slots_[(j + beyond) % kept].row(k);
+        return slots_[static_cast<unsigned>(j + beyond) % kept].row(k);
     }
 
     /// Fills the values beyond both ends of row k of layer j, and the rows beyond both ends of the

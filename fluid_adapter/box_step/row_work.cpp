@@ -8,7 +8,11 @@ namespace turbidite {
 TURBIDITE_ROW_WORK
 void mean_flux(int count, RowShares s, const double* __restrict low, const double* __restrict high,
                double kept, const double* __restrict extra, double* __restrict face) {
-    for (int i = 0; i < count; ++i) face[i] = s.low * low[i] + s.high * high[i] + kept * extra[i];
+    const bool equal = s.equal;
+    for (int i = 0; i < count; ++i) {
+        const double mean = equal ? s.low * (low[i] + high[i]) : s.low * low[i] + s.high * high[i];
+        face[i] = mean + kept * extra[i];
+    }
 }
 
 TURBIDITE_ROW_WORK

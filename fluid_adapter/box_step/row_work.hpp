@@ -30,7 +30,7 @@ struct RowShares {
 /// Of cells of the same size.
 inline constexpr RowShares halves{0.5, 0.5, true}, ones{1.0, 1.0, true};
 
-/// face[i] = s.low low[i] + s.high high[i] + kept extra[i]
+/// face[i] = s.low low[i] + s.high high[i] + kept extra[i]; of equal rows s is 1/2
 void mean_flux(int count, RowShares s, const double* low, const double* high, double kept,
                const double* extra, double* face);
 
