@@ -107,15 +107,15 @@ TEST(Collisions, ASlidingDiscSlowsDownAndRolls) {
 // The moment of inertia is the caller's, and loads act.
 TEST(Collisions, LoadsTurnAndPush) {
     nscd::Body body = disc(1, 5.0, 5.0);
-    body.inertia *= 3.0;
+    body.inertia = 3.0 * body.inertia;
     Scene scene(soft_settings(), {body});
     const std::vector<Load> loads = {{{0.2, -0.1, 0.0}, {0.0, 0.0, 0.07}}};
     const SubstepReport report = scene.host.run({100, 0.001, true}, loads);
     scene.host.read(scene.bodies);
     EXPECT_NEAR(scene.bodies.twist[0].velocity[0], 0.2 * 0.1 / body.mass, 1e-13);
     EXPECT_NEAR(scene.bodies.twist[0].velocity[1], -0.1 * 0.1 / body.mass, 1e-13);
-    EXPECT_NEAR(scene.bodies.twist[0].spin[2], 0.07 * 0.1 / body.inertia, 1e-13);
-    const double angle = 0.5 * 0.07 / body.inertia * 0.01;
+    EXPECT_NEAR(scene.bodies.twist[0].spin[2], 0.07 * 0.1 / body.inertia.zz, 1e-13);
+    const double angle = 0.5 * 0.07 / body.inertia.zz * 0.01;
     EXPECT_NEAR(scene.bodies.orientation[0][3], std::sin(0.5 * angle), 1e-13);
     EXPECT_NEAR(report.impulses[0][0], 0.02, 1e-15);
     EXPECT_NEAR(report.angular_impulses[0][2], 0.007, 1e-15);
