@@ -63,8 +63,8 @@ bool is_run_folder(const RunFolder& folder) {
 void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
-          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.checkpoints(),
-          folder.stop(), folder.root / write_file, folder.root / checkpoint_file,
+          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.film(),
+          folder.checkpoints(), folder.stop(), folder.root / write_file, folder.root / checkpoint_file,
           folder.recordings(), folder.root / "timeline", folder.root / "differences"})
         fs::remove_all(part);
     CheckpointSets(folder.root).remove_unfinished();

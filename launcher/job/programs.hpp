@@ -38,6 +38,7 @@ struct Programs {
     std::filesystem::path python_module() const { return library / "python"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
+    std::filesystem::path film() const { return source / "launcher/report/film.py"; }
     std::filesystem::path study() const { return source / "launcher/report/study.py"; }
     std::filesystem::path compare() const { return source / "launcher/report/compare.py"; }
 };

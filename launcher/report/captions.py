@@ -89,13 +89,13 @@ def rest(run):
     return ''
 
 
-def force_network(networks):
+def force_network(run, networks, left_out='the weakest are not drawn'):
     """The force of the widest lines, and their position."""
     counts = ', '.join(f'{len(network.forces)} at t = {network.time:.3g} t_c' for network in networks)
     strongest = max(networks, key=lambda network: abs(network.forces).max())
     return ('Lines join grains in contact, as wide as their normal force (red repulsive, blue attractive), on one '
-            'scale for all pictures; the weakest are not drawn. Contacts with an impulse: '
-            f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g D^2 at t = '
+            'scale for all pictures; ' + left_out + '. Contacts with an impulse: '
+            f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g {run.solid_unit()} at t = '
             f'{strongest.time:.3g} t_c.')
 
 
@@ -124,7 +124,7 @@ def packing(run):
     text = []
     _, pores = run.column('pore_volume')
     if len(pores) and pores[0] > 0.0 and run.is_packed():
-        text.append(f'Pores from {pores[0]:.4g} D^2 to {pores[-1]:.4g} D^2 '
+        text.append(f'Pores from {pores[0]:.4g} {run.solid_unit()} to {pores[-1]:.4g} {run.solid_unit()} '
                     f'({100 * (pores[-1] / pores[0] - 1):+.3g} %).')
     _, sliding = run.column('sliding_share')
     if len(sliding):

@@ -29,13 +29,15 @@ class Plot:
     logarithmic: bool = False
     divide_by_height: bool = False  # lengths in D over the height of the domain
     relaxation: bool = False        # with the fit of relaxation.py
+    in_space: str = ''              # the unit there, if it is another
     of_springs: tuple = ()          # title and unit where springs act in sub-steps instead of a contact solver
 
     def title_of(self, run):
         return self.of_springs[0] if self.of_springs and run.has_springs() else self.title
 
     def unit_of(self, run):
-        return self.of_springs[1] if self.of_springs and run.has_springs() else self.unit
+        unit = self.of_springs[1] if self.of_springs and run.has_springs() else self.unit
+        return self.in_space if self.in_space and run.in_space() else unit
 
 
 # Fig. 3 of Topin et al. 2011.
@@ -71,9 +73,9 @@ NETWORK = [
     Plot('Coordination', 'contacts per grain', [Curve('coordination', '')]),
     Plot('Stress in the packing', r'stress $/\,(\rho_s g D)$',
          [Curve('sigma_xx', r'$\sigma_{xx}$'), Curve('sigma_yy', r'$\sigma_{yy}$'),
-          Curve('sigma_xy', r'$\sigma_{xy}$')]),
+          Curve('sigma_xy', r'$\sigma_{xy}$'), Curve('sigma_zz', r'$\sigma_{zz}$')]),
     Plot('Anisotropy of the contacts', 'fabric anisotropy', [Curve('fabric_anisotropy', '')]),
-    Plot('Pores between the grains', r'area $/\,D^2$', [Curve('pore_volume', '')]),
+    Plot('Pores between the grains', r'area $/\,D^2$', [Curve('pore_volume', '')], in_space=r'volume $/\,D^3$'),
 ]
 
 SOLVERS = [

@@ -22,12 +22,12 @@ FEWEST_CONTACTS = 50    # for a distribution
 
 @dataclass
 class Network:
-    """Contacts with an impulse at one time; forces over rho_s g D^2."""
+    """Contacts with an impulse at one time, d = 2 or in space 3; forces over rho_s g D^d."""
 
     time: float           # t_c
     grains: object        # grain_files.Grains
-    ends: np.ndarray      # (n, 2, 2) of the line that represents a contact [D]
-    normals: np.ndarray   # (n, 2) unit
+    ends: np.ndarray      # (n, 2, d) of the line that represents a contact [D]
+    normals: np.ndarray   # (n, d) unit
     forces: np.ndarray    # (n,) along the normal, > 0 repulsive
     between_grains: np.ndarray  # (n,) bool; others are at walls
 

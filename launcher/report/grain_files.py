@@ -18,9 +18,18 @@ class Grains:
     outlines: dict = None          # index of a polygon: its corners (k, 2)
     forces: np.ndarray = None      # (n, 2) of the fluid, buoyancy apart
     densities: np.ndarray = None   # (n,)
+    z: np.ndarray = None           # (n,) of the centres; 0 in the plane
+    velocity_z: np.ndarray = None  # (n,)
 
     def speeds(self):
-        return None if self.velocities is None else np.hypot(*self.velocities.T)
+        if self.velocities is None:
+            return None
+        in_plane = np.hypot(*self.velocities.T)
+        return in_plane if self.velocity_z is None else np.hypot(in_plane, self.velocity_z)
+
+    def positions(self):
+        """(n, 3) centres."""
+        return np.column_stack([self.centres, np.zeros(len(self.radii)) if self.z is None else self.z])
 
 
 def grain_series(run):
@@ -48,11 +57,11 @@ def read_grains(time, path):
     arrays = read_arrays(path)
     if 'radius' not in arrays:
         raise ValueError(f'{path.name} has no array "radius"')
-    grains = Grains(time, in_plane(arrays['Points']), arrays['radius'])
+    grains = Grains(time, in_plane(arrays['Points']), arrays['radius'], z=across(arrays['Points']))
     if 'id' in arrays:
         grains.ids = arrays['id'].astype(np.int64)
     if 'velocity' in arrays:
-        grains.velocities = in_plane(arrays['velocity'])
+        grains.velocities, grains.velocity_z = in_plane(arrays['velocity']), across(arrays['velocity'])
     grains.densities = arrays.get('density')
     if 'force' in arrays:
         grains.forces = in_plane(arrays['force'])
@@ -74,6 +83,16 @@ def read_outlines(path, ids):
 def in_plane(triples):
     """(n, 2) of x, y, z in a row."""
     return triples.reshape(-1, 3)[:, :2]
+
+
+def in_space(triples):
+    """(n, 3) of x, y, z in a row."""
+    return triples.reshape(-1, 3)
+
+
+def across(triples):
+    """(n,) the z of x, y, z in a row."""
+    return triples.reshape(-1, 3)[:, 2]
 
 
 def read_arrays(path):

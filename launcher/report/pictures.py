@@ -35,16 +35,23 @@ class Picture:
 
 
 def instants(run):
-    """Up to six (time, grains file or None, field folder or None), evenly spaced until the grains are at rest, or
-    over the run if they are not."""
+    """Up to six of all_instants, evenly spaced until the grains are at rest, or over the run if they are not."""
+    every = all_instants(run)
+    if not every:
+        return []
+    return [every[i] for i in _chosen([time for time, _, _ in every], findings.rest_time(run), run.scale('t_c'))]
+
+
+def all_instants(run):
+    """(time, grains file or None, field folder or None) of every output with grains; with a fluid, of every output of
+    its fields."""
     grains, fields = grain_files.grain_series(run), fluid_fields.field_times(run)
     leading = fields if run.is_wet() and len(fields) > 1 else grains or fields
     if not leading:
         return []
     times = [time for time, _ in leading]
     tolerance = SAME_TIME * _interval(times)
-    return [(times[i], _at(times[i], grains, tolerance), _at(times[i], fields, tolerance))
-            for i in _chosen(times, findings.rest_time(run), run.scale('t_c'))]
+    return [(time, _at(time, grains, tolerance), _at(time, fields, tolerance)) for time in times]
 
 
 def _chosen(times, rest, time_scale):
@@ -115,7 +122,7 @@ def figure(run, pictures):
     """All pictures side by side with one colour scale."""
     result, axes, size = frame(run, [picture.grains for picture in pictures])
     wet = run.is_wet()
-    limit = colour_limit(run, pictures) if wet else speed_limit(run, pictures)
+    limit = shown_limit(run, pictures)
     images = [_draw(run, picture, limit, size, place) for picture, place in zip(pictures, axes.flat)]
     _colour_bar(result, axes, [image for image in images if image is not None],
                 r'vertical fluid velocity $/\,u_c$' if wet else r'speed of the grains $/\,u_c$',
@@ -144,23 +151,30 @@ def panel_axes(run, shown, bar=False):
 
 
 def panels(run, shown):
-    """(figure, name) of each picture, the colour bar below each."""
-    wet, found = run.is_wet(), []
-    limit = colour_limit(run, shown) if wet else speed_limit(run, shown)
-    size = view(run, [picture.grains for picture in shown])
-    for k, picture in enumerate(shown):
-        result, axes, below = panel_axes(run, shown, bar=True)
-        image = _draw(run, picture, limit, size, axes)
-        if image is None:
-            below.set_axis_off()
-        else:
-            bar = result.colorbar(image, cax=below, orientation='horizontal', extend='both' if wet else 'max')
-            bar.set_label(r'fluid, $v\,/\,u_c$' if wet else r'grains, $|u|\,/\,u_c$', fontsize=8)
-            below.tick_params(labelsize=7)
-            bar.locator = MaxNLocator(4)
-            bar.update_ticks()
-        found.append((result, f'sequence-{k}'))
-    return found
+    """(figure, name) of each picture."""
+    limit, size = shown_limit(run, shown), view(run, [picture.grains for picture in shown])
+    return [(panel(run, shown, picture, limit, size), f'sequence-{k}') for k, picture in enumerate(shown)]
+
+
+def shown_limit(run, shown):
+    """Of the colours, for all of these pictures [u_c]."""
+    return colour_limit(run, shown) if run.is_wet() else speed_limit(run, shown)
+
+
+def panel(run, shown, picture, limit, size):
+    """One of the pictures, with a colour bar below it."""
+    wet = run.is_wet()
+    result, axes, below = panel_axes(run, shown, bar=True)
+    image = _draw(run, picture, limit, size, axes)
+    if image is None:
+        below.set_axis_off()
+        return result
+    bar = result.colorbar(image, cax=below, orientation='horizontal', extend='both' if wet else 'max')
+    bar.set_label(r'fluid, $v\,/\,u_c$' if wet else r'grains, $|u|\,/\,u_c$', fontsize=8)
+    below.tick_params(labelsize=7)
+    bar.locator = MaxNLocator(4)
+    bar.update_ticks()
+    return result
 
 
 def frame(run, all_grains, beside=BAR_WIDTH):

@@ -21,7 +21,11 @@ import run_data
 import wall_shares
 from analysis import panels
 from page import Page, write_whole
+from space import chains, sequence
 from working import Progress
+
+
+SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
 
 def coupling(case):
@@ -37,9 +41,8 @@ def facts(run):
         ('made by', f'turbidite {(record.get("versions") or {}).get("turbidite", "of unknown version")}'
                     f'{date_of(record)}'),
         *([('command', run.command())] if run.command() else []),
-        ('domain', f'{case.get("domain.size", "unknown")} D; left {case.get("domain.left")}, right '
-                   f'{case.get("domain.right")}, bottom {case.get("domain.bottom")}, top '
-                   f'{case.get("domain.top")}'),
+        ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
+            f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
         ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, density ratio '
                    f'{case.get("grains.density_ratio")}, friction {case.get("contact.friction")}, '
                    f'by {case.get("grains.adapter")}'),
@@ -89,6 +92,9 @@ def add_sequence(page, run):
     if not chosen or 'domain.size' not in run.case:
         return page.paragraph('There is nothing to draw yet.', 'remark')
     loaded = [pictures.load(run, instant) for instant in chosen]
+    if run.in_space():
+        return page.panels(sequence.panels(run, loaded),
+                           f'{captions.sequence(run, loaded)} {sequence.caption(run, loaded)}', sequence.PANEL_WIDTH)
     page.file_only(pictures.figure(run, loaded), 'sequence')
     page.panels(pictures.panels(run, loaded), captions.sequence(run, loaded), pictures.panel_width(run, loaded))
 
@@ -116,10 +122,14 @@ def add_contacts(page, run):
     if not shown:
         return
     page.heading('Force network')
-    page.file_only(force_network.figure(run, shown), 'force_network')
-    page.panels(force_network.panels(run, shown), captions.force_network(shown),
-                pictures.panel_width(run, shown))
-    told = force_network.statistics(shown)
+    if run.in_space():
+        page.panels(chains.panels(run, shown), captions.force_network(run, shown, chains.LEFT_OUT),
+                    sequence.PANEL_WIDTH)
+    else:
+        page.file_only(force_network.figure(run, shown), 'force_network')
+        page.panels(force_network.panels(run, shown), captions.force_network(run, shown),
+                    pictures.panel_width(run, shown))
+    told = (chains if run.in_space() else force_network).statistics(shown)
     if told:
         page.panels(told, captions.contact_statistics(run))
 

@@ -21,6 +21,13 @@ int run_script(const Programs& programs, const std::filesystem::path& script,
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// What a script says with its exit status; anything unforeseen is a failure.
+ExitCode outcome_of(int status) {
+    for (const ExitCode code : {ExitCode::done, ExitCode::bad_input})
+        if (status == static_cast<int>(code)) return code;
+    return ExitCode::participant_failed;
+}
+
 }  // namespace
 
 void require_run_folder(const std::filesystem::path& directory) {
@@ -35,6 +42,10 @@ bool write_report(const RunFolder& folder, const Programs& programs) {
     return run_script(programs, programs.report(), {folder.root}) == 0;
 }
 
+ExitCode write_film(const RunFolder& folder, const Programs& programs) {
+    return outcome_of(run_script(programs, programs.film(), {folder.root}));
+}
+
 bool write_study_results(const std::filesystem::path& folder, const Programs& programs) {
     return run_script(programs, programs.study(), {folder}) == 0;
 }
@@ -45,10 +56,7 @@ ExitCode write_comparison(const std::filesystem::path& page, const std::vector<R
     if (each) arguments.push_back("--each");
     arguments.push_back(page);
     for (const RunFolder& run : runs) arguments.push_back(run.root);
-    const int status = run_script(programs, programs.compare(), arguments);
-    for (const ExitCode code : {ExitCode::done, ExitCode::bad_input})
-        if (status == static_cast<int>(code)) return code;
-    return ExitCode::participant_failed;
+    return outcome_of(run_script(programs, programs.compare(), arguments));
 }
 
 }  // namespace turbidite

@@ -16,6 +16,10 @@ void require_run_folder(const std::filesystem::path& directory);
 /// Runs launcher/report/report.py; false if it failed, with its messages on stderr.
 bool write_report(const RunFolder& folder, const Programs& programs);
 
+/// Runs launcher/report/film.py; done, bad_input for a run without outputs, or participant_failed,
+/// with its messages on stderr.
+ExitCode write_film(const RunFolder& folder, const Programs& programs);
+
 /// Runs launcher/report/compare.py, which writes `page` and the numbers beside it; without `each`
 /// it averages runs that differ only in the seed. On failure returns bad_input if the runs cannot
 /// be compared, otherwise participant_failed; its messages are on stderr.

@@ -31,8 +31,22 @@ class RunData:
         """D, u_c or t_c; 1 if it is not in run.json (non-physical cases)."""
         return float(self.record.get(name) or 1.0)
 
+    def in_space(self):
+        return self.case.get('dimension') == '3'
+
+    def solid_unit(self):
+        """What solid and pores are told in: areas in the plane, volumes in space."""
+        return 'D^3' if self.in_space() else 'D^2'
+
     def size(self):
         """Width and height of the domain [D]."""
+        return self._lengths()[:2]
+
+    def depth(self):
+        """Extent of the domain along z in space [D]."""
+        return self._lengths()[2]
+
+    def _lengths(self):
         return [float(v) for v in self.case['domain.size'].strip('[]').split(',')]
 
     def front_arrives(self):

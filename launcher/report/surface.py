@@ -4,10 +4,13 @@ import numpy as np
 
 import curves
 import grain_files
+from space import free_surface
 
 
 def surface(run, grains):
-    """(centres of the columns, heights), both in D; 0 where there is no grain."""
+    """(centres of the columns, heights), both in D; 0 where there is no grain. In space the mean over the depth."""
+    if run.in_space():
+        return free_surface.over_length(run, grains)
     diameter = run.scale('D')
     centres, radii = grains.centres / diameter, grains.radii / diameter
     columns = int(np.ceil(run.size()[0]))

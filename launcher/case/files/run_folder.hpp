@@ -31,6 +31,7 @@ struct RunFolder {
     std::filesystem::path recordings() const { return root / "recording"; }
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
+    std::filesystem::path film() const { return root / "film.webp"; }
 
     std::filesystem::path checkpoints() const { return root / "checkpoints"; }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Concentration over height: the solid share of horizontal layers of the box, at the output times. A disc is cut by the
-layers exactly; a polygon counts as the disc of its area."""
+layers exactly, a sphere likewise; a polygon counts as the disc of its area."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,22 +25,29 @@ def concentration(run):
     if not there:
         return None
     width, height = run.size()
+    ground = width * run.depth() if run.in_space() else width
     edges = np.linspace(0.0, height, max(1, int(round(height / LAYER))) + 1)
     return Concentration(np.array([one.time for one in there]), edges,
-                         np.array([in_layers(one, edges) / (width * np.diff(edges)) for one in there]))
+                         np.array([in_layers(one, edges, run.in_space()) / (ground * np.diff(edges)) for one in there]))
 
 
-def in_layers(snapshot, edges):
-    """Solid area of each layer [D^2]."""
-    radius = np.sqrt(snapshot.areas / np.pi)
-    below = [below_level(snapshot.centres[:, 1], radius, level).sum() for level in edges]
-    return np.diff(below)
+def in_layers(snapshot, edges, in_space=False):
+    """Solid area of each layer [D^2], in space its volume [D^3]."""
+    radius = snapshot.radii if in_space else np.sqrt(snapshot.areas / np.pi)
+    share = volume_below if in_space else below_level
+    return np.diff([share(snapshot.centres[:, 1], radius, level).sum() for level in edges])
 
 
 def below_level(height, radius, level):
     """Area of discs below a level: R^2 (pi/2 + s sqrt(1 - s^2) + asin s), s = (level - y)/R within -1 and 1."""
     s = np.clip((level - height) / radius, -1.0, 1.0)
     return radius**2 * (0.5 * np.pi + s * np.sqrt(1.0 - s**2) + np.arcsin(s))
+
+
+def volume_below(height, radius, level):
+    """Volume of spheres below a level: pi R^3 (2/3 + s - s^3/3)."""
+    s = np.clip((level - height) / radius, -1.0, 1.0)
+    return np.pi * radius**3 * (2.0 / 3.0 + s - s**3 / 3.0)
 
 
 def bed(run):

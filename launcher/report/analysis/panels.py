@@ -18,9 +18,11 @@ CARRIED = (('floor', 'contacts, floor'), ('sides', 'contacts, side walls'), ('fl
 
 
 def add_all(page, run):
-    """In the order of the page. A closed box has neither heap nor slip plane; a suspension has a concentration."""
-    for add in (add_deposit, add_shear, add_pores, add_pressure, add_weight, add_energy, add_rheology,
-                add_concentration):
+    """In the order of the page. A closed box has neither heap nor slip plane; a suspension has a concentration. What is
+    measured on triangles of the plane has no meaning in space."""
+    in_plane = (add_deposit, add_shear, add_pores, add_pressure, add_weight, add_energy, add_rheology, add_concentration)
+    in_space = (add_deposit, add_weight, add_energy, add_concentration)
+    for add in in_space if run.in_space() else in_plane:
         or_remark(run, add.__name__.removeprefix('add_').capitalize(), lambda: add(page, run))
 
 
@@ -39,7 +41,9 @@ def add_deposit(page, run):
     axes.set(xlim=(0.0, None), ylim=(0.0, None))
     axes.legend(fontsize=8)
     page.heading('Heap')
-    page.panels([(figure, 'heap')], deposit.caption(found) + ' Highest point of the grains in each column of one D.')
+    page.panels([(figure, 'heap')], deposit.caption(found) + (
+        ' Highest points of the grains in columns of one D x D, mean over the depth; the foot is where less than half a D '
+        'is left.' if run.in_space() else ' Highest point of the grains in each column of one D.'))
 
 
 def add_shear(page, run):

@@ -27,7 +27,8 @@ class Contacts:
 
 @dataclass
 class Snapshot:
-    """Grains at one time. Solid areas are those of discs of the grains' circumscribed radius, or of their outlines."""
+    """Grains at one time, in space as they are seen along z. Solid areas are those of discs of the grains' circumscribed
+    radius, or of their outlines; in space they are the volumes of spheres [D^3], and forces are over rho_s g D^3."""
 
     time: float             # t_c
     ids: np.ndarray         # (n,)
@@ -68,8 +69,9 @@ def read_snapshot(run, time, grain_file, contact_file):
     force = None
     if run.is_wet() and grains.forces is not None:
         force = grains.forces / contact_files.unit_force(run)
-    areas = solid_areas(grains, diameter)
-    return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, grains.radii / diameter,
+    radii = grains.radii / diameter
+    areas = 4.0 / 3.0 * np.pi * radii**3 if run.in_space() else solid_areas(grains, diameter)
+    return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, radii,
                     grains.velocities / run.scale('u_c'), areas, force,
                     read_contacts(run, contact_file) if contact_file else None,
                     submerged_weights(run, areas, grains.densities))

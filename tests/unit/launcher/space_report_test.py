@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures and measurements of runs in space: projection, nearest surfaces, free surface, report, film."""
+import json
+import unittest
+
+import matplotlib
+
+matplotlib.use('Agg')
+import numpy as np
+from made_up_run import RunFolderTest
+from PIL import Image
+
+import contact_files
+import film
+import force_network
+import grain_files
+import report
+import run_data
+from analysis import concentration, snapshots, weight_balance
+from space import ball_image, camera, chains, free_surface, scene
+
+CASE = """dimension: 3
+domain:
+  size: [6, 5, 4]  # D
+  left: wall
+  front: cyclic
+grains:
+  adapter: standalone-nscd
+  shape: sphere
+  density_ratio: 2
+fluid:
+  enabled: false
+scales:
+  kind: avalanche
+"""
+
+HISTORY = ('step,time,mean_velocity_norm,mean_speed,front_x,grains,sigma_zz,pore_volume\n'
+           '0,0,0,0,2.5,3,,5\n10,1,0.2,0.2,2.5,3,0.4,6\n')
+
+
+def numbers(values):
+    return '\n'.join(' '.join(f'{v:.17g}' for v in np.atleast_1d(row)) for row in values)
+
+
+def array(name, values, width=3):
+    kind = 'Int64' if np.asarray(values).dtype.kind == 'i' else 'Float64'
+    return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{width}" format="ascii">'
+            f'{numbers(values)}</DataArray>')
+
+
+def poly_data(points, cells, point_data='', cell_data=''):
+    return (f'<VTKFile type="PolyData"><PolyData><Piece><Points>{array("position", points)}</Points>'
+            f'<Verts>{cells}</Verts><PointData>{point_data}</PointData><CellData>{cell_data}</CellData>'
+            '</Piece></PolyData></VTKFile>')
+
+
+PLACES = np.array([[1.0, 0.5, 1.0], [2.0, 0.5, 3.0], [1.0, 1.5, 1.0]])
+RADII = np.array([0.5, 0.5, 0.5])
+
+
+class SpaceRun(RunFolderTest):
+    """Three spheres at two times; the third stands on the first, the first on the floor."""
+
+    def setUp(self):
+        super().setUp()
+        self.write('case.yaml', CASE)
+        self.write('run.json', json.dumps({'case': 'spheres', 'status': 'done', 'exit_code': 0, 'D': 1, 'u_c': 1,
+                                           't_c': 1, 'g': 1, 'rho': 1, 'grains': 3}))
+        self.write('history.csv', HISTORY)
+        weight = 2.0 * np.pi / 6.0
+        for name in ('grains', 'contacts'):
+            entries = ''.join(f'<DataSet timestep="{k}" part="0" file="{name}_{k:08d}.vtp"/>' for k in range(2))
+            self.write(f'grains/{name}.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
+        for k in range(2):
+            velocities = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 3.0], [3.0, 0.0, 4.0]]) * k
+            self.write(f'grains/grains_{k:08d}.vtp', poly_data(
+                PLACES, '', array('id', np.arange(3), 1) + array('radius', RADII, 1) + array('velocity', velocities)))
+            ends = np.array([[1.0, 0.0, 1.0], PLACES[0], PLACES[0], PLACES[2]])
+            forces = np.array([[0.0, 2 * weight, 0.0], [0.0, weight, 0.0]])
+            self.write(f'grains/contacts_{k:08d}.vtp', poly_data(
+                ends, '', '', array('id_a', np.array([-3, 0]), 1) + array('id_b', np.array([0, 2]), 1)
+                + array('normal', np.array([[0, 1.0, 0], [0, 1.0, 0]])) + array('force', forces)
+                + array('normal_force', forces[:, 1], 1)))
+        self.run_data = run_data.load_run(self.folder)
+
+    def grains(self, k=1):
+        return grain_files.read_grains(k, self.folder / f'grains/grains_{k:08d}.vtp')
+
+
+class Files(SpaceRun):
+    def test_all_three_coordinates_are_read(self):
+        np.testing.assert_array_equal(self.grains().positions(), PLACES)
+        np.testing.assert_allclose(self.grains().speeds(), [0.0, 3.0, 5.0])
+
+    def test_the_box_has_a_depth(self):
+        self.assertEqual((self.run_data.size(), self.run_data.depth()), ([6.0, 5.0], 4.0))
+
+    def test_forces_are_over_the_weight_of_a_cube(self):
+        network = contact_files.networks(self.run_data)[-1]
+        np.testing.assert_allclose(network.forces, [np.pi / 3.0, np.pi / 6.0])
+        self.assertEqual(network.ends.shape, (2, 2, 3))
+        self.assertIn('rho_s g D^3', report.captions.force_network(self.run_data, [network]))
+
+    def test_the_column_that_stands_is_carried_by_the_floor(self):
+        found = weight_balance.carriers(self.run_data)
+        np.testing.assert_allclose(found.floor, 2.0 / 3.0)  # of three spheres; the other one floats
+        np.testing.assert_allclose(snapshots.snapshots(self.run_data)[0].areas, np.pi / 6.0)
+
+    def test_concentration_counts_volumes_of_spheres(self):
+        found = concentration.concentration(self.run_data)
+        np.testing.assert_allclose(found.shares[0][:3] * 6.0 * 4.0, [np.pi / 3.0, np.pi / 6.0, 0.0], atol=1e-12)
+        # A third of the radius below the top: s = 2/3.
+        self.assertAlmostEqual(concentration.volume_below(0.0, 1.0, 2.0 / 3.0),
+                               np.pi * (2 / 3 + 2 / 3 - 8 / 81), places=12)
+
+
+class FreeSurface(SpaceRun):
+    def test_is_the_top_of_the_highest_sphere_of_each_column(self):
+        found = free_surface.heights(self.run_data, self.grains())
+        self.assertEqual(found.shape, (6, 4))
+        # The spheres at (1, 1) touch four columns each, with their centre on the common corner.
+        np.testing.assert_allclose(found[:2, :2], 2.0)
+        np.testing.assert_allclose(found[1:3, 2:4].ravel(), 1.0)
+        self.assertEqual(found[3:].max(), 0.0)
+
+    def test_single_spheres_are_bare_floor(self):
+        x, height = free_surface.over_length(self.run_data, self.grains())
+        np.testing.assert_allclose(height[:3], [1.0, 1.5, 0.5])  # means of (2, 2, 0, 0), (2, 2, 1, 1), (0, 0, 1, 1)
+        beyond = self.grains()
+        beyond.radii = np.array([0.4, 0.4, 0.4])
+        self.assertEqual(free_surface.over_length(self.run_data, beyond)[1][2], 0.0)  # mean 0.45
+
+
+class Projection(unittest.TestCase):
+    def test_axes_are_right_handed_and_of_length_one(self):
+        axes = camera.OBLIQUE.axes()
+        np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-15)
+        np.testing.assert_allclose(np.cross(axes[0], axes[1]), axes[2], atol=1e-15)
+
+    def test_from_the_side_x_is_right_and_y_up(self):
+        np.testing.assert_allclose(camera.SIDE.seen([1.0, 2.0, 3.0]), [1.0, 2.0, 3.0])
+
+    def test_an_oblique_view_shows_the_right_end_and_the_top(self):
+        x, y, z = camera.OBLIQUE.seen(np.eye(3))
+        self.assertGreater(x[2], 0.0)
+        self.assertGreater(y[2], 0.0)
+        self.assertGreater(y[1], 0.9)
+
+
+class NearestSurface(unittest.TestCase):
+    EXTENT = (-2.0, 2.0, -2.0, 2.0)
+
+    def test_a_sphere_covers_its_disc(self):
+        found = ball_image.surfaces(np.array([[0.3, -0.2, 5.0]]), np.array([0.7]), self.EXTENT, 100.0)
+        self.assertAlmostEqual((found.owner == 0).sum() / 1e4, np.pi * 0.49, delta=0.01)
+        self.assertAlmostEqual(found.depth.max(), 5.7, delta=1e-3)
+        rows, columns = np.nonzero(found.owner == 0)
+        self.assertAlmostEqual(columns.mean() / 100.0 - 2.0, 0.3, delta=0.01)
+        self.assertAlmostEqual(rows.mean() / 100.0 - 2.0, -0.2, delta=0.01)
+
+    def test_the_nearer_surface_stays_whatever_the_order_and_the_sizes(self):
+        # A small sphere in front of the rim of a large one whose centre is nearer.
+        seen, radii = np.array([[0.0, 0.0, 0.0], [0.9, 0.0, -0.2]]), np.array([1.0, 0.7])
+        for order in ([0, 1], [1, 0]):
+            found = ball_image.surfaces(seen[order], radii[order], self.EXTENT, 50.0)
+            owner = np.array(order)[found.owner[100]]  # the row through both centres
+            self.assertEqual(owner[100 + int(0.2 * 50)], 0)
+            self.assertEqual(owner[100 + int(0.95 * 50)], 1)
+
+    def test_what_is_outside_of_the_picture_is_left_out(self):
+        found = ball_image.surfaces(np.array([[5.0, 0.0, 0.0], [-2.0, 0.0, 0.0]]), np.array([0.5, 0.5]), self.EXTENT,
+                                    50.0)
+        self.assertNotIn(0, found.owner)
+        self.assertAlmostEqual((found.owner == 1).sum() / 2500.0, np.pi / 8.0, delta=0.02)
+
+    def test_many_spheres_are_marked_in_parts(self):
+        rng = np.random.default_rng(3)
+        seen, radii = rng.uniform(-2, 2, (300, 3)), np.full(300, 0.2)
+        whole = ball_image.surfaces(seen, radii, self.EXTENT, 40.0)
+        chunk, ball_image.CHUNK = ball_image.CHUNK, 2000
+        self.addCleanup(setattr, ball_image, 'CHUNK', chunk)
+        parts = ball_image.surfaces(seen, radii, self.EXTENT, 40.0)
+        np.testing.assert_array_equal(whole.owner, parts.owner)
+
+    def test_light_comes_from_above_and_the_left(self):
+        found = ball_image.surfaces(np.zeros((1, 3)), np.array([1.5]), self.EXTENT, 50.0)
+        image = ball_image.shaded(found, np.array([[1.0, 1.0, 1.0]]), 75.0)
+        self.assertGreater(image[150, 80, 0], image[50, 120, 0])
+        self.assertEqual(image[0, 0, 3], 0.0)
+
+    def test_what_lies_deeper_than_its_surroundings_is_darker(self):
+        # A sphere in the middle of a layer of spheres, one radius below them.
+        places = np.array([[i, j, 0.0] for i in range(-2, 3) for j in range(-2, 3)], dtype=float)
+        flat = places.copy()
+        places[12, 2] = -0.5
+        light = []
+        for seen in (flat, places):
+            found = ball_image.surfaces(seen, np.full(25, 0.5), (-2.5, 2.5, -2.5, 2.5), 30.0)
+            light.append(ball_image.shaded(found, np.ones((25, 3)), 15.0)[75, 75, 0])
+        self.assertLess(light[1], 0.9 * light[0])
+
+    def test_halving_does_not_darken_edges(self):
+        image = np.zeros((2, 2, 4))
+        image[0, 0] = (1.0, 0.5, 0.0, 1.0)
+        np.testing.assert_allclose(ball_image.halved(image)[0, 0], [1.0, 0.5, 0.0, 0.25])
+
+
+class Chains(unittest.TestCase):
+    def network(self, normals, forces=None):
+        count = len(normals)
+        forces = np.ones(count) if forces is None else forces
+        return force_network.Network(1.0, None, np.zeros((count, 2, 3)), normals, forces, np.ones(count, dtype=bool))
+
+    def test_directions_of_no_preference_are_even(self):
+        normals = np.random.default_rng(1).normal(size=(20000, 3))
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        _, density = chains.steepness(self.network(normals))
+        np.testing.assert_allclose(density, 1.0, atol=0.15)
+
+    def test_weak_contacts_are_left_out(self):
+        forces = np.array([1.0] * 9 + [11.0])  # mean 2
+        drawn = chains.lines(camera.OBLIQUE, self.network(np.tile([0.0, 1.0, 0.0], (10, 1)), forces), 11.0)
+        self.assertEqual(len(drawn.get_segments()), 1)
+
+
+class Report(SpaceRun):
+    def test_has_pictures_from_two_sides_and_the_measurements_of_space(self):
+        self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
+        names = {path.stem for path in (self.folder / 'pictures').iterdir()}
+        self.assertLessEqual({'sequence-0', 'sequence-1', 'side-0', 'side-1', 'force_network-0', 'heap', 'weight',
+                              'packing-sigma_zz'}, names)
+        self.assertFalse({'shear', 'pores', 'friction_inertial'} & names)
+        page = (self.folder / 'report.html').read_text()
+        self.assertIn('front cyclic', page)
+        self.assertNotIn('Remarks', page)
+
+    def test_pictures_show_the_grains_in_colours_of_their_speed(self):
+        frame = scene.frame(self.run_data, [self.grains()], camera.SIDE)
+        image = scene.image_of(frame, self.run_data, self.grains(),
+                               scene.colours_of(self.grains().speeds(), 5.0, 'viridis'))
+        seen = lambda x, y: image[int((y + scene.MARGIN) * frame.pixels_per_length),
+                                  int((x + scene.MARGIN) * frame.pixels_per_length)]
+        fast, slow = seen(1.0, 1.5), seen(1.0, 0.5)
+        self.assertGreater(fast[0], 2.0 * fast[2])  # yellow
+        self.assertGreater(slow[2], slow[1])        # violet
+        self.assertEqual(seen(0.2, 3.0)[3], 0.0)
+
+    def test_a_film_has_a_picture_of_every_output(self):
+        self.assertEqual(film.main(['film.py', str(self.folder)]), 0)
+        with Image.open(self.folder / 'film.webp') as shown:
+            self.assertEqual(shown.n_frames, 2)
+
+    def test_a_run_without_outputs_has_no_film(self):
+        (self.folder / 'grains/grains.pvd').unlink()
+        self.assertEqual(film.main(['film.py', str(self.folder)]), 2)
+        self.assertFalse((self.folder / 'film.webp').exists())
+
+
+if __name__ == '__main__':
+    unittest.main()
