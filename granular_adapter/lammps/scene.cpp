@@ -23,8 +23,8 @@ std::string contact(const SoftLaw& law, double reduced_mass) {
     return fmt::format(
         "hooke {:.17g} {:.17g} tangential linear_history {:.17g} {:.17g} {:.17g} damping "
         "mass_velocity limit_damping",
-        stiffness, 2.0 * law.damping * law.frequency, tangential_share * stiffness,
-        tangential_share, law.friction);
+        stiffness, 2.0 * law.damping * law.frequency, law.tangential_share * stiffness,
+        law.tangential_share, law.friction);
 }
 
 void declare_pairs(Library& lammps, const SoftLaw& law, const std::vector<double>& masses) {

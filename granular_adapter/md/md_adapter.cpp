@@ -55,9 +55,9 @@ void refuse_other_shapes(const ShapeTable& shapes, const std::vector<std::string
                 "\" is unknown to this molecular dynamics; allowed: " + listed(known));
 }
 
-double deepest_overlap(const nscd::Bodies& bodies, const ShapeTable& shapes,
+double deepest_overlap(const nscd::Bodies& bodies, int dimension, const ShapeTable& shapes,
                        const std::vector<nscd::Wall>& walls) {
-    nscd::Engine engine({}, shapes, walls);
+    nscd::Engine engine({.dimension = dimension}, shapes, walls);
     engine.bodies() = bodies;
     return engine.max_penetration();
 }
@@ -73,7 +73,7 @@ Hello MdAdapter::describe() const {
     hello.adapter = adapter_name_;
     hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = host_.code();
-    hello.dimension = 2;
+    hello.dimension = host_.dimension();
     hello.capabilities.saves_state = true;
     hello.capabilities.restores_within_window = true;
     hello.capabilities.serialises_state = true;
@@ -104,7 +104,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     host_.create(settings, shapes, bodies_);
     follow_migration(nullptr);
     report_ = {};
-    report_.max_penetration = deepest_overlap(bodies_, shapes, walls_of(borders_));
+    report_.max_penetration = deepest_overlap(bodies_, run_.dimension, shapes, walls_of(borders_));
     report_.wall_seconds = seconds_since(start);
     return motion(at_protocol_positions());
 }

@@ -57,6 +57,9 @@ class MdHost {
     /// Shapes that it can move, names of shapes/shape_list.
     virtual std::vector<std::string> shapes() const { return {"disc"}; }
 
+    /// 2, 3, or both_dimensions (coupler/protocol/hello.hpp).
+    virtual std::int32_t dimension() const { return 2; }
+
     /// How far velocities are behind positions, in sub-steps: 1 for leap-frog, whose velocities
     /// belong to the middle of a sub-step and positions to its end; 0 for velocity Verlet.
     virtual double velocity_lag() const { return 1.0; }

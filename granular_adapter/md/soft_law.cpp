@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/md/soft_law.hpp"
 
+#include "coupler/protocol/sides.hpp"
+
 namespace turbidite {
 
 SoftLaw::SoftLaw(const Settings& settings)
     : frequency(settings.real("run.md_frequency")),
       damping(settings.real("run.md_damping")),
-      friction(settings.real("contact.friction")) {}
+      friction(settings.real("contact.friction")),
+      in_space(dimension_of(settings) == 3),
+      tangential_share(in_space ? tangential_share_of_spheres : tangential_share_of_discs) {}
 
 }  // namespace turbidite

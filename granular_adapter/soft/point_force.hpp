@@ -2,12 +2,13 @@
 //
 // The force at one contact point with overlap g > 0 and slip s, for the mass m of its spring:
 //
-//     N = max(0, k g - c v_n)              k = m w^2, c = 2 zeta m w
-//     T = -(k s + c v_t)/3, |T| <= mu N    s' = v_t
+//     N = max(0, k g - c v_n)               k = m w^2, c = 2 zeta m w
+//     T = -a (k s + c v_t), |T| <= mu N     s' = v_t, a: SoftLaw::tangential_share
 //
-// v_n and v_t are the relative velocity of b at the point, along the normal and along the tangent
-// (-n_y, n_x). Where Coulomb's law limits T, the spring is set back so that spring and dashpot
-// together give the limit.
+// v_n and v_t are the relative velocity of b at the point, along the normal and along the contact:
+// in the plane along the tangent (-n_y, n_x), in space a vector, with which s is turned into the
+// present tangent plane. Where Coulomb's law limits T, the spring is set back so that spring and
+// dashpot together give the limit.
 //
 // At the point of a body of mass M and moment I an impulse along the normal n changes the velocity
 // of the point as if it had the mass M/(1 + (r x n)^2 M/I), r the arm. A disc has r x n = 0, and
@@ -30,8 +31,8 @@ struct PointForce {
 };
 
 /// At the end of a sub-step of length `step` [s] with the bodies' velocities, by which the slip
-/// [m] is advanced.
+/// [m] is advanced: in the plane its first component, along the tangent, in space the vector.
 PointForce point_force(const SoftLaw& law, const Overlap& overlap, const nscd::Bodies& bodies,
-                       double step, double& slip);
+                       double step, Vec3& slip);
 
 }  // namespace turbidite::soft

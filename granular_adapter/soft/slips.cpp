@@ -7,14 +7,14 @@ namespace turbidite::soft {
 
 void Slips::follow(const std::vector<Overlap>& points) {
     std::vector<nscd::ContactKey> names;
-    std::vector<double> slips;
+    std::vector<Vec3> slips;
     names.reserve(points.size()), slips.reserve(points.size());
     std::size_t old = 0;
     for (const Overlap& overlap : points) {
         while (old < names_.size() && names_[old] < overlap.name) ++old;
         const bool known = old < names_.size() && names_[old] == overlap.name;
         names.push_back(overlap.name);
-        slips.push_back(known ? slips_[old] : 0.0);
+        slips.push_back(known ? slips_[old] : Vec3{});
     }
     names_ = std::move(names), slips_ = std::move(slips);
 }
@@ -26,7 +26,7 @@ void Slips::save(nscd::ByteWriter& writer) const {
 
 void Slips::restore(nscd::ByteReader& reader) {
     names_ = reader.array<nscd::ContactKey>();
-    slips_ = reader.array<double>();
+    slips_ = reader.array<Vec3>();
 }
 
 }  // namespace turbidite::soft

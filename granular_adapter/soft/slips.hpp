@@ -16,15 +16,15 @@ class Slips {
     /// Keeps those of the given points, which are in ascending order of names, and no others.
     void follow(const std::vector<Overlap>& points);
 
-    /// Of the i-th point of the last follow() [m].
-    double& operator[](std::size_t i) { return slips_[i]; }
+    /// Of the i-th point of the last follow() [m], as point_force.hpp uses it.
+    Vec3& operator[](std::size_t i) { return slips_[i]; }
 
     void save(nscd::ByteWriter& writer) const;
     void restore(nscd::ByteReader& reader);
 
  private:
     std::vector<nscd::ContactKey> names_;
-    std::vector<double> slips_;
+    std::vector<Vec3> slips_;
 };
 
 }  // namespace turbidite::soft

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Molecular dynamics of discs and convex polygons, as a host without any other code. A sub-step of
+// Molecular dynamics of discs, convex polygons and spheres, as a host without any other code. A sub-step of
 // length delta is a leap-frog step, with velocities half a sub-step behind positions:
 //
 //     overlaps at x           the contact engine's detection       overlaps.hpp
@@ -28,6 +28,7 @@ class SoftMdHost final : public MdHost {
  public:
     std::string code() const override { return "none"; }
     std::vector<std::string> shapes() const override;
+    std::int32_t dimension() const override { return both_dimensions; }
     void create(const Settings& settings, const ShapeTable& shapes,
                 const nscd::Bodies& bodies) override;
     void read(nscd::Bodies& bodies) const override;

@@ -13,9 +13,10 @@ import users_script
 from yade import *
 from yade import utils
 
-# Ratio of tangential to normal stiffness and damping, for which both directions oscillate with the same period:
-# an impulse moves the contact point of a disc three times as far tangentially as normally.
-TANGENTIAL = 1.0 / 3.0
+# Ratio of tangential to normal stiffness and damping in the plane and in space, for which both directions oscillate
+# with the same period: an impulse moves the contact point of a disc three times as far tangentially as normally, that
+# of a sphere 7/2 times.
+TANGENTIAL = {2: 1.0 / 3.0, 3: 2.0 / 7.0}
 
 # Margin of bounding boxes beyond a disc, over the smallest radius. A larger one means fewer searches for pairs,
 # and more pairs without contact.
@@ -27,19 +28,20 @@ class Scene:
 
     def __init__(self):
         self.body_of = {}   # grain id -> body id
-        self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top
+        self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top, 4 front, 5 back
         self.largest = 0.0  # radius
         self.script = users_script.NoScript()
 
     def create(self, settings, grains):
-        """Adds the walls and one disc per grain; returns the discs' body ids in the order of `grains`."""
+        """Adds the walls and one body per grain; returns the grains' body ids in the order of `grains`."""
         self.settings = settings
+        self.in_space = domain_sides.in_space(settings)
         self.frequency = float(settings['run.md_frequency'])
         self.damping = float(settings['run.md_damping'])
         self.friction_angle = math.atan(float(settings['contact.friction']))
         self.walls = domain_sides.create_walls(settings, self._material(0.0))
         self.largest = max((grain['radius'] for grain in grains), default=0.0)
-        self.body_of = {grain['id']: self._create_disc(grain) for grain in grains}
+        self.body_of = {grain['id']: self._create_round(grain) for grain in grains}
         O.dt = float(settings['run.step']) / int(settings['run.md_substeps'])
         O.engines = self._engines(float(settings['run.gravity']))
         return list(self.body_of.values())
@@ -49,19 +51,20 @@ class Scene:
         times w^2, and a contact with a wall, which has no spring of its own, the disc's m w^2."""
         label = 'mass %r' % mass
         if label not in [material.label for material in O.materials]:
+            tangential = TANGENTIAL[3 if self.in_space else 2]
             spring, dashpot = mass * self.frequency**2, 2.0 * self.damping * mass * self.frequency
             O.materials.append(ViscElMat(
-                kn=spring, cn=dashpot, ks=TANGENTIAL * spring, cs=TANGENTIAL * dashpot,
+                kn=spring, cn=dashpot, ks=tangential * spring, cs=tangential * dashpot,
                 frictionAngle=self.friction_angle, label=label))
         return label
 
-    def _create_disc(self, grain):
+    def _create_round(self, grain):
         body = utils.sphere(grain['position'], grain['radius'], material=self._material(grain['mass']))
         state = body.state
-        # The mass of a disc per unit length, not of YADE's sphere.
+        # In the plane the mass of a disc per unit length, not of YADE's sphere.
         state.mass = grain['mass']
         state.inertia = (grain['inertia'],) * 3
-        state.blockedDOFs = 'zXY'
+        state.blockedDOFs = '' if self.in_space else 'zXY'
         state.vel = grain['velocity']
         state.angVel = grain['angular_velocity']
         return O.bodies.append(body)
@@ -127,11 +130,10 @@ class Scene:
         branch = place - (geom.contactPoint if wall >= 0 else O.bodies[first].state.pos)
         slides = phys.shearForce.norm() >= (1.0 - 1e-9) * phys.tangensOfFrictionAngle * phys.normalForce.norm()
         return (wall, 0 if wall >= 0 else grain_of[first], grain_of[second], bool(slides), geom.penetrationDepth,
-                geom.contactPoint[0], geom.contactPoint[1], normal[0], normal[1], force[0], force[1],
-                branch[0], branch[1])
+                *geom.contactPoint, *normal, *force, *branch)
 
     def deepest_overlap(self):
-        """Largest overlap of two discs in the last step [m]; an upper bound if sizes differ."""
+        """Largest overlap of two grains in the last step [m]; an upper bound if sizes differ."""
         return max(0.0, utils.maxOverlapRatio() * self.largest)
 
     def save(self):

@@ -62,15 +62,15 @@ class Scene:
         self.case = settings
         self._create_materials(settings, grains[0]['density'] if grains else 1.0)
         self.sides = list(domain_sides.create_walls(settings, 'grains'))
-        states, turns = [], []
+        states, turns, in_space = [], [], domain_sides.in_space(settings)
         for grain in grains:
-            body = self._create_polygon(grain) if grain['vertices'] else self._create_disc(grain)
+            body = self._create_polygon(grain) if grain['vertices'] else self._create_sphere(grain)
             turns.append(axes_of(body) if grain['vertices'] else None)
             state = body.state
-            # Mass and inertia per unit length, as in the contact problem.
+            # As in the contact problem: per unit length in the plane.
             state.mass = grain['mass']
-            state.inertia = Vector3(0.5, 0.5, 1) * grain['inertia']
-            state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else 'zXY'
+            state.inertia = (Vector3(1, 1, 1) if in_space else Vector3(0.5, 0.5, 1)) * grain['inertia']
+            state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else '' if in_space else 'zXY'
             state.vel = grain['velocity']
             state.angVel = grain['angular_velocity']
             self.body_of[grain['id']] = O.bodies.append(body)
@@ -86,7 +86,7 @@ class Scene:
                 density=density, frictionAngle=math.atan(float(friction)), label=name))
             self.labels.append(name)
 
-    def _create_disc(self, grain):
+    def _create_sphere(self, grain):
         return utils.sphere(grain['position'], grain['radius'], material=self.labels[grain['material']])
 
     def _create_polygon(self, grain):
@@ -96,7 +96,7 @@ class Scene:
         return body
 
     def side_states(self):
-        """States of the solid sides, in the order left, right, bottom, top."""
+        """States of the solid sides, in the order left, right, bottom, top, front, back."""
         return [O.bodies[i].state for i in self.sides]
 
     def create_plates(self, half_lengths):

@@ -66,7 +66,8 @@ BodyMotion plate_motion(const nscd::Wall& wall) {
 
 /// Motion of a side of the box: YADE's wall lies at the coordinate along its axis.
 BodyMotion side_motion(const nscd::Wall& wall) {
-    const int axis = std::abs(wall.normal[0]) > 0.5 ? 0 : 1;
+    int axis = 0;
+    while (axis < 2 && std::abs(wall.normal[axis]) < 0.5) ++axis;
     Vec3 place{};
     place[axis] = wall.point[axis];
     return {place, {1.0, 0.0, 0.0, 0.0}, {wall.twist.velocity, {}}};

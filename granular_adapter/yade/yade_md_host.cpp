@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "coupler/protocol/sides.hpp"
 #include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
 #include "granular_adapter/yade/yade_forces.hpp"
@@ -49,6 +50,7 @@ void YadeMdHost::create(const Settings& settings, const ShapeTable&, const nscd:
     exchange_.write(bodies);  // their orientations too, which the scene does not set
     radii_ = bodies.radius;
     borders_ = lay_borders(settings);
+    in_space_ = dimension_of(settings) == 3;
     stride_ = std::max<std::int64_t>(
         1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
     scene_.attr("complete")();
@@ -130,10 +132,11 @@ std::vector<ContactRecord> YadeMdHost::touching(double window) const {
         record.b = python::extract<GrainId>(contact[2]);
         record.status = python::extract<bool>(contact[3]) ? ContactStatus::sliding : 0;
         record.gap = -number(4);
-        record.point = {number(5), number(6), 0.0};
-        record.normal = {number(7), number(8), 0.0};
-        record.impulse = window * Vec3{number(9), number(10), 0.0};
-        record.branch = {number(11), number(12), 0.0};
+        const auto vector = [&](int k) -> Vec3 { return {number(k), number(k + 1), in_space_ ? number(k + 2) : 0.0}; };
+        record.point = vector(5);
+        record.normal = vector(8);
+        record.impulse = window * vector(11);
+        record.branch = vector(14);
         records.push_back(record);
     }
     std::sort(records.begin(), records.end(), contact_before);

@@ -25,6 +25,8 @@ class YadeMdHost final : public MdHost {
     YadeMdHost(boost::python::object scene, std::string yade_version);
 
     std::string code() const override { return "YADE " + version_; }
+    std::int32_t dimension() const override { return both_dimensions; }
+    std::vector<std::string> shapes() const override { return {"disc", "sphere"}; }
     void create(const Settings& settings, const ShapeTable& shapes,
                 const nscd::Bodies& bodies) override;
     void read(nscd::Bodies& bodies) const override;
@@ -48,6 +50,7 @@ class YadeMdHost final : public MdHost {
     std::vector<double> radii_;
     std::vector<Border> borders_;
     std::int64_t stride_ = 1;  ///< sub-steps between two probes for overlaps
+    bool in_space_ = false;
     bool loaded_ = false;      ///< YADE still holds forces of an earlier window
 };
 

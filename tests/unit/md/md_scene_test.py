@@ -31,6 +31,12 @@ def disc(number, x, y, velocity=(0, 0, 0), radius=0.5, spin=0.0):
             'position': (x, y, 0), 'velocity': velocity, 'angular_velocity': (0, 0, spin)}
 
 
+def sphere(number, place, velocity=(0, 0, 0), radius=0.5):
+    mass = 4 / 3 * math.pi * radius**3 * 1.5
+    return {'id': number, 'radius': radius, 'density': 1.5, 'mass': mass, 'inertia': 0.4 * mass * radius**2,
+            'position': place, 'velocity': velocity, 'angular_velocity': (0, 0, 0)}
+
+
 def restitution(zeta):
     """Schwager and Poeschel 2007: the contact ends when the force vanishes, before the overlap does."""
     if zeta == 1.0:
@@ -123,12 +129,35 @@ class MdScene(unittest.TestCase):
         on_floor, pair = sorted(self.scene.touching(), key=lambda contact: -contact[0])
         self.assertEqual((on_floor[0], on_floor[2]), (2, 9))
         self.assertEqual(pair[:3], (-1, 5, 9))
-        self.assertAlmostEqual(on_floor[10], 2 * weight, delta=1e-6)
-        self.assertAlmostEqual(pair[10], -weight, delta=1e-6)  # on disc 9, downwards
-        self.assertAlmostEqual(pair[8], -1.0, delta=1e-9)
-        self.assertAlmostEqual(pair[12], -1.0, delta=1e-4)
-        self.assertAlmostEqual(on_floor[12], 0.5, delta=1e-4)
+        self.assertAlmostEqual(on_floor[12], 2 * weight, delta=1e-6)
+        self.assertAlmostEqual(pair[12], -weight, delta=1e-6)  # on disc 9, downwards
+        self.assertAlmostEqual(pair[9], -1.0, delta=1e-9)
+        self.assertAlmostEqual(pair[15], -1.0, delta=1e-4)
+        self.assertAlmostEqual(on_floor[15], 0.5, delta=1e-4)
         self.assertGreater(pair[4], 0.0)
+
+    def test_spheres_stick_on_impact_and_come_back_along_the_contact_as_across_it(self):
+        # In any direction of the floor: v_t' = -v_t at the point; with J_t = -2 v_t (2/7) m the centre keeps 3/7.
+        for angle in (0.0, 1.1):
+            O.reset()
+            along = 0.05 * math.cos(angle), 0.05 * math.sin(angle)
+            self.build([sphere(1, (3.0, 0.5005, 4.0), (along[0], -1.0, along[1]))], run_dimension=3, run_size_z=8.0,
+                       domain_front='wall', domain_back='wall', run_md_substeps=600)
+            self.play(1400)
+            velocity, spin = self.states[0].vel, self.states[0].angVel
+            self.assertAlmostEqual(velocity[1], 1.0, delta=2e-3)
+            for axis, part in ((0, along[0]), (2, along[1])):
+                self.assertAlmostEqual(velocity[axis], 3.0 / 7.0 * part, delta=1e-3 * 0.05)
+            # The point: v + w x (0, -R, 0)
+            self.assertAlmostEqual(velocity[0] + 0.5 * spin[2], -along[0], delta=1e-2 * 0.05)
+            self.assertAlmostEqual(velocity[2] - 0.5 * spin[0], -along[1], delta=1e-2 * 0.05)
+
+    def test_front_and_back_are_walls_in_space(self):
+        self.build([sphere(1, (3.0, 5.0, 0.5005), (0, 0, -1)), sphere(2, (6.0, 5.0, 7.4995), (0, 0, 1))],
+                   run_dimension=3, run_size_z=8.0, domain_front='wall', domain_back='wall', run_md_substeps=600)
+        self.play(1400)
+        self.assertAlmostEqual(self.states[0].vel[2], 1.0, delta=2e-3)
+        self.assertAlmostEqual(self.states[1].vel[2], -1.0, delta=2e-3)
 
     def test_erased_discs_are_gone(self):
         self.build([disc(1, 3.0, 5.0), disc(2, 3.9, 5.0)])

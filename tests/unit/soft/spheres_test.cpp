@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Soft spheres against known results for springs, dashpots and friction, in several directions.
+#include <gtest/gtest.h>
+
+#include "tests/unit/soft/soft_case.hpp"
+
+namespace turbidite::soft {
+namespace {
+
+constexpr double radius = 0.5;
+
+Settings in_space(double zeta, double gravity) {
+    Settings settings = heavy(zeta, gravity);
+    settings.set("run.dimension", std::int64_t{3});
+    settings.set("run.size_z", 12.0);
+    settings.set("domain.front", std::string("wall"));
+    settings.set("domain.back", std::string("wall"));
+    return settings;
+}
+
+nscd::Body sphere(GrainId id, const Vec3& place, const Vec3& velocity) {
+    const auto shape = make_shape({"sphere", {}});
+    nscd::Body body;
+    body.id = id;
+    body.radius = radius;
+    body.density = 1.5;
+    body.mass = body.weight_mass = body.density * shape->volume(radius);
+    body.inertia = body.density * shape->inertia_per_density(radius)(2, 2);
+    body.position = place;
+    body.twist.velocity = velocity;
+    return body;
+}
+
+/// Spheres and their host; positions and velocities as in Scene.
+struct SpaceScene {
+    SpaceScene(const Settings& settings, const std::vector<nscd::Body>& list) {
+        for (const nscd::Body& body : list) bodies.add(body);
+        host.create(settings, {{"sphere", {}}}, bodies);
+    }
+
+    SubstepReport play(std::int64_t count, double step) {
+        SubstepReport report =
+            host.run({count, step, true}, std::vector<Load>(bodies.size()));
+        host.read(bodies);
+        return report;
+    }
+
+    SoftMdHost host;
+    nscd::Bodies bodies;
+};
+
+/// Horizontal, at an angle to x.
+Vec3 direction(double angle) {
+    return {std::cos(angle), 0.0, std::sin(angle)};
+}
+
+// At a small angle the contact sticks. k_t = 2/7 k with 2/7 m at the point along the floor: both
+// directions take the same time, so that v_t' = -v_t at the point. With J_t = -2 v_t (2/7) m the
+// centre keeps 3/7 of its velocity along the floor.
+TEST(SoftSpheres, ThatStickOnImpactComeBackAlongTheContactAsAcrossIt) {
+    const double along = 0.05;
+    for (const double angle : {0.0, 0.7, 2.5}) {
+        const Vec3 d = direction(angle);
+        SpaceScene scene(in_space(0.0, 0.0),
+                         {sphere(1, {5.0, 0.5005, 6.0}, along * d + Vec3{0.0, -1.0, 0.0})});
+        scene.play(4000, fine);
+        const Twist& twist = scene.bodies.twist[0];
+        EXPECT_NEAR(twist.velocity[1], 1.0, 1e-3);
+        EXPECT_NEAR(norm(twist.velocity - Vec3{0.0, twist.velocity[1], 0.0} -
+                         (3.0 / 7.0 * along) * d),
+                    0.0, 2e-3 * along);
+        const Vec3 at_point = twist.at({0.0, -radius, 0.0});
+        EXPECT_NEAR(dot(at_point, d), -along, 1e-2 * along);
+    }
+}
+
+// A sphere that slides with v and does not turn slows down by mu g until it rolls, at 5/7 v; the
+// way does not depend on the direction.
+TEST(SoftSpheres, ThatSlideSlowDownUntilTheyRoll) {
+    const double mu = 0.3, speed = 0.3, overlap = 1.0 / (frequency * frequency);
+    double way = 0.0;
+    for (const double angle : {0.0, 0.4, 1.9}) {
+        const Vec3 d = direction(angle);
+        SpaceScene scene(in_space(1.0, 1.0), {sphere(1, {5.0, radius - overlap, 6.0}, speed * d)});
+        const double half = 2.0 * speed / (7.0 * mu) / 2.0;  // rolls after twice that
+        const SubstepReport sliding = scene.play(4000, half / 4000.0);
+        ASSERT_EQ(sliding.touching.size(), 1u);
+        EXPECT_EQ(sliding.touching[0].status, ContactStatus::sliding);
+        EXPECT_NEAR(dot(scene.bodies.twist[0].velocity, d), speed - mu * half, 1e-4);
+        const SubstepReport rolling = scene.play(12000, half / 4000.0);
+        EXPECT_EQ(rolling.touching[0].status, 0);
+        EXPECT_NEAR(dot(scene.bodies.twist[0].velocity, d), 5.0 / 7.0 * speed, 1e-3);
+        const double gone = norm(scene.bodies.position[0] - Vec3{5.0, radius - overlap, 6.0});
+        if (way == 0.0) way = gone;
+        EXPECT_NEAR(gone, way, 1e-6 * way);
+    }
+}
+
+// The force on one is the opposite of that on the other, in all components, and both are turned
+// alike: momentum and the angular momentum of two that meet obliquely in space are kept.
+TEST(SoftSpheres, ThatMeetObliquelyKeepMomentumAndAngularMomentum) {
+    SpaceScene scene(in_space(0.2, 0.0), {sphere(1, {5.0, 5.0, 5.0}, {1.0, 0.3, -0.2}),
+                                          sphere(2, {5.7, 5.5, 5.6}, {-0.4, 0.1, 0.5})});
+    const auto momentum = [&] {
+        Vec3 sum{};
+        for (std::size_t i = 0; i < 2; ++i)
+            sum = sum + scene.bodies.mass[i] * scene.bodies.twist[i].velocity;
+        return sum;
+    };
+    const auto angular = [&](double lag) {  // positions are half a sub-step ahead
+        Vec3 sum{};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Twist& twist = scene.bodies.twist[i];
+            sum = sum + scene.bodies.world_inertia(i) * twist.spin +
+                  cross(scene.bodies.position[i] - lag * twist.velocity,
+                        scene.bodies.mass[i] * twist.velocity);
+        }
+        return sum;
+    };
+    const Vec3 before = momentum(), spun = angular(0.5 * fine);
+    int touched = 0;
+    for (int i = 0; i < 4000; ++i) touched += scene.play(1, fine).contacts > 0;
+    ASSERT_GT(touched, 100);
+    EXPECT_GT(norm(scene.bodies.twist[0].spin), 0.1);
+    EXPECT_NEAR(norm(momentum() - before), 0.0, 1e-12);
+    EXPECT_NEAR(norm(angular(0.5 * fine) - spun), 0.0, 1e-3 * norm(spun));
+}
+
+TEST(SoftSpheres, HaveAFrontAndABack) {
+    SpaceScene scene(in_space(0.0, 0.0), {sphere(1, {3.0, 5.0, 0.5005}, {0.0, 0.0, -1.0}),
+                                          sphere(2, {6.0, 5.0, 11.4995}, {0.0, 0.0, 1.0})});
+    scene.play(4000, fine);
+    EXPECT_NEAR(scene.bodies.twist[0].velocity[2], 1.0, 1e-3);
+    EXPECT_NEAR(scene.bodies.twist[1].velocity[2], -1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace turbidite::soft
