@@ -40,7 +40,6 @@ void LammpsMdHost::join(MPI_Comm communicator) {
     MPI_Comm_rank(communicator, &rank_);
     MPI_Comm_size(communicator, &ranks_);
     lammps_ = std::make_unique<Library>(communicator);
-    discs_.emplace(*lammps_);
 }
 
 std::string LammpsMdHost::code() const {
@@ -50,61 +49,66 @@ std::string LammpsMdHost::code() const {
 void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nscd::Bodies& bodies) {
     const RunValues run = run_values(settings);
     gravity_ = run.gravity;
-    width_ = run.size[0], height_ = run.size[1];
+    size_ = run.size;
+    grains_.emplace(*lammps_, run.dimension);
     borders_ = lay_borders(settings);
     law_.emplace(settings);
     stride_ = std::max<std::int64_t>(
         1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
     classes_.emplace(bodies.mass, communicator_);
     walls_ = wall_fixes(*classes_, borders_);
-    double radius = width_;
+    double radius = size_[0];
     for (const double r : bodies.radius) radius = std::min(radius, r);
     skin_ = neighbour_margin * smallest_of_all(radius, communicator_);
-    declare_box(*lammps_, width_, height_, classes_->masses().size());
-    declare_properties(*lammps_);
-    discs_->create(bodies, *classes_, communicator_);
+    declare_box(*lammps_, run.dimension, size_, classes_->masses().size());
+    declare_properties(*lammps_, run.dimension);
+    grains_->create(bodies, *classes_, communicator_);
     start_engines();
 }
 
 /// Grains may arrive here from other ranks.
 void LammpsMdHost::start_engines() {
-    declare_engines(*lammps_, *law_, *classes_, borders_, skin_);
+    declare_engines(*lammps_, {*law_, *classes_, borders_, skin_, grains_->in_space()});
     lammps_set_fix_external_callback(lammps_->handle(), loads_fix, on_substep, this);
-    follow_discs();
+    follow_grains();
 }
 
 void LammpsMdHost::read(nscd::Bodies& bodies) const {
-    discs_->read(bodies);
+    grains_->read(bodies);
 }
 
 void LammpsMdHost::write(const nscd::Bodies& bodies) {
-    discs_->write(bodies);
+    grains_->write(bodies);
 }
 
 // ---- sub-steps -------------------------------------------------------------------------------
 
-void LammpsMdHost::load_discs(const std::vector<Load>& loads) {
+void LammpsMdHost::load_grains(const std::vector<Load>& loads) {
+    const Freedom free = grains_->freedom();
     double** own = lammps_->atoms<double**>("d2_own");
-    discs_->for_each([&](std::size_t place, int i) {
-        own[i][load_x] = loads[place].force[0];
-        own[i][load_y] = loads[place].force[1];
-        own[i][load_turn] = loads[place].torque[2];
-        for (const Own sum : {impulse_x, impulse_y, impulse_turn}) own[i][sum] = 0.0;
+    grains_->for_each([&](std::size_t place, int i) {
+        free.each_push([&](int axis) {
+            own[i][free.load[axis]] = loads[place].force[axis], own[i][free.impulse[axis]] = 0.0;
+        });
+        free.each_turn([&](int axis) {
+            own[i][free.load_turn[axis]] = loads[place].torque[axis];
+            own[i][free.impulse_turn[axis]] = 0.0;
+        });
     });
 }
 
 SubstepReport LammpsMdHost::run(const Substeps& substeps, const std::vector<Load>& loads) {
-    load_discs(loads);
+    load_grains(loads);
     present_ = {lammps_->step(), lammps_->step() + substeps.count, substeps.step};
     lammps_->command(fmt::format("timestep {:.17g}", substeps.step));
     lammps_->command(fmt::format("run {} post no", substeps.count));
-    follow_discs();
+    follow_grains();
     SubstepReport report;
     report.contacts = present_.contacts;
     report.max_penetration = present_.deepest;
     if (!substeps.detailed) return report;
     collect_impulses(report);
-    report.touching = touching(*lammps_, *discs_, walls_, width_, height_, law_->friction,
+    report.touching = touching(*lammps_, *grains_, walls_, size_, law_->friction,
                                substeps.step * static_cast<double>(substeps.count));
     return report;
 }
@@ -114,9 +118,13 @@ void LammpsMdHost::collect_impulses(SubstepReport& report) const {
     report.impulses.assign(count, Vec3{});
     report.angular_impulses.assign(count, Vec3{});
     double** own = lammps_->atoms<double**>("d2_own");
-    discs_->for_each([&](std::size_t place, int i) {
-        report.impulses[place] = {own[i][impulse_x], own[i][impulse_y], 0.0};
-        report.angular_impulses[place] = {0.0, 0.0, own[i][impulse_turn]};
+    const Freedom free = grains_->freedom();
+    grains_->for_each([&](std::size_t place, int i) {
+        free.each_push(
+            [&](int axis) { report.impulses[place][axis] = own[i][free.impulse[axis]]; });
+        free.each_turn([&](int axis) {
+            report.angular_impulses[place][axis] = own[i][free.impulse_turn[axis]];
+        });
     });
 }
 
@@ -138,20 +146,22 @@ void LammpsMdHost::act(std::int64_t substep) {
 void LammpsMdHost::add_loads(double time, bool begins) {
     double** f = lammps_->atoms<double**>("f");
     double** torque = lammps_->atoms<double**>("torque");
-    double** omega = lammps_->atoms<double**>("omega");
     double** own = lammps_->atoms<double**>("d2_own");
+    const Freedom free = grains_->freedom();
     const double* mass = lammps_->atoms<double*>("rmass");
     for (int i = 0; i < lammps_->local_count(); ++i) {
         double* mine = own[i];
-        f[i][0] += mine[load_x];
-        f[i][1] += mine[load_y];
-        torque[i][2] += mine[load_turn];
-        mine[impulse_x] += time * f[i][0];
-        mine[impulse_y] += time * f[i][1];
-        mine[impulse_turn] += time * torque[i][2];
+        free.each_push([&](int axis) {
+            f[i][axis] += mine[free.load[axis]];
+            mine[free.impulse[axis]] += time * f[i][axis];
+        });
+        free.each_turn([&](int axis) {
+            torque[i][axis] += mine[free.load_turn[axis]];
+            mine[free.impulse_turn[axis]] += time * torque[i][axis];
+            torque[i][axis] *= mine[turn_factor];
+        });
         f[i][1] -= mass[i] * gravity_;
-        torque[i][2] *= mine[turn_factor];
-        if (!begins) mine[angle] += present_.step * omega[i][2];
+        if (!begins) grains_->turn(i, present_.step);
     }
 }
 
@@ -163,13 +173,13 @@ void LammpsMdHost::probe() {
 
 // ---- bodies that come and go -----------------------------------------------------------------
 
-void LammpsMdHost::follow_discs() {
+void LammpsMdHost::follow_grains() {
     if (ranks_ == 1) return;
-    order_ = new_order(discs_->origins(), rank_);
+    order_ = new_order(grains_->origins(), rank_);
     const bool arrived = std::any_of(order_.begin(), order_.end(),
                                      [this](const Origin& o) { return o.rank != rank_; });
     migrated_ = any_of_all(arrived, communicator_);
-    if (migrated_) discs_->number(order_, rank_);
+    if (migrated_) grains_->number(order_, rank_);
 }
 
 std::vector<char> LammpsMdHost::migrate(const std::vector<char>& rows, std::size_t row_size) {
@@ -188,15 +198,15 @@ void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
     std::vector<std::int64_t> mine;
     std::vector<Origin> stays;
     const int* tag = lammps_->atoms<int*>("id");
-    discs_->for_each([&](std::size_t place, int i) {
+    grains_->for_each([&](std::size_t place, int i) {
         if (!mask[place]) mine.push_back(tag[i]);
     });
     for (std::size_t place = 0; place < mask.size(); ++place)
         if (mask[place]) stays.push_back({rank_, int(place)});
     const std::vector<std::int64_t> gone = gather_all(mine, communicator_);
     if (gone.empty()) return;
-    discs_->remove(gone);
-    discs_->number(stays, rank_);
+    grains_->remove(gone);
+    grains_->number(stays, rank_);
 }
 
 // ---- state -----------------------------------------------------------------------------------
@@ -214,7 +224,7 @@ void LammpsMdHost::restore(const SavedState& state) {
     if (rank_ == 0) file.write(state);
     lammps_->command("clear");
     lammps_->command("read_restart " + file.name());
-    declare_properties(*lammps_);
+    declare_properties(*lammps_, grains_->in_space() ? 3 : 2);
     start_engines();
 }
 

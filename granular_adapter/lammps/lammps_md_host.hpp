@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "granular_adapter/lammps/discs.hpp"
 #include "granular_adapter/lammps/lammps_library.hpp"
+#include "granular_adapter/lammps/round_grains.hpp"
 #include "granular_adapter/lammps/scene.hpp"
 #include "granular_adapter/lammps/touching.hpp"
 #include "granular_adapter/md/md_host.hpp"
@@ -29,6 +29,8 @@ class LammpsMdHost final : public MdHost {
     void join(MPI_Comm communicator);
 
     std::string code() const override;
+    std::int32_t dimension() const override { return both_dimensions; }
+    std::vector<std::string> shapes() const override { return {"disc", "sphere"}; }
     double velocity_lag() const override { return 0.0; }
     void create(const Settings& settings, const ShapeTable& shapes,
                 const nscd::Bodies& bodies) override;
@@ -55,24 +57,25 @@ class LammpsMdHost final : public MdHost {
     };
 
     void start_engines();
-    void load_discs(const std::vector<Load>& loads);
+    void load_grains(const std::vector<Load>& loads);
     static void on_substep(void* host, std::int64_t substep, int count, int* tags,
                            double** positions, double** forces);
     void act(std::int64_t substep);
     void add_loads(double weight_of_forces, bool begins);
     void probe();
-    void follow_discs();
+    void follow_grains();
     void collect_impulses(SubstepReport& report) const;
 
     MPI_Comm communicator_ = MPI_COMM_NULL;
     int rank_ = 0, ranks_ = 1;
     std::unique_ptr<Library> lammps_;
-    std::optional<Discs> discs_;
+    std::optional<RoundGrains> grains_;
     std::optional<SoftLaw> law_;
     std::optional<MassClasses> classes_;
     std::vector<Border> borders_;
     std::vector<std::string> walls_;  ///< their fixes
-    double width_ = 0.0, height_ = 0.0, gravity_ = 0.0, skin_ = 0.0;
+    Vec3 size_{};                     ///< of the domain [m]
+    double gravity_ = 0.0, skin_ = 0.0;
     std::int64_t stride_ = 1;  ///< sub-steps between two probes for overlaps
     Present present_;
     std::vector<Origin> order_;  ///< where the bodies were before the last migration

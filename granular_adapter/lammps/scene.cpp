@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "granular_adapter/lammps/discs.hpp"
+#include "granular_adapter/lammps/round_grains.hpp"
 
 namespace turbidite::lammps {
 
@@ -40,9 +40,10 @@ struct Plane {
     const char* name;
     std::size_t low, high;  ///< among the borders
 };
-constexpr Plane planes[] = {{"xplane", 0, 1}, {"yplane", 2, 3}};
+constexpr Plane planes[] = {{"xplane", 0, 1}, {"yplane", 2, 3}, {"zplane", 4, 5}};
 
 bool has_wall(const Plane& plane, const std::vector<Border>& borders) {
+    if (plane.high >= borders.size()) return false;
     return borders[plane.low].side == BorderKind::wall ||
            borders[plane.high].side == BorderKind::wall;
 }
@@ -59,7 +60,7 @@ std::string place(const Border& border, int axis) {
 void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double>& masses,
                    const std::vector<Border>& borders) {
     for (std::size_t type = 1; type <= masses.size(); ++type)
-        for (int axis = 0; axis < 2; ++axis) {
+        for (int axis = 0; axis < 3; ++axis) {
             const Plane& plane = planes[axis];
             if (!has_wall(plane, borders)) continue;
             lammps.command(fmt::format("fix {} class{} wall/gran granular {} {} {} {} contacts",
@@ -71,34 +72,38 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
 
 }  // namespace
 
-void declare_box(Library& lammps, double width, double height, std::size_t types) {
-    run_all(lammps,
-            {"units si", "dimension 2", "boundary m m p", "atom_style sphere", "processors * 1 1"});
-    const double thick = 0.01 * std::max(width, height);
-    lammps.command(fmt::format("region domain block 0 {:.17g} 0 {:.17g} {:.17g} {:.17g}", width,
-                               height, -thick, thick));
+void declare_box(Library& lammps, int dimension, const Vec3& size, std::size_t types) {
+    const bool in_space = dimension == 3;
+    run_all(lammps, {"units si", fmt::format("dimension {}", dimension),
+                     in_space ? "boundary m m m" : "boundary m m p", "atom_style sphere",
+                     "processors * 1 1"});
+    const double thick = 0.01 * std::max(size[0], size[1]);
+    lammps.command(fmt::format("region domain block 0 {:.17g} 0 {:.17g} {:.17g} {:.17g}", size[0],
+                               size[1], in_space ? 0.0 : -thick, in_space ? size[2] : thick));
     lammps.command(fmt::format("create_box {} domain", types));
 }
 
-void declare_properties(Library& lammps) {
-    run_all(lammps, {"comm_modify vel yes", Discs::declaration()});
+void declare_properties(Library& lammps, int dimension) {
+    run_all(lammps, {"comm_modify vel yes", RoundGrains::declaration(dimension)});
 }
 
-void declare_engines(Library& lammps, const SoftLaw& law, const MassClasses& classes,
-                     const std::vector<Border>& borders, double skin) {
-    const std::vector<double>& masses = classes.masses();
+void declare_engines(Library& lammps, const Engines& engines) {
+    const std::vector<double>& masses = engines.classes.masses();
     for (std::size_t type = 1; type <= masses.size(); ++type)
         lammps.command(fmt::format("group class{0} type {0}", type));
-    declare_pairs(lammps, law, masses);
-    lammps.command(fmt::format("neighbor {:.17g} bin", skin));
-    run_all(lammps, {"neigh_modify every 1 delay 0 check yes", "fix motion all nve/sphere disc",
-                     "fix balance all balance 0 1.1 shift x 10 1.05"});
-    declare_walls(lammps, law, masses, borders);
+    declare_pairs(lammps, engines.law, masses);
+    lammps.command(fmt::format("neighbor {:.17g} bin", engines.skin));
+    run_all(lammps,
+            {"neigh_modify every 1 delay 0 check yes",
+             engines.in_space ? "fix motion all nve/sphere" : "fix motion all nve/sphere disc",
+             "fix balance all balance 0 1.1 shift x 10 1.05"});
+    declare_walls(lammps, engines.law, masses, engines.borders);
     // The last one, so that it finds all contact forces.
     lammps.command(fmt::format("fix {} all external pf/callback 1 1", loads_fix));
-    run_all(lammps, {"compute pairs all pair/local dist fx fy p1 p2 p10 p11 cutoff radius",
-                     "compute names all property/local patom1 patom2 cutoff radius",
-                     "thermo_style custom step", "thermo 1000000000"});
+    run_all(lammps,
+            {"compute pairs all pair/local dist fx fy fz p1 p2 p3 p10 p11 p12 cutoff radius",
+             "compute names all property/local patom1 patom2 cutoff radius",
+             "thermo_style custom step", "thermo 1000000000"});
 }
 
 std::vector<std::string> wall_fixes(const MassClasses& classes,

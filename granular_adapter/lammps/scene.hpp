@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The commands that make LAMMPS' granular package a scene of discs between walls, with the contact
-// law of md/soft_law.hpp.
+// The commands that make LAMMPS' granular package a scene of discs, in space of spheres, between
+// walls, with the contact law of md/soft_law.hpp.
 #pragma once
 
 #include <string>
@@ -20,14 +20,21 @@ extern const char* const loads_fix;
 
 /// The box of the domain, which grows with the grains that leave it, divided among the ranks into
 /// strips along x.
-void declare_box(Library& lammps, double width, double height, std::size_t types);
+void declare_box(Library& lammps, int dimension, const Vec3& size, std::size_t types);
 
-/// What grains carry from rank to rank (discs.hpp).
-void declare_properties(Library& lammps);
+/// What grains carry from rank to rank (round_grains.hpp).
+void declare_properties(Library& lammps, int dimension);
 
-/// Contacts, walls, integration; `skin` is the distance up to which pairs are neighbours [m].
-void declare_engines(Library& lammps, const SoftLaw& law, const MassClasses& classes,
-                     const std::vector<Border>& borders, double skin);
+struct Engines {
+    const SoftLaw& law;
+    const MassClasses& classes;
+    const std::vector<Border>& borders;
+    double skin;  ///< distance up to which pairs are neighbours [m]
+    bool in_space;
+};
+
+/// Contacts, walls, integration.
+void declare_engines(Library& lammps, const Engines& engines);
 
 /// The fixes of all walls, one per class and axis.
 std::vector<std::string> wall_fixes(const MassClasses& classes, const std::vector<Border>& borders);

@@ -30,8 +30,8 @@ void add_pairs(const Library& lammps, Overlaps& all) {
         lammps_neighlist_element_neighbors(lammps.handle(), list, k, &i, &count, &neighbours);
         for (int n = 0; n < count; ++n) {
             const int j = neighbours[n] & neighbour_bits;
-            const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1];
-            const double reach = radius[i] + radius[j], square = dx * dx + dy * dy;
+            const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+            const double reach = radius[i] + radius[j], square = dx * dx + dy * dy + dz * dz;
             if (square < reach * reach) add(all, reach - std::sqrt(square));
         }
     }
@@ -46,12 +46,12 @@ struct AtWall {
 };
 
 AtWall at_wall(const double* row) {
-    return {row[0] != 0.0, {row[1], row[2], 0.0}, {row[4], row[5], 0.0}, row[7]};
+    return {row[0] != 0.0, {row[1], row[2], row[3]}, {row[4], row[5], row[6]}, row[7]};
 }
 
 Vec3 centre(const Library& lammps, int i) {
     const double* x = lammps.atoms<double**>("x")[i];
-    return {x[0], x[1], 0.0};
+    return {x[0], x[1], x[2]};
 }
 
 /// Calls visit(grain, contact) for all contacts of this rank's grains with walls.
@@ -82,8 +82,8 @@ void fill(ContactRecord& record, const Vec3& force, double overlap, double frict
 struct Pair {
     explicit Pair(const double* row)
         : distance(row[0]),
-          force({row[1] + row[3], row[2] + row[4], 0.0}),
-          apart({row[5], row[6], 0.0}) {}
+          force({row[1] + row[4], row[2] + row[5], row[3] + row[6]}),
+          apart({row[7], row[8], row[9]}) {}
 
     double distance;
     Vec3 force, apart;
@@ -91,8 +91,8 @@ struct Pair {
 
 class PairRecords {
  public:
-    PairRecords(const Library& lammps, const Discs& discs, double friction, double window)
-        : lammps_(lammps), discs_(discs), friction_(friction), window_(window) {
+    PairRecords(const Library& lammps, const RoundGrains& grains, double friction, double window)
+        : lammps_(lammps), grains_(discs), friction_(friction), window_(window) {
         const int* tag = lammps.atoms<int*>("id");
         for (int i = 0; i < lammps_extract_setting(lammps.handle(), "nall"); ++i)
             index_.emplace(tag[i], i);  // the grain itself comes before its copies
@@ -101,7 +101,7 @@ class PairRecords {
     /// Of two grains with LAMMPS' numbers.
     ContactRecord operator()(int first_tag, int second_tag, const Pair& pair) const {
         const int first = index_.at(first_tag), second = index_.at(second_tag);
-        const GrainId ids[] = {discs_.id(first), discs_.id(second)};
+        const GrainId ids[] = {grains_.id(first), grains_.id(second)};
         const double* radius = lammps_.atoms<double*>("radius");
         const double r = radius[first], overlap = r + radius[second] - pair.distance;
         const double sense = ids[0] < ids[1] ? -1.0 : 1.0;  // of b
@@ -117,15 +117,16 @@ class PairRecords {
 
  private:
     const Library& lammps_;
-    const Discs& discs_;
+    const RoundGrains& grains_;
     double friction_, window_;
     std::unordered_map<int, int> index_;  ///< of LAMMPS' number
 };
 
 /// The side that a point of a wall belongs to.
-std::int32_t side_of(const Vec3& point, const Vec3& grain, double width, double height) {
-    if (point[0] != grain[0]) return point[0] < 0.5 * width ? 0 : 1;
-    return point[1] < 0.5 * height ? 2 : 3;
+std::int32_t side_of(const Vec3& point, const Vec3& grain, const Vec3& size) {
+    int axis = 0;
+    while (axis < 2 && point[axis] == grain[axis]) ++axis;
+    return 2 * axis + (point[axis] < 0.5 * size[axis] ? 0 : 1);
 }
 
 double** rows_of(const Library& lammps, const char* compute, int& count) {
@@ -146,11 +147,11 @@ Overlaps overlaps(const Library& lammps, const std::vector<std::string>& wall_fi
     return all;
 }
 
-std::vector<ContactRecord> touching(const Library& lammps, const Discs& discs,
-                                    const std::vector<std::string>& wall_fixes, double width,
-                                    double height, double friction, double window) {
+std::vector<ContactRecord> touching(const Library& lammps, const RoundGrains& grains,
+                                    const std::vector<std::string>& wall_fixes, const Vec3& size,
+                                    double friction, double window) {
     std::vector<ContactRecord> records;
-    const PairRecords record_of(lammps, discs, friction, window);
+    const PairRecords record_of(lammps, grains, friction, window);
     int count = 0;
     double** pairs = rows_of(lammps, "pairs", count);
     double** names = rows_of(lammps, "names", count);
@@ -159,8 +160,8 @@ std::vector<ContactRecord> touching(const Library& lammps, const Discs& discs,
     for_walls(lammps, wall_fixes, [&](int i, const AtWall& contact) {
         const Vec3 grain = centre(lammps, i);
         ContactRecord record;
-        record.wall = side_of(contact.point, grain, width, height);
-        record.b = discs.id(i);
+        record.wall = side_of(contact.point, grain, size);
+        record.b = grains.id(i);
         record.point = contact.point;
         record.branch = grain - contact.point;
         record.normal = (1.0 / norm(record.branch)) * record.branch;

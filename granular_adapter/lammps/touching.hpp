@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
-#include "granular_adapter/lammps/discs.hpp"
 #include "granular_adapter/lammps/lammps_library.hpp"
+#include "granular_adapter/lammps/round_grains.hpp"
 
 namespace turbidite::lammps {
 
@@ -22,10 +22,10 @@ struct Overlaps {
 Overlaps overlaps(const Library& lammps, const std::vector<std::string>& wall_fixes);
 
 /// The same contacts one by one, sorted; impulses are their forces times `window` [s].
-/// `width` and `height` of the domain tell which wall it is [m]; a contact slides if its friction
-/// is at the limit `friction`.
-std::vector<ContactRecord> touching(const Library& lammps, const Discs& discs,
-                                    const std::vector<std::string>& wall_fixes, double width,
-                                    double height, double friction, double window);
+/// The size of the domain tells which wall it is [m]; a contact slides if its friction is at the
+/// limit `friction`.
+std::vector<ContactRecord> touching(const Library& lammps, const RoundGrains& grains,
+                                    const std::vector<std::string>& wall_fixes, const Vec3& size,
+                                    double friction, double window);
 
 }  // namespace turbidite::lammps

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Molecular dynamics of discs, convex polygons and spheres, as a host without any other code. A sub-step of
-// length delta is a leap-frog step, with velocities half a sub-step behind positions:
+// Molecular dynamics of discs, convex polygons and spheres, as a host without any other code. A
+// sub-step of length delta is a leap-frog step, with velocities half a sub-step behind positions:
 //
 //     overlaps at x           the contact engine's detection       overlaps.hpp
 //     forces F(x, v, slips)   springs, dashpots, friction          point_force.hpp

@@ -132,7 +132,9 @@ std::vector<ContactRecord> YadeMdHost::touching(double window) const {
         record.b = python::extract<GrainId>(contact[2]);
         record.status = python::extract<bool>(contact[3]) ? ContactStatus::sliding : 0;
         record.gap = -number(4);
-        const auto vector = [&](int k) -> Vec3 { return {number(k), number(k + 1), in_space_ ? number(k + 2) : 0.0}; };
+        const auto vector = [&](int k) -> Vec3 {
+            return {number(k), number(k + 1), in_space_ ? number(k + 2) : 0.0};
+        };
         record.point = vector(5);
         record.normal = vector(8);
         record.impulse = window * vector(11);

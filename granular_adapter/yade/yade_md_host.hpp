@@ -51,7 +51,7 @@ class YadeMdHost final : public MdHost {
     std::vector<Border> borders_;
     std::int64_t stride_ = 1;  ///< sub-steps between two probes for overlaps
     bool in_space_ = false;
-    bool loaded_ = false;      ///< YADE still holds forces of an earlier window
+    bool loaded_ = false;  ///< YADE still holds forces of an earlier window
 };
 
 }  // namespace turbidite::yade

@@ -64,8 +64,9 @@ void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
           folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.film(),
-          folder.checkpoints(), folder.stop(), folder.root / write_file, folder.root / checkpoint_file,
-          folder.recordings(), folder.root / "timeline", folder.root / "differences"})
+          folder.checkpoints(), folder.stop(), folder.root / write_file,
+          folder.root / checkpoint_file, folder.recordings(), folder.root / "timeline",
+          folder.root / "differences"})
         fs::remove_all(part);
     CheckpointSets(folder.root).remove_unfinished();
 }

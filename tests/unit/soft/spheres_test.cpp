@@ -40,8 +40,7 @@ struct SpaceScene {
     }
 
     SubstepReport play(std::int64_t count, double step) {
-        SubstepReport report =
-            host.run({count, step, true}, std::vector<Load>(bodies.size()));
+        SubstepReport report = host.run({count, step, true}, std::vector<Load>(bodies.size()));
         host.read(bodies);
         return report;
     }
@@ -67,9 +66,9 @@ TEST(SoftSpheres, ThatStickOnImpactComeBackAlongTheContactAsAcrossIt) {
         scene.play(4000, fine);
         const Twist& twist = scene.bodies.twist[0];
         EXPECT_NEAR(twist.velocity[1], 1.0, 1e-3);
-        EXPECT_NEAR(norm(twist.velocity - Vec3{0.0, twist.velocity[1], 0.0} -
-                         (3.0 / 7.0 * along) * d),
-                    0.0, 2e-3 * along);
+        EXPECT_NEAR(
+            norm(twist.velocity - Vec3{0.0, twist.velocity[1], 0.0} - (3.0 / 7.0 * along) * d), 0.0,
+            2e-3 * along);
         const Vec3 at_point = twist.at({0.0, -radius, 0.0});
         EXPECT_NEAR(dot(at_point, d), -along, 1e-2 * along);
     }

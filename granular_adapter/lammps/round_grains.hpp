@@ -23,23 +23,60 @@ namespace turbidite::lammps {
 enum Own {
     load_x,  ///< loads of the window [N], [N m]
     load_y,
-    load_turn,
+    load_turn_z,
     impulse_x,  ///< sum over the sub-steps of delta times all forces but gravity [N s], [N m s]
     impulse_y,
-    impulse_turn,
-    angle,        ///< about z [rad]
-    turn_factor,  ///< (m R^2/2)/I, as LAMMPS turns discs with the moment m R^2/2
+    impulse_turn_z,
+    angle,        ///< about z, in the plane [rad]
+    turn_factor,  ///< c m R^2/I, as LAMMPS turns discs with c = 1/2 and spheres with c = 2/5
     id_high,      ///< the 64 bits of the id in two halves; LAMMPS' own numbers have 31 bits
     id_low,
-    own_columns
+    plane_columns,
+    // Only in space:
+    load_z = plane_columns,
+    load_turn_x,
+    load_turn_y,
+    impulse_z,
+    impulse_turn_x,
+    impulse_turn_y,
+    orientation,  ///< four columns, a unit quaternion
+    space_columns = orientation + 4
 };
 
-class Discs {
+/// The axes along which grains are pushed and about which they turn, and their columns.
+struct Freedom {
+    int pushes, turns;  ///< how many of the axes below
+    int turn_axis[3] = {2, 0, 1};
+    Own load[3] = {load_x, load_y, load_z}, load_turn[3] = {load_turn_x, load_turn_y, load_turn_z};
+    Own impulse[3] = {impulse_x, impulse_y, impulse_z};
+    Own impulse_turn[3] = {impulse_turn_x, impulse_turn_y, impulse_turn_z};
+
+    explicit constexpr Freedom(int dimension) : pushes(dimension), turns(dimension == 3 ? 3 : 1) {}
+
+    /// visit(axis)
+    template <class Visit>
+    void each_push(Visit visit) const {
+        for (int axis = 0; axis < pushes; ++axis) visit(axis);
+    }
+    template <class Visit>
+    void each_turn(Visit visit) const {
+        for (int k = 0; k < turns; ++k) visit(turn_axis[k]);
+    }
+};
+
+class RoundGrains {
  public:
-    explicit Discs(Library& lammps) : lammps_(lammps) {}
+    /// `dimension`: 2 for discs, 3 for spheres.
+    RoundGrains(Library& lammps, int dimension) : lammps_(lammps), dimension_(dimension) {}
 
     /// The LAMMPS command for the arrays above.
-    static std::string declaration();
+    static std::string declaration(int dimension);
+
+    Freedom freedom() const { return Freedom(dimension_); }
+    bool in_space() const { return dimension_ == 3; }
+
+    /// Turns a grain of this rank, by its index into LAMMPS' arrays, by its spin over a time [s].
+    void turn(int index, double time);
 
     /// Creates the bodies of all ranks, each on the rank that owns its place; collective.
     void create(const nscd::Bodies& bodies, const MassClasses& classes, MPI_Comm communicator);
@@ -72,10 +109,13 @@ class Discs {
 
  private:
     struct Newcomer;
-    static Newcomer newcomer(const nscd::Bodies& bodies, std::size_t i, const MassClasses& classes);
+    Newcomer newcomer(const nscd::Bodies& bodies, std::size_t i, const MassClasses& classes) const;
+    Quaternion orientation_of(const double* own) const;
+    void set_orientation(double* own, const Quaternion& q) const;
     void take(const std::vector<Newcomer>& newcomers, int giver, int first_tag);
 
     Library& lammps_;
+    int dimension_;
 };
 
 }  // namespace turbidite::lammps

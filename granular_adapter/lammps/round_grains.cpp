@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "granular_adapter/lammps/discs.hpp"
+#include "granular_adapter/lammps/round_grains.hpp"
 
 #include <fmt/format.h>
 #include <lammps/library.h>
@@ -12,36 +12,38 @@
 namespace turbidite::lammps {
 
 /// A body on its way to the rank that will own it.
-struct Discs::Newcomer {
+struct RoundGrains::Newcomer {
     GrainId id;
     int type;
     double mass, radius, turn_factor;
-    Vec3 position, velocity;
-    double spin, angle;
+    Vec3 position, velocity, spin;
+    Quaternion orientation;
 };
 
-std::string Discs::declaration() {
+std::string RoundGrains::declaration(int dimension) {
     return fmt::format("fix own all property/atom i_from_rank i_from_place d2_own {} ghost yes",
-                       int(own_columns));
+                       int(dimension == 3 ? space_columns : plane_columns));
 }
 
-Discs::Newcomer Discs::newcomer(const nscd::Bodies& bodies, std::size_t i,
-                                const MassClasses& classes) {
+RoundGrains::Newcomer RoundGrains::newcomer(const nscd::Bodies& bodies, std::size_t i,
+                                            const MassClasses& classes) const {
     const double mass = bodies.mass[i], radius = bodies.radius[i];
+    const double share = in_space() ? 0.4 : 0.5;  // of m R^2
     return {bodies.id[i],
             classes.type_of(mass),
             mass,
             radius,
-            0.5 * mass * radius * radius / bodies.inertia[i].zz,
+            share * mass * radius * radius / bodies.inertia[i].zz,
             bodies.position[i],
             bodies.twist[i].velocity,
-            bodies.twist[i].spin[2],
-            angle_about_z(bodies.orientation[i])};
+            bodies.twist[i].spin,
+            bodies.orientation[i]};
 }
 
 /// Each rank in turn shows its bodies to all, which take those in their subdomains: no rank holds
 /// more than one share of another.
-void Discs::create(const nscd::Bodies& bodies, const MassClasses& classes, MPI_Comm communicator) {
+void RoundGrains::create(const nscd::Bodies& bodies, const MassClasses& classes,
+                         MPI_Comm communicator) {
     int rank = 0, ranks = 1;
     MPI_Comm_rank(communicator, &rank);
     MPI_Comm_size(communicator, &ranks);
@@ -61,7 +63,7 @@ void Discs::create(const nscd::Bodies& bodies, const MassClasses& classes, MPI_C
 }
 
 /// LAMMPS keeps those in its subdomain, after those it has, and knows them by the numbers it gets.
-void Discs::take(const std::vector<Newcomer>& newcomers, int giver, int first_tag) {
+void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int first_tag) {
     std::vector<int> tags, types;
     std::vector<double> places, velocities;
     for (const Newcomer& disc : newcomers) {
@@ -80,9 +82,10 @@ void Discs::take(const std::vector<Newcomer>& newcomers, int giver, int first_ta
         double* own = lammps_.atoms<double**>("d2_own")[i];
         lammps_.atoms<double*>("rmass")[i] = disc.mass;
         lammps_.atoms<double*>("radius")[i] = disc.radius;
-        lammps_.atoms<double**>("omega")[i][2] = disc.spin;
+        freedom().each_turn(
+            [&](int axis) { lammps_.atoms<double**>("omega")[i][axis] = disc.spin[axis]; });
         own[turn_factor] = disc.turn_factor;
-        own[angle] = disc.angle;
+        set_orientation(own, disc.orientation);
         own[id_high] = double(disc.id >> 32);
         own[id_low] = double(disc.id & 0xFFFFFFFF);
         lammps_.atoms<int*>("i_from_rank")[i] = giver;
@@ -90,39 +93,70 @@ void Discs::take(const std::vector<Newcomer>& newcomers, int giver, int first_ta
     }
 }
 
-void Discs::read(nscd::Bodies& bodies) const {
+void RoundGrains::read(nscd::Bodies& bodies) const {
     double** x = lammps_.atoms<double**>("x");
     double** v = lammps_.atoms<double**>("v");
     double** omega = lammps_.atoms<double**>("omega");
     double** own = lammps_.atoms<double**>("d2_own");
     for_each([&](std::size_t place, int i) {
-        bodies.position[place] = {x[i][0], x[i][1], 0.0};
-        bodies.orientation[place] = about_z(own[i][angle]);
-        bodies.twist[place] = {{v[i][0], v[i][1], 0.0}, {0.0, 0.0, omega[i][2]}};
+        Vec3 position{};
+        Twist twist;
+        freedom().each_push(
+            [&](int axis) { position[axis] = x[i][axis], twist.velocity[axis] = v[i][axis]; });
+        freedom().each_turn([&](int axis) { twist.spin[axis] = omega[i][axis]; });
+        bodies.position[place] = position;
+        bodies.orientation[place] = orientation_of(own[i]);
+        bodies.twist[place] = twist;
     });
 }
 
-void Discs::write(const nscd::Bodies& bodies) {
+void RoundGrains::write(const nscd::Bodies& bodies) {
     double** x = lammps_.atoms<double**>("x");
     double** v = lammps_.atoms<double**>("v");
     double** omega = lammps_.atoms<double**>("omega");
     double** own = lammps_.atoms<double**>("d2_own");
     for_each([&](std::size_t place, int i) {
-        std::copy_n(bodies.position[place].begin(), 2, x[i]);
-        std::copy_n(bodies.twist[place].velocity.begin(), 2, v[i]);
-        omega[i][2] = bodies.twist[place].spin[2];
-        own[i][angle] = angle_about_z(bodies.orientation[place]);
+        const Twist& twist = bodies.twist[place];
+        freedom().each_push([&](int axis) {
+            x[i][axis] = bodies.position[place][axis], v[i][axis] = twist.velocity[axis];
+        });
+        freedom().each_turn([&](int axis) { omega[i][axis] = twist.spin[axis]; });
+        set_orientation(own[i], bodies.orientation[place]);
     });
 }
 
-std::vector<Origin> Discs::origins() const {
+Quaternion RoundGrains::orientation_of(const double* own) const {
+    if (!in_space()) return about_z(own[angle]);
+    Quaternion q;
+    std::copy_n(own + orientation, 4, q.begin());
+    return q;
+}
+
+void RoundGrains::set_orientation(double* own, const Quaternion& q) const {
+    if (in_space())
+        std::copy_n(q.begin(), 4, own + orientation);
+    else
+        own[angle] = angle_about_z(q);
+}
+
+void RoundGrains::turn(int index, double time) {
+    double* own = lammps_.atoms<double**>("d2_own")[index];
+    const double* omega = lammps_.atoms<double**>("omega")[index];
+    if (in_space())
+        set_orientation(own,
+                        rotated(orientation_of(own), time * Vec3{omega[0], omega[1], omega[2]}));
+    else
+        own[angle] += time * omega[2];
+}
+
+std::vector<Origin> RoundGrains::origins() const {
     const int* rank = lammps_.atoms<int*>("i_from_rank");
     std::vector<Origin> result;
     for_each([&](std::size_t place, int i) { result.push_back({rank[i], int(place)}); });
     return result;
 }
 
-void Discs::number(const std::vector<Origin>& order, int rank) {
+void RoundGrains::number(const std::vector<Origin>& order, int rank) {
     int* from_rank = lammps_.atoms<int*>("i_from_rank");
     int* from_place = lammps_.atoms<int*>("i_from_place");
     std::vector<std::pair<Origin, int>> by_origin;
@@ -139,12 +173,12 @@ void Discs::number(const std::vector<Origin>& order, int rank) {
     }
 }
 
-GrainId Discs::id(int index) const {
+GrainId RoundGrains::id(int index) const {
     const double* own = lammps_.atoms<double**>("d2_own")[index];
     return (GrainId(own[id_high]) << 32) | GrainId(own[id_low]);
 }
 
-void Discs::remove(const std::vector<std::int64_t>& tags) {
+void RoundGrains::remove(const std::vector<std::int64_t>& tags) {
     for (const std::int64_t tag : tags) lammps_.command(fmt::format("group gone id {}", tag));
     lammps_.command("delete_atoms group gone compress no");
     lammps_.command("group gone clear");
