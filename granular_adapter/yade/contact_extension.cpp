@@ -113,6 +113,7 @@ Turn turn_of(const python::object& rotation) {
 /// Converts the description of YADE's bodies made by turbidite_contact/scene.py.
 Layout layout_of(const python::object& scene) {
     Layout layout;
+    layout.dimension = field<int>(scene, "dimension");
     layout.shapes = vector_of<ShapeRecord>(scene["shapes"], shape_of);
     layout.frictions = numbers(scene["frictions"]);
     layout.walls = HostedWalls(vector_of<nscd::Wall>(scene["walls"], wall_of),
@@ -187,7 +188,7 @@ class ContactEngine {
         for (const ContactForce& contact : host_.contacts())
             result.append(python::make_tuple(contact.first, contact.second, tuple_of(contact.point),
                                              tuple_of(contact.normal), contact.gap,
-                                             contact.normal_force, contact.tangential_force,
+                                             contact.normal_force, tuple_of(contact.shear_force),
                                              contact.rolling_moment, contact.wall));
         return result;
     }
@@ -233,7 +234,7 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
         .def("memory", &ContactEngine::memory, "Contact impulses and states as bytes.")
         .def("restore_memory", &ContactEngine::restore_memory, "The inverse of memory().")
         .def("contacts", &ContactEngine::contacts,
-             "(first, second, point, normal, gap, normal force, tangential force, rolling moment, "
+             "(first, second, point, normal, gap, normal force, shear force, rolling moment, "
              "wall?) of every contact of the last step with a force.")
         .def("impulses", &ContactEngine::impulses,
              "(id, impulse, angular impulse) of every body in the last step.");

@@ -31,12 +31,17 @@ ContactHost::ContactHost(const nscd::EngineSettings& settings) : settings_(setti
 std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
     nscd::EngineSettings settings = settings_;
     settings.box = layout.box;
+    settings.dimension = layout.dimension;
+    if (layout.dimension == 2 && !layout.bodies.empty() && settings.gravity[2] != 0.0)
+        throw std::runtime_error(
+            "turbidite_contact: gravity has a z component, but the bodies move in the plane");
     if (!layout.frictions.empty()) {
         settings.surfaces.assign(layout.frictions.size(), settings_.surfaces.at(0));
         for (std::size_t i = 0; i < layout.frictions.size(); ++i)
             settings.surfaces[i].friction = layout.frictions[i];
     }
-    auto engine = std::make_unique<nscd::Engine>(settings, layout.shapes, layout.walls.read());
+    auto engine = std::make_unique<nscd::Engine>(settings, layout.shapes,
+                                                 layout.walls.read(layout.dimension));
     for (const nscd::Body& body : layout.bodies) engine->bodies().add(body);
     return engine;
 }
@@ -96,11 +101,14 @@ std::vector<ContactForce> ContactHost::contacts() const {
                                      : bodies.id[static_cast<std::size_t>(point.a)];
         contact.second = bodies.id[b];
         contact.point = solved_positions_[b] + point.arm_b;
-        contact.point[2] = heights_[b];
+        if (!in_space()) contact.point[2] = heights_[b];
         contact.normal = point.normal;
         contact.gap = point.gap;
         contact.normal_force = force.n;
-        contact.tangential_force = force.t;
+        const nscd::Contact& frame = engine_->problem().contacts[k];
+        contact.shear_force = force.t * frame.tangent;
+        if (in_space())
+            contact.shear_force = contact.shear_force + force.s * nscd::binormal_of(frame);
         contact.rolling_moment = force.roll;
         result.push_back(contact);
     }
@@ -112,12 +120,14 @@ void ContactHost::read_bodies() {
     heights_.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyMotion motion = states_.read(i);
-        heights_[i] = motion.position[2];
-        bodies.position[i] = {motion.position[0], motion.position[1], 0.0};
+        bodies.position[i] = motion.position;
         bodies.orientation[i] = outline_orientation(motion.orientation, turns_[i]);
+        bodies.twist[i] = motion.twist;
+        if (in_space()) continue;
+        heights_[i] = std::exchange(bodies.position[i][2], 0.0);
         bodies.twist[i] = in_plane(motion.twist);
     }
-    engine_->walls() = walls_.read();
+    engine_->walls() = walls_.read(engine_->settings().dimension);
 }
 
 void ContactHost::take_loads(const Loads& loads) {
@@ -143,10 +153,10 @@ void ContactHost::check_bodies(const char* when) const {
 void ContactHost::write_bodies() const {
     const nscd::Bodies& bodies = std::as_const(*engine_).bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const Vec3& x = bodies.position[i];
-        states_.write(i, {{x[0], x[1], heights_[i]},
-                          yade_orientation(bodies.orientation[i], turns_[i]),
-                          bodies.twist[i]});
+        Vec3 place = bodies.position[i];
+        if (!in_space()) place[2] = heights_[i];
+        states_.write(i,
+                      {place, yade_orientation(bodies.orientation[i], turns_[i]), bodies.twist[i]});
     }
 }
 

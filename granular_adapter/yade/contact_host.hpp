@@ -3,8 +3,8 @@
 // The contact engine acting on YADE's bodies in a user's own script: no coupling, no MPI. Motions
 // and loads are read from YADE before each contact problem, and motions are written back after the
 // move, so that whatever a script does to a body in between takes effect. YADE's body ids are the
-// engine's grain ids and the keys of its walls. The engine's plane is z = 0, wherever YADE's bodies
-// lie.
+// engine's grain ids and the keys of its walls. Where bodies move in the plane, that of the engine
+// is z = 0, wherever YADE's bodies lie.
 #pragma once
 
 #include <memory>
@@ -22,6 +22,7 @@ namespace turbidite::yade {
 
 /// The contents of a scene, in the engine's terms.
 struct Layout {
+    int dimension = 2;
     ShapeTable shapes;
     std::vector<double> frictions;   ///< mu by material of bodies and walls
     std::vector<nscd::Body> bodies;  ///< their motions are read from `states`
@@ -43,13 +44,13 @@ struct Loads {
 struct ContactForce {
     GrainId first = 0;  ///< body id, or the key of a wall
     GrainId second = 0;
-    bool wall = false;              ///< whether `first` is a wall
-    Vec3 point{};                   ///< [m]
-    Vec3 normal{};                  ///< unit, from first to second
-    double gap = 0.0;               ///< gap, negative for an overlap [m]
-    double normal_force = 0.0;      ///< J_n/dt [N]
-    double tangential_force = 0.0;  ///< J_t/dt along e_z x normal [N]
-    double rolling_moment = 0.0;    ///< [N m]
+    bool wall = false;            ///< whether `first` is a wall
+    Vec3 point{};                 ///< [m]
+    Vec3 normal{};                ///< unit, from first to second
+    double gap = 0.0;             ///< gap, negative for an overlap [m]
+    double normal_force = 0.0;    ///< J_n/dt [N]
+    Vec3 shear_force{};           ///< J_t/dt [N]
+    double rolling_moment = 0.0;  ///< [N m]
 };
 
 class ContactHost {
@@ -84,6 +85,7 @@ class ContactHost {
 
  private:
     std::unique_ptr<nscd::Engine> new_engine(Layout& layout) const;
+    bool in_space() const { return engine_->settings().dimension == 3; }
     void read_bodies();
     void take_loads(const Loads& loads);
     void check_bodies(const char* when) const;
@@ -95,7 +97,7 @@ class ContactHost {
     BodyStates states_;
     std::vector<Turn> turns_;
     HostedWalls walls_;
-    std::vector<double> heights_;  ///< z of the bodies in YADE
+    std::vector<double> heights_;  ///< z of the bodies in YADE, where they move in the plane
     SceneWatch watch_;
     std::vector<Vec3> solved_positions_;  ///< at which the last contacts were solved
     double last_step_ = 0.0;

@@ -6,11 +6,17 @@
 
 namespace turbidite::yade {
 
-std::vector<nscd::Wall> HostedWalls::read() const {
+std::vector<nscd::Wall> HostedWalls::read(int dimension) const {
     std::vector<nscd::Wall> walls = local_;
     for (std::size_t i = 0; i < walls.size(); ++i) {
         const BodyMotion motion = states_.read(i);
         nscd::Wall& wall = walls[i];
+        if (dimension == 3) {  // half-spaces, which keep their axis
+            wall.pivot = motion.position;
+            wall.point = wall.pivot + local_[i].point;
+            wall.twist = motion.twist;
+            continue;
+        }
         wall.pivot = {motion.position[0], motion.position[1], 0.0};
         wall.point = wall.pivot + turned_in_plane(motion.orientation, local_[i].point);
         wall.normal = turned_in_plane(motion.orientation, local_[i].normal);

@@ -23,7 +23,7 @@ class HostedWalls {
         : local_(std::move(walls)), states_(std::move(states)) {}
 
     /// The walls at their present positions in YADE.
-    std::vector<nscd::Wall> read() const;
+    std::vector<nscd::Wall> read(int dimension) const;
 
     /// Moves the walls that have a velocity or spin, over dt [s].
     void advance(double dt) const;

@@ -25,7 +25,7 @@ _present = None  # the host of the scene that made the last step
 def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
     """A list for O.engines, which begins with ForceResetter and ends with the store of contact impulses.
 
-    gravity  [m/s2], in the plane: no z component
+    gravity  [m/s2]; no z component where bodies move in the plane
     show     interval in steps at which O.interactions and O.forces show the contacts (0: never); recorders that
              read them must run at multiples of it, after these engines
     contact  tolerance, iterations, law, solver, ...: the keys of `turbidite keys` in the group contact,

@@ -16,8 +16,8 @@ MOST_OVERLAP = 0.05
 
 def settings(gravity, show, contact):
     """Checked settings in JSON types: gravity, show, options (strings, by key of the group contact)."""
-    if len(gravity) != 3 or gravity[2] != 0:
-        raise Refused(f'turbidite_contact: gravity = {tuple(gravity)} must be (x, y, 0): motion is in the plane')
+    if len(gravity) != 3:
+        raise Refused(f'turbidite_contact: gravity = {tuple(gravity)} must be (x, y, z); z is 0 in the plane')
     if int(show) != show or show < 0:
         raise Refused(f'turbidite_contact: show = {show} must be a whole number of steps, or 0')
     if 'friction' in contact:
@@ -36,7 +36,7 @@ class Contact:
         self.id1, self.id2, point, normal, self.gap, pushing, dragging, self.rolling_moment, self.wall = record
         self.point, self.normal = Vector3(*point), Vector3(*normal)
         self.normal_force = pushing * self.normal
-        self.shear_force = dragging * Vector3(-normal[1], normal[0], 0)
+        self.shear_force = Vector3(*dragging)
         self.force = self.normal_force + self.shear_force
 
 

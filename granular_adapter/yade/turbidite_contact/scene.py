@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's bodies as input of the contact engine, or a refusal that names the body.
 
-    Sphere             disc; mass and moment of inertia are those of its state
-    Polyhedra, Box     convex polygon: prisms whose axis is z
-    Wall (axis 0, 1)   half-plane
-    Facet              segment, where it crosses the plane of motion
+    Sphere             disc, in space a sphere; mass and moment of inertia are those of its state
+    Polyhedra, Box     convex polygon: prisms whose axis is z; in the plane only
+    Wall               half-plane, in space (where axis may be 2) a half-space
+    Facet              segment, where it crosses the plane of motion; in the plane only
 
-Bodies move in the plane: free ones have blockedDOFs 'zXY' (or 'zXYZ', without rotation), all others are
-fixed or driven by their velocity ('xyzXYZ').
+Bodies move in the plane, if free ones have blockedDOFs 'zXY' (or 'zXYZ', without rotation), or in space, if they have
+'' (or 'XYZ'). All others are fixed or driven by their velocity ('xyzXYZ').
 """
 import math
 
@@ -19,31 +19,39 @@ from .refusal import Refused, refuse
 
 O = Omega()
 FIXED, FREE, NO_ROTATION = set('xyzXYZ'), set('zXY'), set('zXYZ')
+FREE_IN_SPACE, NO_ROTATION_IN_SPACE = set(), set('XYZ')
 SAME_PLANE = 1e-6  # of a radius
+SAME_INERTIA = 1e-9
 
 
 def read_scene():
     """The present scene as a Scene; raises Refused."""
-    period = period_of_cell()
-    builder = Builder()
+    in_space = moves_in_space()
+    period = period_of_cell(in_space)
+    builder = SpaceBuilder() if in_space else Builder()
     walls = []
     for body in O.bodies:
         check_body(body)
         kind = type(body.shape).__name__
         if kind in ('Wall', 'Facet'):
             walls.append(body)
-        elif kind in ('Sphere', 'Polyhedra', 'Box'):
+        elif kind in builder.SHAPES:
             builder.add_body(body, kind)
         else:
-            refuse(body, 'has a shape that is not supported',
-                   'supported are Sphere, Polyhedra, Box, Wall, Facet')
+            refuse(body, f'has a shape that is not supported {builder.WHERE} ({kind})',
+                   f'supported are {", ".join(builder.SHAPES + builder.WALLS)}')
     for body in walls:
         builder.add_wall(body)
         period[getattr(body.shape, 'axis', 2)] = 0.0  # an axis bounded by a wall is not periodic
     return builder.scene(period)
 
 
-def period_of_cell():
+def moves_in_space():
+    """Whether some body is free to move along all axes."""
+    return any(body.shape is not None and not set(body.state.blockedDOFs) & set('xyz') for body in O.bodies)
+
+
+def period_of_cell(in_space):
     """Period of each axis [m], 0 if it is not periodic."""
     if not O.periodic:
         return [0.0, 0.0, 0.0]
@@ -53,7 +61,7 @@ def period_of_cell():
                       'supported')
     if any(cell.hSize[i][j] != 0 for i in range(3) for j in range(3) if i != j):
         raise Refused('turbidite_contact: the periodic cell is skewed (O.cell.hSize); only boxes are supported')
-    return [cell.size[0], cell.size[1], 0.0]
+    return [cell.size[0], cell.size[1], cell.size[2] if in_space else 0.0]
 
 
 def check_body(body):
@@ -75,6 +83,11 @@ class Scene:
 
 
 class Builder:
+    """Of scenes in the plane."""
+
+    DIMENSION, WHERE = 2, 'in the plane'
+    SHAPES, WALLS = ('Sphere', 'Polyhedra', 'Box'), ('Wall', 'Facet')
+
     def __init__(self):
         self.materials = Materials()
         self.shapes, self.walls, self.bodies, self.states, self.wall_states = [], [], [], [], []
@@ -84,7 +97,7 @@ class Builder:
         self.shape_numbers = {}
 
     def scene(self, period):
-        layout = {'shapes': self.shapes, 'frictions': self.materials.frictions, 'bodies': self.bodies,
+        layout = {'dimension': self.DIMENSION, 'shapes': self.shapes, 'frictions': self.materials.frictions, 'bodies': self.bodies,
                   'states': self.states, 'turns': self.turns, 'walls': self.walls,
                   'wall_states': self.wall_states, 'period': period, 'count': len(O.bodies),
                   'watched': list(O.bodies)}
@@ -140,9 +153,6 @@ class Builder:
             refuse(body, 'moves out of the plane (vel[2], angVel[0], angVel[1])', 'set these to zero')
         if blocked in (FIXED, FREE, NO_ROTATION):
             return blocked
-        if not FREE <= blocked:
-            refuse(body, f'moves in three dimensions (blockedDOFs = {state.blockedDOFs!r})',
-                   "set state.blockedDOFs = 'zXY', or build it with turbidite_contact.disc()")
         refuse(body, f'is blocked in one direction only (blockedDOFs = {state.blockedDOFs!r})',
                "supported are 'zXY', 'zXYZ' and 'xyzXYZ'")
 
@@ -170,9 +180,9 @@ class Builder:
 
     def half_plane(self, body):
         axis, state = body.shape.axis, body.state
-        if axis == 2:
+        if axis == 2 and self.DIMENSION == 2:
             refuse(body, 'has its normal along z', 'the motion is in the plane; use axis 0 or 1')
-        if state.angVel[2] != 0:
+        if any(speed != 0 for speed in state.angVel):
             refuse(body, 'rotates', 'a Wall keeps its axis; use a Facet')
         normal = [0.0, 0.0, 0.0]
         normal[axis] = float(body.shape.sense or self.side_of(body, axis))
@@ -197,3 +207,44 @@ class Builder:
         length = math.dist(a, b)
         return {'point': [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0],
                 'normal': [(a[1] - b[1]) / length, (b[0] - a[0]) / length, 0.0], 'half_length': 0.5 * length}
+
+
+class SpaceBuilder(Builder):
+    """Of scenes in space: spheres and half-spaces."""
+
+    DIMENSION, WHERE = 3, 'in space'
+    SHAPES, WALLS = ('Sphere',), ('Wall',)
+
+    def shape_number(self, outline):
+        if not self.shapes:
+            self.shapes.append({'kind': 'sphere', 'vertices': []})
+        return 0
+
+    def check_plane(self, body, radius):
+        pass
+
+    def check_freedom(self, body):
+        """The blocked degrees of freedom as a set."""
+        blocked = set(body.state.blockedDOFs)
+        if blocked not in (FIXED, FREE_IN_SPACE, NO_ROTATION_IN_SPACE):
+            refuse(body, f'is blocked in some directions (blockedDOFs = {body.state.blockedDOFs!r}), while others move '
+                   'in space', "supported are '', 'XYZ' and 'xyzXYZ'; 'zXY' if all bodies move in the plane")
+        return blocked
+
+    def check_inertia(self, body, record):
+        super().check_inertia(body, record)
+        moments = body.state.inertia
+        if 'Z' not in body.state.blockedDOFs and max(moments) - min(moments) > SAME_INERTIA * max(moments):
+            refuse(body, f'has moments of inertia {tuple(moments)} and is free in space',
+                   "those of a sphere are equal; a disc that moves in the plane has blockedDOFs = 'zXY'")
+
+    def add_wall(self, body):
+        """Position and normal are relative to the body's position."""
+        if type(body.shape).__name__ != 'Wall':
+            refuse(body, 'is a Facet while bodies move in space', 'in space use Wall')
+        self.check_mask(body)
+        if body.state.blockedDOFs != 'xyzXYZ':
+            refuse(body, f'is free to move (blockedDOFs = {body.state.blockedDOFs!r})',
+                   'walls must be fixed or driven by their velocity')
+        self.walls.append({**self.half_plane(body), 'key': body.id, 'material': self.materials.number(body)})
+        self.wall_states.append(body.state)

@@ -257,6 +257,80 @@ class SaveAndLoad(SceneTest):
         self.assertEqual(turbidite_contact.contacts(), [])
 
 
+def spheres(places, radius=0.5, **kw):
+    return [O.bodies.append(utils.sphere(place, radius, **kw)) for place in places]
+
+
+class InSpace(SceneTest):
+    def test_a_sphere_falls_along_z_and_rests_on_a_wall(self):
+        material(0.3)
+        high, low = spheres([(0, 0, 9), (5, 1, 0.5)])
+        O.bodies.append(utils.wall(0, 2))
+        start(gravity=(0, 0, -G))
+        O.run(100, True)
+        self.assertAlmostEqual(O.bodies[high].state.vel[2], -100 * G * DT, delta=1e-12)
+        self.assertAlmostEqual(O.bodies[high].state.pos[2], 9 - G * DT**2 * 100 * 101 / 2, delta=1e-12)
+        self.assertAlmostEqual(O.bodies[low].state.pos[2], 0.5, delta=1e-12)
+        self.assertEqual(turbidite_contact.report()['contacts'], 1)
+
+    def test_a_sphere_rolls_down_a_slope_in_any_direction(self):
+        """Without sliding as tan(alpha) <= 3.5 mu: 5/7 g sin(alpha). Sliding: g (sin(alpha) - mu cos(alpha))."""
+        alpha = 0.5
+        for mu, rate in ((0.3, 5 / 7 * math.sin(alpha)), (0.1, math.sin(alpha) - 0.1 * math.cos(alpha))):
+            for turn in (0.0, 0.9, 2.2):
+                O.reset()
+                material(mu)
+                ball = O.bodies[spheres([(0, 0.5, 0)])[0]]
+                floor()
+                way = Vector3(math.cos(turn), 0, math.sin(turn))
+                start(gravity=tuple(G * math.sin(alpha) * way - G * math.cos(alpha) * Vector3(0, 1, 0)))
+                O.run(200, True)
+                self.assertAlmostEqual(ball.state.vel.dot(way), G * rate * 200 * DT, delta=1e-9)
+                self.assertAlmostEqual(ball.state.vel.cross(way).norm(), 0.0, delta=1e-9)
+                contact, = turbidite_contact.contacts()
+                self.assertAlmostEqual(contact.shear_force.dot(way), ball.state.mass * G * (rate - math.sin(alpha)),
+                                       delta=1e-6 * ball.state.mass)
+
+    def test_a_pile_carries_its_weight_to_the_floor(self):
+        import random
+        draw = random.Random(5)
+        material(0.4)
+        for k in range(48):
+            spheres([(0.6 + 1.1 * (k % 4) + draw.uniform(-0.04, 0.04), 0.6 + 1.1 * (k // 16),
+                      0.6 + 1.1 * (k // 4 % 4) + draw.uniform(-0.04, 0.04))], draw.uniform(0.45, 0.5))
+        base = floor()
+        for axis in (0, 2):
+            O.bodies.append(utils.wall(0, axis, sense=1))
+            O.bodies.append(utils.wall(4.6, axis, sense=-1))
+        start(tolerance=1e-5, iterations=5000)
+        O.run(2500, True)
+        weight = sum(body.state.mass for body in O.bodies) * G
+        self.assertLess(max(body.state.vel.norm() for body in O.bodies), 0.02)
+        self.assertGreater(turbidite_contact.report()['contacts'], 60)
+        self.assertAlmostEqual(-turbidite_contact.contact_force(base)[1] / weight, 1.0, delta=0.1)
+        place, before = states(), O.iter
+        O.saveTmp('there')
+        O.run(50, True)
+        expected = states()
+        O.loadTmp('there')
+        self.assertEqual(states(), place)
+        O.run(50, True)
+        self.assertEqual((O.iter, states()), (before + 50, expected))
+
+    def test_what_belongs_to_the_plane_is_refused(self):
+        material(0.3)
+        spheres([(0, 0.5, 0)])
+        start()
+        discs([(3, 0.5)])
+        self.refused('body 1 (Sphere) is blocked in some directions', "'zXY'")
+        O.bodies.erase(1)
+        O.bodies.append(turbidite_contact.polygon([(5, 0), (6, 0), (5, 1)]))
+        self.refused('has a shape that is not supported in space (Polyhedra)', 'Sphere, Wall')
+        O.bodies.erase(O.bodies[-1].id)
+        O.bodies.append(utils.facet([(0, 0, 0), (1, 0, 0), (0, 0, 1)]))
+        self.refused('is a Facet while bodies move in space')
+
+
 class Refusals(SceneTest):
     def scene(self):
         material(0.3)
@@ -266,7 +340,7 @@ class Refusals(SceneTest):
     def test_motion_in_space(self):
         body = self.scene()
         body.state.blockedDOFs = ''
-        self.refused('body 0 (Sphere) moves in three dimensions', "blockedDOFs = ''", 'zXY')
+        self.refused('body 0 (Sphere) has moments of inertia', 'is free in space', 'zXY')
         body.state.blockedDOFs = 'xzXY'
         self.refused('body 0 (Sphere) is blocked in one direction only')
         body.state.blockedDOFs, body.state.vel = 'zXY', Vector3(0, 0, 1)
@@ -338,8 +412,8 @@ class Refusals(SceneTest):
         self.refused('turbidite_contact_state')
 
     def test_settings(self):
-        with self.assertRaisesRegex(turbidite_contact.Refused, 'motion is in the plane'):
-            turbidite_contact.engines(gravity=(0, 0, -9.81))
+        with self.assertRaisesRegex(turbidite_contact.Refused, r'must be \(x, y, z\)'):
+            turbidite_contact.engines(gravity=(0, -9.81))
         with self.assertRaisesRegex(turbidite_contact.Refused, 'frictionAngle'):
             turbidite_contact.engines(friction=0.3)
         with self.assertRaisesRegex(RuntimeError, 'contact.tolerance = 2'):
@@ -352,7 +426,7 @@ class Refusals(SceneTest):
     def test_an_error_ends_the_run(self):
         body = self.scene()
         body.state.blockedDOFs = ''
-        with self.assertRaisesRegex(RuntimeError, 'moves in three dimensions'):
+        with self.assertRaisesRegex(RuntimeError, 'is free in space'):
             O.step()
 
 
