@@ -37,8 +37,8 @@ void refuse_cyclic(const std::vector<Border>& borders) {
     for (const Border& border : borders)
         if (border.side == BorderKind::cyclic)
             throw std::invalid_argument("domain." + border.name +
-                                        " = cyclic, which molecular dynamics does not support in "
-                                        "this version; allowed: wall, free");
+                                        " = cyclic, which this molecular dynamics does not support "
+                                        "in this version; allowed: wall, free");
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -55,9 +55,12 @@ void refuse_other_shapes(const ShapeTable& shapes, const std::vector<std::string
                 "\" is unknown to this molecular dynamics; allowed: " + listed(known));
 }
 
-double deepest_overlap(const nscd::Bodies& bodies, int dimension, const ShapeTable& shapes,
+double deepest_overlap(const nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
                        const std::vector<nscd::Wall>& walls) {
-    nscd::Engine engine({.dimension = dimension}, shapes, walls);
+    nscd::EngineSettings settings;
+    settings.dimension = run.dimension;
+    settings.box.length = run.period;
+    nscd::Engine engine(settings, shapes, walls);
     engine.bodies() = bodies;
     return engine.max_penetration();
 }
@@ -91,12 +94,13 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     repeats_ = settings.has("run.repeats_windows") && settings.flag("run.repeats_windows");
     substep_count_ = settings.integer("run.md_substeps");
     borders_ = lay_borders(settings);
-    refuse_cyclic(borders_);
+    if (!host_.repeats()) refuse_cyclic(borders_);
+    box_.length = run_.period;
     refuse_other_shapes(shapes, host_.shapes());
     agree([&] {
         if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
         add_grains(bodies_, run_, shapes, grains);
-        nscd::move(bodies_, bodies_.twist, -lead(), {});
+        nscd::move(bodies_, bodies_.twist, -lead(), box_);
         check_inside(bodies_, borders_, "at the start");
     });
     if (broken_) return motion(bodies_);
@@ -104,7 +108,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     host_.create(settings, shapes, bodies_);
     follow_migration(nullptr);
     report_ = {};
-    report_.max_penetration = deepest_overlap(bodies_, run_.dimension, shapes, walls_of(borders_));
+    report_.max_penetration = deepest_overlap(bodies_, run_, shapes, walls_of(borders_));
     report_.wall_seconds = seconds_since(start);
     return motion(at_protocol_positions());
 }
@@ -294,7 +298,7 @@ void MdAdapter::follow_migration(nscd::Bodies* sent) {
 
 nscd::Bodies MdAdapter::at_protocol_positions() const {
     nscd::Bodies sent = bodies_;
-    nscd::move(sent, sent.twist, lead(), {});
+    nscd::move(sent, sent.twist, lead(), box_);
     return sent;
 }
 

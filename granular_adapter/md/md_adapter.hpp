@@ -37,6 +37,7 @@
 #include "coupler/protocol/run_values.hpp"
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/md/md_host.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
 
 namespace turbidite {
 
@@ -47,7 +48,7 @@ class MdAdapter final : public GrainsAdapter {
 
     Hello describe() const override;
 
-    /// Throws std::invalid_argument naming a cyclic side, or a shape that the host cannot move.
+    /// Throws std::invalid_argument naming a cyclic side or a shape that the host cannot play.
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
 
@@ -94,6 +95,7 @@ class MdAdapter final : public GrainsAdapter {
     SavedState start_;                ///< of this window, if they may
     std::int64_t substep_count_ = 1;  ///< k
     std::vector<Border> borders_;
+    nscd::PeriodicBox box_;
     nscd::Bodies bodies_;  ///< at the host's positions
     std::vector<Held> held_;
     /// Whether a grain had a contact in this window.

@@ -60,6 +60,9 @@ class MdHost {
     /// 2, 3, or both_dimensions (coupler/protocol/hello.hpp).
     virtual std::int32_t dimension() const { return 2; }
 
+    /// Whether its grains meet across cyclic sides.
+    virtual bool repeats() const { return false; }
+
     /// How far velocities are behind positions, in sub-steps: 1 for leap-frog, whose velocities
     /// belong to the middle of a sub-step and positions to its end; 0 for velocity Verlet.
     virtual double velocity_lag() const { return 1.0; }

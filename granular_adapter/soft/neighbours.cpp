@@ -32,7 +32,7 @@ bool Neighbours::complete(const std::vector<Vec3>& positions) const {
     if (places_.size() != positions.size()) return false;
     const double limit = 0.25 * skin_ * skin_;
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Vec3 moved = positions[i] - places_[i];
+        const Vec3 moved = box_.minimum_image(positions[i] - places_[i]);
         if (!(dot(moved, moved) <= limit)) return false;
     }
     return true;
@@ -41,7 +41,8 @@ bool Neighbours::complete(const std::vector<Vec3>& positions) const {
 void Neighbours::search(const nscd::Bodies& bodies, const std::vector<nscd::Wall>& walls) {
     places_ = bodies.position;
     near_.clear();
-    for (const nscd::Pair& pair : nscd::candidate_pairs(bodies.position, bodies.radius, skin_, {}))
+    for (const nscd::Pair& pair :
+         nscd::candidate_pairs(bodies.position, bodies.radius, skin_, box_))
         near_.push_back(near_pair(bodies, pair.a, pair.b));
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(bodies.size()); ++i)
         for (std::int32_t w = 0; w < static_cast<std::int32_t>(walls.size()); ++w)

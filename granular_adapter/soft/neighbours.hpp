@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
 #include "granular_adapter/nscd/problem/walls.hpp"
 #include "granular_adapter/nscd/problem/warm_start.hpp"
 
@@ -26,7 +27,7 @@ struct Near {
 class Neighbours {
  public:
     /// `skin` [m]
-    explicit Neighbours(double skin) : skin_(skin) {}
+    Neighbours(const nscd::PeriodicBox& box, double skin) : box_(box), skin_(skin) {}
 
     /// A list that is complete for the present positions, in ascending order of names.
     const std::vector<Near>& of(const nscd::Bodies& bodies, const std::vector<nscd::Wall>& walls);
@@ -38,6 +39,7 @@ class Neighbours {
     bool complete(const std::vector<Vec3>& positions) const;
     void search(const nscd::Bodies& bodies, const std::vector<nscd::Wall>& walls);
 
+    nscd::PeriodicBox box_;
     double skin_;
     std::vector<Vec3> places_;  ///< of the bodies when the list was made
     std::vector<Near> near_;

@@ -18,9 +18,10 @@ void OverlapFinder::detect(const nscd::Bodies& bodies, const Near& near,
     constexpr double alert = 0.0;  // overlaps only
     points_.clear();
     if (near.wall < 0)
-        narrow_.pair({bodies, near.a, near.b, bodies.position[near.b] - bodies.position[near.a],
-                      alert, &placed},
-                     points_);
+        narrow_.pair(
+            {bodies, near.a, near.b,
+             box_.minimum_image(bodies.position[near.b] - bodies.position[near.a]), alert, &placed},
+            points_);
     else
         narrow_.wall({bodies, near.b, walls_[near.wall], near.wall, alert, &placed}, points_);
     if (points_.empty()) return;

@@ -29,8 +29,9 @@ struct Overlap {
 class OverlapFinder {
  public:
     /// Throws std::invalid_argument naming a shape without contact detection. `skin` [m].
-    OverlapFinder(const ShapeTable& shapes, std::vector<nscd::Wall> walls, double skin)
-        : narrow_(shapes), walls_(std::move(walls)), neighbours_(skin) {}
+    OverlapFinder(const ShapeTable& shapes, std::vector<nscd::Wall> walls,
+                  const nscd::PeriodicBox& box, double skin)
+        : narrow_(shapes), walls_(std::move(walls)), box_(box), neighbours_(box, skin) {}
 
     void find(const nscd::Bodies& bodies);
 
@@ -47,6 +48,7 @@ class OverlapFinder {
 
     nscd::NarrowPhase narrow_;
     std::vector<nscd::Wall> walls_;
+    nscd::PeriodicBox box_;
     Neighbours neighbours_;
     std::vector<nscd::ContactPoint> points_;  ///< of one pair
     std::vector<Overlap> overlaps_;

@@ -37,11 +37,13 @@ std::vector<std::string> SoftMdHost::shapes() const {
 void SoftMdHost::create(const Settings& settings, const ShapeTable& shapes,
                         const nscd::Bodies& bodies) {
     law_.emplace(settings);
-    gravity_ = run_values(settings).gravity;
+    const RunValues run = run_values(settings);
+    gravity_ = run.gravity;
+    box_.length = run.period;
     const std::vector<nscd::Wall> walls = walls_of(lay_borders(settings));
     sides_.clear();
     for (const nscd::Wall& wall : walls) sides_.push_back(wall.key);
-    finder_.emplace(shapes, walls, skin_of(bodies));
+    finder_.emplace(shapes, walls, box_, skin_of(bodies));
     bodies_ = bodies;
 }
 
@@ -96,7 +98,7 @@ void SoftMdHost::move(double step) {
             twist.velocity + step * (bodies_.inverse_mass(i) * totals_[i].force + fall);
         twist.spin = twist.spin + step * (bodies_.inverse_inertia(i) * totals_[i].torque);
     }
-    nscd::move(bodies_, bodies_.twist, step, {});
+    nscd::move(bodies_, bodies_.twist, step, box_);
 }
 
 void SoftMdHost::watch(SubstepReport& report) const {

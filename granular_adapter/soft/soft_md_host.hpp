@@ -29,6 +29,7 @@ class SoftMdHost final : public MdHost {
     std::string code() const override { return "none"; }
     std::vector<std::string> shapes() const override;
     std::int32_t dimension() const override { return both_dimensions; }
+    bool repeats() const override { return true; }
     void create(const Settings& settings, const ShapeTable& shapes,
                 const nscd::Bodies& bodies) override;
     void read(nscd::Bodies& bodies) const override;
@@ -50,6 +51,7 @@ class SoftMdHost final : public MdHost {
     std::optional<OverlapFinder> finder_;
     std::vector<std::int32_t> sides_;  ///< of the domain, by index of the wall
     double gravity_ = 0.0;
+    nscd::PeriodicBox box_;
     nscd::Bodies bodies_;
     Slips slips_;
     // Of the present sub-step.

@@ -22,7 +22,7 @@ struct Row {
         return list;
     }
     nscd::Bodies bodies;
-    Neighbours neighbours{skin};
+    Neighbours neighbours{{}, skin};
 };
 
 TEST(Neighbours, AreThoseWithinTheSkinInTheOrderOfTheirIds) {

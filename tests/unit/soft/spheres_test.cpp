@@ -126,6 +126,44 @@ TEST(SoftSpheres, ThatMeetObliquelyKeepMomentumAndAngularMomentum) {
     EXPECT_NEAR(norm(angular(0.5 * fine) - spun), 0.0, 1e-3 * norm(spun));
 }
 
+// Across front and back they meet half-way: equal masses exchange their velocities, each appears on
+// the other side, and springs along the contact are kept while it does.
+TEST(SoftSpheres, MeetAcrossCyclicSides) {
+    Settings settings = in_space(0.0, 0.0);
+    for (const char* side : {"domain.front", "domain.back"})
+        settings.set(side, std::string("cyclic"));
+    SpaceScene scene(settings, {sphere(1, {3.0, 5.0, 0.4}, {0.0, 0.0, -1.0}),
+                                sphere(2, {3.0, 5.0, 11.3995}, {0.0, 0.0, 0.0})});
+    int touching = 0;
+    double lowest = 12.0, highest = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        touching += scene.play(100, fine).contacts > 0;
+        for (const Vec3& place : scene.bodies.position)
+            lowest = std::min(lowest, place[2]), highest = std::max(highest, place[2]);
+    }
+    EXPECT_GT(touching, 5);
+    EXPECT_NEAR(scene.bodies.twist[0].velocity[2], 0.0, 1e-3);
+    EXPECT_NEAR(scene.bodies.twist[1].velocity[2], -1.0, 1e-3);
+    EXPECT_GE(lowest, 0.0);
+    EXPECT_LT(highest, 12.0);
+}
+
+// One that crosses a side keeps its neighbours, and so the spring at the floor.
+TEST(SoftSpheres, RollAcrossCyclicSidesAsElsewhere) {
+    Settings settings = in_space(1.0, 1.0);
+    for (const char* side : {"domain.front", "domain.back"})
+        settings.set(side, std::string("cyclic"));
+    const double overlap = 1.0 / (frequency * frequency);
+    const Vec3 inside{5.0, radius - overlap, 6.0}, near_side{9.0, radius - overlap, 11.99};
+    SpaceScene scene(settings,
+                     {sphere(1, inside, {0.0, 0.0, 0.3}), sphere(2, near_side, {0.0, 0.0, 0.3})});
+    scene.play(4000, 1e-4);
+    EXPECT_LT(scene.bodies.position[1][2], 1.0);  // it has crossed
+    EXPECT_NEAR(scene.bodies.twist[1].velocity[2], scene.bodies.twist[0].velocity[2], 1e-12);
+    EXPECT_NEAR(scene.bodies.position[1][2] + 12.0 - near_side[2],
+                scene.bodies.position[0][2] - inside[2], 1e-10);
+}
+
 TEST(SoftSpheres, HaveAFrontAndABack) {
     SpaceScene scene(in_space(0.0, 0.0), {sphere(1, {3.0, 5.0, 0.5005}, {0.0, 0.0, -1.0}),
                                           sphere(2, {6.0, 5.0, 11.4995}, {0.0, 0.0, 1.0})});
