@@ -65,7 +65,8 @@ GrainForms make_grain_forms(const Settings& settings) {
     GrainForms result;
     std::vector<std::string> kinds{settings.text("grains.shape")};
     for (const ShapeEntry& entry : shape_list())
-        if (entry.kind != kinds[0] && (entry.kind != "polygon" || settings.has("grains.vertices")))
+        if (entry.kind != kinds[0] && entry.dimension == 2 &&
+            (entry.kind != "polygon" || settings.has("grains.vertices")))
             kinds.push_back(entry.kind);
     for (const std::string& kind : kinds)
         result.forms.push_back(form_of(record_of(kind, settings, result.notes)));

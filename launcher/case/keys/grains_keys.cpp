@@ -29,8 +29,8 @@ std::vector<Choice> generator_choices() {
 
 std::vector<Choice> shape_choices() {
     std::vector<Choice> choices;
-    for (const ShapeEntry& entry : shape_list()) choices.push_back({entry.kind, entry.description});
-    choices.push_back({"sphere", "ball in space", false});
+    for (const ShapeEntry& entry : shape_list())
+        choices.push_back({entry.kind, entry.description, entry.dimension == 2});
     return choices;
 }
 
