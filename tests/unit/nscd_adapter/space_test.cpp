@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 #include "tests/unit/nscd_adapter/contact_case.hpp"
@@ -80,11 +81,14 @@ TEST(NscdAdapterInSpace, ASphereFallsOnTheFloorAndStays) {
 TEST(NscdAdapterInSpace, TheFourthPairOfSidesHoldsGrains) {
     Player player(space_box(), {sphere_at(0, {3.0, 10.0, 1.0}, {0, 0, -2}),
                                 sphere_at(1, {7.0, 10.0, 5.0}, {0, 0, 2})});
-    player.play(40);
-    EXPECT_NEAR(player.state.grains[0].position[2], 0.5, 1e-2);
-    EXPECT_NEAR(player.state.grains[1].position[2], 5.5, 1e-2);
-    EXPECT_EQ(player.state.contacts->at(0).wall, 4);
-    EXPECT_EQ(player.state.contacts->at(1).wall, 5);
+    std::set<std::int32_t> walls;
+    for (int window = 0; window < 40; ++window) {
+        player.play(1);
+        for (const ContactRecord& contact : *player.state.contacts) walls.insert(contact.wall);
+    }
+    EXPECT_NEAR(player.state.grains[0].position[2], 0.5, 1e-9);
+    EXPECT_NEAR(player.state.grains[1].position[2], 5.5, 1e-9);
+    EXPECT_EQ(walls, (std::set<std::int32_t>{4, 5}));
 }
 
 TEST(NscdAdapterInSpace, GrainsLeaveThroughAFreeBack) {
