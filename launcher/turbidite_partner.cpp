@@ -27,7 +27,7 @@ class LeavingGrains final : public ScriptedGrains {
 
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override {
-        size_ = run_values(settings).size;
+        run_ = run_values(settings);
         types_ = side_types(settings);
         return ScriptedGrains::initialise(settings, shapes, grains);
     }
@@ -45,13 +45,13 @@ class LeavingGrains final : public ScriptedGrains {
 
  private:
     bool has_left(const GrainState& grain) const {
-        for (std::size_t side = 0; side < box_sides.size(); ++side)
-            if (types_[side] == "free" && box_sides[side].distance(grain.position, size_) < 0.0)
+        for (std::size_t side = 0; side < side_count(run_.dimension); ++side)
+            if (types_[side] == "free" && box_sides[side].distance(grain.position, run_.size) < 0.0)
                 return true;
         return false;
     }
 
-    std::array<double, 2> size_{};
+    RunValues run_;
     SideTypes types_;
 };
 

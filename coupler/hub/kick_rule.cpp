@@ -17,6 +17,8 @@ Vec3 angular_momentum(const Eigen::Matrix3d& inertia, const Quaternion& q, const
     const bool plane = q[1] == 0.0 && q[2] == 0.0 && spin[0] == 0.0 && spin[1] == 0.0 &&
                        inertia(0, 2) == 0.0 && inertia(1, 2) == 0.0;
     if (plane) return {0.0, 0.0, inertia(2, 2) * spin[2]};
+    if (inertia == inertia(0, 0) * Eigen::Matrix3d::Identity())  // a sphere's
+        return inertia(0, 0) * spin;
     const Rotation turn = rotation(q);
     const Vec3 own = turn.back(spin);
     const Eigen::Vector3d momentum = inertia * Eigen::Vector3d(own[0], own[1], own[2]);

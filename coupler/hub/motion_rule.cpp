@@ -221,7 +221,7 @@ bool MotionRule::is_pushed(const Grain& grain, const Limits& limits) const {
 bool MotionRule::may_touch(const GrainState& grain, const Motion& before, double reach) const {
     if (walls_anywhere_) return true;
     const double near = grain.radius + reach;
-    for (std::size_t side = 0; side < box_sides.size(); ++side)
+    for (std::size_t side = 0; side < side_count(run_.dimension); ++side)
         if (holds_grains(side_types_[side]) &&
             box_sides[side].distance(grain.position, run_.size) <= near)
             return true;
@@ -249,7 +249,7 @@ double MotionRule::allowed(const Grain& grain, const Motion& before, const Limit
 /// Negative beyond it; infinite if no side is free.
 double MotionRule::distance_to_free_side(const Vec3& position) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t side = 0; side < box_sides.size(); ++side)
+    for (std::size_t side = 0; side < side_count(run_.dimension); ++side)
         if (side_types_[side] == "free")
             nearest = std::min(nearest, box_sides[side].distance(position, run_.size));
     return nearest;

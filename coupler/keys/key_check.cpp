@@ -136,12 +136,30 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
     return problem;
 }
 
-void check_entry(const KeyTable& table, const CaseEntry& entry, Settings& settings,
+/// 3 if the case says so; its rule tells a value that is neither.
+int dimension_of(const CaseEntries& entries) {
+    const CaseEntry* entry = entries.find("dimension");
+    return entry != nullptr && entry->value == "3" ? 3 : 2;
+}
+
+bool exists(const KeySpec& key, int dimension) {
+    return key.dimension == 0 || key.dimension == dimension;
+}
+
+void check_entry(const KeyTable& table, const CaseEntry& entry, int dimension, Settings& settings,
                  CaseProblems& problems) {
-    const KeySpec* key = find_key(table, entry.key);
-    if (key == nullptr) return problems.push_back(unknown_key(table, entry));
-    if (entry.is_null && key->need == Need::optional) return;
+    const KeySpec* found = find_key(table, entry.key);
+    if (found == nullptr) return problems.push_back(unknown_key(table, entry));
+    const bool optional = found->need == Need::optional || found->dimension == 3;
+    if (entry.is_null && optional) return;
+    const KeySpec spec = in_dimension(*found, dimension);
+    const KeySpec* key = &spec;
     CaseProblem problem = problem_of(entry, *key);
+    if (!exists(*key, dimension)) {
+        problem.allowed = fmt::format("This key exists with dimension: {} only.", key->dimension);
+        problem.remedy = "Remove it, or change the dimension.";
+        return problems.push_back(problem);
+    }
     if (entry.is_null) {
         problem.fault = "has no value";
         return problems.push_back(problem);
@@ -158,10 +176,15 @@ void check_entry(const KeyTable& table, const CaseEntry& entry, Settings& settin
         problems.push_back(problem);
 }
 
-void fill_defaults(const KeyTable& table, const CaseEntries& entries, Settings& settings) {
-    for (const KeySpec& key : table)
-        if (key.need == Need::fallback && entries.find(key.name) == nullptr)
-            settings.set(key.name, key.fallback);
+void fill_defaults(const KeyTable& table, const CaseEntries& entries, int dimension,
+                   Settings& settings) {
+    for (const KeySpec& key : table) {
+        const bool in_space = dimension == 3 && key.in_space.fallback;
+        if (entries.find(key.name) != nullptr || !(in_space || key.need == Need::fallback))
+            continue;
+        const std::string& fallback = in_space ? *key.in_space.fallback : key.fallback;
+        if (!in_space || !fallback.empty()) settings.set(key.name, fallback);
+    }
 }
 
 CaseProblem missing_key(const std::string& source, const KeySpec& key) {
@@ -185,12 +208,13 @@ bool is_needed(const KeySpec& key, const Settings& settings) {
 CheckedKeys check_keys(const KeyTable& table, const CaseEntries& entries) {
     CheckedKeys checked;
     const std::string source = entries.entries.empty() ? "" : entries.entries.front().source;
+    const int dimension = dimension_of(entries);
     for (const CaseEntry& entry : entries.entries)
-        check_entry(table, entry, checked.settings, checked.problems);
-    fill_defaults(table, entries, checked.settings);
+        check_entry(table, entry, dimension, checked.settings, checked.problems);
+    fill_defaults(table, entries, dimension, checked.settings);
     for (const KeySpec& key : table)
         if (is_needed(key, checked.settings) && entries.find(key.name) == nullptr)
-            checked.problems.push_back(missing_key(source, key));
+            checked.problems.push_back(missing_key(source, in_dimension(key, dimension)));
     return checked;
 }
 

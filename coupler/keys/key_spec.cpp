@@ -66,6 +66,26 @@ std::vector<std::string> parts_of(const std::string& name) {
     return parts;
 }
 
+KeySpec of_space(KeySpec key) {
+    key.dimension = 3;
+    if (key.need == Need::fallback) key.in_space.fallback = key.fallback;
+    key.need = Need::conditional;
+    key.when = "dimension: 3";
+    key.required = [](const Settings&) { return false; };
+    return key;
+}
+
+KeySpec in_dimension(const KeySpec& key, int dimension) {
+    KeySpec result = key;
+    if (dimension != 3) return result;
+    const InSpace& space = key.in_space;
+    if (space.entries > 0) result.entries = space.entries;
+    if (!space.allowed.empty()) result.allowed = space.allowed;
+    if (!space.remedy.empty()) result.remedy = space.remedy;
+    if (space.fallback) result.fallback = *space.fallback;
+    return result;
+}
+
 bool Range::contains(double value) const {
     const bool above = lower_open ? value > lower : value >= lower;
     const bool below = upper_open ? value < upper : value <= upper;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,14 @@ enum class Contacts { any, rigid, springs };
 /// When a key must be given: `fallback` keys have a default, `optional` ones may be omitted.
 enum class Need { fallback, required, optional, conditional };
 
+/// What a key says otherwise with dimension: 3.
+struct InSpace {
+    int entries = 0;                           ///< of a list; 0: as in the plane
+    std::string allowed = {};                  ///< empty: as in the plane
+    std::string remedy = {};                   ///< the same
+    std::optional<std::string> fallback = {};  ///< none: as in the plane; empty: no default
+};
+
 /// A part of a name in capitals is a placeholder for a user-defined word:
 /// "contact.materials.NAME.friction".
 struct KeySpec {
@@ -58,11 +67,19 @@ struct KeySpec {
     /// Why it has no effect in a case whose other keys are valid ("without a fluid"); empty if it
     /// has one.
     std::string (*idle)(const Settings&) = nullptr;
+    int dimension = 0;  ///< of the cases that have the key: 2 or 3; 0: all
+    InSpace in_space = {};
 };
 using KeyTable = std::vector<KeySpec>;
 
 /// The key with this name, nullptr if there is none.
 const KeySpec* find_key(const KeyTable& table, const std::string& name);
+
+/// A key, with its default or an optional one, that cases in the plane do not have.
+KeySpec of_space(KeySpec key);
+
+/// The key as it is in cases of this dimension.
+KeySpec in_dimension(const KeySpec& key, int dimension);
 
 /// "contact", "friction".
 std::vector<std::string> parts_of(const std::string& name);

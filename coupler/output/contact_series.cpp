@@ -14,6 +14,11 @@ Vec3 tangent(const ContactRecord& contact) {
     return {-contact.normal[1], contact.normal[0], 0.0};
 }
 
+/// Of the part of a vector across a contact's normal.
+double size_across(const Vec3& vector, const ContactRecord& contact) {
+    return norm(vector - dot(vector, contact.normal) * contact.normal);
+}
+
 GrainId first_id(const ContactRecord& contact) {
     return contact.wall < 0 ? contact.a : -1 - contact.wall;
 }
@@ -50,6 +55,7 @@ void ContactSeries::write_lines(const std::string& name, double step, const Moti
     const auto& contacts = *state.contacts;
     const std::vector<Vec3> ends = line_ends(state);
     const auto along = [&](Contact c, const Vec3& axis) { return dot(c.impulse, axis) / step; };
+    const bool space = dimension_ == 3;
     const auto normal_force = [&](Contact c) { return along(c, c.normal); };
     const vtk::PieceSize size{.points = ends.size(), .lines = contacts.size()};
     vtk::write_poly_data(folder_ / name, size, [&](std::ostream& out) {
@@ -67,10 +73,15 @@ void ContactSeries::write_lines(const std::string& name, double step, const Moti
         vtk::integers(out, "id_b", contacts, [](Contact c) { return c.b; });
         vtk::integers(out, "feature", contacts, [](Contact c) { return c.feature; });
         vtk::scalars(out, "normal_force", contacts, normal_force);
-        vtk::scalars(out, "tangential_force", contacts,
-                     [&](Contact c) { return along(c, tangent(c)); });
-        vtk::scalars(out, "rolling_moment", contacts,
-                     [&](Contact c) { return c.rolling_impulse[2] / step; });
+        vtk::scalars(out, "tangential_force", contacts, [&](Contact c) {
+            return space ? size_across(c.impulse, c) / step : along(c, tangent(c));
+        });
+        vtk::scalars(out, "rolling_moment", contacts, [&](Contact c) {
+            return (space ? size_across(c.rolling_impulse, c) : c.rolling_impulse[2]) / step;
+        });
+        if (space)
+            vtk::scalars(out, "torsion_moment", contacts,
+                         [&](Contact c) { return dot(c.rolling_impulse, c.normal) / step; });
         vtk::vectors(out, "force", contacts, [&](Contact c) { return 1.0 / step * c.impulse; });
         vtk::vectors(out, "normal", contacts, [](Contact c) { return c.normal; });
         vtk::vectors(out, "point", contacts, [](Contact c) { return c.point; });

@@ -19,7 +19,8 @@ namespace turbidite {
 
 class ContactSeries {
  public:
-    explicit ContactSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit ContactSeries(std::filesystem::path folder, int dimension = 2)
+        : folder_(std::move(folder)), dimension_(dimension) {}
 
     /// Goes on with the series of an earlier part of the run.
     void resume(std::int64_t length);
@@ -29,11 +30,13 @@ class ContactSeries {
 
     /// One line per contact point, in run units, with
     ///
-    ///     id_a, id_b           id_a = -1 - wall at a wall: 0 left, 1 right, 2 bottom, 3 top, ...
+    ///     id_a, id_b           id_a = -1 - wall at a wall: 0 left, 1 right, 2 bottom, 3 top, ...,
+    ///                          in space 4 front, 5 back
     ///     feature              which of the pair's points
     ///     normal_force         along the normal from a to b; positive: repulsive
-    ///     tangential_force     on b, along the normal turned by +90 degrees
-    ///     rolling_moment       on b
+    ///     tangential_force     on b, along the normal turned by +90 degrees; in space its size
+    ///     rolling_moment       on b; in space the size of what is across the normal
+    ///     torsion_moment       on b, in space: along the normal
     ///     force                on b
     ///     normal, point, gap
     ///     status               bits: 1 sliding, 2 rolling; 0 sticking
@@ -46,6 +49,7 @@ class ContactSeries {
     void write_lines(const std::string& name, double step, const Motion& state) const;
 
     std::filesystem::path folder_;
+    int dimension_ = 2;
     std::optional<vtk::Collection> collection_;
 };
 

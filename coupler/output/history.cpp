@@ -6,6 +6,7 @@
 
 #include "coupler/output/output_state.hpp"
 #include "coupler/output/pore_volume.hpp"
+#include "coupler/output/pore_voxels.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
@@ -35,6 +36,16 @@ Averages averages(const Motion& state, const ImmersedBodies& bodies) {
     return mean;
 }
 
+namespace {
+
+std::vector<SolidBall> balls_of(const Motion& state) {
+    std::vector<SolidBall> balls;
+    for (const GrainState& grain : state.grains) balls.push_back({grain.position, grain.radius});
+    return balls;
+}
+
+}  // namespace
+
 History::History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes)
     : file_(file), out_(file, std::ios::trunc), bodies_(run, shapes), run_(run) {
     out_ << history_header() << std::endl;
@@ -51,15 +62,20 @@ History::History(const std::filesystem::path& file, const RunValues& run, const 
 
 RowValues History::values(const Row& row) const {
     const Motion& state = *row.state;
+    RowValues values{row, averages(state, bodies_), pores(state), {}, run_};
+    if (state.contacts)
+        values.network =
+            contact_network(*state.contacts, state.grains.size(), run_.step, run_.dimension);
+    return values;
+}
+
+double History::pores(const Motion& state) const {
+    if (run_.dimension == 3) return pore_volume(balls_of(state), run_.diameter, run_.period);
     std::vector<SolidGrain> solids;
     for (const GrainState& grain : state.grains)
         solids.push_back(
             {grain.position[0], grain.position[1], bodies_(grain).mass / grain.density});
-    RowValues values{
-        row, averages(state, bodies_), pore_volume(solids, run_.diameter, run_.period), {}, run_};
-    if (state.contacts)
-        values.network = contact_network(*state.contacts, state.grains.size(), run_.step);
-    return values;
+    return pore_volume(solids, run_.diameter, run_.period);
 }
 
 void History::append(const Row& row) {

@@ -38,7 +38,7 @@ struct Averages {
     double kinetic_energy = 0.0;  ///< sum of (m U^2 + I w^2)/2 [J]
     double height = 0.0;          ///< sum of (M - m_f) y over sum of m [m]
     double mass = 0.0;            ///< sum of m [kg]
-    double solid = 0.0;           ///< sum of V [m2]
+    double solid = 0.0;           ///< sum of V [m2, in space m3]
 };
 Averages averages(const Motion& state, const ImmersedBodies& bodies);
 
@@ -46,7 +46,7 @@ Averages averages(const Motion& state, const ImmersedBodies& bodies);
 struct RowValues {
     const Row& row;
     Averages mean;
-    double pores;                           ///< pore_volume [m2]
+    double pores;                           ///< pore_volume [m2, in space m3]
     std::optional<ContactNetwork> network;  ///< empty unless contacts were sent
     const RunValues& run;
 };
@@ -74,6 +74,7 @@ class History {
 
  private:
     RowValues values(const Row& row) const;
+    double pores(const Motion& state) const;
 
     std::filesystem::path file_;
     std::ofstream out_;

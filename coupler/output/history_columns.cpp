@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The table of columns. New columns are appended. Contact forces are in rho_s g D^2, stresses in
-// rho_s g D, rho_s the mean density of the grains.
+// The table of columns. New columns are appended. Contact forces are in rho_s g D^2, in space
+// rho_s g D^3, stresses in rho_s g D, rho_s the mean density of the grains. In the plane a volume
+// is one per unit length.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,6 +20,15 @@ std::string number(double value) {
 }
 std::string number(const std::optional<double>& value) {
     return value ? number(*value) : "";
+}
+
+bool in_space(Cell c) {
+    return c.run.dimension == 3;
+}
+
+/// D, in the plane 1: what a quantity of space has more.
+double depth(Cell c) {
+    return in_space(c) ? c.run.diameter : 1.0;
 }
 
 // Each is empty unless there are grains, contact results, a fluid, or wall times, respectively.
@@ -51,16 +61,22 @@ std::string fabric(Cell c, double Fabric::*value) {
 double pressure_unit(Cell c) {
     return c.mean.mass / c.mean.solid * c.run.gravity * c.run.diameter;
 }
-/// sigma = virial / A over rho_s g D, A the area of the grains and the pores between them.
-std::string stress(Cell c, double PlaneTensor::*part) {
+/// sigma = virial / V over rho_s g D, V the volume of the grains and the pores between them.
+std::string stress(Cell c, double Symmetric3::*part) {
     if (!c.network || c.row.state->grains.empty()) return "";
     return number(c.network->virial.*part / (c.mean.solid + c.pores) / pressure_unit(c));
 }
 
-/// A component of the sum of F_h over rho_f u_c^2 D.
+/// A component of the sum of F_h over rho_f u_c^2 D, in space over rho_f u_c^2 D^2.
 double force(Cell c, std::size_t axis) {
     return c.row.fluid_force[axis] /
-           (c.run.fluid_density * c.run.velocity * c.run.velocity * c.run.diameter);
+           (c.run.fluid_density * c.run.velocity * c.run.velocity * c.run.diameter * depth(c));
+}
+
+/// Empty in the plane.
+template <class Text>
+std::string of_space(Cell c, Text text) {
+    return in_space(c) ? text() : std::string();
 }
 
 /// Work since the last row over the mass of all grains times u_c^2.
@@ -117,7 +133,8 @@ const std::vector<Column> columns = {
          return fluid(
              c, [](Cell r) { return r.row.fluid->divergence * r.run.diameter / r.run.velocity; });
      }},
-    {"pore_volume", [](Cell c) { return mean(c, c.pores / (c.run.diameter * c.run.diameter)); }},
+    {"pore_volume",
+     [](Cell c) { return mean(c, c.pores / (c.run.diameter * c.run.diameter * depth(c))); }},
     {"wall_step", [](Cell c) { return wall(c, &WallTimes::step); }},
     {"wall_fluid", [](Cell c) { return c.row.fluid ? wall(c, &WallTimes::fluid) : std::string(); }},
     {"wall_grains", [](Cell c) { return wall(c, &WallTimes::grains); }},
@@ -135,14 +152,15 @@ const std::vector<Column> columns = {
     {"coordination", [](Cell c) { return network(c, &ContactNetwork::coordination); }},
     {"loose_grains", [](Cell c) { return network(c, &ContactNetwork::loose_grains); }},
     {"fabric_anisotropy", [](Cell c) { return fabric(c, &Fabric::anisotropy); }},
-    {"fabric_angle", [](Cell c) { return fabric(c, &Fabric::angle); }},
-    {"sigma_xx", [](Cell c) { return stress(c, &PlaneTensor::xx); }},
-    {"sigma_xy", [](Cell c) { return stress(c, &PlaneTensor::xy); }},
-    {"sigma_yy", [](Cell c) { return stress(c, &PlaneTensor::yy); }},
+    {"fabric_angle",
+     [](Cell c) { return in_space(c) ? std::string() : fabric(c, &Fabric::angle); }},
+    {"sigma_xx", [](Cell c) { return stress(c, &Symmetric3::xx); }},
+    {"sigma_xy", [](Cell c) { return stress(c, &Symmetric3::xy); }},
+    {"sigma_yy", [](Cell c) { return stress(c, &Symmetric3::yy); }},
     {"mean_normal_force",
      [](Cell c) {
          if (!c.network || !c.network->normal_force) return std::string();
-         return number(*c.network->normal_force / (pressure_unit(c) * c.run.diameter));
+         return number(*c.network->normal_force / (pressure_unit(c) * c.run.diameter * depth(c)));
      }},
     {"sliding_share", [](Cell c) { return network(c, &ContactNetwork::sliding_share); }},
     {"flow_x",
@@ -188,6 +206,27 @@ const std::vector<Column> columns = {
     {"motion_defect",
      [](Cell c) {
          return c.row.motion_defect ? number(*c.row.motion_defect / c.run.diameter) : "";
+     }},
+    {"mean_velocity_z",
+     [](Cell c) {
+         return of_space(c, [&] { return mean(c, c.mean.velocity[2] / c.run.velocity); });
+     }},
+    {"mean_position_z",
+     [](Cell c) {
+         return of_space(c, [&] { return mean(c, c.mean.position[2] / c.run.diameter); });
+     }},
+    {"sigma_xz", [](Cell c) { return of_space(c, [&] { return stress(c, &Symmetric3::xz); }); }},
+    {"sigma_yz", [](Cell c) { return of_space(c, [&] { return stress(c, &Symmetric3::yz); }); }},
+    {"sigma_zz", [](Cell c) { return of_space(c, [&] { return stress(c, &Symmetric3::zz); }); }},
+    {"flow_z",
+     [](Cell c) {
+         return of_space(c, [&] {
+             return fluid(c, [](Cell r) { return r.row.fluid->mean_velocity[2] / r.run.velocity; });
+         });
+     }},
+    {"fluid_force_z",
+     [](Cell c) {
+         return of_space(c, [&] { return fluid(c, [](Cell r) { return force(r, 2); }); });
      }},
 };
 

@@ -13,7 +13,7 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
     : wet_(run.wet),
       history_(history, run, shapes),
       grains_(series, shapes),
-      contacts_(series),
+      contacts_(series, run.dimension),
       probes_(history.parent_path() / "probes.csv", run),
       statistics_(run) {}
 
@@ -22,7 +22,7 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
     : wet_(run.wet),
       history_(history, run, shapes, earlier.lengths.history),
       grains_(series, shapes, earlier.lengths.grains),
-      contacts_(series),
+      contacts_(series, run.dimension),
       probes_(history.parent_path() / "probes.csv", run),
       statistics_(run),
       since_row_(earlier.since_row) {

@@ -150,7 +150,7 @@ Motion motion(const turbidite_state& state) {
 
 /// The struct of the first header, which has no size in the call.
 constexpr std::size_t first_size = offsetof(turbidite_adapter, restores_within_window);
-static_assert(offsetof(turbidite_adapter, communicator) + sizeof(turbidite_adapter::communicator) ==
+static_assert(offsetof(turbidite_adapter, dimensions) + sizeof(turbidite_adapter::dimensions) ==
                   sizeof(turbidite_adapter),
               "padding would be read as a member that follows");
 
@@ -180,6 +180,16 @@ std::vector<std::string> texts(const char* const* list) {
     return result;
 }
 
+/// Of turbidite_adapter::dimensions.
+std::int32_t dimension(std::int64_t given) {
+    if (given == 0) return 2;
+    if (given == TURBIDITE_BOTH_DIMENSIONS) return both_dimensions;
+    if (given == 2 || given == 3) return static_cast<std::int32_t>(given);
+    throw Failure(ExitCode::handshake_refused,
+                  "turbidite_adapter.dimensions = " + std::to_string(given) +
+                      "; allowed are 2, 3, TURBIDITE_BOTH_DIMENSIONS (23), and 0, which is 2");
+}
+
 class CAdapter final : public GrainsAdapter {
  public:
     CAdapter(const turbidite_adapter* functions, std::size_t size)
@@ -191,6 +201,7 @@ class CAdapter final : public GrainsAdapter {
         hello.adapter = text(c_.name);
         hello.adapter_version = text(c_.version);
         hello.host_code = text(c_.host_code);
+        hello.dimension = dimension(c_.dimensions);
         hello.capabilities.native_substeps = c_.native_substeps != 0;
         hello.capabilities.effective_inertia = c_.effective_inertia != 0;
         hello.capabilities.saves_state = hello.capabilities.serialises_state =

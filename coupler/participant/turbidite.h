@@ -109,6 +109,8 @@ turbidite_contact* turbidite_contacts(turbidite_state* state, size_t count);
 /* Room for a saved state, to be filled in. Once per call of `save`. */
 void* turbidite_room(turbidite_bytes* state, size_t size);
 
+#define TURBIDITE_BOTH_DIMENSIONS 23
+
 /* The functions return 0, or another number after turbidite_fail: the run then ends for all
  * participants, with exit code 4 and the text. */
 typedef struct {
@@ -144,6 +146,9 @@ typedef struct {
     /* An MPI_Comm that the program has split off MPI_COMM_WORLD with colour 1002 or one of its own;
      * 0: the library makes the split. */
     uintptr_t communicator;
+
+    /* Of space that the program plays in: 2 or 3, TURBIDITE_BOTH_DIMENSIONS; 0: 2. */
+    int64_t dimensions;
 } turbidite_adapter;
 
 /* The text of the failure of the present call. `unphysical`: exit code 6 instead of 4. */

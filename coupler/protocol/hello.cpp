@@ -63,8 +63,8 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
                   role_name(expected.role));
     report.demand(expected.adapter.empty() || hello.adapter == expected.adapter, "adapter",
                   hello.adapter, expected.adapter);
-    report.demand(hello.dimension == expected.dimension, "dimension",
-                  std::to_string(hello.dimension), std::to_string(expected.dimension));
+    report.demand(hello.dimension == expected.dimension || hello.dimension == both_dimensions,
+                  "dimension", std::to_string(hello.dimension), std::to_string(expected.dimension));
     report.demand(hello.ranks == expected.ranks, "number of ranks", std::to_string(hello.ranks),
                   std::to_string(expected.ranks));
     report.demand(hello.case_hash.empty() || hello.case_hash == expected.case_hash,

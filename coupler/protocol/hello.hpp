@@ -13,7 +13,7 @@ namespace turbidite {
 /// Major versions must be equal; the smaller of the two minor versions applies, down to
 /// `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 8;
+inline constexpr std::int32_t protocol_minor = 9;
 
 /// The oldest supported minor version: since then a ContactReport has the contact violation.
 inline constexpr std::int32_t oldest_minor = 8;
@@ -37,6 +37,9 @@ struct Capabilities {
 /// grains.adapter of a program of the user's own, which has any name.
 inline constexpr const char* users_program = "external";
 
+/// Hello::dimension of a program that plays in the plane and in space.
+inline constexpr std::int32_t both_dimensions = 0;
+
 struct Hello {
     std::int32_t protocol_major = turbidite::protocol_major;
     std::int32_t protocol_minor = turbidite::protocol_minor;
@@ -44,7 +47,7 @@ struct Hello {
     std::string adapter;          ///< "yade-nscd"
     std::string adapter_version;  ///< the project's version
     std::string host_code;        ///< "YADE 2023.02a"
-    std::int32_t dimension = 2;
+    std::int32_t dimension = 2;   ///< 2, 3, or both_dimensions
     std::int32_t rank = 0;
     std::int32_t ranks = 1;
     std::string host;  ///< machine name

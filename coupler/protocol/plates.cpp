@@ -63,11 +63,12 @@ std::vector<Plate> plates_of(const Settings& settings) {
     std::vector<Plate> plates;
     if (!settings.has("run.walls")) return plates;
     std::istringstream list(settings.text("run.walls"));
-    std::int32_t key = first_plate;
+    const std::int32_t first = first_plate(dimension_of(settings));
+    std::int32_t key = first;
     for (std::string text; std::getline(list, text, ';');)
         plates.push_back(plate_of(numbers_of(text), key++));
     for (const Moved& moved : motions_of(settings, "run.wall_motions"))
-        if (const auto at = moved.what - first_plate;
+        if (const auto at = moved.what - first;
             at >= 0 && at < static_cast<std::int64_t>(plates.size()))
             plates[at].motion = moved.motion;
     return plates;

@@ -19,7 +19,9 @@
 namespace turbidite {
 
 /// Key of the first plate; those before it are the sides of the box.
-inline constexpr std::int32_t first_plate = box_sides.size();
+constexpr std::int32_t first_plate(int dimension) {
+    return static_cast<std::int32_t>(side_count(dimension));
+}
 
 /// All that is nearer to a segment than half the thickness, at t = 0, and its motion.
 struct Plate {

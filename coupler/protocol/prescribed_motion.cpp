@@ -7,22 +7,34 @@
 #include <stdexcept>
 #include <string>
 
+#include "coupler/protocol/sides.hpp"
+
 namespace turbidite {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// `X Y ANGLE` from the i-th number on.
-Shift shift_of(const std::vector<double>& numbers, std::size_t i = 0) {
-    return {{numbers.at(i), numbers.at(i + 1), 0.0}, {0.0, 0.0, numbers.at(i + 2)}};
-}
+/// The numbers of a motion's text, in the plane or in space.
+struct Numbers {
+    std::vector<double> all;
+    int dimension = 2;
+
+    std::size_t per_shift() const { return dimension == 3 ? 6 : 3; }
+    double at(std::size_t i) const { return all.at(i); }
+
+    /// `X Y ANGLE`, in space `X Y Z AX AY AZ`, from the i-th number on.
+    Shift shift(std::size_t i = 0) const {
+        if (dimension == 2) return {{at(i), at(i + 1), 0.0}, {0.0, 0.0, at(i + 2)}};
+        return {{at(i), at(i + 1), at(i + 2)}, {at(i + 3), at(i + 4), at(i + 5)}};
+    }
+};
 
 /// `constant VX VY SPIN`.
 class Constant final : public PrescribedMotion {
  public:
     explicit Constant(const Twist& rate) : rate_(rate) {}
-    explicit Constant(const std::vector<double>& numbers) {
-        const Shift in_unit_time = shift_of(numbers);
+    explicit Constant(const Numbers& numbers) {
+        const Shift in_unit_time = numbers.shift();
         rate_ = {in_unit_time.displacement, in_unit_time.angle};
     }
     Shift at(double time) const override { return time * rate_; }
@@ -35,8 +47,10 @@ class Constant final : public PrescribedMotion {
 /// `harmonic X Y ANGLE PERIOD PHASE`.
 class Harmonic final : public PrescribedMotion {
  public:
-    explicit Harmonic(const std::vector<double>& numbers)
-        : amplitude_(shift_of(numbers)), period_(numbers.at(3)), phase_(numbers.at(4)) {}
+    explicit Harmonic(const Numbers& numbers)
+        : amplitude_(numbers.shift()),
+          period_(numbers.at(numbers.per_shift())),
+          phase_(numbers.at(numbers.per_shift() + 1)) {}
     Shift at(double time) const override {
         const double angle = 2.0 * pi * time / period_ + phase_;
         return (std::sin(angle) - std::sin(phase_)) * amplitude_;
@@ -51,11 +65,14 @@ class Harmonic final : public PrescribedMotion {
 /// `table T X Y ANGLE T X Y ANGLE ...`, with times ascending from 0.
 class Table final : public PrescribedMotion {
  public:
-    explicit Table(const std::vector<double>& numbers) {
-        if (numbers.empty() || numbers.size() % 4 != 0)
-            throw std::invalid_argument("a table has four numbers per row");
-        for (std::size_t i = 0; i < numbers.size(); i += 4)
-            rows_.push_back({numbers[i], shift_of(numbers, i + 1)});
+    explicit Table(const Numbers& numbers) {
+        const std::size_t per_row = 1 + numbers.per_shift();
+        if (numbers.all.empty() || numbers.all.size() % per_row != 0)
+            throw std::invalid_argument(per_row == 4
+                                            ? "a table has four numbers per row"
+                                            : "a table in space has seven numbers per row");
+        for (std::size_t i = 0; i < numbers.all.size(); i += per_row)
+            rows_.push_back({numbers.at(i), numbers.shift(i + 1)});
     }
     Shift at(double time) const override {
         const auto after = std::find_if(rows_.begin(), rows_.end(),
@@ -76,25 +93,25 @@ class Table final : public PrescribedMotion {
 };
 
 template <class Motion>
-std::shared_ptr<const PrescribedMotion> make(const std::vector<double>& numbers) {
+std::shared_ptr<const PrescribedMotion> make(const Numbers& numbers) {
     return std::make_shared<Motion>(numbers);
 }
 
 struct MotionEntry {
     const char* kind;
-    std::shared_ptr<const PrescribedMotion> (*make)(const std::vector<double>&);
+    std::shared_ptr<const PrescribedMotion> (*make)(const Numbers&);
 };
 constexpr MotionEntry motion_list[] = {
     {"constant", make<Constant>}, {"harmonic", make<Harmonic>}, {"table", make<Table>}};
 
 /// "2 harmonic 0.1 0 0 3 0".
-Moved motion_of(const std::string& text, const std::string& key) {
+Moved motion_of(const std::string& text, const std::string& key, int dimension) {
     std::istringstream in(text);
     std::int64_t what = 0;
     std::string kind;
     in >> what >> kind;
-    std::vector<double> numbers;
-    for (double number; in >> number;) numbers.push_back(number);
+    Numbers numbers{{}, dimension};
+    for (double number; in >> number;) numbers.all.push_back(number);
     for (const MotionEntry& entry : motion_list)
         if (kind == entry.kind && in.eof()) return {what, entry.make(numbers)};
     throw std::invalid_argument(
@@ -117,8 +134,10 @@ std::shared_ptr<const PrescribedMotion> constant_motion(const Twist& rate) {
 std::vector<Moved> motions_of(const Settings& settings, const char* key) {
     std::vector<Moved> moved;
     if (!settings.has(key)) return moved;
+    const int dimension = dimension_of(settings);
     std::istringstream list(settings.text(key));
-    for (std::string text; std::getline(list, text, ';');) moved.push_back(motion_of(text, key));
+    for (std::string text; std::getline(list, text, ';');)
+        moved.push_back(motion_of(text, key, dimension));
     return moved;
 }
 

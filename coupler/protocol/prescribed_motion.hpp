@@ -7,8 +7,12 @@
 //     run.inflow_motions   the same for the fluid that enters through sides `inflow`
 //     run.grain_motions    `ID KIND NUMBERS...` of grains that follow a motion
 //
-// A motion is a displacement d(t) and an angle a(t) about a pivot, of a grain its centre, both zero
-// at t = 0:
+//     constant VX VY SPIN              in space  VX VY VZ WX WY WZ
+//     harmonic X Y ANGLE PERIOD PHASE            X Y Z AX AY AZ PERIOD PHASE
+//     table T X Y ANGLE ...                      T X Y Z AX AY AZ ...
+//
+// A turn of space keeps its axis: (AX, AY, AZ) is its direction times an angle. A motion is a
+// displacement d(t) and an angle a(t) about a pivot, of a grain its centre, both zero at t = 0:
 //
 //     constant   d = v t                                             a = w t
 //     harmonic   d = A (sin(2 pi t/T + phase) - sin(phase))          a likewise
@@ -40,8 +44,8 @@ class PrescribedMotion {
 
 /// A motion and what follows it.
 struct Moved {
-    /// The key of a wall: 0 left, 1 right, 2 bottom, 3 top, then the walls inside the box. Or the
-    /// id of a grain.
+    /// The key of a wall: 0 left, 1 right, 2 bottom, 3 top, in space 4 front, 5 back, then the
+    /// walls inside the box. Or the id of a grain.
     std::int64_t what = 0;
     std::shared_ptr<const PrescribedMotion> motion;
 };

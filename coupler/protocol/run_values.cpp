@@ -10,13 +10,16 @@ void read_fluid(const Settings& settings, RunValues& run) {
     run.fluid_density = settings.real("run.fluid_density");
     run.viscosity = settings.real("run.viscosity");
     run.hydrodynamic_radius = settings.real("fluid.hydrodynamic_radius");
-    run.acceleration = {settings.real("run.acceleration_x"), settings.real("run.acceleration_y")};
+    const bool space = run.dimension == 3;
+    run.acceleration = {settings.real("run.acceleration_x"), settings.real("run.acceleration_y"),
+                        space ? settings.real("run.acceleration_z") : 0.0};
 }
 
 }  // namespace
 
 RunValues run_values(const Settings& settings) {
     RunValues run;
+    run.dimension = dimension_of(settings);
     run.diameter = settings.real("run.diameter");
     run.velocity = settings.real("run.velocity_scale");
     run.time = settings.real("run.time_scale");
@@ -29,8 +32,9 @@ RunValues run_values(const Settings& settings) {
     run.output_every = settings.integer("run.output_every");
     run.fields_every =
         settings.has("run.fields_every") ? settings.integer("run.fields_every") : run.output_every;
-    run.size = {settings.real("run.size_x"), settings.real("run.size_y")};
-    for (std::size_t side = 0; side < box_sides.size(); side += 2)
+    run.size = {settings.real("run.size_x"), settings.real("run.size_y"),
+                run.dimension == 3 ? settings.real("run.size_z") : 0.0};
+    for (std::size_t side = 0; side < side_count(run.dimension); side += 2)
         if (const auto& [name, key, axis, inward] = box_sides[side]; settings.text(key) == "cyclic")
             run.period[axis] = run.size[axis];
     return run;

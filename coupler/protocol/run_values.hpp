@@ -6,7 +6,6 @@
 // Valid C++17.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "coupler/protocol/records.hpp"
@@ -15,30 +14,34 @@
 namespace turbidite {
 
 struct RunValues {
+    int dimension = 2;  ///< 2: the plane, per unit length; 3: space
+
     double diameter = 1.0;  ///< D [m]
     double velocity = 1.0;  ///< u_c [m/s]
     double time = 1.0;      ///< t_c = D/u_c [s]
 
-    double gravity = 0.0;       ///< g, along -y [m/s2]
-    double grain_weight = 0.0;  ///< m g of a disc of diameter D in air, per unit length [N/m]
+    double gravity = 0.0;  ///< g, along -y [m/s2]
+    /// m g in air of a disc of diameter D, per unit length [N/m]; in space of a sphere [N].
+    double grain_weight = 0.0;
 
-    bool wet = false;                      ///< with a fluid
-    double fluid_density = 0.0;            ///< rho_f; 0 when dry [kg/m3]
-    double viscosity = 0.0;                ///< nu; 0 when dry [m2/s]
-    double hydrodynamic_radius = 1.0;      ///< R_h/R; 1 when dry
-    std::array<double, 2> acceleration{};  ///< uniform body force on the fluid over rho_f [m/s2]
+    bool wet = false;                  ///< with a fluid
+    double fluid_density = 0.0;        ///< rho_f; 0 when dry [kg/m3]
+    double viscosity = 0.0;            ///< nu; 0 when dry [m2/s]
+    double hydrodynamic_radius = 1.0;  ///< R_h/R; 1 when dry
+    Vec3 acceleration{};               ///< uniform body force on the fluid over rho_f [m/s2]
 
     double step = 0.0;              ///< dt, the length of a window [s]
     std::int64_t windows = 0;       ///< of the whole run
     std::int64_t output_every = 1;  ///< windows from one output to the next
     std::int64_t fields_every = 1;  ///< and from one output of the fluid's fields to the next
 
-    std::array<double, 2> size{};  ///< of the domain, [0, size[0]] x [0, size[1]] [m]
-    Vec3 period{};                 ///< period of the domain per axis; 0: not cyclic [m]
+    Vec3 size{};    ///< of the domain, from the origin; in the plane without a depth [m]
+    Vec3 period{};  ///< period of the domain per axis; 0: not cyclic [m]
 };
 
-/// Reads run.*, fluid.enabled, fluid.hydrodynamic_radius, domain.left and domain.bottom. Throws
-/// std::out_of_range or std::invalid_argument naming a key that is missing or of another type.
+/// Reads run.*, fluid.enabled, fluid.hydrodynamic_radius, domain.left, domain.bottom and, in space,
+/// domain.front. Throws std::out_of_range or std::invalid_argument naming a key that is missing or
+/// of another type.
 RunValues run_values(const Settings& settings);
 
 }  // namespace turbidite

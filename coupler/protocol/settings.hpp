@@ -7,12 +7,16 @@
 //     run.diameter  run.velocity_scale  run.time_scale        D, u_c, t_c
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
 //     run.grain_weight                                        m g of a disc of diameter D in air,
-//                                                             unit of forces in contact laws
+//     in
+//                                                             space of a sphere; unit of forces in
+//                                                             contact laws
 //     run.acceleration_x  run.acceleration_y                  fluid.acceleration
+//     run.acceleration_z                                      in space
+//     run.dimension                                           3 in space; missing in the plane
 //     run.step      run.windows         run.output_every      dt, number of windows, windows
 //     run.fields_every                      windows from one output of the fluid's fields to the
 //                                           next; missing: as run.output_every
-//     run.size_x    run.size_y  run.size_z                    domain [m]
+//     run.size_x    run.size_y  run.size_z                    domain [m]; z in the plane: D
 //     run.scheme                              order of a window: coupling.scheme, or dry
 //     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp

@@ -2,7 +2,7 @@
 //
 // The sides of the box, in the order of their keys: the only table of them. A side lies across an
 // axis, at 0 (its inward normal points along the axis) or at the size of the box (against it).
-// Opposite sides follow each other. Valid C++17.
+// Opposite sides follow each other. The plane has the first four. Valid C++17.
 #pragma once
 
 #include <array>
@@ -27,12 +27,25 @@ struct BoxSide {
     }
 };
 
-inline constexpr std::array<BoxSide, 4> box_sides = {{
+inline constexpr std::array<BoxSide, 6> box_sides = {{
     {"left", "domain.left", 0, 1.0},
     {"right", "domain.right", 0, -1.0},
     {"bottom", "domain.bottom", 1, 1.0},
     {"top", "domain.top", 1, -1.0},
+    {"front", "domain.front", 2, 1.0},
+    {"back", "domain.back", 2, -1.0},
 }};
+
+/// Those of a box in the plane (2) or in space (3): the first ones of box_sides.
+constexpr std::size_t side_count(int dimension) {
+    return 2 * static_cast<std::size_t>(dimension);
+}
+inline constexpr std::size_t planar_sides = side_count(2);
+
+/// Whether the plane has it.
+constexpr bool is_planar(const BoxSide& side) {
+    return side.axis < 2;
+}
 
 constexpr std::size_t opposite(std::size_t side) {
     return side ^ 1;
@@ -43,7 +56,11 @@ inline bool holds_grains(const std::string& type) {
     return type == "wall" || type == "inflow";
 }
 
+/// Of the sides of the run's dimension; the others are empty.
 using SideTypes = std::array<std::string, box_sides.size()>;
+
+/// run.dimension; 2 where it is missing.
+int dimension_of(const Settings& settings);
 
 /// The type of every side. Throws Failure (bad input) naming the keys for an unknown one, or a
 /// cyclic side whose opposite is not cyclic.

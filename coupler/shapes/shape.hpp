@@ -61,6 +61,7 @@ struct ShapeEntry {
     std::string kind;
     std::string description;
     std::shared_ptr<const Shape> (*make)(const ShapeRecord&);
+    int dimension = 2;
 };
 const std::vector<ShapeEntry>& shape_list();
 

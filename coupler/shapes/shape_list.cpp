@@ -4,6 +4,7 @@
 #include "coupler/shapes/convex_polygon.hpp"
 #include "coupler/shapes/disc.hpp"
 #include "coupler/shapes/shape.hpp"
+#include "coupler/shapes/sphere.hpp"
 
 namespace turbidite {
 namespace {
@@ -12,6 +13,10 @@ using ShapePointer = std::shared_ptr<const Shape>;
 
 ShapePointer make_disc(const ShapeRecord&) {
     return std::make_shared<Disc>();
+}
+
+ShapePointer make_sphere(const ShapeRecord&) {
+    return std::make_shared<Sphere>();
 }
 
 ShapePointer make_triangle(const ShapeRecord& record) {
@@ -30,6 +35,7 @@ const std::vector<ShapeEntry>& shape_list() {
         {"disc", "circular grain", make_disc},
         {"triangle", "equilateral triangle, at angle 0 with one side at the bottom", make_triangle},
         {"polygon", "convex polygon with the corners of grains.vertices", make_polygon},
+        {"sphere", "ball in space", make_sphere, 3},
     };
     return shapes;
 }

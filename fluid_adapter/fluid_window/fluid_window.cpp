@@ -128,7 +128,7 @@ void FluidWindow::project() {
 /// u += a dt in every cell, those of grains included: the force on a grain contains that of the
 /// mean pressure gradient. It acts with the pressure, before the projection.
 void FluidWindow::drive() {
-    const auto [x, y] = run_.acceleration;
+    const double x = run_.acceleration[0], y = run_.acceleration[1];
     if (x == 0.0 && y == 0.0) return;
     field_.accelerate({x * window_.step, y * window_.step});
     const double area = run_.size[0] * run_.size[1];

@@ -34,7 +34,7 @@ std::vector<double> shares_of(const Foam::fvPatch& patch, int axis, const SideMo
 SideVelocity::SideVelocity(const std::array<SideMotion, box_sides.size()>& motions,
                            FluidFields& fields)
     : motions_(motions), fields_(fields) {
-    for (std::size_t side = 0; side < box_sides.size(); ++side) {
+    for (std::size_t side = 0; side < planar_sides; ++side) {
         const BoxSide& at = box_sides[side];
         if (!motions_[side].motion) continue;
         const Foam::label patch = fields.mesh.boundary().findPatchID(at.name);

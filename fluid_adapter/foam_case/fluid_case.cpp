@@ -143,7 +143,7 @@ std::string block_mesh(const FluidDomain& domain) {
                                    {0.0, domain.size[1]}})
             vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
     std::string patches;
-    for (std::size_t side = 0; side < box_sides.size(); ++side) patches += patch(domain, side);
+    for (std::size_t side = 0; side < planar_sides; ++side) patches += patch(domain, side);
     return fmt::format(
         "scale 1;\nvertices\n(\n{});\n"
         "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} 1) simpleGrading (1 {} 1) );\n"
@@ -192,7 +192,7 @@ std::string decomposition(const Settings& settings, const FluidDomain& domain) {
 template <class Closed>
 std::string boundary_field(const FluidDomain& domain, Closed closed, const std::string& at_free) {
     std::string text = "boundaryField\n{\n";
-    for (std::size_t side = 0; side < box_sides.size(); ++side) {
+    for (std::size_t side = 0; side < planar_sides; ++side) {
         const std::string& kind = domain.sides[side];
         const std::string value = kind == "cyclic" ? "type cyclic;"
                                   : kind == "free" ? at_free

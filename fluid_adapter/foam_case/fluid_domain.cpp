@@ -49,7 +49,7 @@ FluidDomain fluid_domain(const Settings& settings) {
     FluidDomain domain;
     const RunValues run = run_values(settings);
     const double per_length = settings.real("fluid.cells_per_diameter") / run.diameter;
-    domain.size = run.size;
+    domain.size = {run.size[0], run.size[1]};
     domain.cells = {cell_count("run.size_x", run.size[0], per_length),
                     cell_count("run.size_y", run.size[1], per_length)};
     domain.equal_height = run.size[1];

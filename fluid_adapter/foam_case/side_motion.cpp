@@ -39,7 +39,7 @@ std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings) 
     std::array<SideMotion, box_sides.size()> sides;
     for (const char* key : {"run.wall_motions", "run.inflow_motions"})
         for (const Moved& moved : motions_of(settings, key))
-            if (moved.what < first_plate) sides[moved.what].motion = moved.motion;
+            if (moved.what < first_plate(2)) sides[moved.what].motion = moved.motion;
     for (std::size_t side = 0; side < sides.size(); ++side)
         sides[side].parabolic = parabolic(settings, box_sides[side]);
     return sides;

@@ -18,7 +18,10 @@ BorderKind kind_of(const std::string& type) {
 
 std::string place(const Vec3& x) {
     char text[80];
-    std::snprintf(text, sizeof text, "(%.6g, %.6g)", x[0], x[1]);
+    if (x[2] == 0.0)
+        std::snprintf(text, sizeof text, "(%.6g, %.6g)", x[0], x[1]);
+    else
+        std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
     return text;
 }
 
@@ -35,15 +38,15 @@ std::string named(const nscd::Bodies& bodies, std::size_t i) {
 }  // namespace
 
 std::vector<Border> lay_borders(const Settings& settings) {
-    const auto size = run_values(settings).size;
+    const RunValues run = run_values(settings);
     const SideTypes types = side_types(settings);
     std::vector<Border> borders;
-    for (std::size_t i = 0; i < box_sides.size(); ++i) {
+    for (std::size_t i = 0; i < side_count(run.dimension); ++i) {
         const auto& [name, key, axis, inward] = box_sides[i];
         nscd::Wall plane;
         plane.normal = {};
         plane.normal[axis] = inward;
-        plane.point[axis] = inward > 0.0 ? 0.0 : size[axis];
+        plane.point[axis] = inward > 0.0 ? 0.0 : run.size[axis];
         plane.material = 0;
         plane.key = static_cast<std::int32_t>(i);
         borders.push_back({name, kind_of(types[i]), plane});

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The four sides of the domain as seen by a grains adapter:
+// The sides of the domain, four in the plane and six in space, as seen by a grains adapter:
 //
-//     wall     a straight wall with the surface of the grains; a centre beyond it ends the run
+//     wall     a flat wall with the surface of the grains; a centre beyond it ends the run
 //     inflow   the same: fluid enters through a porous plate at rest, on which grains may lie
 //     free     grains whose centre is more than R past the side are removed and counted
 //     cyclic   positions wrap, and the minimum image is used
 //
-// The domain is [0, run.size_x] x [0, run.size_y].
+// The domain is [0, run.size_x] x [0, run.size_y], in space x [0, run.size_z].
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,15 @@ namespace turbidite {
 
 enum class BorderKind { wall, free, cyclic };
 
-/// One side of the domain: name, type, and the half-plane with the inward normal.
+/// One side of the domain: name, type, and the half-plane or half-space with the inward normal.
 struct Border {
     std::string name;  ///< "left"
     BorderKind side = BorderKind::wall;
     nscd::Wall plane;
 };
 
-/// Left, right, bottom, top, from domain.* and run.size_*; made of the first material. Throws
+/// The sides of coupler/protocol/sides.hpp, from domain.* and run.*; made of the first material.
+/// Throws
 /// std::invalid_argument for an unknown type of side, or a cyclic side whose opposite is not
 /// cyclic.
 std::vector<Border> lay_borders(const Settings& settings);

@@ -94,11 +94,13 @@ std::vector<GrainState> grain_states(const nscd::Bodies& bodies) {
     return states;
 }
 
-void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks,
-                     const std::string& when) {
+void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks, const std::string& when,
+                     int dimension) {
     const auto ordered = by_grain(bodies.id, kicks, "kick", when);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        bodies.twist[i] = in_plane(twist_of(*ordered[i]));
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Twist twist = twist_of(*ordered[i]);
+        bodies.twist[i] = dimension == 3 ? twist : in_plane(twist);
+    }
 }
 
 }  // namespace turbidite

@@ -28,8 +28,9 @@ std::optional<GrainId> first_light_grain(const RunValues& run, const ShapeTable&
 /// Every body with the contact impulses of its last window; J_h is zero.
 std::vector<GrainState> grain_states(const nscd::Bodies& bodies);
 
-/// Sets the velocities from the kicks, in the plane. Throws std::runtime_error naming a grain with
-/// no kick or two; `when` ends the sentence.
-void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks, const std::string& when);
+/// Sets the velocities from the kicks, with dimension 2 those in the plane only. Throws
+/// std::runtime_error naming a grain with no kick or two; `when` ends the sentence.
+void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks, const std::string& when,
+                     int dimension = 2);
 
 }  // namespace turbidite

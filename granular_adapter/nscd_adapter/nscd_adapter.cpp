@@ -61,7 +61,7 @@ Hello NscdAdapter::describe() const {
     hello.adapter = adapter_name_;
     hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = host_code_;
-    hello.dimension = 2;
+    hello.dimension = both_dimensions;
     hello.capabilities.saves_state = true;
     hello.capabilities.restores_within_window = true;
     hello.capabilities.serialises_state = true;
@@ -132,7 +132,8 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     if (contact_twists_.size() != bodies().size())
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
     dumps_.after(window, engine().problem());
-    if (run_.wet || !kicks.empty()) take_velocities(bodies(), kicks, in_window(window));
+    if (run_.wet || !kicks.empty())
+        take_velocities(bodies(), kicks, in_window(window), run_.dimension);
     check_velocities(bodies(), in_window(window) + " after the kick");
     std::optional<std::vector<ContactRecord>> contacts;
     if (window.write_output) contacts = contact_records(engine());
@@ -180,6 +181,7 @@ NscdAdapter::Positions NscdAdapter::parse_positions(const std::string& text) {
 
 nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) const {
     nscd::EngineSettings result = contact_settings(settings);
+    result.dimension = run_.dimension;
     result.gravity = {0.0, -run_.gravity, 0.0};
     result.box.length = run_.period;
     return result;

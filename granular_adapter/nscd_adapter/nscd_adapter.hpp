@@ -11,7 +11,7 @@
 // velocity, or follow run.grain_motions. For the materials of grains and their pairs see
 // contact_settings.hpp.
 //
-// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top}, fluid.enabled,
+// Reads: contact.*, coupling.positions, domain.{left,right,bottom,top,front,back}, fluid.enabled,
 // fluid.hydrodynamic_radius, run.*. Gravity acts along -y; sides as in borders.hpp.
 #pragma once
 

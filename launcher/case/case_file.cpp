@@ -12,6 +12,7 @@
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/case/grains/materials.hpp"
+#include "launcher/case/grains/space_lattice.hpp"
 #include "launcher/case/keys/keys.hpp"
 #include "launcher/case/placed_case.hpp"
 #include "launcher/case/resolved_text.hpp"
@@ -77,6 +78,7 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
     auto [settings, of_keys] = check_keys(key_table(), entries);
     append(problems, std::move(of_keys));
     choose_scheme(settings);
+    choose_compacity(settings);
     append(problems, check_rules(settings, entries));
     append(problems, check_materials(settings, entries));
     if (given.earlier) accept_overlaps(settings);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coupler/hub/schemes/scheme.hpp"
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/rigid/rotation.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/materials.hpp"
@@ -69,20 +70,24 @@ void set_run_settings(Settings& settings, const Packing& grains,
 
 std::vector<GrainState> grain_states(const Packing& grains, const Settings& settings,
                                      const Scales& scales) {
+    const bool space = is(settings, "dimension", "3");
     std::vector<GrainState> states;
     for (const PlacedGrain& grain : grains) {
         GrainState state;
         state.id = grain.id;
         state.shape = grain.shape;
-        state.orientation = about_z(grain.angle);
+        state.orientation = space ? grain.turn : about_z(grain.angle);
         state.radius = grain.radius * scales.diameter;
         state.material = grain.material;
         state.prescribed = grain.prescribed;
         state.density =
             grain.density.value_or(settings.real("grains.density_ratio")) * scales.fluid_density;
-        state.velocity = {grain.vx * scales.velocity, grain.vy * scales.velocity, 0.0};
-        state.angular_velocity = {0.0, 0.0, grain.spin / scales.time};
-        state.position = {grain.x * scales.diameter, grain.y * scales.diameter, 0.0};
+        state.velocity = {grain.vx * scales.velocity, grain.vy * scales.velocity,
+                          grain.vz * scales.velocity};
+        state.angular_velocity = {grain.wx / scales.time, grain.wy / scales.time,
+                                  grain.spin / scales.time};
+        state.position = {grain.x * scales.diameter, grain.y * scales.diameter,
+                          grain.z * scales.diameter};
         states.push_back(state);
     }
     return states;

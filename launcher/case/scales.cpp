@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 
 namespace turbidite {
@@ -87,15 +88,17 @@ Scales make_scales(const Settings& settings) {
 }
 
 void set_run_values(Settings& settings, const Scales& scales) {
-    const bool wet = settings.flag("fluid.enabled");
+    const bool wet = settings.flag("fluid.enabled"), space = is(settings, "dimension", "3");
     const std::vector<double> size = real_list("domain.size", settings.text("domain.size"));
     settings.set("run.diameter", scales.diameter);
     settings.set("run.velocity_scale", scales.velocity);
     settings.set("run.time_scale", scales.time);
     settings.set("run.gravity", scales.gravity);
-    // m g of a disc of diameter D in air, per unit length: the unit of forces in contact laws.
-    settings.set("run.grain_weight", std::numbers::pi / 4.0 * scales.diameter * scales.diameter *
-                                         settings.real("grains.density_ratio") *
+    // m g in air of a disc of diameter D, per unit length, or of a sphere: the unit of forces in
+    // contact laws.
+    const double disc = std::numbers::pi / 4.0 * scales.diameter * scales.diameter;
+    const double size_of_grain = space ? disc * scales.diameter / 1.5 : disc;
+    settings.set("run.grain_weight", size_of_grain * settings.real("grains.density_ratio") *
                                          scales.fluid_density * scales.gravity);
     settings.set("run.fluid_density", wet ? scales.fluid_density : 0.0);
     settings.set("run.viscosity", wet ? scales.viscosity : 0.0);
@@ -105,7 +108,11 @@ void set_run_values(Settings& settings, const Scales& scales) {
     settings.set("run.acceleration_y", acceleration.at(1) * scales.velocity / scales.time);
     settings.set("run.size_x", size.at(0) * scales.diameter);
     settings.set("run.size_y", size.at(1) * scales.diameter);
-    settings.set("run.size_z", scales.diameter);
+    settings.set("run.size_z", (space ? size.at(2) : 1.0) * scales.diameter);
+    if (space) {
+        settings.set("run.dimension", std::int64_t{3});
+        settings.set("run.acceleration_z", 0.0);  // of a fluid
+    }
     set_probes(settings, scales.diameter);
     set_run_times(settings, scales.time);
 }

@@ -8,6 +8,7 @@
         name, version, host_code = 'my-code', '1.0', 'Python'
         shapes, native_substeps, effective_inertia = ['disc'], True, False
         restores_within_window = False
+        dimensions = (2,)                                     # of space: (2,), (3,) or (2, 3)
 
         def initialise(self, settings, shapes, grains): ...   # -> Motion, the grains at t = 0
         def advance(self, window, responses): ...             # -> Motion, the contacts (step 4)
@@ -158,7 +159,8 @@ class _Adapter(ctypes.Structure):
         ('apply_kick', _function(ctypes.POINTER(_Window), _pointer, _size, _pointer)),
         ('save', _function(_pointer)), ('restore', _function(_pointer, _size)),
         ('restores_within_window', _integer), ('contact_laws', ctypes.POINTER(_text)),
-        ('joined', ctypes.CFUNCTYPE(None, _pointer, ctypes.c_int)), ('communicator', _pointer)]
+        ('joined', ctypes.CFUNCTYPE(None, _pointer, ctypes.c_int)), ('communicator', _pointer),
+        ('dimensions', _integer)]
 
 
 for _name, _result, *_arguments in (
@@ -255,6 +257,13 @@ def _texts(texts):
     return (_text * (len(texts) + 1))(*(text.encode() for text in texts))
 
 
+def _dimensions(dimensions):
+    """Of turbidite.h."""
+    if dimensions not in ((2,), (3,), (2, 3)):
+        raise ValueError(f'dimensions = {dimensions}; allowed are (2,), (3,) and (2, 3)')
+    return dict(zip(((2,), (3,), (2, 3)), (2, 3, 23)))[dimensions]
+
+
 def _describe(adapter, struct):
     for text in ('name', 'version', 'host_code'):
         setattr(struct, text, str(getattr(adapter, text)).encode(errors='replace'))
@@ -262,6 +271,7 @@ def _describe(adapter, struct):
         setattr(struct, flag, bool(getattr(adapter, flag, False)))
     struct.shapes = _texts(getattr(adapter, 'shapes', ['disc']))
     struct.contact_laws = _texts(getattr(adapter, 'contact_laws', []))
+    struct.dimensions = _dimensions(tuple(getattr(adapter, 'dimensions', (2,))))
 
 
 def _struct(adapter):

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "coupler/rigid/vec3.hpp"
+#include "granular_adapter/nscd/cells/cell_order.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -69,9 +70,10 @@ std::vector<ContactPoint> Detection::unordered(const Look& look) const {
     return points;
 }
 
-/// Discs have one point at most, and it is cheaper to find it twice, first for its place in the
-/// order, than to write all points down and move them into their order.
-std::vector<ContactPoint> Detection::in_order(const Look& look, TopDownOrder order) const {
+/// Round bodies have one point at most, and it is cheaper to find it twice, first for its place in
+/// the order, than to write all points down and move them into their order.
+template <class Order>
+std::vector<ContactPoint> Detection::in_order(const Look& look, Order order) const {
     std::vector<Near> found;
     std::vector<ContactPoint> point;
     each_near(look, [&](const Near& near) {
@@ -92,7 +94,9 @@ std::vector<ContactPoint> Detection::points(const Bodies& bodies, const std::vec
     if (bodies.size() == 0) return {};
     const Look look{bodies, walls, reach, share, narrow_.place(bodies)};
     const double band = one_height * *std::min_element(bodies.radius.begin(), bodies.radius.end());
-    if (!has_corners()) return in_order(look, {bodies, gravity, band});
+    if (order_ == ContactOrder::cells && !has_corners())
+        return in_order(look, CellOrder({bodies, walls, box_, gravity, reach, share, band}));
+    if (!has_corners()) return in_order(look, TopDownOrder(bodies, gravity, band));
     std::vector<ContactPoint> points = unordered(look);
     order_top_down(points, bodies, gravity, band);
     return points;

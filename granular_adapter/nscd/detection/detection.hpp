@@ -2,7 +2,7 @@
 //
 // Contact points of a configuration: candidate pairs by cell lists (broad_phase.hpp), then gaps and
 // normals by shape (narrow_phase.hpp), in the order in which solvers visit them
-// (contact_order.hpp).
+// (contact_order.hpp, cells/cell_order.hpp).
 #pragma once
 
 #include <vector>
@@ -14,16 +14,22 @@
 
 namespace turbidite::nscd {
 
+/// From the top down, or by cells of eight parities.
+enum class ContactOrder { top_down, cells };
+
 class Detection {
  public:
     /// Throws std::invalid_argument naming the shapes for which there is no contact detection.
-    Detection(const ShapeTable& shapes, const PeriodicBox& box) : narrow_(shapes), box_(box) {}
+    Detection(const ShapeTable& shapes, const PeriodicBox& box,
+              ContactOrder order = ContactOrder::top_down)
+        : narrow_(shapes), box_(box), order_(order) {}
 
     bool has_corners() const { return narrow_.has_corners(); }
     const NarrowPhase& narrow_phase() const { return narrow_; }
 
     /// Contact points with a gap below `reach` plus `share` of the sum of both radii (of the
-    /// diameter at a wall), except those between fixed bodies. Ordered along gravity.
+    /// diameter at a wall), except those between fixed bodies. In order; by cells only without
+    /// corners.
     std::vector<ContactPoint> points(const Bodies& bodies, const std::vector<Wall>& walls,
                                      const Vec3& gravity, double reach, double share) const;
 
@@ -44,10 +50,12 @@ class Detection {
     template <class Visit>
     void each_near(const Look& look, const Visit& visit) const;
     std::vector<ContactPoint> unordered(const Look& look) const;
-    std::vector<ContactPoint> in_order(const Look& look, TopDownOrder order) const;
+    template <class Order>
+    std::vector<ContactPoint> in_order(const Look& look, Order order) const;
 
     NarrowPhase narrow_;
     PeriodicBox box_;
+    ContactOrder order_;
 };
 
 }  // namespace turbidite::nscd

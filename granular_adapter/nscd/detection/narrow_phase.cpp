@@ -20,9 +20,9 @@ void swap_bodies(ContactPoint& point) {
     if (point.turns_with != 0) point.turns_with = 3 - point.turns_with;
 }
 
-WallDetector find_wall_detector(const std::string& kind) {
+const WallDetectorEntry& find_wall_detector(const std::string& kind) {
     for (const WallDetectorEntry& entry : wall_detector_list())
-        if (entry.kind == kind) return entry.detect;
+        if (entry.kind == kind) return entry;
     throw std::invalid_argument("contacts of shape \"" + kind + "\" with walls are not available");
 }
 
@@ -42,6 +42,7 @@ const std::vector<PairDetectorEntry>& pair_detector_list() {
         {"disc", "triangle", disc_polygon},
         {"polygon", "polygon", polygon_polygon},
         {"polygon", "triangle", polygon_polygon},
+        {"sphere", "sphere", round_round},
         {"triangle", "triangle", polygon_polygon},
     };
     return entries;
@@ -49,7 +50,10 @@ const std::vector<PairDetectorEntry>& pair_detector_list() {
 
 const std::vector<WallDetectorEntry>& wall_detector_list() {
     static const std::vector<WallDetectorEntry> entries = {
-        {"disc", disc_wall}, {"polygon", polygon_wall}, {"triangle", polygon_wall}};
+        {"disc", disc_wall, check_planar},
+        {"polygon", polygon_wall, check_planar},
+        {"triangle", polygon_wall, check_planar},
+        {"sphere", round_half_space, check_half_space}};
     return entries;
 }
 
@@ -65,7 +69,7 @@ NarrowPhase::NarrowPhase(const ShapeTable& shapes) : polygons_(shapes) {
 
 void NarrowPhase::check(const Wall& wall) const {
     check_wall(wall);
-    check_planar(wall);
+    for (const WallDetectorEntry& entry : walls_) entry.check(wall);
 }
 
 void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) const {
@@ -84,7 +88,7 @@ void NarrowPhase::wall(const WallView& view, std::vector<ContactPoint>& points) 
     const double half = view.wall.half_thickness;
     const WallView of_line{view.bodies,     view.body,         view.wall,
                            view.wall_index, view.alert + half, view.placed};
-    walls_.at(static_cast<std::size_t>(view.bodies.shape[view.body]))(of_line, points);
+    walls_.at(static_cast<std::size_t>(view.bodies.shape[view.body])).detect(of_line, points);
     for (std::size_t i = before; i < points.size(); ++i) points[i].gap -= half;
 }
 

@@ -31,6 +31,8 @@ const std::vector<PairDetectorEntry>& pair_detector_list();
 struct WallDetectorEntry {
     std::string kind;
     WallDetector detect;
+    /// Throws std::invalid_argument for a wall that the shape cannot touch.
+    void (*check)(const Wall&);
 };
 const std::vector<WallDetectorEntry>& wall_detector_list();
 
@@ -60,8 +62,8 @@ class NarrowPhase {
     };
     PolygonShapes polygons_;
     std::vector<std::string> kinds_;
-    std::vector<PairChoice> pairs_;  ///< kind a x kind b
-    std::vector<WallDetector> walls_;
+    std::vector<PairChoice> pairs_;         ///< kind a x kind b
+    std::vector<WallDetectorEntry> walls_;  ///< by kind
 };
 
 }  // namespace turbidite::nscd

@@ -10,8 +10,10 @@
 #include "granular_adapter/nscd/detection/corner_turn.hpp"
 #include "granular_adapter/nscd/detection/reach.hpp"
 #include "granular_adapter/nscd/detection/wall_images.hpp"
+#include "granular_adapter/nscd/engine/dimension.hpp"
 #include "granular_adapter/nscd/engine/engine_state.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
+#include "granular_adapter/nscd/problem/turned_frames.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
@@ -33,6 +35,17 @@ SurfaceTable surface_table(const EngineSettings& settings) {
     return SurfaceTable({only});
 }
 
+/// In space always by cells, on any number of ranks: it costs a few sweeps at most there.
+ContactOrder contact_order(int dimension) {
+    return dimension == 3 ? ContactOrder::cells : ContactOrder::top_down;
+}
+
+LawSettings law_settings(const EngineSettings& settings) {
+    LawSettings result = settings.law_settings;
+    result.dimension = settings.dimension;
+    return result;
+}
+
 void check_step(double dt) {
     if (!(dt > 0.0)) throw std::invalid_argument("the time step must be positive");
 }
@@ -41,10 +54,12 @@ void check_step(double dt) {
 
 Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls)
     : settings_(settings),
-      detection_(shapes, settings.box),
+      detection_(shapes, settings.box, contact_order(settings.dimension)),
       walls_(std::move(walls)),
-      laws_(settings.law, settings.law_settings, surface_table(settings), shapes, settings.laws),
+      laws_(settings.law, law_settings(settings), surface_table(settings), shapes, settings.laws),
       solver_(make_solver(settings.solver, settings.solvers)) {
+    check_dimension(settings_.dimension, shapes);
+    check_solver(settings_.dimension, settings_.solver, *solver_);
     check_theta(settings_.theta, laws_.surfaces().largest_restitution());
     for (const Wall& wall : walls_) detection_.narrow_phase().check(wall);
 }
@@ -61,7 +76,7 @@ StepReport Engine::step(double dt) {
 }
 
 StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
-    return step_from(free, mobilities_of(bodies_), dt);
+    return step_from(free, mobilities_of(bodies_, settings_.dimension), dt);
 }
 
 StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
@@ -70,6 +85,10 @@ StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobiliti
         throw std::invalid_argument(
             "a contact step needs one free velocity and one mobility per "
             "body");
+    if (dimension(mobilities) != settings_.dimension)
+        throw std::invalid_argument("the mobilities of a contact step are of dimension " +
+                                    std::to_string(dimension(mobilities)) + ", the engine of " +
+                                    std::to_string(settings_.dimension));
     check_periods(bodies_.radius, settings_.box);
     release_step();
     detect(free, dt);
@@ -125,6 +144,7 @@ void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double 
     problem_ =
         laws_.pose({points_, keys_, bodies_, placed_walls_}, free, std::move(mobilities), dt);
     guess_ = memory_.guesses(keys_, dt);
+    if (in_space()) guess_ = from_world_axes(problem_, guess_);
 }
 
 /// Solves the problem; if corners rotate fast, again with gaps reduced by the shortfall
@@ -249,7 +269,10 @@ ContactKey Engine::key(const ContactPoint& point) const {
 /// Gives velocities and impulses to the bodies, the initial guess of the next step to the memory,
 /// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
-    memory_.remember(keys_, result.impulses, dt);
+    if (in_space())
+        memory_.remember(keys_, in_world_axes(problem_, result.impulses), dt);
+    else
+        memory_.remember(keys_, result.impulses, dt);
     laws_.find_states({points_, keys_, bodies_, placed_walls_}, result.impulses);
     impulses_ = laws_.felt(result.impulses);
     solution_ = std::move(result.impulses);

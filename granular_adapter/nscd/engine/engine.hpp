@@ -37,6 +37,7 @@
 namespace turbidite::nscd {
 
 struct EngineSettings {
+    int dimension = 2;              ///< of the contacts: 2, or 3 for spheres in space
     Vec3 gravity{};                 ///< [m/s2]
     double theta = 0.5;             ///< of the theta-scheme, in [1/2, 1]
     double friction = 0.3;          ///< mu of the only material, if `surfaces` is empty
@@ -65,7 +66,8 @@ struct StepReport {
 class Engine {
  public:
     /// Throws std::invalid_argument for unknown names, for parameters that are missing or out of
-    /// range, and for shapes without contact detection or without the chosen law.
+    /// range, for shapes without contact detection or without the chosen law, and for what is not
+    /// of the dimension.
     Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls);
 
     Bodies& bodies() { return bodies_; }
@@ -91,8 +93,9 @@ class Engine {
     StepReport step_from(const std::vector<Twist>& free, double dt);
 
     /// The same with mobilities from the caller, used as given: masses, moments of inertia and
-    /// flags of the bodies are ignored. May be repeated before the move; each time the solver
-    /// starts from the last impulses, and laws from their state at the last move.
+    /// flags of the bodies are ignored; they are of the engine's dimension. May be repeated before
+    /// the move; each time the solver starts from the last impulses, and laws from their state at
+    /// the last move.
     StepReport step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt);
 
     /// Moves bodies with their present velocities and walls with their own, and accepts the step:
@@ -153,6 +156,7 @@ class Engine {
     ContactKey key(const ContactPoint& point) const;
     void forget_step();
     void release_step();
+    bool in_space() const { return settings_.dimension == 3; }
     void take_memory(SavedMemory memory);
 
     EngineSettings settings_;

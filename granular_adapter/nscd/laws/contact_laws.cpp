@@ -12,6 +12,9 @@
 namespace turbidite::nscd {
 namespace {
 
+// In the plane a sliding contact has |r_t| = mu r_n to the last digit; in space r_t is a vector.
+constexpr double clip_rounding = 1e-12;
+
 Contact bare_contact(const ContactPoint& p) {
     Contact contact;
     contact.a = p.a;
@@ -58,7 +61,8 @@ ContactLaws::ContactLaws(const LawChoice& choice, const LawSettings& settings,
       settings_(settings),
       surfaces_(std::move(surfaces)),
       law_(choice_, settings_, surfaces_, list_) {
-    for (const ShapeRecord& shape : shapes) round_.push_back(shape.kind == "disc");
+    for (const ShapeRecord& shape : shapes)
+        round_.push_back(shape.kind == "disc" || shape.kind == "sphere");
     check_shapes();
 }
 
@@ -75,9 +79,14 @@ bool ContactLaws::all_round() const {
 }
 
 void ContactLaws::check_shapes() const {
+    if (settings_.dimension == 3 && law_.has(LawSlot::rolling))
+        throw std::invalid_argument(
+            "rolling resistance (contact.rolling_friction) is of the plane only; in space leave it "
+            "at zero");
     if (law_.has(LawSlot::rolling) && !all_round())
         throw std::invalid_argument(
-            "rolling resistance is for discs only; polygons need none, since their faces resist "
+            "rolling resistance is for round grains only; polygons need none, since their faces "
+            "resist "
             "rolling");
 }
 
@@ -187,10 +196,11 @@ Impulses ContactLaws::felt(const Impulses& solution) const {
 }
 
 void ContactLaws::find_states(const DetectedContacts& contacts, const Impulses& solution) {
+    const double rounding = settings_.dimension == 3 ? clip_rounding : 0.0;
     std::vector<RememberedState> next;
     for (std::size_t k = 0; k < situations_.size(); ++k) {
         const ContactKey& key = contacts.keys[k];
-        const ContactOutcome outcome{terms_[k], magnitudes(solution[k])};
+        const ContactOutcome outcome{terms_[k], magnitudes(solution[k]), rounding};
         next.push_back({key, law_.remember(situations_[k], states_.of(key), outcome)});
     }
     states_.find(std::move(next));

@@ -40,7 +40,7 @@ struct ContactSituation {
     Surface surface;                                            ///< of the pair
     double radius_a = std::numeric_limits<double>::infinity();  ///< infinite for a wall [m]
     double radius_b = 0.0;                                      ///< [m]
-    bool round = true;     ///< one of the two is a disc: the pair has a single contact point
+    bool round = true;     ///< one of the two is round: the pair has a single contact point
     double length = 0.0;   ///< of the face that the point represents, else zero [m]
     double share = 1.0;    ///< one over the number of the pair's points within the law's range
     Magnitudes approach;   ///< u^-: at the start of the step, wall motion included [m/s]
@@ -71,22 +71,28 @@ struct LawTerms {
 struct ContactOutcome {
     LawTerms terms;
     Magnitudes impulse;  ///< r~ [N s]
+    /// Relative, of |r_t|: what shortening a vector to mu r_n may have lost.
+    double rounding = 0.0;
 
     bool pressed() const { return impulse.n > 0.0; }
     /// Loaded, and strictly inside the friction cone.
-    bool sticks() const { return pressed() && impulse.t < terms.friction * impulse.n; }
+    bool sticks() const {
+        return pressed() && impulse.t * (1.0 + rounding) < terms.friction * impulse.n;
+    }
 };
 
 /// Parameters that do not belong to the surfaces, for all parts; each part reads its own.
 struct LawSettings {
+    int dimension = 2;
     double recovery_fraction = 0.2;  ///< fraction of an overlap removed per step, [0, 1]
     double recovery_speed = 0.5;     ///< upper limit of the speed at which it is removed [m/s]
     double restitution_speed = 0.0;  ///< approaches slower than this do not rebound [m/s]
     double adhesion_range = 0.0;     ///< largest gap at which adhesion acts [m]
     /// lambda, decay length of the capillary force with the gap [m]
     double adhesion_length = 0.0;
-    double adhesion_shear = 0.0;      ///< shear strength of a bond over its tensile strength
-    double reference_diameter = 1.0;  ///< of the discs to which Surface::adhesion refers [m]
+    double adhesion_shear = 0.0;  ///< shear strength of a bond over its tensile strength
+    /// Of the discs or spheres to which Surface::adhesion refers [m]
+    double reference_diameter = 1.0;
 };
 
 /// What a law does in one slot; its functions hold its parameters.

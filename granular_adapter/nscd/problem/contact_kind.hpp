@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// What the general code asks of a kind of contact, such as that of the folders plane/: types, and
-// functions of these types.
+// What the general code asks of a kind of contact, such as those of the folders plane/ and space/:
+// types, and functions of these types.
 //
 //     mobility M    M^-1 of a body
 //         push(twist, M, arm, p, roll)     v += M^-1 (p, arm x p + roll e_z)

@@ -6,8 +6,8 @@
 //     t, s   along the two tangents, s = n x t                                [m/s] [N s]
 //     roll   about e_z: spin of b relative to a, moment impulse on b   [rad/s] [N m s]
 //
-// In the plane s = e_z: there is no motion along it, and every spin is about it. Only there can
-// contacts resist rolling.
+// In the plane s = e_z: there is no motion along it, and every spin is about it. `roll` is of the
+// plane only: in space spins and moments are vectors.
 #pragma once
 
 #include <cmath>

@@ -2,15 +2,30 @@
 #include "granular_adapter/nscd/problem/mobilities.hpp"
 
 #include "granular_adapter/nscd/problem/plane/mobility.hpp"
+#include "granular_adapter/nscd/problem/space/mobility.hpp"
 
 namespace turbidite::nscd {
+namespace {
 
-Mobilities mobilities_of(const Bodies& bodies) {
-    std::vector<PlanarTensor> result;
+template <class Mobility, class Make>
+std::vector<Mobility> by_body(const Bodies& bodies, const Make& make) {
+    std::vector<Mobility> result;
     result.reserve(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        result.push_back({bodies.inverse_mass(i), bodies.inverse_inertia(i).zz});
+        result.push_back(make(bodies.inverse_mass(i), bodies.inverse_inertia(i)));
     return result;
+}
+
+}  // namespace
+
+Mobilities mobilities_of(const Bodies& bodies, int dimension) {
+    if (dimension == 2)
+        return by_body<PlanarTensor>(bodies, [](double linear, const Symmetric3& angular) {
+            return PlanarTensor(linear, angular.zz);
+        });
+    return by_body<SpaceMobility>(bodies, [](double linear, const Symmetric3& angular) {
+        return SpaceMobility{linear, angular.xx};
+    });
 }
 
 }  // namespace turbidite::nscd

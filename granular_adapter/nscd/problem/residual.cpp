@@ -6,6 +6,7 @@
 
 #include "granular_adapter/nscd/problem/measures.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
+#include "granular_adapter/nscd/problem/space/sphere_operator.hpp"
 
 namespace turbidite::nscd {
 namespace {

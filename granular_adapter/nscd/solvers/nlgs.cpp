@@ -4,6 +4,7 @@
 #include "granular_adapter/nscd/solvers/nlgs_iteration.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_pack.hpp"
+#include "granular_adapter/nscd/sweeps/space/sphere_pack.hpp"
 
 namespace turbidite::nscd {
 

@@ -13,7 +13,8 @@
 // closing contact.
 //
 // The fast implementation, with bitwise the same result: nlgs_iteration.hpp, contact_schedule.hpp,
-// sweep_pipeline.hpp, and the kernel of each kind of contact (plane/sweep_kernel.hpp).
+// sweep_pipeline.hpp, and the kernel of each kind of contact (plane/sweep_kernel.hpp,
+// space/sphere_kernel.hpp).
 #pragma once
 
 #include "granular_adapter/nscd/solvers/solver.hpp"
@@ -27,6 +28,8 @@ class Nlgs final : public ContactSolver {
 
     SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                        const SolverSettings& settings) const override;
+
+    bool solves_space() const override { return true; }
 
  private:
     Instructions instructions_;

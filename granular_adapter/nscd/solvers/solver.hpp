@@ -41,6 +41,9 @@ class ContactSolver {
     /// `guess`: one entry per contact.
     virtual SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                                const SolverSettings& settings) const = 0;
+
+    /// Whether it solves problems of space besides those of the plane.
+    virtual bool solves_space() const { return false; }
 };
 
 }  // namespace turbidite::nscd

@@ -50,6 +50,16 @@ TURBIDITE_INLINE R magnitude(const R& x) {
     return larger(x, R(-x));
 }
 
+// The square root is rounded correctly by every processor, hence the same bits in any width.
+TURBIDITE_INLINE double root(double x) {
+    return __builtin_sqrt(x);
+}
+TURBIDITE_INLINE Four root(const Four& x) {
+    Four result;
+    for (int lane = 0; lane < 4; ++lane) result[lane] = root(x[lane]);
+    return result;
+}
+
 TURBIDITE_INLINE bool any(double x) {
     return x != 0.0;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "coupler/hub/schemes/scheme.hpp"
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/protocol/splitting.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
@@ -38,6 +39,7 @@ constexpr double time_slice = 0.1e-3;
 // Seconds per window and grain.
 constexpr double disc_contacts = 4e-6;
 constexpr double polygon_contacts = 12e-6;
+constexpr double sphere_contacts = 6e-6;
 constexpr double external_code = 20e-6;  // nothing is known of it
 constexpr double spring_step = 0.4e-6;   // and per sub-step
 constexpr double checks = 1.5e-6;        // of the coupler
@@ -113,6 +115,7 @@ double time_per_grain(const ResolvedCase& resolved) {
     if (settings.has("run.md_substeps"))
         return time_per_substep(resolved) *
                static_cast<double>(settings.integer("run.md_substeps"));
+    if (is(settings, "dimension", "3")) return sphere_contacts;
     return all_round(resolved) ? disc_contacts : polygon_contacts;
 }
 

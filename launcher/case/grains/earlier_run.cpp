@@ -116,6 +116,13 @@ std::int32_t material_of(const std::string& name, const std::vector<std::string>
                   "Define it below contact.materials.");
 }
 
+/// To the digits of the series it is one.
+Quaternion unit(Quaternion q) {
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (double& part : q) part /= length;
+    return q;
+}
+
 }  // namespace
 
 EarlierRun parse_earlier_run(const std::string& text) {
@@ -153,7 +160,8 @@ EarlierGrains read_earlier_grains(const EarlierRun& run, const EarlierCase& earl
     const auto radius = all("radius", 1), density = all("density", 1), shape = all("shape", 1);
     const auto material = all("material", 1), prescribed = all("prescribed", 1);
     EarlierGrains result{{}, file.string(), output.time / earlier.scales.time};
-    for (std::size_t i = 0; i < n; ++i)
+    const bool space = forms.dimension == 3;
+    for (std::size_t i = 0; i < n; ++i) {
         result.grains.push_back(
             {.id = static_cast<GrainId>(id[i]),
              .x = position[3 * i] / d,
@@ -168,6 +176,15 @@ EarlierGrains read_earlier_grains(const EarlierRun& run, const EarlierCase& earl
              .material = material_of(earlier.materials.at(static_cast<std::size_t>(material[i])),
                                      materials),
              .prescribed = prescribed[i] != 0.0});
+        if (!space) continue;
+        PlacedGrain& grain = result.grains.back();
+        grain.angle = 0.0;
+        grain.z = position[3 * i + 2] / d;
+        grain.vz = velocity[3 * i + 2] / u;
+        grain.wx = spin[3 * i] * earlier.scales.time;
+        grain.wy = spin[3 * i + 1] * earlier.scales.time;
+        grain.turn = unit({turn[4 * i], turn[4 * i + 1], turn[4 * i + 2], turn[4 * i + 3]});
+    }
     return result;
 }
 

@@ -139,7 +139,8 @@ CaseProblems check_periods(const Packing& grains, const Settings& settings,
     const double least = 2.0 * (first + second);
     const PackingBox box = packing_box(settings);
     const double period =
-        std::min(box.periodic_x ? box.width : least, box.periodic_y ? box.height : least);
+        std::min({box.periodic_x ? box.width : least, box.periodic_y ? box.height : least,
+                  box.periodic_z ? box.depth : least});
     if (period >= least) return {};
     const Objection objection{
         fmt::format("Between cyclic sides lie at least the two largest grains, {:.4g} D: with "

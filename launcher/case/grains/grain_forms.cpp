@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/shapes/shape.hpp"
 
@@ -58,14 +59,20 @@ std::int32_t GrainForms::index_of(const std::string& kind) const {
 }
 
 GrainForms plain_discs() {
-    return {{form_of({"disc", {}})}, {}};
+    return {{form_of({"disc", {}})}, {}, 2};
+}
+
+GrainForms plain_spheres() {
+    return {{form_of({"sphere", {}})}, {}, 3};
 }
 
 GrainForms make_grain_forms(const Settings& settings) {
     GrainForms result;
+    result.dimension = is(settings, "dimension", "3") ? 3 : 2;
     std::vector<std::string> kinds{settings.text("grains.shape")};
     for (const ShapeEntry& entry : shape_list())
-        if (entry.kind != kinds[0] && (entry.kind != "polygon" || settings.has("grains.vertices")))
+        if (entry.kind != kinds[0] && entry.dimension == result.dimension &&
+            (entry.kind != "polygon" || settings.has("grains.vertices")))
             kinds.push_back(entry.kind);
     for (const std::string& kind : kinds)
         result.forms.push_back(form_of(record_of(kind, settings, result.notes)));

@@ -23,6 +23,7 @@ struct GrainForm {
 struct GrainForms {
     std::vector<GrainForm> forms;
     std::vector<std::string> notes;  ///< changes made to `grains.vertices`
+    int dimension = 2;
 
     /// -1 if there is none.
     std::int32_t index_of(const std::string& kind) const;
@@ -31,9 +32,12 @@ struct GrainForms {
 /// Discs only, radius 0.5 D.
 GrainForms plain_discs();
 
-/// Reads grains.shape, grains.radius and grains.vertices (which must be a convex polygon). Radii
-/// unless `grains.radius` is given: 0.5 D, triangles 0.75 D, so that their area is nearly that of a
-/// disc (Topin 2011, section 2.3).
+/// The same of space.
+GrainForms plain_spheres();
+
+/// Reads dimension, grains.shape, grains.radius and grains.vertices (which must be a convex
+/// polygon). Radii unless `grains.radius` is given: 0.5 D, triangles 0.75 D, so that their area is
+/// nearly that of a disc (Topin 2011, section 2.3).
 GrainForms make_grain_forms(const Settings& settings);
 
 /// The problem with `grains.vertices`; empty if there is none.

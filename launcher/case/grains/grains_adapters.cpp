@@ -13,7 +13,7 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .contacts = Contacts::rigid,
             .host = host,
             .file = file,
-            .shapes = {"disc", "triangle", "polygon"},
+            .shapes = {"disc", "triangle", "polygon", "sphere"},
             .takes_inertia = true,
             .adhesion_and_rolling = true,
             .cyclic_sides = true,
@@ -21,7 +21,8 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .moving_sides = true,
             .materials = true,
             .prescribed_grains = true,
-            .moved_grains = true};
+            .moved_grains = true,
+            .in_space = true};
 }
 
 GrainsAdapter external_program(const char* name, const char* help) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "coupler/rigid/vec3.hpp"
 #include "launcher/case/grains/neighbour_grid.hpp"
 #include "launcher/case/grains/random_numbers.hpp"
 
@@ -66,18 +67,20 @@ double make_room(Packing& grains, const PackingRequest& request) {
 
 bool inside(const PlacedGrain& grain, const PackingRegion& limits) {
     return grain.x >= grain.radius && grain.x + grain.radius <= limits.width &&
-           grain.y >= grain.radius && grain.y + grain.radius <= limits.height;
+           grain.y >= grain.radius && grain.y + grain.radius <= limits.height &&
+           (limits.depth == 0.0 ||
+            (grain.z >= grain.radius && grain.z + grain.radius <= limits.depth));
 }
 
-bool displace(NeighbourGrid& grid, std::size_t index, double dx, double dy,
-              const PackingRegion& limits) {
+bool displace(NeighbourGrid& grid, std::size_t index, Vec3 way, const PackingRegion& limits) {
     constexpr int halvings = 5;
-    for (int attempt = 0; attempt < halvings; ++attempt, dx /= 2.0, dy /= 2.0) {
+    for (int attempt = 0; attempt < halvings; ++attempt, way = way / 2.0) {
         PlacedGrain moved = grid.grains()[index];
-        moved.x += dx;
-        moved.y += dy;
+        moved.x += way[0];
+        moved.y += way[1];
+        moved.z += way[2];
         if (!inside(moved, limits) || !grid.is_free(moved, 0.0, index)) continue;
-        grid.move(index, moved.x, moved.y);
+        grid.move(index, moved.x, moved.y, moved.z);
         return true;
     }
     return false;
@@ -146,7 +149,9 @@ std::int64_t shake(Packing& grains, const PackingRequest& request, const Packing
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const double dx = random.uniform(-request.jitter, request.jitter);
         const double dy = random.uniform(-request.jitter, request.jitter);
-        moved += displace(grid, i, dx, dy, limits);
+        const double dz =
+            request.box.in_space() ? random.uniform(-request.jitter, request.jitter) : 0.0;
+        moved += displace(grid, i, {dx, dy, dz}, limits);
     }
     grains = grid.grains();
     return moved;
@@ -154,7 +159,7 @@ std::int64_t shake(Packing& grains, const PackingRequest& request, const Packing
 
 void apply_jitter(PackingResult& result, const PackingRequest& request) {
     if (request.jitter <= 0.0) return;
-    const PackingRegion whole{request.box.width, request.box.height};
+    const PackingRegion whole{request.box.width, request.box.height, request.box.depth};
     const std::int64_t moved = shake(result.grains, request, whole);
     const auto all = static_cast<std::int64_t>(result.grains.size());
     if (moved < all)

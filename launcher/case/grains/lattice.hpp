@@ -33,9 +33,9 @@ inline constexpr double compacity_for_jitter = 0.01;
 /// stretches the lattice (see above); a note states the resulting compacity.
 PackingResult lattice_packing(const PackingRequest& request);
 
-/// Displaces each grain by up to `jitter` along x and y; a displacement that would make grains
-/// overlap or leave `limits` is halved until it fits, and finally dropped. Returns how many grains
-/// moved.
+/// Displaces each grain by up to `jitter` along x and y, in space also z; a displacement that would
+/// make grains overlap or leave `limits` is halved until it fits, and finally dropped. Returns how
+/// many grains moved.
 std::int64_t shake(Packing& grains, const PackingRequest& request, const PackingRegion& limits);
 
 /// The same within the box, if there is a jitter; adds a note if grains had no room.

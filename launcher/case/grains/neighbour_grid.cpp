@@ -11,10 +11,11 @@ namespace {
 
 // Beyond this number a finer grid gains nothing, and a huge empty box would fill the memory.
 constexpr double most_cells_per_side = 4096.0;
+constexpr double most_cells_per_edge = 200.0;  // in space
 
-std::size_t cells_along(double length, double cell) {
-    return static_cast<std::size_t>(
-        std::clamp(std::floor(length / cell), 1.0, most_cells_per_side));
+std::size_t cells_along(double length, double cell, bool in_space) {
+    return static_cast<std::size_t>(std::clamp(
+        std::floor(length / cell), 1.0, in_space ? most_cells_per_edge : most_cells_per_side));
 }
 
 std::size_t cell_of(double place, double length, std::size_t count) {
@@ -31,9 +32,10 @@ double nearest_image(double distance, double length, bool periodic) {
 NeighbourGrid::NeighbourGrid(const PackingBox& box, double largest_radius, double reach,
                              const GrainForms* forms)
     : box_(box), forms_(forms), cell_(2.0 * largest_radius + reach) {
-    columns_ = cells_along(box.width, cell_);
-    rows_ = cells_along(box.height, cell_);
-    cells_.resize(columns_ * rows_);
+    columns_ = cells_along(box.width, cell_, box.in_space());
+    rows_ = cells_along(box.height, cell_, box.in_space());
+    if (box.in_space()) layers_ = cells_along(box.depth, cell_, true);
+    cells_.resize(columns_ * rows_ * layers_);
 }
 
 std::size_t NeighbourGrid::column(double x) const {
@@ -43,28 +45,39 @@ std::size_t NeighbourGrid::row(double y) const {
     return cell_of(y, box_.height, rows_);
 }
 
+std::size_t NeighbourGrid::layer(double z) const {
+    return layers_ == 1 ? 0 : cell_of(z, box_.depth, layers_);
+}
+
+std::vector<std::size_t>& NeighbourGrid::cell_at(const PlacedGrain& grain) {
+    return cells_[(layer(grain.z) * rows_ + row(grain.y)) * columns_ + column(grain.x)];
+}
+
 void NeighbourGrid::insert(const PlacedGrain& grain) {
-    cells_[row(grain.y) * columns_ + column(grain.x)].push_back(grains_.size());
+    cell_at(grain).push_back(grains_.size());
     grains_.push_back(grain);
 }
 
-void NeighbourGrid::move(std::size_t index, double x, double y) {
+void NeighbourGrid::move(std::size_t index, double x, double y, double z) {
     PlacedGrain& grain = grains_[index];
-    auto& old_cell = cells_[row(grain.y) * columns_ + column(grain.x)];
+    auto& old_cell = cell_at(grain);
     old_cell.erase(std::find(old_cell.begin(), old_cell.end(), index));
     grain.x = x;
     grain.y = y;
-    cells_[row(y) * columns_ + column(x)].push_back(index);
+    grain.z = z;
+    cell_at(grain).push_back(index);
 }
 
 double NeighbourGrid::circle_gap(const PlacedGrain& one, const PlacedGrain& other) const {
     const double dx = nearest_image(other.x - one.x, box_.width, box_.periodic_x);
     const double dy = nearest_image(other.y - one.y, box_.height, box_.periodic_y);
-    return std::hypot(dx, dy) - one.radius - other.radius;
+    if (!box_.in_space()) return std::hypot(dx, dy) - one.radius - other.radius;
+    const double dz = nearest_image(other.z - one.z, box_.depth, box_.periodic_z);
+    return std::hypot(dx, dy, dz) - one.radius - other.radius;
 }
 
 double NeighbourGrid::gap(const PlacedGrain& one, const PlacedGrain& other) const {
-    if (forms_ == nullptr) return circle_gap(one, other);
+    if (forms_ == nullptr || box_.in_space()) return circle_gap(one, other);  // all are spheres
     PlacedGrain image = other;
     image.x = one.x + nearest_image(other.x - one.x, box_.width, box_.periodic_x);
     image.y = one.y + nearest_image(other.y - one.y, box_.height, box_.periodic_y);
@@ -81,20 +94,21 @@ std::vector<std::size_t> NeighbourGrid::around(std::size_t centre, std::size_t c
     return cells;
 }
 
-std::vector<std::size_t> NeighbourGrid::near(double x, double y) const {
+std::vector<std::size_t> NeighbourGrid::near(double x, double y, double z) const {
     std::vector<std::size_t> found;
-    for (const std::size_t r : around(row(y), rows_, box_.periodic_y))
-        for (const std::size_t c : around(column(x), columns_, box_.periodic_x)) {
-            const auto& cell = cells_[r * columns_ + c];
-            found.insert(found.end(), cell.begin(), cell.end());
-        }
+    for (const std::size_t l : around(layer(z), layers_, box_.periodic_z))
+        for (const std::size_t r : around(row(y), rows_, box_.periodic_y))
+            for (const std::size_t c : around(column(x), columns_, box_.periodic_x)) {
+                const auto& cell = cells_[(l * rows_ + r) * columns_ + c];
+                found.insert(found.end(), cell.begin(), cell.end());
+            }
     std::sort(found.begin(), found.end());
     return found;
 }
 
 bool NeighbourGrid::is_free(const PlacedGrain& grain, double smallest_gap,
                             std::size_t except) const {
-    const auto neighbours = near(grain.x, grain.y);
+    const auto neighbours = near(grain.x, grain.y, grain.z);
     const double least = smallest_gap - touching_tolerance;
     return std::none_of(neighbours.begin(), neighbours.end(), [&](std::size_t other) {
         return other != except && circle_gap(grain, grains_[other]) < least &&

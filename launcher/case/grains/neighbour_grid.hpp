@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Square cells over the box that hold the grains by their centres. The neighbours of a grain are in
-// the nine cells around it: cells are at least as wide as the largest relevant distance of two
-// centres, 2 R_max + reach. Grains may have any size and form; periodic directions use the nearest
-// image.
+// Cells over the box, square or cubic, that hold the grains by their centres. The neighbours of a
+// grain are in the nine cells around it, in space the 27: cells are at least as wide as the largest
+// relevant distance of two centres, 2 R_max + reach. Grains may have any size and form; periodic
+// directions use the nearest image.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +21,18 @@ class NeighbourGrid {
                   const GrainForms* forms = nullptr);
 
     void insert(const PlacedGrain& grain);
-    void move(std::size_t index, double x, double y);
+    void move(std::size_t index, double x, double y, double z = 0.0);
 
     const Packing& grains() const { return grains_; }
 
-    /// Distance between circumscribed circles [D].
+    /// Distance between circumscribed circles or spheres [D].
     double circle_gap(const PlacedGrain& one, const PlacedGrain& other) const;
 
     /// Surface distance between two grains, negative when they overlap [D].
     double gap(const PlacedGrain& one, const PlacedGrain& other) const;
 
-    /// Indices of the grains in the nine cells around a point, each once, ascending.
-    std::vector<std::size_t> near(double x, double y) const;
+    /// Indices of the grains in the cells around a point, each once, ascending.
+    std::vector<std::size_t> near(double x, double y, double z = 0.0) const;
 
     /// True if no grain except number `except` is closer than `smallest_gap` to the surface of
     /// `grain`.
@@ -42,6 +42,8 @@ class NeighbourGrid {
  private:
     std::size_t column(double x) const;
     std::size_t row(double y) const;
+    std::size_t layer(double z) const;
+    std::vector<std::size_t>& cell_at(const PlacedGrain& grain);
     std::vector<std::size_t> around(std::size_t centre, std::size_t count, bool periodic) const;
 
     PackingBox box_;
@@ -49,6 +51,7 @@ class NeighbourGrid {
     double cell_ = 1.0;
     std::size_t columns_ = 1;
     std::size_t rows_ = 1;
+    std::size_t layers_ = 1;
     std::vector<std::vector<std::size_t>> cells_;
     Packing grains_;
 };

@@ -5,6 +5,8 @@
 
 #include "launcher/case/grains/lattice.hpp"
 #include "launcher/case/grains/random_packing.hpp"
+#include "launcher/case/grains/space_lattice.hpp"
+#include "launcher/case/grains/space_packing.hpp"
 
 namespace turbidite {
 
@@ -17,8 +19,8 @@ double largest_radius(const Packing& grains) {
 const std::vector<GeneratorEntry>& generator_list() {
     static const std::vector<GeneratorEntry> generators = {
         {"lattice", "touching rows of grains.compacity, filled from the lower left corner",
-         lattice_packing},
-        {"random", "grains.count grains without overlap", random_packing},
+         lattice_packing, space_lattice_packing},
+        {"random", "grains.count grains without overlap", random_packing, random_space_packing},
     };
     return generators;
 }

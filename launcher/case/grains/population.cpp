@@ -2,8 +2,10 @@
 #include "launcher/case/grains/population.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -23,7 +25,20 @@ struct FileWords {
     const std::vector<std::string>& motions;
 };
 
-const CsvForm& csv_form() {
+const CsvForm& space_form() {
+    static const CsvForm form = {
+        {"id", "x", "y", "z", "radius", "shape", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx",
+         "wy", "wz", "density", "material", "motion"},
+        {"id", "x", "y", "z"},
+        "In space the first line must read id,x,y,z[,radius][,shape][,qw,qx,qy,qz][,vx][,vy][,vz]"
+        "[,wx][,wy][,wz][,density][,material][,motion], lengths in D, velocities in u_c, spins in "
+        "1/t_c.",
+        "grain"};
+    return form;
+}
+
+const CsvForm& csv_form(int dimension) {
+    if (dimension == 3) return space_form();
     static const CsvForm form = {
         {"id", "x", "y", "z", "radius", "shape", "angle", "vx", "vy", "spin", "density", "material",
          "motion"},
@@ -80,10 +95,41 @@ void set_motion(CsvTable& table, int line, const std::vector<std::string>& motio
 
 const char* field_remedy(const std::string& column) {
     if (column == "angle") return "Give the angle in radians.";
-    if (column == "vx" || column == "vy") return "Give the velocity in u_c.";
-    if (column == "spin") return "Give the spin in 1/t_c.";
+    if (column == "vx" || column == "vy" || column == "vz") return "Give the velocity in u_c.";
+    if (column == "spin" || column[0] == 'w') return "Give the spin in 1/t_c.";
+    if (column[0] == 'q') return "Give the parts w, x, y, z of a unit quaternion.";
     if (column == "density") return "Give the density over that of the fluid.";
     return "Give the length in grain diameters.";
+}
+
+/// The member that a column of space sets.
+void set_in_space(const std::string& column, double number, PlacedGrain& grain) {
+    const std::pair<const char*, double*> members[] = {
+        {"x", &grain.x},        {"y", &grain.y},          {"z", &grain.z},
+        {"vx", &grain.vx},      {"vy", &grain.vy},        {"vz", &grain.vz},
+        {"wx", &grain.wx},      {"wy", &grain.wy},        {"wz", &grain.spin},
+        {"qw", &grain.turn[0]}, {"qx", &grain.turn[1]},   {"qy", &grain.turn[2]},
+        {"qz", &grain.turn[3]}, {"radius", &grain.radius}};
+    for (const auto& [name, member] : members)
+        if (column == name) *member = number;
+    if (column == "density") grain.density = number;
+}
+
+/// A quaternion to the digits of a file is made a unit one; others are refused.
+void check_turn(CsvTable& table, int line, PlacedGrain& grain) {
+    double square = 0.0;
+    for (const double part : grain.turn) square += part * part;
+    if (std::abs(square - 1.0) > 1e-3) {
+        table.refuse(line,
+                     fmt::format("grain {}: ({}) is no unit quaternion", grain.id,
+                                 fmt::join(grain.turn, ", ")),
+                     "qw, qx, qy, qz have the sum of squares 1; (1, 0, 0, 0) is not turned.",
+                     "Divide them by their length, or leave all four out.");
+        return;
+    }
+    // One of the digits of a double stays as it is: it is read again by `resume`.
+    if (std::abs(square - 1.0) > 1e-15)
+        for (double& part : grain.turn) part /= std::sqrt(square);
 }
 
 void set_field(CsvTable& table, int line, const FileWords& words, const std::string& column,
@@ -97,6 +143,7 @@ void set_field(CsvTable& table, int line, const FileWords& words, const std::str
     }
     const auto number = finite_number(table, line, column, text, field_remedy(column));
     if (!number) return;
+    if (words.forms.dimension == 3) return set_in_space(column, *number, grain);
     if (column == "z" && *number != 0.0)
         table.refuse(line, fmt::format("z = {}", text), "In two dimensions z is 0.",
                      "Set it to 0 or remove the column.");
@@ -110,9 +157,14 @@ void set_field(CsvTable& table, int line, const FileWords& words, const std::str
     if (column == "density") grain.density = *number;
 }
 
+bool has_motion(const PlacedGrain& grain) {
+    return grain.vx != 0.0 || grain.vy != 0.0 || grain.vz != 0.0 || grain.wx != 0.0 ||
+           grain.wy != 0.0 || grain.spin != 0.0;
+}
+
 /// A fixed grain is one whose prescribed velocity is zero; that of a motion is not given here.
 void check_fixed(CsvTable& table, const CsvTable::Row& row, const PlacedGrain& grain) {
-    const bool has_velocity = grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0;
+    const bool has_velocity = has_motion(grain);
     if (!grain.motion.empty() && has_velocity)
         table.refuse(
             row.line,
@@ -133,6 +185,7 @@ PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const FileWords&
     PlacedGrain grain;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
         set_field(table, row.line, words, table.columns[i], row.fields[i], grain);
+    if (forms.dimension == 3) check_turn(table, row.line, grain);
     check_fixed(table, row, grain);
     const auto& columns = table.columns;
     if (std::find(columns.begin(), columns.end(), "radius") == columns.end())
@@ -197,13 +250,34 @@ struct Excess {
     double beyond;  // >= 0 if outside [D]
 };
 
+/// How far a grain reaches from its centre towards each side of the box [D].
+std::array<double, 6> extents_of(const PlacedGrain& grain, const GrainForms& forms) {
+    if (forms.dimension == 3) {
+        std::array<double, 6> extents{};
+        extents.fill(grain.radius);
+        return extents;
+    }
+    const auto [right, left, up, down] = reach(placed_outline(grain, forms));
+    return {left, right, down, up};
+}
+
+std::string place_text(const PlacedGrain& grain, const GrainForms& forms) {
+    return forms.dimension == 3 ? fmt::format("({}, {}, {})", grain.x, grain.y, grain.z)
+                                : fmt::format("({}, {})", grain.x, grain.y);
+}
+
+std::string size_text(const PackingBox& box) {
+    return box.in_space() ? fmt::format("{} x {} x {}", box.width, box.height, box.depth)
+                          : fmt::format("{} x {}", box.width, box.height);
+}
+
 Excess worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSides& walls,
                   const GrainForms& forms) {
-    const auto [right, left, up, down] = reach(placed_outline(grain, forms));
-    const double extents[] = {left, right, down, up};
-    const double place[] = {grain.x, grain.y}, size[] = {box.width, box.height};
+    const std::array<double, 6> extents = extents_of(grain, forms);
+    const double place[] = {grain.x, grain.y, grain.z};
+    const double size[] = {box.width, box.height, box.depth};
     Excess worst{"", -std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i < box_sides.size(); ++i) {
+    for (std::size_t i = 0; i < side_count(forms.dimension); ++i) {
         const auto& [name, key, axis, inward] = box_sides[i];
         const double margin = walls.solid[i] ? extents[i] : 0.0;
         const double beyond =
@@ -220,10 +294,10 @@ void check_inside(const Packing& grains, const PackingBox& box, const SolidSides
         if (worst.beyond > tolerance)
             problems.add(
                 i,
-                fmt::format("grain {} at ({}, {}) is outside the box: {:.4g} D beyond its "
+                fmt::format("grain {} at {} is outside the box: {:.4g} D beyond its "
                             "{} side",
-                            grains[i].id, grains[i].x, grains[i].y, worst.beyond, worst.side),
-                fmt::format("The box is {} x {} D.", box.width, box.height),
+                            grains[i].id, place_text(grains[i], forms), worst.beyond, worst.side),
+                fmt::format("The box is {} D.", size_text(box)),
                 "Move the grain or enlarge domain.size.");
     }
     problems.finish("grains outside");
@@ -235,7 +309,7 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
     if (largest <= 0.0) return;
     NeighbourGrid grid(box, largest, 0.0, &forms);
     for (std::size_t i = 0; i < grains.size(); ++i) {
-        for (const std::size_t j : grid.near(grains[i].x, grains[i].y)) {
+        for (const std::size_t j : grid.near(grains[i].x, grains[i].y, grains[i].z)) {
             if (grid.circle_gap(grains[i], grains[j]) >= -tolerance) continue;
             const double gap = grid.gap(grains[i], grains[j]);
             if (gap < -tolerance)
@@ -255,7 +329,7 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
 PopulationFile read_population_csv(const std::filesystem::path& file, const GrainForms& forms,
                                    const std::vector<std::string>& materials,
                                    const std::vector<std::string>& motions) {
-    CsvTable table = read_csv(file, csv_form());
+    CsvTable table = read_csv(file, csv_form(forms.dimension));
     PopulationFile result;
     result.source.name = table.name;
     for (const CsvTable::Row& row : table.rows) {
@@ -285,7 +359,11 @@ bool is_turned(const PlacedGrain& grain, const GrainForms& forms) {
 }
 
 bool moves(const PlacedGrain& grain, const GrainForms&) {
-    return grain.vx != 0.0 || grain.vy != 0.0 || grain.spin != 0.0;
+    return has_motion(grain);
+}
+
+bool is_turned_in_space(const PlacedGrain& grain, const GrainForms&) {
+    return grain.turn != Quaternion{1.0, 0.0, 0.0, 0.0};
 }
 
 std::string motion_of(const PlacedGrain& grain) {
@@ -294,7 +372,8 @@ std::string motion_of(const PlacedGrain& grain) {
     return moves(grain, plain_discs()) ? "driven" : "fixed";
 }
 
-const OptionalColumns optional_columns[] = {
+/// How a grain is turned and how it moves, in the plane and in space.
+const std::vector<OptionalColumns> planar_columns = {
     {",shape,angle", is_turned,
      [](const PlacedGrain& g, const FileWords& words) {
          return fmt::format(",{},{}", kind_of(g, words.forms), g.angle);
@@ -303,6 +382,18 @@ const OptionalColumns optional_columns[] = {
      [](const PlacedGrain& g, const FileWords&) {
          return fmt::format(",{},{},{}", g.vx, g.vy, g.spin);
      }},
+};
+const std::vector<OptionalColumns> space_columns = {
+    {",qw,qx,qy,qz", is_turned_in_space,
+     [](const PlacedGrain& g, const FileWords&) {
+         return fmt::format(",{}", fmt::join(g.turn, ","));
+     }},
+    {",vx,vy,vz,wx,wy,wz", moves,
+     [](const PlacedGrain& g, const FileWords&) {
+         return fmt::format(",{},{},{},{},{},{}", g.vx, g.vy, g.vz, g.wx, g.wy, g.spin);
+     }},
+};
+const std::vector<OptionalColumns> common_columns = {
     {",density", [](const PlacedGrain& g, const GrainForms&) { return g.density.has_value(); },
      [](const PlacedGrain& g, const FileWords&) { return fmt::format(",{}", *g.density); }},
     {",material", [](const PlacedGrain& g, const GrainForms&) { return g.material != 0; },
@@ -317,16 +408,20 @@ const OptionalColumns optional_columns[] = {
 
 std::string population_csv(const Packing& grains, const GrainForms& forms,
                            const std::vector<std::string>& materials) {
+    const bool space = forms.dimension == 3;
     std::vector<const OptionalColumns*> columns;
-    for (const OptionalColumns& column : optional_columns)
-        if (std::any_of(grains.begin(), grains.end(),
-                        [&](const PlacedGrain& grain) { return column.needed(grain, forms); }))
-            columns.push_back(&column);
-    std::string text = "id,x,y,radius";
+    for (const auto* part : {space ? &space_columns : &planar_columns, &common_columns})
+        for (const OptionalColumns& column : *part)
+            if (std::any_of(grains.begin(), grains.end(),
+                            [&](const PlacedGrain& grain) { return column.needed(grain, forms); }))
+                columns.push_back(&column);
+    std::string text = space ? "id,x,y,z,radius" : "id,x,y,radius";
     for (const OptionalColumns* column : columns) text += column->header;
     text += "\n";
     for (const PlacedGrain& grain : grains) {
-        text += fmt::format("{},{},{},{}", grain.id, grain.x, grain.y, grain.radius);
+        text += fmt::format("{},{},{},", grain.id, grain.x, grain.y);
+        text +=
+            space ? fmt::format("{},{}", grain.z, grain.radius) : fmt::format("{}", grain.radius);
         for (const OptionalColumns* column : columns)
             text += column->text(grain, {forms, materials, {}});
         text += "\n";

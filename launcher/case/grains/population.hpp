@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Grains as a CSV file (header `id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin][,density]
-// [,material][,motion]`, lengths in D, angles in rad, velocities in u_c, spin in 1/t_c;
-// `grains.shape` and its radius unless given; at rest, grains.density_ratio, material default,
-// free), and the checks of any population: unique ids, positive radii, no grain outside, no
-// overlaps, all with the true shapes.
+// [,material][,motion]`, in space `id,x,y,z[,radius][,shape][,qw,qx,qy,qz][,vx][,vy][,vz][,wx][,wy]
+// [,wz][,density][,material][,motion]` with a unit quaternion, lengths in D, angles in rad,
+// velocities in u_c, spin in 1/t_c; `grains.shape` and its radius unless given; at rest,
+// grains.density_ratio, material default, free), and the checks of any population: unique ids,
+// positive radii, no grain outside, no overlaps, all with the true shapes.
 #pragma once
 
 #include <array>
@@ -43,7 +44,7 @@ std::string population_csv(const Packing& grains, const GrainForms& forms = plai
 
 /// By side of the box: at a wall the whole grain must be inside, at other sides its centre.
 struct SolidSides {
-    std::array<bool, box_sides.size()> solid{true, true, true, true};
+    std::array<bool, box_sides.size()> solid{true, true, true, true, true, true};
 };
 
 /// Overlaps up to `overlap` are accepted [D].

@@ -40,16 +40,6 @@ bool are_unit_discs(const PackingRequest& request) {
     return !has_corners(request) && mean_radius(request) == 0.5 && request.size_ratio == 1.0;
 }
 
-/// From the largest to the smallest.
-std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random) {
-    std::vector<double> radii(static_cast<std::size_t>(request.count), mean_radius(request));
-    if (request.size_ratio == 1.0) return radii;
-    const double smallest = 2.0 * mean_radius(request) / (1.0 + request.size_ratio);
-    for (double& radius : radii) radius = random.uniform(smallest, smallest * request.size_ratio);
-    std::sort(radii.begin(), radii.end(), std::greater<>());
-    return radii;
-}
-
 // The gap applies to walls as well, so that no grain is in contact at the start.
 PlacedGrain random_place(const PackingRegion& region, double edge, RandomNumbers& random) {
     return {.x = random.uniform(edge, region.width - edge),
@@ -162,6 +152,15 @@ bool is_overfull(const PackingRequest& request) {
 }
 
 }  // namespace
+
+std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random) {
+    std::vector<double> radii(static_cast<std::size_t>(request.count), mean_radius(request));
+    if (request.size_ratio == 1.0) return radii;
+    const double smallest = 2.0 * mean_radius(request) / (1.0 + request.size_ratio);
+    for (double& radius : radii) radius = random.uniform(smallest, smallest * request.size_ratio);
+    std::sort(radii.begin(), radii.end(), std::greater<>());
+    return radii;
+}
 
 PackingResult random_packing(const PackingRequest& request) {
     PackingResult result;

@@ -11,9 +11,16 @@
 // their true surfaces, and are refused if they do not fit.
 #pragma once
 
+#include <vector>
+
 #include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/random_numbers.hpp"
 
 namespace turbidite {
+
+/// Radii of grains.count grains by grains.radius and grains.size_ratio, from the largest to the
+/// smallest [D].
+std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random);
 
 PackingResult random_packing(const PackingRequest& request);
 

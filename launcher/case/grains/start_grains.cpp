@@ -20,19 +20,27 @@ namespace {
 std::optional<PackingRegion> packing_region(const Settings& settings) {
     if (!settings.has("grains.region")) return std::nullopt;
     const auto size = real_list("grains.region", settings.text("grains.region"));
-    return PackingRegion{size.at(0), size.at(1)};
+    return PackingRegion{size.at(0), size.at(1), size.size() > 2 ? size[2] : 0.0};
+}
+
+/// None in space unless there is a lattice.
+double compacity_of(const Settings& settings) {
+    const bool missing = is(settings, "dimension", "3") && !settings.has("grains.compacity");
+    return missing ? 0.0 : settings.real("grains.compacity");
 }
 
 PackingRequest packing_request(const Settings& settings, const GrainForms& forms) {
     const bool counted = settings.has("grains.count");
+    const bool lattice = settings.has("grains.lattice");
     return {.box = packing_box(settings),
             .region = packing_region(settings),
-            .compacity = settings.real("grains.compacity"),
+            .compacity = compacity_of(settings),
             .count = counted ? settings.integer("grains.count") : 0,
             .jitter = settings.real("grains.jitter"),
             .seed = static_cast<std::uint64_t>(settings.integer("random.seed")),
             .forms = &forms,
-            .size_ratio = settings.real("grains.size_ratio")};
+            .size_ratio = settings.real("grains.size_ratio"),
+            .lattice = lattice ? settings.text("grains.lattice") : ""};
 }
 
 const GeneratorEntry& generator(const std::string& name) {
@@ -48,8 +56,10 @@ std::string blamed_key(const Settings& settings) {
 
 StartGrains generated_grains(const Settings& settings, const CaseEntries& entries,
                              const GrainForms& forms) {
+    const PackingRequest request = packing_request(settings, forms);
+    const GeneratorEntry& entry = generator(settings.text("grains.generator"));
     PackingResult result =
-        generator(settings.text("grains.generator")).make(packing_request(settings, forms));
+        request.box.in_space() ? entry.make_in_space(request) : entry.make(request);
     StartGrains start{std::move(result.grains),
                       {entries.entries.front().source, {}},
                       std::move(result.notes),
@@ -87,14 +97,15 @@ bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
     if (!settings.has("grains.region")) return true;
     const auto region = packing_region(settings);
     const PackingBox box = packing_box(settings);
-    return region->width > box.width || region->height > box.height;
+    return region->width > box.width || region->height > box.height || region->depth > box.depth;
 }
 
 /// Whether the keys that describe the grains were all accepted: a generator needs a count.
 bool are_described(const Settings& settings, const CaseEntries& entries, const GivenGrains& given) {
     if (region_is_refused(settings, entries)) return false;
     if (given.earlier || !given.file.empty() || settings.has("grains.file")) return true;
-    return settings.text("grains.generator") != "random" || settings.has("grains.count");
+    if (settings.text("grains.generator") == "random") return settings.has("grains.count");
+    return !is(settings, "dimension", "3") || settings.has("grains.compacity");
 }
 
 }  // namespace
@@ -104,12 +115,15 @@ PackingBox packing_box(const Settings& settings) {
     return {.width = size.at(0),
             .height = size.at(1),
             .periodic_x = settings.text("domain.left") == "cyclic",
-            .periodic_y = settings.text("domain.bottom") == "cyclic"};
+            .periodic_y = settings.text("domain.bottom") == "cyclic",
+            .depth = size.size() > 2 ? size[2] : 0.0,
+            .periodic_z = is(settings, "domain.front", "cyclic")};
 }
 
 SolidSides solid_sides(const Settings& settings) {
     SolidSides sides;
-    for (std::size_t i = 0; i < box_sides.size(); ++i)
+    const std::size_t count = side_count(is(settings, "dimension", "3") ? 3 : 2);
+    for (std::size_t i = 0; i < count; ++i)
         sides.solid[i] = holds_grains(settings.text(box_sides[i].key));
     return sides;
 }

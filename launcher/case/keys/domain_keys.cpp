@@ -13,23 +13,36 @@
 namespace turbidite {
 namespace {
 
-std::vector<Choice> side_choices() {
-    return {{"wall", "no slip; grains stay inside"},
-            {"free", "zero gradient of velocity, pressure 0; grains that leave are removed"},
-            {"cyclic", "joined to the opposite side"},
+std::vector<Choice> side_choices(const BoxSide& side) {
+    std::vector<Choice> choices = {
+        {"wall", "no slip; grains stay inside"},
+        {"free", "zero gradient of velocity, pressure 0; grains that leave are removed"},
+        {"cyclic", "joined to the opposite side"}};
+    if (is_planar(side))
+        choices.push_back(
             {"inflow",
-             "fluid enters with the velocity of the side's motion; for grains a plate at rest"}};
+             "fluid enters with the velocity of the side's motion; for grains a plate at rest"});
+    return choices;
+}
+
+std::string side_help(const BoxSide& side) {
+    const std::string help = std::string(side.name) + " side of the box";
+    if (is_planar(side)) return help;
+    return help +
+           (side.inward > 0.0 ? ", at z = 0" : ", at z = its depth");
 }
 
 KeySpec side_type(const BoxSide& side) {
-    return {.name = side.key,
-            .type = KeyType::choice,
-            .fallback = "wall",
-            .choices = side_choices(),
-            .help = std::string(side.name) + " side of the box"};
+    KeySpec key{.name = side.key,
+                .type = KeyType::choice,
+                .fallback = "wall",
+                .choices = side_choices(side),
+                .help = side_help(side)};
+    return is_planar(side) ? key : of_space(key);
 }
 
 constexpr auto every_side = std::make_index_sequence<box_sides.size()>();
+constexpr auto every_planar_side = std::make_index_sequence<planar_sides>();
 
 /// Told of the first of a pair.
 template <std::size_t side>
@@ -94,12 +107,13 @@ Ruling whole_cells(const Settings& s) {
 }
 
 KeySpec side_motion(const BoxSide& side) {
-    return {.name = std::string(side.key) + "_motion",
-            .type = KeyType::text,
-            .need = Need::optional,
-            .help = "name of the motion of the " + std::string(side.name) +
-                    " side, described below domain.motions: of a wall (in a fluid only along "
-                    "itself), or of the fluid that enters through an inflow"};
+    KeySpec key{.name = std::string(side.key) + "_motion",
+                .type = KeyType::text,
+                .need = Need::optional,
+                .help = "name of the motion of the " + std::string(side.name) +
+                        " side, described below domain.motions: of a wall (in a fluid only along "
+                        "itself), or of the fluid that enters through an inflow"};
+    return is_planar(side) ? key : of_space(key);
 }
 
 KeySpec motion_part(const char* name, KeyType type, const char* unit, const char* help) {
@@ -110,6 +124,21 @@ KeySpec motion_part(const char* name, KeyType type, const char* unit, const char
             .help = help};
 }
 
+/// x and y, in space also z.
+KeySpec motion_vector(const char* name, const char* unit, const char* help) {
+    KeySpec key = motion_part(name, KeyType::real_list, unit, help);
+    key.in_space = {.entries = 3, .allowed = "A list of three numbers: x, y, z."};
+    return key;
+}
+
+KeySpec motion_axis() {
+    KeySpec key = motion_part("axis", KeyType::real_list, "",
+                              "direction about which spin and turn are, with any length; "
+                              "[0, 0, 1] unless given");
+    key.entries = 3;
+    return of_space(key);
+}
+
 KeyTable motion_keys() {
     KeySpec kind = motion_part("kind", KeyType::choice, "", "kind of the motion NAME");
     kind.choices = {{"constant", "velocity and spin"},
@@ -118,13 +147,16 @@ KeyTable motion_keys() {
     KeySpec period = motion_part("period", KeyType::real, "t_c", "T of a harmonic motion");
     period.range = positive;
     KeySpec table = motion_part("table", KeyType::real_list, "t_c, D, D",
-                                "rows of time, x, y, one after the other; the first is 0, 0, 0");
+                                "rows of time, x, y, one after the other; the first is 0, 0, 0. In "
+                                "space rows of time, x, y, z");
     table.entries = 0;
     table.allowed = "A list of numbers, three for each row.";
+    table.in_space.allowed = "A list of numbers, four for each row.";
     return {kind,
-            motion_part("velocity", KeyType::real_list, "u_c", "of a constant motion"),
+            motion_vector("velocity", "u_c", "of a constant motion"),
             motion_part("spin", KeyType::real, "1/t_c", "of a constant motion, about the pivot"),
-            motion_part("amplitude", KeyType::real_list, "D", "A of a harmonic motion"),
+            motion_axis(),
+            motion_vector("amplitude", "D", "A of a harmonic motion"),
             motion_part("turn", KeyType::real, "rad", "A of a harmonic turn about the pivot"),
             period,
             motion_part("phase", KeyType::real, "rad", "of a harmonic motion; 0 unless given"),
@@ -132,55 +164,76 @@ KeyTable motion_keys() {
 }
 
 template <std::size_t... side>
+KeyTable profile_keys(std::index_sequence<side...>) {
+    return {side_profile<side>()...};
+}
+
+template <std::size_t... side>
 KeyTable side_keys(KeyTable table, std::index_sequence<side...>) {
     table.insert(table.end() - 1, {side_type(box_sides[side])...});  // before the walls inside
     for (KeyTable more : {KeyTable{side_motion(box_sides[side])...},
-                          KeyTable{side_profile<side>()...}, motion_keys()})
+                          profile_keys(every_planar_side), motion_keys()})
         for (KeySpec& key : more) table.push_back(std::move(key));
     return table;
 }
 
 template <std::size_t... side>
-std::vector<Rule> side_rules(std::index_sequence<side...>) {
-    return {{box_sides[side].key, {box_sides[opposite(side)].key}, both_are_cyclic<side>}...,
-            {box_sides[side].key, {"fluid.enabled"}, inflow_has_a_velocity<side>}...,
-            {"domain.size",
-             {"fluid.enabled", "fluid.cells_per_diameter", "fluid.stretch_ratio"},
-             whole_cells}};
+std::vector<Rule> pair_rules(std::index_sequence<side...>) {
+    return {{box_sides[side].key, {box_sides[opposite(side)].key}, both_are_cyclic<side>}...};
+}
+
+template <std::size_t... side>
+std::vector<Rule> inflow_rules(std::index_sequence<side...>) {
+    return {{box_sides[side].key, {"fluid.enabled"}, inflow_has_a_velocity<side>}...};
+}
+
+std::vector<Rule> side_rules() {
+    std::vector<Rule> rules = pair_rules(every_side);
+    for (Rule& rule : inflow_rules(every_planar_side)) rules.push_back(std::move(rule));
+    rules.push_back({"domain.size",
+                     {"fluid.enabled", "fluid.cells_per_diameter", "fluid.stretch_ratio"},
+                     whole_cells});
+    return rules;
 }
 
 }  // namespace
 
 KeyGroup domain_keys() {
-    return {.keys = side_keys(
-                {
-                    {.name = "dimension",
-                     .type = KeyType::choice,
-                     .fallback = "2",
-                     .choices = {{"2", "plane; masses and forces per unit length"},
-                                 {"3", "space", false}},
-                     .help = "dimension of space"},
-                    {.name = "domain.size",
-                     .type = KeyType::real_list,
-                     .unit = "D",
-                     .need = Need::required,
-                     .range = positive,
-                     .help = "width and height of the box",
-                     .allowed = "Width and height of the box in D, both above 0.",
-                     .remedy = "Write for example size: [12, 24]."},
-                    {.name = "domain.walls_file",
-                     .type = KeyType::text,
-                     .need = Need::optional,
-                     .help = "CSV file of walls inside the box, at rest or moving (header "
-                             "id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]"
-                             "; lengths "
-                             "in D, "
-                             "velocities in u_c, spin in 1/t_c about (px,py); path relative to the "
-                             "case file). "
-                             "In a fluid they are at least two cells thick"},
-                },
-                every_side),
-            .rules = side_rules(every_side)};
+    return {
+        .keys = side_keys(
+            {
+                {.name = "dimension",
+                 .type = KeyType::choice,
+                 .fallback = "2",
+                 .choices = {{"2", "plane; masses and forces per unit length"},
+                             {"3", "space: spheres, without a fluid in this version"}},
+                 .help = "dimension of space"},
+                {.name = "domain.size",
+                 .type = KeyType::real_list,
+                 .unit = "D",
+                 .need = Need::required,
+                 .range = positive,
+                 .help = "width and height of the box; in space length (x), height (y, upwards) "
+                         "and depth (z)",
+                 .allowed = "Width and height of the box in D, both above 0.",
+                 .remedy = "Write for example size: [12, 24].",
+                 .in_space = {.entries = 3,
+                              .allowed = "In space length, height and depth of the box in D, "
+                                         "all above 0.",
+                              .remedy = "Write for example size: [60, 24, 12.8]."}},
+                {.name = "domain.walls_file",
+                 .type = KeyType::text,
+                 .need = Need::optional,
+                 .help = "CSV file of walls inside the box, at rest or moving (header "
+                         "id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]"
+                         "; lengths "
+                         "in D, "
+                         "velocities in u_c, spin in 1/t_c about (px,py); path relative to the "
+                         "case file). "
+                         "In a fluid they are at least two cells thick"},
+            },
+            every_side),
+        .rules = side_rules()};
 }
 
 }  // namespace turbidite

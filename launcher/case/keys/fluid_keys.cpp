@@ -101,7 +101,7 @@ constexpr double least_layers = 4.0;
 Ruling acceleration_is_along_cyclic_sides(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const std::vector<double> force = real_list("fluid.acceleration", s.text("fluid.acceleration"));
-    for (std::size_t side = 0; side < box_sides.size(); side += 2) {
+    for (std::size_t side = 0; side < side_count(static_cast<int>(force.size())); side += 2) {
         const char *one = box_sides[side].key, *other = box_sides[opposite(side)].key;
         if (force.at(side / 2) != 0.0 && !is(s, one, "cyclic"))
             return Objection{

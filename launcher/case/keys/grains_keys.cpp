@@ -5,6 +5,7 @@
 #include "coupler/shapes/shape.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/space_lattice.hpp"
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
@@ -27,17 +28,25 @@ std::vector<Choice> generator_choices() {
     return choices;
 }
 
+std::vector<Choice> lattice_choices() {
+    std::vector<Choice> choices;
+    for (const SpaceLattice& lattice : space_lattices())
+        choices.push_back({lattice.name, lattice.help});
+    return choices;
+}
+
 std::vector<Choice> shape_choices() {
     std::vector<Choice> choices;
     for (const ShapeEntry& entry : shape_list()) choices.push_back({entry.kind, entry.description});
-    choices.push_back({"sphere", "ball in space", false});
     return choices;
 }
 
 Ruling region_in_box(const Settings& s) {
     const std::vector<double> region = real_list("grains.region", s.text("grains.region"));
     const std::vector<double> box = real_list("domain.size", s.text("domain.size"));
-    if (region.at(0) <= box.at(0) && region.at(1) <= box.at(1)) return std::nullopt;
+    bool fits = region.size() == box.size();
+    for (std::size_t axis = 0; fits && axis < box.size(); ++axis) fits = region[axis] <= box[axis];
+    if (fits) return std::nullopt;
     return Objection{
         fmt::format("The region lies in the box, domain.size = {} D.", s.text("domain.size")),
         "Make it smaller, or remove it to fill the whole box."};
@@ -54,22 +63,24 @@ bool is_lattice(const Settings& s) {
     return s.text("grains.generator") == "lattice" && !s.has("grains.file");
 }
 
-Objection lattice_objection(const char* what) {
-    return {fmt::format("The lattice has discs of diameter D only, not {}.", what),
+Objection lattice_objection(const Settings& s, const char* what) {
+    return {fmt::format("The lattice has {} of diameter D only, not {}.",
+                        is(s, "dimension", "3") ? "spheres" : "discs", what),
             "Use grains.generator: random, or give the grains in grains.file."};
 }
 
 Ruling lattice_has_discs(const Settings& s) {
-    if (!is_lattice(s) || s.text("grains.shape") == "disc") return std::nullopt;
-    return lattice_objection("other shapes");
+    const bool round = is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
+    if (!is_lattice(s) || round) return std::nullopt;
+    return lattice_objection(s, "other shapes");
 }
 Ruling lattice_has_radius(const Settings& s) {
     if (!is_lattice(s) || s.real("grains.radius") == 0.5) return std::nullopt;
-    return lattice_objection("other radii");
+    return lattice_objection(s, "other radii");
 }
 Ruling lattice_has_one_size(const Settings& s) {
     if (!is_lattice(s) || s.real("grains.size_ratio") == 1.0) return std::nullopt;
-    return lattice_objection("several sizes");
+    return lattice_objection(s, "several sizes");
 }
 
 // Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
@@ -124,7 +135,9 @@ KeyGroup grains_keys() {
                  .type = KeyType::choice,
                  .fallback = "disc",
                  .choices = shape_choices(),
-                 .help = "shape of every grain for which grains.file gives no other"},
+                 .help =
+                     "shape of every grain for which grains.file gives no other; in space sphere",
+                 .in_space = {.fallback = "sphere"}},
                 {.name = "grains.vertices",
                  .type = KeyType::real_list,
                  .need = Need::conditional,
@@ -175,17 +188,32 @@ KeyGroup grains_keys() {
                  .range = {.lower = 1.0},
                  .help = "width and height of the part of the box that the generator fills, from "
                          "the lower "
-                         "left corner; the whole box unless given",
+                         "left corner; the whole box unless given. In space length, height and "
+                         "depth, from the lower left front corner",
                  .allowed = "Width and height in D, each at least one grain and at most the box's.",
                  .remedy =
                      "Write for example region: [25, 50], or remove it to fill the whole box.",
-                 .idle = beside_a_file},
+                 .idle = beside_a_file,
+                 .in_space = {.entries = 3,
+                              .allowed = "Length, height and depth in D, each at least one grain "
+                                         "and at most the box's.",
+                              .remedy = "Write for example region: [20, 20, 10], or remove it to "
+                                        "fill the whole box."}},
+                of_space({.name = "grains.lattice",
+                          .type = KeyType::choice,
+                          .fallback = "fcc",
+                          .choices = lattice_choices(),
+                          .help = "lattice of the spheres (generator lattice)",
+                          .idle = without_lattice}),
                 {.name = "grains.compacity",
                  .type = KeyType::real,
                  .fallback = "0.9069",
                  .range = {.lower = 0.0, .upper = 1.0, .lower_open = true},
-                 .help = "solid fraction of the lattice (generator lattice)",
-                 .idle = without_lattice},
+                 .help =
+                     "solid fraction of the lattice (generator lattice); in space the lattice is "
+                     "stretched uniformly, and is the densest of its kind unless given",
+                 .idle = without_lattice,
+                 .in_space = {.fallback = ""}},
                 {.name = "grains.count",
                  .type = KeyType::integer,
                  .need = Need::conditional,
@@ -202,15 +230,17 @@ KeyGroup grains_keys() {
                  .range = not_negative,
                  .help =
                      "largest random displacement along each axis; shortened where grains would "
-                     "overlap. A lattice is stretched first to make room, by at most 1 % of its "
-                     "compacity",
+                     "overlap. A lattice of the plane is stretched first to make room, by at most "
+                     "1 % of its compacity; one of space has the room that grains.compacity leaves",
                  .idle = beside_a_file},
                 {.name = "grains.file",
                  .type = KeyType::text,
                  .need = Need::optional,
                  .help = "CSV file of the grains (header "
                          "id,x,y[,z][,radius][,shape][,angle][,vx][,vy][,spin]"
-                         "[,density][,material][,motion]; lengths in D, angles in rad, velocities "
+                         "[,density][,material][,motion], in space id,x,y,z[,radius][,shape]"
+                         "[,qw,qx,qy,qz][,vx][,vy][,vz][,wx][,wy][,wz][,density][,material]"
+                         "[,motion]; lengths in D, angles in rad, velocities "
                          "in u_c, spin in 1/t_c, density over the "
                          "fluid's, motion free, fixed, driven or of domain.motions; path relative "
                          "to the case file); "

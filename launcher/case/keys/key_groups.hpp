@@ -16,6 +16,7 @@ KeyGroup coupling_keys();
 KeyGroup time_keys();
 KeyGroup scales_keys();
 KeyGroup limit_keys();
+KeyGroup space_keys();  ///< rules of dimension: 3
 
 /// Why a key of the fluid has no effect ("without a fluid"); empty if it has one.
 std::string without_fluid(const Settings& s);

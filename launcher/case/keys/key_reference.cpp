@@ -20,6 +20,9 @@ constexpr auto introduction =
     "velocity,\nt_c = D/u_c.\n";
 
 std::string default_text(const KeySpec& key) {
+    if (key.dimension == 3)
+        return (key.fallback.empty() ? "optional" : "`" + key.fallback + "`") +
+               std::string(" with ") + key.when;
     switch (key.need) {
         case Need::fallback:
             return "`" + key.fallback + "`";

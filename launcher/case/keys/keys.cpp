@@ -31,6 +31,7 @@ const std::vector<KeyGroup>& key_groups() {
         domain_keys(),          adapter_keys(),     grains_keys(),   fluid_keys(),
         contact_problem_keys(), contact_law_keys(), material_keys(), molecular_dynamics_keys(),
         coupling_keys(),        time_keys(),        scales_keys(),   limit_keys(),
+        space_keys(),
     };
     return groups;
 }

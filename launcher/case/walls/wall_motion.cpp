@@ -30,8 +30,12 @@ double number(const Settings& s, const std::string& name, const char* part) {
     return gives(s, name, part) ? s.real(key_of(name, part)) : 0.0;
 }
 
+std::size_t dimension(const Settings& s) {
+    return is(s, "dimension", "3") ? 3 : 2;
+}
+
 std::vector<double> numbers(const Settings& s, const std::string& name, const char* part) {
-    if (!gives(s, name, part)) return {0.0, 0.0};
+    if (!gives(s, name, part)) return std::vector<double>(dimension(s), 0.0);
     return real_list(key_of(name, part), s.text(key_of(name, part)));
 }
 
@@ -48,30 +52,57 @@ struct Kind {
     std::vector<double> (*numbers)(const Settings&, const std::string& name, const Scales&);
 };
 
+/// Of a turn in space, unit.
+Vec3 axis_of(const Settings& s, const std::string& name) {
+    if (!gives(s, name, "axis")) return {0.0, 0.0, 1.0};
+    const auto given = numbers(s, name, "axis");
+    const Vec3 along{given[0], given[1], given[2]};
+    return along / norm(along);
+}
+
+/// A shift in the form of prescribed_motion.hpp: `X Y ANGLE`, or `X Y Z AX AY AZ`.
+std::vector<double> shift(const Settings& s, const std::string& name,
+                          const std::vector<double>& way, double unit, double angle) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < dimension(s); ++i) result.push_back(way[i] * unit);
+    if (dimension(s) == 2) {
+        result.push_back(angle);
+        return result;
+    }
+    for (const double part : axis_of(s, name)) result.push_back(angle * part);
+    return result;
+}
+
 std::vector<double> constant(const Settings& s, const std::string& name, const Scales& scales) {
-    const auto v = numbers(s, name, "velocity");
-    return {v[0] * scales.velocity, v[1] * scales.velocity, number(s, name, "spin") / scales.time};
+    return shift(s, name, numbers(s, name, "velocity"), scales.velocity,
+                 number(s, name, "spin") / scales.time);
 }
 
 std::vector<double> harmonic(const Settings& s, const std::string& name, const Scales& scales) {
-    const auto a = numbers(s, name, "amplitude");
-    return {a[0] * scales.diameter, a[1] * scales.diameter, number(s, name, "turn"),
-            number(s, name, "period") * scales.time, number(s, name, "phase")};
+    auto result =
+        shift(s, name, numbers(s, name, "amplitude"), scales.diameter, number(s, name, "turn"));
+    result.push_back(number(s, name, "period") * scales.time);
+    result.push_back(number(s, name, "phase"));
+    return result;
 }
 
 std::vector<double> table(const Settings& s, const std::string& name, const Scales& scales) {
     const auto rows = numbers(s, name, "table");
+    const std::size_t per_row = 1 + dimension(s);
     std::vector<double> result;
-    for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
-        result.insert(result.end(), {rows[i] * scales.time, rows[i + 1] * scales.diameter,
-                                     rows[i + 2] * scales.diameter, 0.0});
+    for (std::size_t i = 0; i + per_row <= rows.size(); i += per_row) {
+        const std::vector<double> way(rows.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                      rows.begin() + static_cast<std::ptrdiff_t>(i + per_row));
+        result.push_back(rows[i] * scales.time);
+        for (const double part : shift(s, name, way, scales.diameter, 0.0)) result.push_back(part);
+    }
     return result;
 }
 
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> list = {
-        {"constant", {}, {"velocity", "spin"}, constant},
-        {"harmonic", {"period"}, {"amplitude", "turn", "phase"}, harmonic},
+        {"constant", {}, {"velocity", "spin", "axis"}, constant},
+        {"harmonic", {"period"}, {"amplitude", "turn", "phase", "axis"}, harmonic},
         {"table", {"table"}, {}, table},
     };
     return list;
@@ -89,10 +120,16 @@ bool has(const std::vector<const char*>& list, const std::string& word) {
 
 std::optional<Objection> bad_table(const Settings& s, const std::string& name) {
     const auto rows = numbers(s, name, "table");
-    bool good = rows.size() >= 3 && rows.size() % 3 == 0 && rows[0] == 0.0 && rows[1] == 0.0 &&
-                rows[2] == 0.0;
-    for (std::size_t i = 3; good && i < rows.size(); i += 3) good = rows[i] > rows[i - 3];
+    const std::size_t n = 1 + dimension(s);
+    bool good = rows.size() >= n && rows.size() % n == 0 &&
+                std::all_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(n),
+                            [](double first) { return first == 0.0; });
+    for (std::size_t i = n; good && i < rows.size(); i += n) good = rows[i] > rows[i - n];
     if (good) return std::nullopt;
+    if (n == 4)
+        return Objection{
+            "Rows of time [t_c], x, y, z [D]: the first is 0, 0, 0, 0, and times increase.",
+            "Write for example table: [0, 0, 0, 0, 2, -1, 0, 0]."};
     return Objection{"Rows of time [t_c], x, y [D]: the first is 0, 0, 0, and times increase.",
                      "Write for example table: [0, 0, 0, 2, -1, 0]."};
 }
@@ -121,6 +158,8 @@ CaseProblems check_motion(const Settings& s, const std::string& name, const Case
         if (part != "kind" && !has(kind.needs, part) && !has(kind.may, part))
             object(key, {fmt::format("A {} motion has no {}.", kind.name, part), "Remove it."});
     }
+    if (gives(s, name, "axis") && numbers(s, name, "axis") == std::vector<double>(3, 0.0))
+        object(key_of(name, "axis"), {"A direction, of any length but 0.", "Write [0, 1, 0]."});
     if (gives(s, name, "table"))
         if (const auto objection = bad_table(s, name)) object(key_of(name, "table"), *objection);
     return problems;
@@ -152,8 +191,9 @@ bool slides(const Settings& s, const std::string& name, int axis) {
     for (const char* part : {"velocity", "amplitude"})
         if (numbers(s, name, part).at(axis) != 0.0) return false;
     const auto rows = numbers(s, name, "table");
-    for (std::size_t i = 0; i + 2 < rows.size(); i += 3)
-        if (rows[i + 1 + axis] != 0.0) return false;
+    const std::size_t n = 1 + dimension(s);
+    for (std::size_t i = 0; i + n <= rows.size(); i += n)
+        if (rows[i + 1 + static_cast<std::size_t>(axis)] != 0.0) return false;
     return true;
 }
 
@@ -317,10 +357,10 @@ std::string grain_motions_setting(const Settings& settings, const Packing& grain
 std::string motions_setting(const Settings& settings, const std::vector<InnerWall>& walls,
                             const Scales& scales) {
     std::string text = side_motions(settings, scales, false);
+    const std::int32_t first = first_plate(static_cast<int>(dimension(settings)));
     for (std::size_t i = 0; i < walls.size(); ++i)
         if (!walls[i].motion.empty())
-            append(text, first_plate + static_cast<std::int32_t>(i), settings, walls[i].motion,
-                   scales);
+            append(text, first + static_cast<std::int32_t>(i), settings, walls[i].motion, scales);
     return text;
 }
 

@@ -282,8 +282,6 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {
-    for (const char* set : {"dimension=3", "grains.shape=sphere"})
-        EXPECT_SAYS(refusal("", {set}), "is not available in this version.");
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
 }
 

@@ -48,7 +48,7 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
     joint.effective_inertia = true;
     const auto sentences = mismatches(hello, joint);
     ASSERT_EQ(sentences.size(), 7u);
-    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.8, the case needs 1.x");
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.9, the case needs 1.x");
     EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
     EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
 }
@@ -65,6 +65,19 @@ TEST(Handshake, JointNeedsAnAdapterThatKnowsEffectiveInertia) {
     Hello knowing = fitting();
     knowing.capabilities.effective_inertia = true;
     EXPECT_TRUE(mismatches(knowing, joint).empty());
+}
+
+TEST(Handshake, AProgramOfBothDimensionsPlaysInEither) {
+    Hello hello = fitting();
+    hello.dimension = both_dimensions;
+    Expectation space = expected();
+    space.dimension = 3;
+    EXPECT_TRUE(mismatches(hello, expected()).empty());
+    EXPECT_TRUE(mismatches(hello, space).empty());
+    hello.dimension = 2;
+    const auto sentences = mismatches(hello, space);
+    ASSERT_EQ(sentences.size(), 1u);
+    EXPECT_EQ(sentences[0], "grains rank 0: dimension is 2, the case needs 3");
 }
 
 // A report of the fluid without its mean velocity would be malformed.

@@ -40,12 +40,52 @@ TEST(Disc, SurfacePointsKeepTheirDistance) {
     }
 }
 
+TEST(Sphere, VolumeAndInertiaAgreeWithMonteCarlo) {
+    const auto sphere = make_shape({"sphere", {}});
+    const double radius = 0.7, side = 2.0 * radius;
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> coordinate(-radius, radius);
+    const int n = 1'000'000;
+    double inside = 0.0, second_moment = 0.0;
+    for (int i = 0; i < n; ++i) {
+        const Eigen::Vector3d point(coordinate(random), coordinate(random), coordinate(random));
+        if (!sphere->contains(point, radius)) continue;
+        inside += 1.0;
+        second_moment += point.head<2>().squaredNorm();
+    }
+    const double cell = side * side * side / n;
+    EXPECT_EQ(sphere->dimension(), 3);
+    EXPECT_NEAR(inside * cell / sphere->volume(radius), 1.0, 5e-3);
+    const Eigen::Matrix3d inertia = sphere->inertia_per_density(radius);
+    EXPECT_NEAR(second_moment * cell / inertia(2, 2), 1.0, 5e-3);
+    EXPECT_EQ(inertia, inertia(0, 0) * Eigen::Matrix3d::Identity());
+}
+
+TEST(Sphere, SurfacePointsKeepTheirDistanceAndLeaveNoHole) {
+    const auto sphere = make_shape({"sphere", {}});
+    const double radius = 0.5, spacing = 0.1;
+    const auto points = sphere->surface_points(radius, spacing);
+    ASSERT_GT(points.size(), 200u);
+    for (const SurfacePoint& point : points) {
+        EXPECT_NEAR(point.position.norm(), radius, 1e-15);
+        EXPECT_NEAR(point.position.dot(point.normal), radius, 1e-15);
+        double nearest = 1.0;
+        for (const SurfacePoint& other : points)
+            if (&other != &point)
+                nearest = std::min(nearest, (other.position - point.position).norm());
+        EXPECT_GE(nearest, spacing * (1.0 - 1e-12));
+        EXPECT_LE(nearest, 1.5 * spacing);
+    }
+    EXPECT_EQ(sphere->surface_points(radius, 3.0 * radius).size(), 1u);
+}
+
 TEST(Shapes, AnUnknownNameListsTheKnownOnes) {
     try {
         make_shape({"disk", {}});
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "unknown shape \"disk\"; known: disc, triangle, polygon");
+        EXPECT_STREQ(error.what(),
+                     "unknown shape \"disk\"; known: disc, triangle, polygon, sphere");
     }
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The sweeps of spheres for AVX2. Only the code of the kernels is compiled for it; everything
+// included before stays portable, since its inline functions may be used in any other part of a
+// program.
+#include <stdexcept>
+
+#include "granular_adapter/nscd/sweeps/space/sphere_rows.hpp"
+
+#ifdef TURBIDITE_AVX2
+
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace turbidite::nscd::avx2 {
+#include "granular_adapter/nscd/sweeps/lane_kernel.hpp"
+#include "granular_adapter/nscd/sweeps/space/sphere_kernel.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_loops.hpp"
+}  // namespace turbidite::nscd::avx2
+#pragma GCC pop_options
+
+namespace turbidite::nscd {
+
+template <class Rows>
+Sweeps<Rows> avx2_sweeps() {
+    return avx2::sweeps<Rows>();
+}
+
+}  // namespace turbidite::nscd
+
+#else
+
+namespace turbidite::nscd {
+
+template <class Rows>
+Sweeps<Rows> avx2_sweeps() {
+    throw std::invalid_argument("contact sweeps: this program was built without AVX2");
+}
+
+}  // namespace turbidite::nscd
+
+#endif
+
+namespace turbidite::nscd {
+
+template Sweeps<SphereRows<4>> avx2_sweeps();
+template Sweeps<SphereRows<1>> avx2_sweeps();
+template Sweeps<BiasedSphereRows<4>> avx2_sweeps();
+template Sweeps<BiasedSphereRows<1>> avx2_sweeps();
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The update of a group of contacts of spheres (sphere_rows.hpp). This file is included once per
+// instruction set, between lane_kernel.hpp and sweep_loops.hpp.
+//
+//     u_n = n.(v_b - v_a) + b_n
+//     u_t = (v_b - v_a) - (n.(v_b - v_a)) n - (r_a w_a + r_b w_b) x n + b_t
+//     r_n' = max(0, r_n - u_n/W_nn)
+//     r_t' = r_t - u_t/W_tt, shortened to mu r_n' where it is longer
+//     v_b += 1/m_b p,  w_b -= r_b/I_b n x (r_t' - r_t),    p = (r_n' - r_n) n + r_t' - r_t
+//     v_a -= 1/m_a p,  w_a -= r_a/I_a n x (r_t' - r_t)
+//
+// The arms are r_a n and -r_b n.
+
+template <class R>
+struct Vector {
+    R x, y, z;
+};
+
+template <class R>
+TURBIDITE_INLINE Vector<R> operator+(const Vector<R>& a, const Vector<R>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+TURBIDITE_INLINE Vector<R> operator-(const Vector<R>& a, const Vector<R>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class R>
+TURBIDITE_INLINE Vector<R> operator*(const R& factor, const Vector<R>& a) {
+    return {factor * a.x, factor * a.y, factor * a.z};
+}
+template <class R>
+TURBIDITE_INLINE R product(const Vector<R>& a, const Vector<R>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+TURBIDITE_INLINE Vector<R> cross(const Vector<R>& a, const Vector<R>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class R>
+TURBIDITE_INLINE R length(const Vector<R>& a) {
+    return root(R(product(a, a)));
+}
+
+/// Shortened to `most` where it is longer.
+template <class R>
+TURBIDITE_INLINE Vector<R> clipped(const Vector<R>& a, const R& most) {
+    const R one = R{} + 1.0, size = length(a);
+    const R from = size > most ? size : one, to = size > most ? most : one;
+    return R(to / from) * a;
+}
+
+/// Velocity and 1/m, or spin and 1/I.
+template <class R>
+struct Motion {
+    Vector<R> rate;
+    R inverse;
+};
+
+TURBIDITE_INLINE Four four_at(const double* from) {
+    Four value;
+    __builtin_memcpy(&value, __builtin_assume_aligned(from, 32), sizeof value);
+    return value;
+}
+TURBIDITE_INLINE void put(double* to, const Four& value) {
+    __builtin_memcpy(__builtin_assume_aligned(to, 32), &value, sizeof value);
+}
+
+TURBIDITE_INLINE void transpose(Four& a, Four& b, Four& c, Four& d) {
+    const Four ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const Four ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Four cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Four cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    a = __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5);
+    b = __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
+    c = __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
+    d = __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
+}
+
+/// `member`: the first of the four doubles of a body.
+TURBIDITE_INLINE Motion<Four> gather(const SphereBody* bodies, const std::int32_t (&at)[4],
+                                     double SphereBody::*member) {
+    Four x = four_at(&(bodies[at[0]].*member)), y = four_at(&(bodies[at[1]].*member));
+    Four z = four_at(&(bodies[at[2]].*member)), inverse = four_at(&(bodies[at[3]].*member));
+    transpose(x, y, z, inverse);
+    return {{x, y, z}, inverse};
+}
+TURBIDITE_INLINE Motion<double> gather(const SphereBody* bodies, const std::int32_t (&at)[1],
+                                       double SphereBody::*member) {
+    const double* const from = &(bodies[at[0]].*member);
+    return {{from[0], from[1], from[2]}, from[3]};
+}
+
+TURBIDITE_INLINE void scatter(SphereBody* bodies, const std::int32_t (&at)[4],
+                              double SphereBody::*member, const Motion<Four>& motion) {
+    Four first = motion.rate.x, second = motion.rate.y, third = motion.rate.z;
+    Four fourth = motion.inverse;
+    transpose(first, second, third, fourth);
+    put(&(bodies[at[0]].*member), first);
+    put(&(bodies[at[1]].*member), second);
+    put(&(bodies[at[2]].*member), third);
+    put(&(bodies[at[3]].*member), fourth);
+}
+TURBIDITE_INLINE void scatter(SphereBody* bodies, const std::int32_t (&at)[1],
+                              double SphereBody::*member, const Motion<double>& motion) {
+    double* const to = &(bodies[at[0]].*member);
+    to[0] = motion.rate.x, to[1] = motion.rate.y, to[2] = motion.rate.z;
+}
+
+constexpr double SphereBody::*velocity_of = &SphereBody::vx;
+constexpr double SphereBody::*spin_of = &SphereBody::wx;
+
+template <int width>
+TURBIDITE_INLINE Vector<Real<width>> load(const Lanes<width>& x, const Lanes<width>& y,
+                                          const Lanes<width>& z) {
+    return {load(x), load(y), load(z)};
+}
+
+/// Adds |natural map|^2 and |r|^2 (problem/space/one_contact.hpp).
+template <int width, class R>
+TURBIDITE_INLINE void add_map(PassSums<width>& sums, const R& rn, const Vector<R>& rt, const R& un,
+                              const Vector<R>& ut, const R& mu, const R& rho) {
+    const R one = R{} + 1.0;
+    // r - rho (u + (mu |u_t|, 0))
+    const R n = rn - rho * (un + mu * length(ut));
+    const Vector<R> t = rt - rho * ut;
+    const R edge = (n + mu * length(t)) / (one + mu * mu);
+    const R on = larger(larger(n, edge), R{});
+    const R fn = rn - on;
+    const Vector<R> ft = rt - clipped(t, R(mu * on));
+    store(sums.error, R(load(sums.error) + (fn * fn + product(ft, ft))));
+    store(sums.size, R(load(sums.size) + (rn * rn + product(rt, rt))));
+}
+
+template <bool measure, class Rows>
+TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width>& sums) {
+    using R = Real<Rows::width>;
+    const Vector<R> normal = load(row.nx, row.ny, row.nz);
+    Motion<R> va = gather(bodies, row.a, velocity_of), vb = gather(bodies, row.b, velocity_of);
+    Motion<R> wa = gather(bodies, row.a, spin_of), wb = gather(bodies, row.b, spin_of);
+    const R arm_a = load(row.arm_a), arm_b = load(row.arm_b);
+    const R rn = load(row.rn), mu = load(row.friction), inverse_nn = load(row.inverse_nn);
+    const Vector<R> rt = load(row.rx, row.ry, row.rz);
+
+    const Vector<R> apart = vb.rate - va.rate;
+    const R along = product(normal, apart);
+    const R un = along + load(row.bias_n);
+    Vector<R> ut = (apart - along * normal) - cross(arm_a * wa.rate + arm_b * wb.rate, normal);
+    if constexpr (requires { row.bias_x; }) ut = ut + load(row.bias_x, row.bias_y, row.bias_z);
+    if constexpr (measure) add_map(sums, rn, rt, un, ut, mu, inverse_nn);
+
+    const R n = larger(R(rn - un * inverse_nn), R{});
+    const Vector<R> t = clipped(rt - load(row.inverse_tt) * ut, R(mu * n));
+    if constexpr (measure) count_loaded(sums, n);
+
+    const Vector<R> dt = t - rt;
+    const Vector<R> push = R(n - rn) * normal + dt, turn = cross(normal, dt);
+    va.rate = va.rate - va.inverse * push;
+    vb.rate = vb.rate + vb.inverse * push;
+    wa.rate = wa.rate - R(wa.inverse * arm_a) * turn;
+    wb.rate = wb.rate - R(wb.inverse * arm_b) * turn;
+    store(row.rn, n);
+    store(row.rx, t.x), store(row.ry, t.y), store(row.rz, t.z);
+    scatter(bodies, row.a, velocity_of, va), scatter(bodies, row.a, spin_of, wa);
+    scatter(bodies, row.b, velocity_of, vb), scatter(bodies, row.b, spin_of, wb);
+}
+
+/// Whether some contact of the group has an impulse or closes.
+template <class Rows>
+TURBIDITE_INLINE bool needs_update(const Rows& row, const SphereBody* bodies) {
+    using R = Real<Rows::width>;
+    const Motion<R> va = gather(bodies, row.a, velocity_of);
+    const Motion<R> vb = gather(bodies, row.b, velocity_of);
+    const R un = product(load(row.nx, row.ny, row.nz), vb.rate - va.rate) + load(row.bias_n);
+    return any(larger(load(row.rn), R(-smaller(un, R{}))));
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/sweeps/space/sphere_pack.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+/// The tangential part as a vector in world axes.
+Vec3 tangential_part(const Contact& contact, const ContactVector& x) {
+    return x.t * contact.tangent + x.s * binormal_of(contact);
+}
+
+}  // namespace
+
+template <int lanes>
+void fill(SphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
+    const Contact& contact = packed.contact;
+    const Vec3 tangential = tangential_part(contact, packed.r);
+    rows.a[lane] = packed.slot_a;
+    rows.b[lane] = packed.slot_b;
+    rows.nx.v[lane] = contact.normal[0];
+    rows.ny.v[lane] = contact.normal[1];
+    rows.nz.v[lane] = contact.normal[2];
+    rows.bias_n.v[lane] = contact.bias.n;
+    rows.friction.v[lane] = contact.friction;
+    rows.rn.v[lane] = packed.r.n;
+    rows.rx.v[lane] = tangential[0];
+    rows.ry.v[lane] = tangential[1];
+    rows.rz.v[lane] = tangential[2];
+    rows.arm_a.v[lane] = dot(contact.arm_a, contact.normal);
+    rows.arm_b.v[lane] = -dot(contact.arm_b, contact.normal);
+    rows.inverse_nn.v[lane] = 1.0 / packed.w.nn;
+    rows.inverse_tt.v[lane] = 1.0 / packed.w.tt;
+}
+
+template <int lanes>
+void fill(BiasedSphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
+    fill(static_cast<SphereRows<lanes>&>(rows), lane, packed);
+    const Vec3 bias = tangential_part(packed.contact, packed.contact.bias);
+    rows.bias_x.v[lane] = bias[0];
+    rows.bias_y.v[lane] = bias[1];
+    rows.bias_z.v[lane] = bias[2];
+}
+
+template void fill(SphereRows<4>&, int, const SphereToPack&);
+template void fill(SphereRows<1>&, int, const SphereToPack&);
+template void fill(BiasedSphereRows<4>&, int, const SphereToPack&);
+template void fill(BiasedSphereRows<1>&, int, const SphereToPack&);
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Packs one contact into a lane of a group (sphere_rows.hpp), as sweep_layout.hpp asks for it.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "granular_adapter/nscd/problem/space/sphere_operator.hpp"
+#include "granular_adapter/nscd/sweeps/space/sphere_rows.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
+
+namespace turbidite::nscd {
+
+using SphereToPack = ContactToPack<SpaceMobility, SphereBlock>;
+
+template <class Rows>
+concept SphereKind = std::derived_from<Rows, SphereRows<Rows::width>>;
+
+template <int lanes>
+void fill(SphereRows<lanes>& rows, int lane, const SphereToPack& packed);
+template <int lanes>
+void fill(BiasedSphereRows<lanes>& rows, int lane, const SphereToPack& packed);
+
+/// A lane without a contact.
+template <SphereKind Rows>
+void fill_empty(Rows& rows, int lane, std::int32_t slot) {
+    rows.a[lane] = rows.b[lane] = slot;
+    rows.bias_n.v[lane] = 1.0;
+}
+
+template <SphereKind Rows>
+ContactVector impulse(const Rows& rows, int lane) {
+    Contact contact;
+    contact.normal = {rows.nx.v[lane], rows.ny.v[lane], rows.nz.v[lane]};
+    contact.tangent = tangent_of(contact.normal);
+    ContactVector r = in_frame(contact, {rows.rx.v[lane], rows.ry.v[lane], rows.rz.v[lane]});
+    r.n = rows.rn.v[lane];
+    return r;
+}
+
+inline SphereBody packed_body(const Twist& v, const SpaceMobility& mobility) {
+    return {v.velocity[0], v.velocity[1], v.velocity[2], mobility.linear,
+            v.spin[0],     v.spin[1],     v.spin[2],     mobility.angular};
+}
+
+/// The rows for the contacts of an operator.
+template <class Use>
+auto with_rows(const SphereOperator& w, const Use& use) {
+    using std::type_identity;
+    return w.has_tangential_bias() ? use(type_identity<BiasedSphereRows<4>>())
+                                   : use(type_identity<SphereRows<4>>());
+}
+
+}  // namespace turbidite::nscd

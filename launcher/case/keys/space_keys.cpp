@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What cases in space (dimension: 3) cannot do in this version, and what has no place in them, each
+// in its own sentence.
+#include <fmt/format.h>
+
+#include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+
+namespace turbidite {
+namespace {
+
+bool in_space(const Settings& s) {
+    return is(s, "dimension", "3");
+}
+
+Ruling no_fluid_in_space(const Settings& s) {
+    if (!in_space(s) || !s.flag("fluid.enabled")) return std::nullopt;
+    return Objection{"In space there is no fluid in this version.",
+                     "Set fluid.enabled: false, or dimension: 2."};
+}
+
+Ruling shape_is_of_the_dimension(const Settings& s) {
+    const bool sphere = s.text("grains.shape") == "sphere";
+    if (sphere == in_space(s)) return std::nullopt;
+    if (sphere) return Objection{"A sphere is a grain of space.", "Use disc, or dimension: 3."};
+    return Objection{"In space grains are spheres in this version.",
+                     "Use sphere, or dimension: 2."};
+}
+
+Ruling no_plates_in_space(const Settings& s) {
+    if (!in_space(s)) return std::nullopt;
+    return Objection{"Walls inside the box are plates of the plane in this version.",
+                     "Remove it, or use dimension: 2."};
+}
+
+Ruling adapter_plays_in_space(const Settings& s) {
+    if (!in_space(s) || grains_adapter(s).in_space) return std::nullopt;
+    return Objection{
+        fmt::format("{} moves grains in the plane only in this version.", s.text("grains.adapter")),
+        fmt::format("Use {}, or dimension: 2.",
+                    adapters_that([](const GrainsAdapter& a) { return a.in_space; }))};
+}
+
+Ruling solver_works_in_space(const Settings& s) {
+    if (!in_space(s) || s.text("contact.solver") == "nlgs") return std::nullopt;
+    return Objection{fmt::format("{} solves contacts of the plane only.", s.text("contact.solver")),
+                     "Use nlgs, or dimension: 2."};
+}
+
+/// Of contact.*, or of a material or pair.
+Ruling nothing_resists_rolling_in_space(const Settings& s) {
+    if (!in_space(s)) return std::nullopt;
+    const std::string last = ".rolling_friction", first = "contact.";
+    for (const auto& [key, value] : s.entries()) {
+        const bool rolls = key.rfind(first, 0) == 0 && key.size() > last.size() &&
+                           key.compare(key.size() - last.size(), last.size(), last) == 0;
+        if (rolls && s.real(key) != 0.0)
+            return Objection{
+                fmt::format("In space nothing resists rolling in this version, but {} = {}.", key,
+                            value),
+                "Use 0, or dimension: 2."};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+KeyGroup space_keys() {
+    return {
+        .keys = {},
+        .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
+                  {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
+                  {"domain.walls_file", {"dimension"}, no_plates_in_space},
+                  {"grains.adapter", {"dimension"}, adapter_plays_in_space},
+                  {"contact.solver", {"dimension"}, solver_works_in_space},
+                  {"contact.rolling_friction", {"dimension"}, nothing_resists_rolling_in_space}}};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Cases in space: what they may say, what is refused, and what the programs of the run receive.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/sides.hpp"
+#include "launcher/case/grains/neighbour_grid.hpp"
+#include "launcher/case/grains/population.hpp"
+#include "launcher/case/grains/space_lattice.hpp"
+#include "launcher/case/grains/space_packing.hpp"
+#include "tests/unit/case/case_test.hpp"
+
+namespace turbidite {
+namespace {
+
+class SpaceCase : public CaseTest {
+ protected:
+    SpaceCase()
+        : CaseTest(R"(
+dimension: 3
+domain: {size: [12, 10, 6], front: cyclic, back: cyclic}
+grains: {adapter: standalone-nscd, count: 100}
+fluid: {enabled: false}
+time: {step: 0.01, end: 1}
+)") {}
+};
+
+class PlaneCase : public CaseTest {
+ protected:
+    PlaneCase()
+        : CaseTest(R"(
+domain: {size: [12, 10]}
+grains: {adapter: standalone-nscd, count: 10}
+fluid: {enabled: false}
+time: {step: 0.01, end: 1}
+)") {}
+};
+
+TEST_F(SpaceCase, TellsThePrograms) {
+    const ResolvedCase resolved = load();
+    const Settings& s = resolved.settings;
+    EXPECT_EQ(s.integer("run.dimension"), 3);
+    EXPECT_EQ(s.real("run.size_z"), 6.0);
+    EXPECT_EQ(s.real("run.acceleration_z"), 0.0);
+    EXPECT_DOUBLE_EQ(s.real("run.grain_weight"), 1.5 * std::numbers::pi / 6.0);
+    ASSERT_EQ(resolved.shapes.size(), 1u);
+    EXPECT_EQ(resolved.shapes[0].kind, "sphere");
+    const RunValues run = run_values(s);
+    EXPECT_EQ(run.dimension, 3);
+    EXPECT_EQ(run.size, (Vec3{12.0, 10.0, 6.0}));
+    EXPECT_EQ(run.period, (Vec3{0.0, 0.0, 6.0}));
+    EXPECT_EQ(side_types(s)[4], "cyclic");
+    ASSERT_EQ(resolved.population.size(), 100u);
+    const auto deepest = std::max_element(
+        resolved.population.begin(), resolved.population.end(),
+        [](const auto& a, const auto& b) { return a.position[2] < b.position[2]; });
+    EXPECT_GT(deepest->position[2], 3.0);
+}
+
+TEST_F(PlaneCase, ThePlaneSendsNothingOfSpace) {
+    const ResolvedCase plane = load();
+    const Settings& s = plane.settings;
+    for (const char* key :
+         {"run.dimension", "run.acceleration_z", "domain.front", "domain.back", "grains.lattice"})
+        EXPECT_FALSE(s.has(key)) << key;
+    EXPECT_EQ(s.real("run.size_z"), 1.0);
+    for (const char* word : {"front", "back", "fcc"})
+        EXPECT_EQ(plane.yaml.find(word), std::string::npos) << word;
+    EXPECT_EQ(run_values(s).size[2], 0.0);
+}
+
+TEST_F(PlaneCase, WhatIsOfSpaceIsRefused) {
+    EXPECT_SAYS(refusal("", {"grains.shape=sphere"}), "A sphere is a grain of space.");
+    EXPECT_SAYS(refusal("", {"domain.front=cyclic"}), "This key exists with dimension: 3 only.");
+    EXPECT_SAYS(refusal("", {"grains.lattice=fcc"}), "This key exists with dimension: 3 only.");
+    EXPECT_SAYS(refusal("", {"domain.size=[12, 10, 6]"}), "Width and height of the box");
+}
+
+// All at once, each in words.
+TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
+    folder.write("w.csv", "id,x1,y1,x2,y2\n0,1,1,2,2\n");
+    const std::string text = refusal(
+        "", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
+             "domain.walls_file=w.csv", "grains.adapter=lammps-md", "contact.solver=central-path",
+             "domain.size=[12, 10]", "contact.materials.glass.rolling_friction=0.1"});
+    EXPECT_SAYS(text, "In space there is no fluid in this version.");
+    EXPECT_SAYS(text, "In space grains are spheres in this version.");
+    EXPECT_SAYS(text, "Walls inside the box are plates of the plane");
+    EXPECT_SAYS(text, "lammps-md moves grains in the plane only in this version.");
+    EXPECT_SAYS(text, "Use yade-nscd or standalone-nscd");
+    EXPECT_SAYS(text, "central-path solves contacts of the plane only.");
+    EXPECT_SAYS(text, "but contact.materials.glass.rolling_friction = 0.1.");
+    EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");
+    EXPECT_EQ(text.find("supports discs only"), std::string::npos);
+}
+
+TEST_F(SpaceCase, SidesComeInPairsAndRegionsInTheBox) {
+    EXPECT_SAYS(refusal("", {"domain.back=wall"}), "Cyclic sides come in pairs");
+    EXPECT_SAYS(refusal("", {"domain.front=inflow"}), "Available: wall, free, cyclic.");
+    EXPECT_SAYS(refusal("", {"grains.region=[12, 10, 7]"}), "The region lies in the box");
+    EXPECT_SAYS(refusal("", {"grains.region=[12, 10]"}), "Length, height and depth in D");
+    EXPECT_SAYS(refusal("", {"domain.size=[12, 10, 1.5]", "grains.count=4"}),
+                "Between cyclic sides lie at least the two largest grains");
+}
+
+TEST_F(SpaceCase, DenseRandomPackingsHaveToBePoured) {
+    // 720 D^3: 0.45 of it are 618 spheres.
+    EXPECT_SAYS(refusal("", {"grains.count=620"}), "Pour them");
+    const ResolvedCase dense = load("", {"grains.count=600"});
+    EXPECT_EQ(dense.population.size(), 600u);
+}
+
+TEST_F(SpaceCase, LatticesHaveTheirLimits) {
+    const std::string lattice = "grains.generator=lattice";
+    EXPECT_SAYS(refusal("", {lattice, "grains.compacity=0.75"}),
+                "The fcc lattice has compacities up to 0.7405");
+    EXPECT_SAYS(refusal("", {lattice, "grains.lattice=sc", "grains.compacity=0.6"}),
+                "up to 0.5236");
+    EXPECT_SAYS(refusal("", {lattice, "grains.lattice=hcp"}), "Available: fcc, bcc, sc.");
+    EXPECT_SAYS(refusal("", {lattice, "grains.radius=0.4"}), "spheres of diameter D only");
+    EXPECT_DOUBLE_EQ(load("", {lattice}).settings.real("grains.compacity"),
+                     std::numbers::pi / 3.0 / std::numbers::sqrt2);
+    EXPECT_EQ(load("", {lattice, "grains.lattice=sc"}).population.size(), 12u * 10u * 6u);
+}
+
+/// Number density times the volume of a sphere in the middle of a large lattice.
+double measured_compacity(const Packing& grains, double length) {
+    const double low = 0.25 * length, high = 0.75 * length;
+    const auto within = [&](double x) { return x >= low && x < high; };
+    const auto inner = std::count_if(grains.begin(), grains.end(), [&](const PlacedGrain& g) {
+        return within(g.x) && within(g.y) && within(g.z);
+    });
+    return static_cast<double>(inner) * std::numbers::pi / 6.0 / std::pow(high - low, 3);
+}
+
+double smallest_gap(const Packing& grains, const PackingBox& box) {
+    double smallest = INFINITY;
+    NeighbourGrid grid(box, largest_radius(grains), 0.1);
+    for (const PlacedGrain& grain : grains) {
+        for (const std::size_t j : grid.near(grain.x, grain.y, grain.z))
+            smallest = std::min(smallest, grid.circle_gap(grain, grid.grains()[j]));
+        grid.insert(grain);
+    }
+    return smallest;
+}
+
+TEST(SpaceLattice, HasItsCompacityAndTouchesWhenDensest) {
+    const PackingBox box{.width = 40.0, .height = 40.0, .depth = 40.0};
+    for (const SpaceLattice& lattice : space_lattices()) {
+        for (const double share : {1.0, 0.8}) {
+            const double compacity = share * lattice.densest();
+            const Packing grains = lattice_sites(lattice, {40.0, 40.0, 40.0}, 0.5, compacity);
+            EXPECT_NEAR(measured_compacity(grains, 40.0) / compacity, 1.0, 0.12) << lattice.name;
+            EXPECT_NEAR(smallest_gap(grains, box), std::cbrt(1.0 / share) - 1.0, 1e-9)
+                << lattice.name;
+        }
+    }
+}
+
+TEST(SpaceLattice, DoesNotMeetAcrossCyclicSides) {
+    const PackingBox box{
+        .width = 7.3, .height = 9.0, .periodic_x = true, .depth = 5.1, .periodic_z = true};
+    const PackingResult result =
+        space_lattice_packing({.box = box, .compacity = 0.7405, .lattice = "fcc"});
+    EXPECT_GT(result.grains.size(), 200u);
+    EXPECT_GE(smallest_gap(result.grains, box), -1e-9);
+}
+
+TEST(RandomSpacePacking, GrainsOfSeveralSizesDoNotOverlap) {
+    GrainForms forms = plain_spheres();
+    const PackingBox box{.width = 8.0, .height = 8.0, .depth = 8.0, .periodic_z = true};
+    for (const std::int64_t count : {150, 330}) {  // 0.15 and 0.34 of the box
+        const PackingResult result =
+            random_space_packing({.box = box, .count = count, .forms = &forms, .size_ratio = 1.5});
+        ASSERT_EQ(result.refusal, "");
+        EXPECT_EQ(static_cast<std::int64_t>(result.grains.size()), count);
+        EXPECT_GE(smallest_gap(result.grains, box), -1e-9);
+        EXPECT_GT(result.grains.front().radius, 1.3 * result.grains.back().radius);
+    }
+}
+
+TEST(RandomSpacePacking, JitterMovesAlongAllAxes) {
+    const PackingBox box{.width = 6.0, .height = 6.0, .depth = 6.0};
+    PackingRequest request{.box = box, .compacity = 0.3, .lattice = "sc"};
+    const Packing still = space_lattice_packing(request).grains;
+    request.jitter = 0.05;
+    const Packing moved = space_lattice_packing(request).grains;
+    ASSERT_EQ(still.size(), moved.size());
+    double x = 0.0, y = 0.0, z = 0.0;
+    for (std::size_t i = 0; i < still.size(); ++i) {
+        x = std::max(x, std::abs(moved[i].x - still[i].x));
+        y = std::max(y, std::abs(moved[i].y - still[i].y));
+        z = std::max(z, std::abs(moved[i].z - still[i].z));
+    }
+    for (const double largest : {x, y, z}) {
+        EXPECT_GT(largest, 0.02);
+        EXPECT_LE(largest, 0.05);
+    }
+}
+
+TEST_F(SpaceCase, ReadsGrainsFilesWithZAndRotation) {
+    folder.write("g.csv",
+                 "id,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,motion\n"
+                 "3,1,1,2,0.6,0.8,0,0,1,2,3,4,5,6,free\n"
+                 "4,3,1,2,1,0,0,0,0,0,0,0,0,0,fixed\n");
+    const ResolvedCase resolved = load("", {"grains.file=g.csv"});
+    const GrainState& grain = resolved.population.at(0);
+    EXPECT_EQ(grain.position, (Vec3{1, 1, 2}));
+    EXPECT_EQ(grain.orientation, (Quaternion{0.6, 0.8, 0, 0}));
+    EXPECT_EQ(grain.velocity, (Vec3{1, 2, 3}));
+    EXPECT_EQ(grain.angular_velocity, (Vec3{4, 5, 6}));
+    EXPECT_TRUE(resolved.population.at(1).prescribed);
+    // A run folder holds the same grains again.
+    folder.write("again.csv", resolved.grains_csv);
+    const ResolvedCase again = load("", {"grains.file=again.csv"});
+    EXPECT_EQ(again.grains_csv, resolved.grains_csv);
+    EXPECT_EQ(again.population.at(0).orientation, grain.orientation);
+}
+
+TEST_F(SpaceCase, GrainsFilesAreChecked) {
+    EXPECT_SAYS(refusal_of_grains("id,x,y\n0,1,1\n"), "In space the first line must read id,x,y,z");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z,angle\n0,1,1,1,0\n"), "angle");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z,qw,qx,qy,qz\n0,1,1,1,1,1,0,0\n"),
+                "is no unit quaternion");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z,wx,motion\n0,1,1,1,2,fixed\n"),
+                "is fixed and has a velocity");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z\n0,1,1,1\n1,1.5,1,1.5\n"), "overlap by");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z\n0,1,1,0.2\n1,1,1,5.8\n"), "overlap by");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z\n0,1,1,7\n"), "1 D beyond its back side");
+    EXPECT_SAYS(refusal_of_grains("id,x,y,z\n0,1,1,7\n"), "The box is 12 x 10 x 6 D.");
+}
+
+TEST_F(SpaceCase, WallsMoveInThreeDirections) {
+    const ResolvedCase moving =
+        load("", {"domain.bottom_motion=slide", "domain.motions.slide.kind=constant",
+                  "domain.motions.slide.velocity=[1, 0, 2]"});
+    EXPECT_EQ(moving.settings.text("run.wall_motions"), "2 constant 1 0 2 0 0 0");
+    const auto walls = motions_of(moving.settings, "run.wall_motions");
+    ASSERT_EQ(walls.size(), 1u);
+    EXPECT_EQ(walls[0].motion->at(2.0).displacement, (Vec3{2, 0, 4}));
+    EXPECT_SAYS(refusal("", {"domain.bottom_motion=slide", "domain.motions.slide.kind=constant",
+                             "domain.motions.slide.velocity=[1, 0]"}),
+                "A list of three numbers: x, y, z.");
+    EXPECT_SAYS(refusal("", {"domain.bottom_motion=slide", "domain.motions.slide.kind=table",
+                             "domain.motions.slide.table=[0, 0, 0, 2, 1, 0]"}),
+                "Rows of time [t_c], x, y, z [D]");
+}
+
+TEST_F(SpaceCase, GrainsTurnAboutAnyAxis) {
+    folder.write("g.csv", "id,x,y,z,motion\n7,3,3,3,spin\n");
+    const std::vector<std::string> spin = {
+        "grains.file=g.csv", "domain.motions.spin.kind=harmonic", "domain.motions.spin.turn=0.5",
+        "domain.motions.spin.axis=[0, 0, 2]", "domain.motions.spin.period=4"};
+    EXPECT_EQ(load("", spin).settings.text("run.grain_motions"), "7 harmonic 0 0 0 0 0 0.5 4 0");
+    std::vector<std::string> nowhere = spin;
+    nowhere[3] = "domain.motions.spin.axis=[0, 0, 0]";
+    EXPECT_SAYS(refusal("", nowhere), "A direction, of any length but 0.");
+}
+
+}  // namespace
+}  // namespace turbidite

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What stands and what does not: spheres at rest by friction alone.
+#include <gtest/gtest.h>
+
+#include "spheres.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+constexpr double mu_ample = 0.6;
+
+/// A sphere on three that touch each other on a floor: a tetrahedron of unit edge.
+Engine pyramid(double between_spheres, double on_floor) {
+    EngineSettings settings = scenes::exact_in_space(between_spheres, 1e-11);
+    Engine engine(settings, scenes::spheres, {scenes::floor(on_floor)});
+    const double out = 1.0 / std::sqrt(3.0);
+    for (int i = 0; i < 3; ++i) {
+        const double angle = 0.2 + 2.0 * std::numbers::pi / 3.0 * i;
+        engine.bodies().add(
+            scenes::sphere(i + 1, {out * std::cos(angle), 0.5, out * std::sin(angle)}));
+    }
+    engine.bodies().add(scenes::sphere(4, {0.0, 0.5 + std::sqrt(2.0 / 3.0), 0.0}));
+    return engine;
+}
+
+/// Speed of the upper sphere after a while.
+double fall(Engine engine) {
+    EXPECT_TRUE(scenes::run(engine, 1.0, 0.01));
+    return norm(engine.bodies().twist[3].velocity);
+}
+
+// A base sphere touches at two points, the floor and the upper sphere, and its own weight acts at
+// the first line: without a moment about the floor's point the upper force is along the line
+// through both points, at half of the angle theta between vertical and normal, sin theta =
+// 1/sqrt(3). So mu >= tan(theta/2) = 0.3178 between spheres; on the floor it carries a third of the
+// upper weight and its own: mu >= tan(theta/2)/4 = 0.0795.
+TEST(SpaceStatics, ASphereOnThreeStandsIffFrictionHoldsIt) {
+    const double half = std::tan(0.5 * std::asin(1.0 / std::sqrt(3.0)));
+    EXPECT_NEAR(half, 0.3178, 1e-4);
+    EXPECT_LT(fall(pyramid(half + 1e-3, mu_ample)), 1e-8);
+    EXPECT_GT(fall(pyramid(half - 1e-3, mu_ample)), 1e-4);
+    EXPECT_LT(fall(pyramid(mu_ample, 0.25 * half + 5e-4)), 1e-8);
+    EXPECT_GT(fall(pyramid(mu_ample, 0.25 * half - 5e-4)), 1e-4);
+}
+
+// In a pocket of fixed spheres no friction is needed: three normals carry the weight, each m g/(3
+// cos theta).
+TEST(SpaceStatics, APocketOfFixedSpheresNeedsNoFriction) {
+    Engine engine = pyramid(0.0, 0.0);
+    for (std::size_t i = 0; i < 3; ++i) engine.bodies().fixed[i] = 1;
+    EXPECT_TRUE(scenes::run(engine, 0.5, 0.01));
+    EXPECT_LT(norm(engine.bodies().twist[3].velocity), 1e-12);
+    const double weight = engine.bodies().mass[3], cosine = std::sqrt(2.0 / 3.0);
+    int carrying = 0;
+    for (const ContactVector& r : engine.impulses())
+        if (r.n > 0.0) {
+            EXPECT_NEAR(r.n / 0.01, weight / (3.0 * cosine), 1e-10);
+            ++carrying;
+        }
+    EXPECT_EQ(carrying, 3);
+}
+
+// A column of spheres on the floor carries itself: contact k from the top has k weights.
+TEST(SpaceStatics, AColumnCarriesItsWeight) {
+    Engine engine(scenes::exact_in_space(0.3, 1e-12), scenes::spheres, {scenes::floor(0.3)});
+    for (int i = 0; i < 5; ++i) engine.bodies().add(scenes::sphere(i + 1, {0.0, 0.5 + i, 0.0}));
+    EXPECT_TRUE(scenes::run(engine, 0.2, 0.01));
+    for (std::size_t k = 0; k < engine.points().size(); ++k) {
+        const double above = 4.0 - engine.points()[k].b + 1.0;
+        EXPECT_NEAR(engine.impulses()[k].n / 0.01, above * engine.bodies().mass[0], 1e-9);
+    }
+    EXPECT_EQ(engine.points().size(), 5u);
+}
+
+double median_speed(const Bodies& bodies) {
+    std::vector<double> speeds;
+    for (const Twist& twist : bodies.twist) speeds.push_back(norm(twist.velocity));
+    std::sort(speeds.begin(), speeds.end());
+    return speeds[speeds.size() / 2];
+}
+
+// A few hundred spheres fall into a box and come to rest, apart from a few that roll about on the
+// surface, which nothing slows down; every step is solved.
+TEST(SpaceStatics, APackingComesToRest) {
+    Engine engine = scenes::settling_spheres(6, 9, scenes::exact_in_space(0.4, 1e-3));
+    ASSERT_EQ(engine.bodies().size(), 324u);
+    const double start = scenes::kinetic_energy(engine.bodies());
+    EXPECT_EQ(start, 0.0);
+    double fastest = 0.0, deepest = 0.0;
+    for (int n = 0; n < 1000; ++n) {
+        const StepReport report = engine.step(0.01);
+        ASSERT_TRUE(report.converged) << n << " " << report.residual;
+        ASSERT_LE(report.residual, 1e-3);
+        engine.move(0.01);
+        fastest = std::max(fastest, scenes::kinetic_energy(engine.bodies()));
+        deepest = std::max(deepest, report.max_penetration);
+    }
+    EXPECT_GT(fastest, 10.0) << "it fell";
+    EXPECT_LT(scenes::kinetic_energy(engine.bodies()), 1e-3 * fastest);
+    EXPECT_LT(median_speed(engine.bodies()), 5e-4) << "a twentieth of g dt";
+    EXPECT_LT(deepest, 1e-3);
+    double pressed = 0.0, weight = 0.0;
+    for (std::size_t k = 0; k < engine.points().size(); ++k) {
+        const ContactPoint& point = engine.points()[k];
+        if (point.wall >= 0)
+            pressed += world_impulse(engine.problem().contacts[k], engine.impulses()[k])[1];
+    }
+    for (const double mass : engine.bodies().mass) weight += mass;
+    EXPECT_NEAR(pressed / 0.01, weight, 0.01 * weight) << "the walls carry it";
+}
+
+}  // namespace
+}  // namespace turbidite::nscd

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// However a sweep over spheres is executed (in groups, vectorised, several at once, by threads),
+// the result is bitwise that of one contact after the other in the given order.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
+#include "granular_adapter/nscd/sweeps/space/sphere_pack.hpp"
+#include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
+#include "spheres.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+/// A cubic array of n^3 spheres pressed together by random velocities, contacts in any order; some
+/// are immovable, some cannot rotate.
+ContactProblem heap(int n, bool biased) {
+    std::mt19937_64 random(9);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    ContactProblem problem;
+    std::vector<SpaceMobility> bodies;
+    const auto touch = [&](int a, int b, Vec3 normal) {
+        for (double& component : normal) component += 0.1 * any(random);
+        normal = (1.0 / norm(normal)) * normal;
+        Contact c;
+        c.a = a, c.b = b, c.normal = normal, c.tangent = tangent_of(normal);
+        if (a >= 0) c.arm_a = (0.5 + 0.1 * any(random)) * normal;
+        c.arm_b = (-0.5 + 0.1 * any(random)) * normal;
+        c.friction = 0.3 + 0.2 * any(random);
+        c.bias.n = 0.3 * any(random);
+        if (biased) c.bias.t = 0.2 * any(random), c.bias.s = 0.2 * any(random);
+        problem.contacts.push_back(c);
+    };
+    const auto immovable = [](int i) { return i < 0 || i % 17 == 0; };
+    for (int i = 0; i < n * n * n; ++i) {
+        SpaceMobility body{1.0 + 0.5 * any(random), i % 11 == 0 ? 0.0 : 4.0 + any(random)};
+        if (immovable(i)) body = {};
+        bodies.push_back(body);
+        problem.free.push_back({{any(random), -1.0 + 0.3 * any(random), any(random)},
+                                {any(random), any(random), any(random)}});
+        const int x = i % n, y = i / n % n, z = i / (n * n);
+        for (const auto& [partner, normal] : {std::pair{y > 0 ? i - n : -1, Vec3{0, 1, 0}},
+                                              {x > 0 ? i - 1 : i, Vec3{1, 0, 0}},
+                                              {z > 0 ? i - n * n : i, Vec3{0, 0, 1}}})
+            if (partner != i && !(immovable(i) && immovable(partner))) touch(partner, i, normal);
+    }
+    problem.bodies = std::move(bodies);
+    std::shuffle(problem.contacts.begin(), problem.contacts.end(), random);
+    return problem;
+}
+
+std::vector<MovedPair> moved_pairs(const ContactProblem& problem, const SphereOperator& w) {
+    const MovedBodies moved(w.bodies());
+    std::vector<MovedPair> pairs;
+    for (const Contact& contact : problem.contacts) pairs.push_back(moved.of(contact));
+    return pairs;
+}
+
+/// All contacts active.
+template <class Rows>
+SweepLayout<Rows> laid_out(const ContactProblem& problem, const SphereOperator& w, int stretch) {
+    const std::vector<MovedPair> pairs = moved_pairs(problem, w);
+    const std::vector<std::uint8_t> active(pairs.size(), 1);
+    Schedule schedule =
+        make_schedule(pairs, active, w.bodies().size(), {.width = Rows::width, .stretch = stretch});
+    return {problem, w, pairs, Impulses(pairs.size()), problem.free, std::move(schedule)};
+}
+
+constexpr std::size_t sweeps_per_run = 5;
+
+template <class Rows>
+struct Outcome {
+    Impulses r;
+    PassSums<Rows::width> sums;
+};
+
+template <class Rows>
+Outcome<Rows> after_a_run(const ContactProblem& problem, Instructions instructions, int threads) {
+    const SphereOperator w(problem);
+    SweepLayout<Rows> layout = laid_out<Rows>(problem, w, 100);
+    SweepPipeline<Rows> pipeline(sweeps<Rows>(instructions), layout);
+    ThreadTeam team(threads);
+    pipeline.run(sweeps_per_run, team);
+    Impulses r(problem.contacts.size());
+    layout.collect(r);
+    return {r, pipeline.active_sums()};
+}
+
+/// The reference: single contacts in their order.
+template <class Rows>
+Impulses one_after_the_other(const ContactProblem& problem) {
+    const SphereOperator w(problem);
+    SweepLayout<Rows> layout =
+        laid_out<Rows>(problem, w, static_cast<int>(problem.contacts.size()));
+    const auto plain = sweeps<Rows>(Instructions::portable).plain;
+    std::vector<Rows*> in_order(problem.contacts.size());
+    for (std::size_t i = 0; i < layout.schedule.lanes.size(); ++i)
+        if (const std::int32_t k = layout.schedule.lanes[i]; k >= 0)
+            in_order[static_cast<std::size_t>(k)] = &layout.rows[i];
+    for (std::size_t s = 0; s < sweeps_per_run; ++s)
+        for (Rows* const row : in_order) plain(row, row + 1, layout.bodies.data());
+    Impulses r(problem.contacts.size());
+    layout.collect(r);
+    return r;
+}
+
+bool same_bits(const Impulses& a, const Impulses& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(ContactVector)) == 0;
+}
+
+std::vector<Instructions> all_instructions() {
+    if (available(Instructions::avx2)) return {Instructions::portable, Instructions::avx2};
+    return {Instructions::portable};
+}
+
+template <class Grouped, class Single>
+void expect_the_bits_of_one_after_the_other(bool biased) {
+    const ContactProblem problem = heap(12, biased);
+    const Impulses reference = one_after_the_other<Single>(problem);
+    int pressed = 0, sliding = 0;
+    for (std::size_t k = 0; k < reference.size(); ++k) {
+        const double limit = problem.contacts[k].friction * reference[k].n;
+        pressed += reference[k].n > 0.0;
+        sliding += reference[k].n > 0.0 && tangential(reference[k]) > limit * (1 - 1e-9);
+    }
+    ASSERT_GT(pressed, static_cast<int>(reference.size() / 4));
+    ASSERT_GT(sliding, pressed / 10);
+    ASSERT_LT(sliding, 9 * pressed / 10);
+    for (const Instructions instructions : all_instructions())
+        for (const int threads : {1, 2, 3}) {
+            const auto run = after_a_run<Grouped>(problem, instructions, threads);
+            EXPECT_TRUE(same_bits(reference, run.r))
+                << static_cast<int>(instructions) << " " << threads;
+            EXPECT_GT(total(run.sums.size), 0.0);
+            EXPECT_EQ(total(run.sums.loaded), pressed);
+        }
+}
+
+TEST(SphereSweep, GroupsHaveTheBitsOfOneAfterTheOther) {
+    expect_the_bits_of_one_after_the_other<SphereRows<4>, SphereRows<1>>(false);
+}
+
+TEST(SphereSweep, GroupsWithTangentialBiasHaveTheBitsOfOneAfterTheOther) {
+    expect_the_bits_of_one_after_the_other<BiasedSphereRows<4>, BiasedSphereRows<1>>(true);
+}
+
+// The rows with a tangential bias give the others' result where there is none.
+TEST(SphereSweep, BothKindsOfRowsAgree) {
+    const ContactProblem problem = heap(8, false);
+    const Impulses plain = after_a_run<SphereRows<4>>(problem, best_instructions(), 1).r;
+    const Impulses biased = after_a_run<BiasedSphereRows<4>>(problem, best_instructions(), 1).r;
+    EXPECT_EQ(plain, biased);
+}
+
+// The sums of a sweep at rest are the map of residual.hpp.
+TEST(SphereSweep, TheSumsOfASolvedProblemTellItsResidual) {
+    const ContactProblem problem = heap(16, true);
+    SolverSettings settings;
+    settings.tolerance = 1e-3;
+    const SolverResult solved = Nlgs().solve(problem, Impulses(problem.contacts.size()), settings);
+    ASSERT_TRUE(solved.converged);
+    EXPECT_GT(solved.iterations, 10);
+    EXPECT_EQ(natural_map_residual(problem, solved.impulses), solved.residual);
+}
+
+// A whole solve, with resting groups that wake and new layouts: for any instructions and threads
+// bitwise the same, in problems large enough for several threads.
+TEST(SphereSweep, SolvesAreTheSameForAllInstructionsAndThreads) {
+    const ContactProblem problem = heap(16, true);
+    ASSERT_GT(problem.contacts.size(), 6000u);
+    const Impulses guess(problem.contacts.size());
+    SolverSettings settings;
+    const SolverResult reference = Nlgs(Instructions::portable).solve(problem, guess, settings);
+    EXPECT_TRUE(reference.converged);
+    for (const Instructions instructions : all_instructions())
+        for (const int threads : {1, 2}) {
+            settings.threads = threads;
+            const SolverResult result = Nlgs(instructions).solve(problem, guess, settings);
+            EXPECT_TRUE(same_bits(result.impulses, reference.impulses));
+            EXPECT_EQ(result.iterations, reference.iterations);
+            EXPECT_EQ(result.residual, reference.residual);
+        }
+}
+
+}  // namespace
+}  // namespace turbidite::nscd
