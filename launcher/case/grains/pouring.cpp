@@ -9,6 +9,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/sides.hpp"
+#include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/random_packing.hpp"
 #include "launcher/case/grains/space_lattice.hpp"
 
@@ -16,6 +17,7 @@ namespace turbidite {
 namespace {
 
 constexpr double loose_fraction = 0.25;  // of the falling grains
+constexpr double densest_poured = 0.66;  // no friction: 0.64; grains of several sizes fill more
 
 /// Ground area on which the grains are poured, x and z [D].
 struct Ground {
@@ -29,12 +31,35 @@ Ground ground_of(const Settings& settings) {
     return {size.at(0), size.at(2)};
 }
 
-/// Solid volume [D3], and the largest diameter [D].
-double solid_volume(const ResolvedCase& resolved) {
+/// Of these spheres [D3].
+double solid_volume(const std::vector<double>& radii) {
     double sum = 0.0;
-    for (const PlacedGrain& grain : resolved.packing)
-        sum += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+    for (const double r : radii) sum += 4.0 / 3.0 * std::numbers::pi * r * r * r;
     return sum;
+}
+
+/// On the lowest sites of a lattice; in narrow regions the stand-ins are smaller than the grains.
+Packing on_lattice(const PackingRegion& region, const std::vector<double>& radii) {
+    const SpaceLattice& lattice = space_lattice("fcc");
+    Packing sites;
+    double size = 1.0;
+    for (; sites.size() < radii.size(); size *= 0.97)
+        sites = lattice_sites(lattice, region, size * radii.front(), lattice.densest());
+    sites.resize(radii.size());
+    const double largest = sites.front().radius;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        sites[i].radius = largest * radii[i] / radii.front();
+    return sites;
+}
+
+/// As the generator of the pouring run draws them.
+std::vector<double> radii_of(const Settings& settings) {
+    const GrainForms forms = make_grain_forms(settings);
+    RandomNumbers random(static_cast<std::uint64_t>(settings.integer("random.seed")));
+    return draw_radii({.count = settings.integer("grains.count"),
+                       .forms = &forms,
+                       .size_ratio = settings.real("grains.size_ratio")},
+                      random);
 }
 
 /// The type of a side while grains are poured: nothing leaves.
@@ -66,9 +91,10 @@ bool is_poured(const Settings& settings) {
 std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
     const Ground ground = ground_of(settings);
+    const std::vector<double> radii = radii_of(settings);
+    const double solid = solid_volume(radii);
     const double height =
-        std::ceil(solid_volume(resolved) / (loose_fraction * ground.length * ground.depth)) +
-        4.0 * largest_radius(resolved.packing);
+        std::ceil(solid / (loose_fraction * ground.length * ground.depth)) + 4.0 * radii.front();
     std::vector<std::string> changes = sides(settings, ground);
     const std::string size = list_text({ground.length, height, ground.depth});
     changes.push_back("domain.size=" + size);
@@ -88,18 +114,17 @@ PackingResult poured_stand_in(const PackingRequest& request) {
     PackingResult result;
     RandomNumbers random(request.seed);
     const std::vector<double> radii = draw_radii(request, random);
-    const SpaceLattice& lattice = space_lattice("fcc");
-    result.grains = lattice_sites(lattice, request.filled(), radii.front(), lattice.densest());
-    if (result.grains.size() < radii.size()) {
+    const PackingRegion region = request.filled();
+    const double fraction = solid_volume(radii) / (region.width * region.height * region.depth);
+    if (fraction > densest_poured) {
         result.refusal = fmt::format(
-            "A region of {} x {} x {} D holds {} of them at most. Ask for fewer grains or enlarge "
-            "{}.",
-            request.filled().width, request.filled().height, request.filled().depth,
-            result.grains.size(), request.region ? "grains.region" : "domain.size");
+            "They would fill {:.3g} of {} x {} x {} D; poured packings fill {} at most. Ask for "
+            "fewer grains or enlarge {}.",
+            fraction, region.width, region.height, region.depth, densest_poured,
+            request.region ? "grains.region" : "domain.size");
         return result;
     }
-    result.grains.resize(radii.size());
-    for (std::size_t i = 0; i < radii.size(); ++i) result.grains[i].radius = radii[i];
+    result.grains = on_lattice(region, radii);
     result.notes.push_back(fmt::format(
         "{} grains are poured before the run, in a dry run of its own that is kept for other runs "
         "of the same packing; the forecast leaves it out",

@@ -108,23 +108,28 @@ Ruling weighs_something(const Settings& s) {
                      "scales.velocity."};
 }
 
+/// Not where they were poured before.
+bool are_from_a_file(const Settings& s) {
+    return s.has("grains.file") && !is(s, "grains.generator", "poured");
+}
+
 std::string beside_a_file(const Settings& s) {
-    return s.has("grains.file") ? "with grains.file" : "";
+    return are_from_a_file(s) ? "with grains.file" : "";
 }
 std::string without_lattice(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
+    if (are_from_a_file(s)) return "with grains.file";
     return is(s, "grains.generator", "lattice") ? "" : "without grains.generator: lattice";
 }
 std::string without_random(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
+    if (are_from_a_file(s)) return "with grains.file";
     return counts(s) ? "" : "without grains.generator: random";
 }
 std::string without_pouring(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
+    if (are_from_a_file(s)) return "with grains.file";
     return is(s, "grains.generator", "poured") ? "" : "without grains.generator: poured";
 }
 std::string without_chance(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
+    if (are_from_a_file(s)) return "with grains.file";
     const bool still = is(s, "grains.generator", "lattice") && s.real("grains.jitter") == 0.0;
     return still ? "with grains.generator: lattice and no grains.jitter" : "";
 }
