@@ -75,8 +75,9 @@ RULES = [
     ("fluid_adapter/ranks/*.[hc]pp", [TRANSPORT, OPENFOAM], "the ranks share numbers, whatever the host"),
     ("fluid_adapter/foam_solver/*.[hc]pp", [EIGEN, r"^(coupler|granular_adapter)/.*$"], "any OpenFOAM application may load it"),
 ]
-# In the contact engine, plane/ holds what is of contacts in the plane; everything else is for any kind of contact. The
-# doors at which a kind is chosen, the only other files that include or name anything of plane/:
+# In the contact engine, plane/ holds what is of contacts in the plane and space/ what is of contacts of spheres;
+# everything else is for any kind of contact. The doors at which a kind is chosen, the only other files that include or
+# name anything of plane/, and of space/:
 ENGINE_ROOM = "granular_adapter/nscd/"
 PLANE_DOORS = {
     "problem/mobilities.hpp": "lists the kinds of mobility that a problem may have",
@@ -86,8 +87,12 @@ PLANE_DOORS = {
     "detection/narrow_phase.hpp": "holds the shapes that have corners",
     "detection/narrow_phase.cpp": "lists the detectors of all pairs of shapes, and what walls may do",
 }
+SPACE_DOORS = {name: PLANE_DOORS[name] for name in (
+    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/residual.cpp", "solvers/nlgs.cpp")}
 PLANE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/plane/', re.MULTILINE)
 PLANE_TYPE = re.compile(r"\b(Plan(?:ar|e)[A-Z]\w*|Placed?Polygons?|Polygon[A-Z]\w*|Delassus\w*)\b")
+SPACE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/space/', re.MULTILINE)
+SPACE_TYPE = re.compile(r"\b(Space[A-Z]\w*|Sphere[A-Z]\w*|BiasedSphere\w*)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
@@ -139,14 +144,17 @@ class Includes(unittest.TestCase):
                 self.assertTrue(files, f"no file matches {pattern}: the rule checks nothing")
                 self.assertEqual(found, [], f"{reason}; forbidden here:\n" + "\n".join(found))
 
-    def test_only_doors_of_the_contact_engine_know_the_plane(self):
-        files = {str(path.relative_to(self.root / ENGINE_ROOM)): path.read_text()
-                 for path in (self.root / ENGINE_ROOM).rglob("*.[hc]pp") if path.parent.name != "plane"}
-        self.assertGreater(len(files), 50)
-        including = {name for name, text in files.items() if PLANE_HEADER.search(text)}
-        naming = {name for name, text in files.items() if PLANE_TYPE.search(re.sub("//.*", "", text))}
-        self.assertEqual(including, set(PLANE_DOORS))
-        self.assertLessEqual(naming, set(PLANE_DOORS))
+    def test_only_doors_of_the_contact_engine_know_a_kind_of_contact(self):
+        for kind, doors, header, type_name in (("plane", PLANE_DOORS, PLANE_HEADER, PLANE_TYPE),
+                                               ("space", SPACE_DOORS, SPACE_HEADER, SPACE_TYPE)):
+            with self.subTest(kind):
+                files = {str(path.relative_to(self.root / ENGINE_ROOM)): path.read_text()
+                         for path in (self.root / ENGINE_ROOM).rglob("*.[hc]pp") if path.parent.name != kind}
+                self.assertGreater(len(files), 50)
+                including = {name for name, text in files.items() if header.search(text)}
+                naming = {name for name, text in files.items() if type_name.search(re.sub("//.*", "", text))}
+                self.assertEqual(including, set(doors))
+                self.assertLessEqual(naming, set(doors))
 
     def test_every_folder_says_what_it_is_for(self):
         table = "\n".join(line for line in (self.root / "README.md").read_text().splitlines() if line.startswith("| `"))

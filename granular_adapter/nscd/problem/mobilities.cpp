@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/problem/mobilities.hpp"
 
+#include "granular_adapter/nscd/problem/plane/mobility.hpp"
+#include "granular_adapter/nscd/problem/space/mobility.hpp"
+
 namespace turbidite::nscd {
 namespace {
 
