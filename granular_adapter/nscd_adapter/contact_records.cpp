@@ -15,12 +15,14 @@ constexpr double at_limit = 1.0 - 1e-9;
 
 /// Status from the solution of the contact problem: its cone is that of the law, also with
 /// attraction. A contact under traction neither slides nor rolls.
-std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& solution) {
+std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& solution,
+                       const Vec3& moment) {
     std::int32_t status = 0;
     if (!(solution.n > 0.0)) return status;
     if (nscd::tangential(solution) >= at_limit * contact.friction * solution.n)
         status |= ContactStatus::sliding;
-    if (contact.rolling > 0.0 && std::abs(solution.roll) >= at_limit * contact.rolling * solution.n)
+    const Vec3 across = moment - dot(contact.normal, moment) * contact.normal;
+    if (contact.rolling > 0.0 && norm(across) >= at_limit * contact.rolling * solution.n)
         status |= ContactStatus::rolling;
     return status;
 }
@@ -37,14 +39,14 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     else
         record.a = bodies.id[point.a];
     record.feature = point.feature;
-    record.status = status_of(contact, engine.solution()[k]);
+    record.status = status_of(contact, engine.solution()[k], world_moment(engine.solution(), k));
     record.gap = point.gap;
     record.length = point.length;
     record.point = bodies.position[point.b] + point.arm_b;
     record.normal = point.normal;
     record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;
     record.impulse = world_impulse(contact, impulse);
-    record.rolling_impulse = {0.0, 0.0, impulse.roll};
+    record.rolling_impulse = world_moment(engine.impulses(), k);
     return record;
 }
 

@@ -23,6 +23,31 @@ nscd::PlanarTensor in_plane(const std::array<double, 21>& inertia) {
     return tensor;
 }
 
+/// The block of three components from `first` on.
+Symmetric3 block(const std::array<double, 21>& inertia, std::size_t first) {
+    const auto entry = [&](std::size_t i, std::size_t j) {
+        return inertia[upper_entry(first + i, first + j)];
+    };
+    Symmetric3 result;
+    result.xx = entry(0, 0), result.yy = entry(1, 1), result.zz = entry(2, 2);
+    result.xy = entry(0, 1), result.xz = entry(0, 2), result.yz = entry(1, 2);
+    return result;
+}
+
+double inverse_mean(const Symmetric3& inertia) {
+    return 3.0 / (inertia.xx + inertia.yy + inertia.zz);
+}
+
+std::optional<nscd::PlanarTensor> mobility(const FreeResponse& response, nscd::PlanarTensor) {
+    return nscd::inverse(in_plane(response.inertia));
+}
+
+std::optional<nscd::SpaceMobility> mobility(const FreeResponse& response, nscd::SpaceMobility) {
+    const Symmetric3 linear = block(response.inertia, 0), angular = block(response.inertia, 3);
+    if (!positive_definite(linear) || !positive_definite(angular)) return std::nullopt;
+    return nscd::SpaceMobility{inverse_mean(linear), inverse_mean(angular)};
+}
+
 std::string grain(const nscd::Bodies& bodies, std::size_t i) {
     return "grain " + std::to_string(bodies.id[i]);
 }
@@ -47,27 +72,42 @@ void demand_agreement(const nscd::Bodies& bodies, std::size_t i, bool held,
                              "(motion = fixed in grains.file), or use coupling.scheme: split");
 }
 
-nscd::BodyMobility mobility_of(const nscd::Bodies& bodies, std::size_t i,
-                               const FreeResponse& response, const std::string& when) {
-    const auto mobility = nscd::inverse(in_plane(response.inertia));
-    if (!mobility)
+template <class Mobility>
+Mobility mobility_of(const nscd::Bodies& bodies, std::size_t i, const FreeResponse& response,
+                     const std::string& when) {
+    const auto found = mobility(response, Mobility{});
+    if (!found)
         throw PhysicsRefused("the effective inertia of " + grain(bodies, i) +
                              " is not positive definite " + when);
-    return *mobility;
+    return *found;
+}
+
+template <class Mobility>
+std::vector<Mobility> mobilities_of(const nscd::Bodies& bodies,
+                                    const std::vector<const FreeResponse*>& responses,
+                                    const std::string& when) {
+    std::vector<Mobility> result;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const bool held = motion_is_prescribed(*responses[i]);
+        demand_agreement(bodies, i, held, when);
+        result.push_back(held ? Mobility{} : mobility_of<Mobility>(bodies, i, *responses[i], when));
+    }
+    return result;
 }
 
 }  // namespace
 
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
-                       const std::string& when) {
+                       const std::string& when, int dimension) {
     FreeMotion result;
     const auto ordered = by_grain(bodies.id, responses, "response", when);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const bool held = motion_is_prescribed(*ordered[i]);
-        demand_agreement(bodies, i, held, when);
-        result.velocities.push_back(in_plane(twist_of(*ordered[i])));
-        result.mobilities.push_back(held ? nscd::BodyMobility{}
-                                         : mobility_of(bodies, i, *ordered[i], when));
+    if (dimension == 3)
+        result.mobilities = mobilities_of<nscd::SpaceMobility>(bodies, ordered, when);
+    else
+        result.mobilities = mobilities_of<nscd::PlanarTensor>(bodies, ordered, when);
+    for (const FreeResponse* response : ordered) {
+        const Twist free = twist_of(*response);
+        result.velocities.push_back(dimension == 3 ? free : in_plane(free));
     }
     return result;
 }

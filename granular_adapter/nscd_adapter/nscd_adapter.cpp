@@ -123,7 +123,8 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
     answered_ = !responses.empty();
     if (!answered_ && light_) refuse_light_grain(*light_);
     if (!answered_) return engine().step(window.step);
-    FreeMotion free = free_motion(bodies(), responses, in_window(window));
+    FreeMotion free =
+        free_motion(bodies(), responses, in_window(window), engine().settings().dimension);
     return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
 }
 

@@ -6,9 +6,11 @@
 #include <memory>
 
 #include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/grains/pouring.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
+#include "launcher/job/pour_grains.hpp"
 #include "launcher/job/terminal.hpp"
 
 namespace turbidite {
@@ -22,9 +24,17 @@ struct RunOptions {
     bool dry_run = false;
 };
 
+/// The case with the grains that had to be poured first.
+ResolvedCase with_poured_grains(ResolvedCase resolved, const RunOptions& options,
+                                const LaunchSite& site) {
+    if (options.dry_run || !options.from.empty() || !is_poured(resolved.settings)) return resolved;
+    return load_case(options.file, options.overrides, poured_grains(resolved, site).string());
+}
+
 int run(const RunOptions& options) {
-    const ResolvedCase resolved = load_case(options.file, options.overrides, options.from);
     const LaunchSite site = this_site();
+    const ResolvedCase resolved =
+        with_poured_grains(load_case(options.file, options.overrides, options.from), options, site);
     const auto folder =
         options.order.out.empty() ? std::filesystem::path("runs") : options.order.out;
     if (const std::string lack = lack_of_disk(predicted_disk(resolved), folder); !lack.empty())

@@ -143,8 +143,25 @@ std::vector<Wall> Engine::placed_walls(double reach) const {
 void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
     problem_ =
         laws_.pose({points_, keys_, bodies_, placed_walls_}, free, std::move(mobilities), dt);
-    guess_ = memory_.guesses(keys_, dt);
-    if (in_space()) guess_ = from_world_axes(problem_, guess_);
+    guess_ = initial_guess(dt);
+}
+
+Impulses Engine::initial_guess(double dt) const {
+    if (!in_space()) return memory_.guesses(keys_, dt);
+    Impulses guess = from_world_axes(problem_, memory_.guesses(keys_, dt));
+    if (!turning_memory_.contacts().empty())
+        guess.moments = moments_of(turning_memory_.guesses(keys_, dt));
+    return guess;
+}
+
+/// The initial guess of the next step.
+void Engine::remember(const Impulses& found, double dt) {
+    if (!in_space()) return memory_.remember(keys_, found, dt);
+    memory_.remember(keys_, in_world_axes(problem_, found), dt);
+    if (found.moments.empty())
+        turning_memory_.forget();
+    else
+        turning_memory_.remember(keys_, kept_moments(found), dt);
 }
 
 /// Solves the problem; if corners rotate fast, again with gaps reduced by the shortfall
@@ -226,14 +243,14 @@ void Engine::forget_step() {
 std::vector<char> Engine::save() const {
     ByteWriter out;
     write_bodies(out, bodies_);
-    write_memory(out, {memory_.sorted_by_key(), laws_.states().saved(), walls_});
+    write_memory(out, saved_memory());
     return out.take();
 }
 
 void Engine::restore(const std::vector<char>& state) {
     ByteReader in(state);
     Bodies bodies = read_bodies(in);
-    SavedMemory memory = read_memory(in, walls_);
+    SavedMemory memory = read_memory(in, walls_, in_space());
     demand_end(in);
     bodies_ = std::move(bodies);
     take_memory(std::move(memory));
@@ -242,18 +259,24 @@ void Engine::restore(const std::vector<char>& state) {
 
 std::vector<char> Engine::save_memory() const {
     ByteWriter out;
-    write_memory(out, {memory_.sorted_by_key(), laws_.states().saved(), walls_});
+    write_memory(out, saved_memory());
     return out.take();
 }
 
 void Engine::restore_memory(const std::vector<char>& state) {
     ByteReader in(state);
-    SavedMemory memory = read_memory(in, walls_);
+    SavedMemory memory = read_memory(in, walls_, in_space());
     demand_end(in);
     take_memory(std::move(memory));
 }
 
+SavedMemory Engine::saved_memory() const {
+    return {memory_.sorted_by_key(), laws_.states().saved(), walls_, in_space(),
+            turning_memory_.sorted_by_key()};
+}
+
 void Engine::take_memory(SavedMemory memory) {
+    turning_memory_.replace(std::move(memory.moments));
     memory_.replace(std::move(memory.contacts));
     laws_.states().replace(std::move(memory.states));
     walls_ = std::move(memory.walls);
@@ -269,10 +292,7 @@ ContactKey Engine::key(const ContactPoint& point) const {
 /// Gives velocities and impulses to the bodies, the initial guess of the next step to the memory,
 /// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
-    if (in_space())
-        memory_.remember(keys_, in_world_axes(problem_, result.impulses), dt);
-    else
-        memory_.remember(keys_, result.impulses, dt);
+    remember(result.impulses, dt);
     laws_.find_states({points_, keys_, bodies_, placed_walls_}, result.impulses);
     impulses_ = laws_.felt(result.impulses);
     solution_ = std::move(result.impulses);
@@ -298,10 +318,10 @@ void Engine::sum_impulses() {
         sum = sum + cross(arm, p) + moment;
     };
     for (std::size_t k = 0; k < points_.size(); ++k) {
-        if (impulses_[k] == ContactVector{}) continue;
+        const Vec3 moment = world_moment(impulses_, k);
+        if (impulses_[k] == ContactVector{} && moment == Vec3{}) continue;
         const Contact& contact = problem_.contacts[k];
         const Vec3 p = world_impulse(contact, impulses_[k]);
-        const Vec3 moment = world_moment(impulses_[k]);
         add(contact.b, contact.arm_b, p, moment);
         if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -moment);
     }

@@ -156,6 +156,9 @@ class Engine {
     ContactKey key(const ContactPoint& point) const;
     void forget_step();
     void release_step();
+    Impulses initial_guess(double dt) const;
+    void remember(const Impulses& found, double dt);
+    SavedMemory saved_memory() const;
     bool in_space() const { return settings_.dimension == 3; }
     void take_memory(SavedMemory memory);
 
@@ -167,8 +170,9 @@ class Engine {
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;
     ContactMemory memory_;
-    double reach_ = 0.0;  ///< largest gap the last step detected [m]
-    double moved_ = 0.0;  ///< upper bound of the decrease of any gap since [m]
+    ContactMemory turning_memory_;  // moments of space; empty without resistance to rolling
+    double reach_ = 0.0;            ///< largest gap the last step detected [m]
+    double moved_ = 0.0;            ///< upper bound of the decrease of any gap since [m]
     std::vector<ContactPoint> points_;
     double deepest_ = 0.0;          ///< overlap of the points [m]
     std::vector<ContactKey> keys_;  ///< of the points

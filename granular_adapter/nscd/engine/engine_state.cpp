@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint64_t bodies_format = 0x344445534354ULL;
 constexpr std::uint64_t memory_format = 0x354d454d4354ULL;
+constexpr std::uint64_t space_format = 0x33314d454d4354ULL;
 
 /// Position and motion of a wall; everything else comes from the settings.
 template <class Visit, class AnyWall>
@@ -46,7 +47,7 @@ Bodies read_bodies(ByteReader& in) {
 }
 
 void write_memory(ByteWriter& out, const SavedMemory& memory) {
-    out.value(memory_format);
+    out.value(memory.space ? space_format : memory_format);
     out.array(memory.contacts);
     out.value(static_cast<std::uint8_t>(memory.states.started));
     out.array(memory.states.accepted);
@@ -54,10 +55,11 @@ void write_memory(ByteWriter& out, const SavedMemory& memory) {
     out.value(static_cast<std::uint64_t>(memory.walls.size()));
     for (const Wall& wall : memory.walls)
         for_each_state(wall, [&out](const auto& value) { out.value(value); });
+    if (memory.space) out.array(memory.moments);
 }
 
-SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
-    if (in.value<std::uint64_t>() != memory_format)
+SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls, bool space) {
+    if (in.value<std::uint64_t>() != (space ? space_format : memory_format))
         throw std::invalid_argument("saved contact impulses: unknown format");
     SavedMemory memory;
     memory.contacts = in.array<RememberedContact>();
@@ -66,6 +68,8 @@ SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls) {
     memory.states.found = in.array<RememberedState>();
     memory.walls = walls;
     read_walls(in, memory.walls);
+    memory.space = space;
+    if (space) memory.moments = in.array<RememberedContact>();
     return memory;
 }
 

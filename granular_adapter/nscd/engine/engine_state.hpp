@@ -23,12 +23,16 @@ struct SavedMemory {
     std::vector<RememberedContact> contacts;
     ContactStates::Saved states;
     std::vector<Wall> walls;
+    bool space = false;
+    std::vector<RememberedContact> moments =
+        {};  ///< of contacts in space; not written in the plane
 };
 void write_memory(ByteWriter& out, const SavedMemory& memory);
 
 /// Positions and motions of the walls are read, their other properties taken from `walls`. Throws
-/// std::invalid_argument for anything not written by write_memory with the same number of walls.
-SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls);
+/// std::invalid_argument for anything not written by write_memory with the same number of walls and
+/// of the same dimension.
+SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls, bool space);
 
 /// Throws std::invalid_argument if bytes are left.
 void demand_end(const ByteReader& in);

@@ -38,6 +38,7 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
     contact.friction = terms.friction;
     contact.bias = bias - drive;
     contact.rolling = terms.rolling;
+    contact.torsion = terms.torsion;
 }
 
 const Wall& wall_of(const DetectedContacts& contacts, const ContactPoint& point) {
@@ -79,10 +80,6 @@ bool ContactLaws::all_round() const {
 }
 
 void ContactLaws::check_shapes() const {
-    if (settings_.dimension == 3 && law_.has(LawSlot::rolling))
-        throw std::invalid_argument(
-            "rolling resistance (contact.rolling_friction) is of the plane only; in space leave it "
-            "at zero");
     if (law_.has(LawSlot::rolling) && !all_round())
         throw std::invalid_argument(
             "rolling resistance is for round grains only; polygons need none, since their faces "

@@ -4,6 +4,7 @@
 //
 //     0 <= u_n + b_n  perp  r~_n >= 0,   |r~_t| <= mu r~_n,   r~_t opposite to u_t + b_t if sliding
 //     |m| <= rolling r~_n                                     m opposite to the relative spin
+//     |m_n| <= torsion r~_n                                   in space, about the normal
 //
 // and the law supplies b, mu and rolling. An attractive law also supplies the attraction c: the
 // bodies feel r = r~ - dt c n, whose known second term is included in the free velocities, so that
@@ -65,6 +66,7 @@ struct LawTerms {
     double tangential_restitution = 0.0;  ///< e_t: b_t = e_t u_t^-
     double attraction = 0.0;              ///< c, acts on the pair whatever the solver finds [N]
     double rolling = 0.0;                 ///< lever of the rolling resistance [m]
+    double torsion = 0.0;                 ///< lever of the torsional resistance [m]
 };
 
 /// Result of the step for the contact.

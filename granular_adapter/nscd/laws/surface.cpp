@@ -25,6 +25,7 @@ void check(const Surface& surface, std::size_t material) {
     demand(surface.restitution_tangential, 1.0, "tangential restitution", material);
     demand(surface.rolling_friction, any, "rolling friction", material);
     demand(surface.adhesion, any, "adhesion", material);
+    demand(surface.torsion_friction, any, "torsion friction", material);
 }
 
 Surface smaller(const Surface& a, const Surface& b) {
@@ -33,7 +34,8 @@ Surface smaller(const Surface& a, const Surface& b) {
             std::min(a.restitution, b.restitution),
             std::min(a.restitution_tangential, b.restitution_tangential),
             std::min(a.rolling_friction, b.rolling_friction),
-            std::min(a.adhesion, b.adhesion)};
+            std::min(a.adhesion, b.adhesion),
+            std::min(a.torsion_friction, b.torsion_friction)};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Surface {
     double rolling_friction = 0.0;        ///< mu_r: lever of the rolling resistance over R*
     /// Force that separates two touching discs of the reference diameter [N].
     double adhesion = 0.0;
+    double torsion_friction = 0.0;  ///< lever of the torsional resistance over R*, in space
 };
 
 /// Coefficients of one pair that do not follow the rule.

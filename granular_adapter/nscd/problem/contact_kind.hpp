@@ -6,6 +6,7 @@
 //     mobility M    M^-1 of a body
 //         push(twist, M, arm, p, roll)     v += M^-1 (p, arm x p + roll e_z)
 //         is_immovable(M)                  whether no impulse moves the body
+//         turn(twist, M, m)                in space: the spin by a moment impulse m
 //     operator W    W = H^T M^-1 H of a problem
 //         operator_of(problem, bodies)     makes it
 //         W.bodies(), W.block(k)           mobilities; the diagonal block of contact k
@@ -14,6 +15,7 @@
 //         solution(contact, B, b)          the r of the contact alone, u = W_kk r + b
 //         product(B, r)                    W_kk r
 //         squared(B, u)                    |u|^2, with spins scaled to velocities
+//         map_terms(contact, B, r, u, turning)   in space: of contacts with moments
 //
 // A kind that nlgs solves also has packed rows (sweeps/sweep_layout.hpp), and a function that
 // chooses them by the operator,
@@ -30,6 +32,11 @@ namespace turbidite::nscd {
 /// |natural map|^2 and |r|^2 of one contact.
 struct MapTerms {
     double error, size;
+};
+
+/// Moment impulse and relative spin of a contact in space, in world axes.
+struct Turning {
+    Vec3 moment{}, spin{};
 };
 
 template <class M>

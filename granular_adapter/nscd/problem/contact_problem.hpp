@@ -13,9 +13,10 @@
 //
 //     |m| <= rolling r_n, and m = -rolling r_n w/|w| unless w = 0    rolling resistance
 //
-// and zero wherever `rolling` is zero. The mobilities M^-1 are those of a kind of contact
-// (contact_kind.hpp); everything else is the same in the plane and in space. This file does not
-// depend on shapes, laws or solvers.
+// and zero wherever `rolling` is zero. In space m and w are vectors: their parts in the tangent
+// plane obey this law, and their parts along the normal the same with `torsion` as the lever. The
+// mobilities M^-1 are those of a kind of contact (contact_kind.hpp); everything else is the same in
+// the plane and in space. This file does not depend on shapes, laws or solvers.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,20 @@
 namespace turbidite::nscd {
 
 /// One entry per contact, in its frame.
-using Impulses = std::vector<ContactVector>;
+struct Impulses : std::vector<ContactVector> {
+    using std::vector<ContactVector>::vector;
+    Impulses(std::vector<ContactVector> impulses)
+        : std::vector<ContactVector>(std::move(impulses)) {}
+
+    /// In space, the moment impulses on b by rolling and torsional resistance, in world axes; empty
+    /// if there is no such resistance, and in the plane [N m s].
+    std::vector<Vec3> moments;
+
+    friend bool operator==(const Impulses& a, const Impulses& b) {
+        const auto& one = static_cast<const std::vector<ContactVector>&>(a);
+        return one == static_cast<const std::vector<ContactVector>&>(b) && a.moments == b.moments;
+    }
+};
 
 struct Contact {
     std::int32_t a = -1;  ///< -1: at rest and immovable
@@ -40,6 +54,7 @@ struct Contact {
     double friction = 0.0;  ///< mu
     ContactVector bias;     ///< b [m/s]
     double rolling = 0.0;   ///< lever of the rolling resistance, mu_r times a radius [m]
+    double torsion = 0.0;   ///< lever of the torsional resistance, in space [m]
 };
 
 struct ContactProblem {
@@ -86,9 +101,15 @@ inline Vec3 world_impulse(const Contact& contact, const ContactVector& r) {
     return r.s == 0.0 ? p : p + r.s * binormal_of(contact);
 }
 
-/// The moment impulse of rolling resistance, likewise [N m s].
-inline Vec3 world_moment(const ContactVector& r) {
-    return {0.0, 0.0, r.roll};
+/// The moment impulse on b of contact k, likewise [N m s].
+inline Vec3 world_moment(const Impulses& r, std::size_t k) {
+    return r.moments.empty() ? Vec3{0.0, 0.0, r[k].roll} : r.moments[k];
+}
+
+/// Spin of b relative to a [rad/s].
+inline Vec3 relative_spin(const Contact& contact, const std::vector<Twist>& v) {
+    const Vec3& b = v[static_cast<std::size_t>(contact.b)].spin;
+    return contact.a < 0 ? b : b - v[static_cast<std::size_t>(contact.a)].spin;
 }
 
 /// v_free + M^-1 H r.
@@ -107,6 +128,12 @@ std::vector<Twist> body_velocities(const ContactProblem& problem,
         if (contact.a >= 0)
             push(v[contact.a], bodies[contact.a], contact.arm_a, -1.0 * p, -r[k].roll);
     }
+    if constexpr (requires { turn(v[0], bodies[0], Vec3{}); })
+        for (std::size_t k = 0; k < r.moments.size(); ++k) {
+            const Contact& contact = problem.contacts[k];
+            turn(v[contact.b], bodies[contact.b], r.moments[k]);
+            if (contact.a >= 0) turn(v[contact.a], bodies[contact.a], -r.moments[k]);
+        }
     return v;
 }
 

@@ -16,14 +16,23 @@ inline ContactVector biased_velocity(const Contact& contact, const std::vector<T
     return contact_velocity(contact, v) + contact.bias;
 }
 
+/// The natural map of contact k, whose biased velocity is u.
+template <ContactOperator W>
+MapTerms map_terms_of(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
+                      const Impulses& r, std::size_t k, const ContactVector& u) {
+    const Contact& contact = problem.contacts[k];
+    if constexpr (requires { map_terms(contact, w.block(k), r[k], u, Turning{}); })
+        if (!r.moments.empty())
+            return map_terms(contact, w.block(k), r[k], u,
+                             Turning{r.moments[k], relative_spin(contact, v)});
+    return map_terms(contact, w.block(k), r[k], u);
+}
+
 /// The natural map, summed over the contacts.
 struct MapSums {
     double error = 0.0, size = 0.0;
 
-    template <class Block>
-    void add(const Contact& contact, const Block& w, const ContactVector& r,
-             const ContactVector& u) {
-        const MapTerms term = map_terms(contact, w, r, u);
+    void add(const MapTerms& term) {
         error += term.error;
         size += term.size;
     }
@@ -33,7 +42,7 @@ struct MapSums {
     }
 };
 
-/// Quad and max, summed over the contacts.
+/// Quad and max, summed over the contacts; in space without moments.
 struct ChangeSums {
     double change = 0.0, largest = 0.0, scale = 0.0;
 
@@ -70,7 +79,7 @@ double natural_map_residual(const ContactProblem& problem, const W& w, const std
                             const Impulses& r, double floor) {
     MapSums map;
     for (std::size_t k = 0; k < r.size(); ++k)
-        map.add(problem.contacts[k], w.block(k), r[k], biased_velocity(problem.contacts[k], v));
+        map.add(map_terms_of(problem, w, v, r, k, biased_velocity(problem.contacts[k], v)));
     return map.residual(floor);
 }
 
@@ -82,7 +91,7 @@ Measures measures(const ContactProblem& problem, const W& w, const std::vector<T
     for (std::size_t k = 0; k < r.size(); ++k) {
         const Contact& contact = problem.contacts[k];
         const ContactVector u = biased_velocity(contact, v);
-        map.add(contact, w.block(k), r[k], u);
+        map.add(map_terms_of(problem, w, v, r, k, u));
         change.add(contact, w.block(k), r[k], u);
     }
     return {map.residual(floor), change.measures(r.size())};

@@ -25,7 +25,8 @@
 // which for a loaded contact is |u_n| and for any other what closes it too fast, -u_n.
 //
 // With rolling resistance the natural map projects n, t and roll on |r_t| <= mu r_n, |m| <= rho r_n
-// (rolling_contact.hpp). Moments are divided, and spins multiplied, by sqrt(W_nn/W_rr).
+// (plane/rolling_contact.hpp, space/turning_contact.hpp). Moments are divided, and spins
+// multiplied, by sqrt(W_nn/W_rr).
 //
 // For callers that have the operator of the problem: measures.hpp.
 #pragma once

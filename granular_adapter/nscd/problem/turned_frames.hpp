@@ -23,20 +23,39 @@ inline ContactVector from_world_axes(const Contact& contact, const ContactVector
     return r;
 }
 
-inline Impulses in_world_axes(const ContactProblem& problem, const Impulses& r) {
-    Impulses kept;
+inline std::vector<ContactVector> in_world_axes(const ContactProblem& problem, const Impulses& r) {
+    std::vector<ContactVector> kept;
     kept.reserve(r.size());
     for (std::size_t k = 0; k < r.size(); ++k)
         kept.push_back(in_world_axes(problem.contacts[k], r[k]));
     return kept;
 }
 
-inline Impulses from_world_axes(const ContactProblem& problem, const Impulses& kept) {
+inline Impulses from_world_axes(const ContactProblem& problem,
+                                const std::vector<ContactVector>& kept) {
     Impulses r;
     r.reserve(kept.size());
     for (std::size_t k = 0; k < kept.size(); ++k)
         r.push_back(from_world_axes(problem.contacts[k], kept[k]));
     return r;
+}
+
+/// Moments in the same form, {r_n, m in world axes}.
+inline std::vector<ContactVector> kept_moments(const Impulses& r) {
+    std::vector<ContactVector> kept;
+    kept.reserve(r.moments.size());
+    for (std::size_t k = 0; k < r.moments.size(); ++k) {
+        const Vec3& m = r.moments[k];
+        kept.push_back({r[k].n, m[0], m[1], m[2]});
+    }
+    return kept;
+}
+
+inline std::vector<Vec3> moments_of(const std::vector<ContactVector>& kept) {
+    std::vector<Vec3> moments;
+    moments.reserve(kept.size());
+    for (const ContactVector& m : kept) moments.push_back({m.t, m.s, m.roll});
+    return moments;
 }
 
 }  // namespace turbidite::nscd

@@ -44,8 +44,7 @@ class NlgsIteration {
           sweeps_(sweeps<Rows>(call.instructions)),
           team_(useful_threads(call.settings, call.guess.size())) {
         result_.impulses = call.guess;
-        for (ContactVector& r : result_.impulses)
-            if (!(r.n > 0.0)) r = {};
+        leave_out_unloaded(result_.impulses);
         result_.converged = false;
     }
 
@@ -63,6 +62,14 @@ class NlgsIteration {
     }
 
  private:
+    static void leave_out_unloaded(Impulses& r) {
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            if (r[k].n > 0.0) continue;
+            r[k] = {};
+            if (!r.moments.empty()) r.moments[k] = {};
+        }
+    }
+
     void lay_out() {
         result_.velocities = body_velocities(problem_, w_.bodies(), result_.impulses);
         const std::vector<std::uint8_t> active = read_contacts();

@@ -10,6 +10,7 @@
 //     fill(rows, lane, contact)              packs a contact, from a ContactToPack
 //     fill_empty(rows, lane, slot)           a lane without one, which never closes
 //     impulse(rows, lane)                    the impulse of a packed contact
+//     moment(rows, lane)                     in space: its moment, if rows have some
 //     packed_body(twist, mobility)           a Rows::Body
 #pragma once
 
@@ -31,6 +32,7 @@ struct ContactToPack {
     Mobility a, b;
     ContactVector r;
     std::int32_t slot_a, slot_b;
+    Vec3 moment{};
 };
 
 /// The bodies that the impulse of a contact can move. Bodies without mobility are ignored: any
@@ -121,9 +123,9 @@ struct SweepLayout {
             const std::int32_t slot_a = slots.meet(c.a, pairs[k].a >= 0);
             const std::int32_t slot_b = slots.meet(c.b, pairs[k].b >= 0);
             fill(row, lane,
-                 ContactToPack<Mobility, typename W::Block>{c, w.block(k),
-                                                            c.a < 0 ? Mobility() : w.bodies()[c.a],
-                                                            w.bodies()[c.b], r[k], slot_a, slot_b});
+                 ContactToPack<Mobility, typename W::Block>{
+                     c, w.block(k), c.a < 0 ? Mobility() : w.bodies()[c.a], w.bodies()[c.b], r[k],
+                     slot_a, slot_b, r.moments.empty() ? Vec3{} : r.moments[k]});
         }
         bodies = std::move(slots.bodies);
     }
@@ -149,6 +151,12 @@ struct SweepLayout {
 
     void collect(Impulses& r) const {
         each_contact([&](std::size_t k, const Rows& row, int lane) { r[k] = impulse(row, lane); });
+        if constexpr (requires(const Rows& row) { moment(row, 0); }) {
+            r.moments.resize(r.size());
+            each_contact([&](std::size_t k, const Rows& row, int lane) {
+                r.moments[k] = moment(row, lane);
+            });
+        }
     }
 
     /// By contact, whether it has an impulse.

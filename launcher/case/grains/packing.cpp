@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "launcher/case/grains/lattice.hpp"
+#include "launcher/case/grains/pouring.hpp"
 #include "launcher/case/grains/random_packing.hpp"
 #include "launcher/case/grains/space_lattice.hpp"
 #include "launcher/case/grains/space_packing.hpp"
@@ -16,11 +17,25 @@ double largest_radius(const Packing& grains) {
     return largest;
 }
 
+namespace {
+
+PackingResult not_poured_in_the_plane(const PackingRequest&) {
+    PackingResult result;
+    result.refusal =
+        "Grains of the plane are not poured in this version. Let them fall in a dry run of their "
+        "own and start from it with run --from.";
+    return result;
+}
+
+}  // namespace
+
 const std::vector<GeneratorEntry>& generator_list() {
     static const std::vector<GeneratorEntry> generators = {
         {"lattice", "touching rows of grains.compacity, filled from the lower left corner",
          lattice_packing, space_lattice_packing},
         {"random", "grains.count grains without overlap", random_packing, random_space_packing},
+        {"poured", "grains.count spheres that fall and come to rest before the run (dimension: 3)",
+         not_poured_in_the_plane, poured_stand_in},
     };
     return generators;
 }

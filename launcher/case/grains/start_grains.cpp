@@ -104,7 +104,7 @@ bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
 bool are_described(const Settings& settings, const CaseEntries& entries, const GivenGrains& given) {
     if (region_is_refused(settings, entries)) return false;
     if (given.earlier || !given.file.empty() || settings.has("grains.file")) return true;
-    if (settings.text("grains.generator") == "random") return settings.has("grains.count");
+    if (settings.text("grains.generator") != "lattice") return settings.has("grains.count");
     return !is(settings, "dimension", "3") || settings.has("grains.compacity");
 }
 

@@ -17,8 +17,12 @@ namespace {
 bool is_polygon(const Settings& s) {
     return is(s, "grains.shape", "polygon");
 }
+/// A generator that places grains.count grains.
+bool counts(const Settings& s) {
+    return is(s, "grains.generator", "random") || is(s, "grains.generator", "poured");
+}
 bool needs_count(const Settings& s) {
-    return is(s, "grains.generator", "random") && !s.has("grains.file");
+    return counts(s) && !s.has("grains.file");
 }
 
 std::vector<Choice> generator_choices() {
@@ -104,19 +108,28 @@ Ruling weighs_something(const Settings& s) {
                      "scales.velocity."};
 }
 
+/// Not where they were poured before.
+bool are_from_a_file(const Settings& s) {
+    return s.has("grains.file") && !is(s, "grains.generator", "poured");
+}
+
 std::string beside_a_file(const Settings& s) {
-    return s.has("grains.file") ? "with grains.file" : "";
+    return are_from_a_file(s) ? "with grains.file" : "";
 }
 std::string without_lattice(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
+    if (are_from_a_file(s)) return "with grains.file";
     return is(s, "grains.generator", "lattice") ? "" : "without grains.generator: lattice";
 }
 std::string without_random(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
-    return is(s, "grains.generator", "random") ? "" : "without grains.generator: random";
+    if (are_from_a_file(s)) return "with grains.file";
+    return counts(s) ? "" : "without grains.generator: random";
+}
+std::string without_pouring(const Settings& s) {
+    if (are_from_a_file(s)) return "with grains.file";
+    return is(s, "grains.generator", "poured") ? "" : "without grains.generator: poured";
 }
 std::string without_chance(const Settings& s) {
-    if (s.has("grains.file")) return "with grains.file";
+    if (are_from_a_file(s)) return "with grains.file";
     const bool still = is(s, "grains.generator", "lattice") && s.real("grains.jitter") == 0.0;
     return still ? "with grains.generator: lattice and no grains.jitter" : "";
 }
@@ -218,11 +231,19 @@ KeyGroup grains_keys() {
                  .type = KeyType::integer,
                  .need = Need::conditional,
                  .range = {.lower = 1.0},
-                 .help = "number of grains (generator random)",
+                 .help = "number of grains (generators random and poured)",
                  .remedy = "Write for example count: 60.",
                  .when = "grains.generator: random without grains.file",
                  .required = needs_count,
                  .idle = without_random},
+                of_space({.name = "grains.pour_friction",
+                          .type = KeyType::real,
+                          .need = Need::optional,
+                          .range = not_negative,
+                          .help = "friction of grains and walls while grains are poured (generator "
+                                  "poured); contact.friction unless given. 0 gives dense packings, "
+                                  "about 0.64, 0.5 loose ones, about 0.57",
+                          .idle = without_pouring}),
                 {.name = "grains.jitter",
                  .type = KeyType::real,
                  .unit = "D",

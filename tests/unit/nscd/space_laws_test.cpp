@@ -298,18 +298,5 @@ TEST(SpaceLaws, ADrivenSpherePushesAFreeOne) {
         << "friction of the turning one drags it aside";
 }
 
-TEST(SpaceLaws, RollingResistanceIsRefused) {
-    EngineSettings settings = scenes::exact_in_space(0.3);
-    Surface surface;
-    surface.rolling_friction = 0.1;
-    settings.surfaces = {surface};
-    try {
-        Engine(settings, scenes::spheres, {});
-        FAIL();
-    } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find("contact.rolling_friction"), std::string::npos);
-    }
-}
-
 }  // namespace
 }  // namespace turbidite::nscd

@@ -16,7 +16,7 @@ namespace {
 
 /// A cubic array of n^3 spheres pressed together by random velocities, contacts in any order; some
 /// are immovable, some cannot rotate.
-ContactProblem heap(int n, bool biased) {
+ContactProblem heap(int n, bool biased, bool turning = false) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     ContactProblem problem;
@@ -31,6 +31,7 @@ ContactProblem heap(int n, bool biased) {
         c.friction = 0.3 + 0.2 * any(random);
         c.bias.n = 0.3 * any(random);
         if (biased) c.bias.t = 0.2 * any(random), c.bias.s = 0.2 * any(random);
+        if (turning && a % 3 != 0) c.rolling = 0.05, c.torsion = 0.03;
         problem.contacts.push_back(c);
     };
     const auto immovable = [](int i) { return i < 0 || i % 17 == 0; };
@@ -106,9 +107,13 @@ Impulses one_after_the_other(const ContactProblem& problem) {
     return r;
 }
 
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
 bool same_bits(const Impulses& a, const Impulses& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.data(), b.data(), a.size() * sizeof(ContactVector)) == 0;
+    return same_bits<ContactVector>(a, b) && same_bits(a.moments, b.moments);
 }
 
 std::vector<Instructions> all_instructions() {
@@ -117,8 +122,8 @@ std::vector<Instructions> all_instructions() {
 }
 
 template <class Grouped, class Single>
-void expect_the_bits_of_one_after_the_other(bool biased) {
-    const ContactProblem problem = heap(12, biased);
+void expect_the_bits_of_one_after_the_other(bool biased, bool turning = false) {
+    const ContactProblem problem = heap(12, biased, turning);
     const Impulses reference = one_after_the_other<Single>(problem);
     int pressed = 0, sliding = 0;
     for (std::size_t k = 0; k < reference.size(); ++k) {
@@ -147,6 +152,15 @@ TEST(SphereSweep, GroupsWithTangentialBiasHaveTheBitsOfOneAfterTheOther) {
     expect_the_bits_of_one_after_the_other<BiasedSphereRows<4>, BiasedSphereRows<1>>(true);
 }
 
+TEST(SphereSweep, GroupsWithMomentsHaveTheBitsOfOneAfterTheOther) {
+    expect_the_bits_of_one_after_the_other<TurningSphereRows<4>, TurningSphereRows<1>>(true, true);
+    const Impulses r =
+        after_a_run<TurningSphereRows<4>>(heap(12, true, true), best_instructions(), 1).r;
+    EXPECT_GT(std::count_if(r.moments.begin(), r.moments.end(),
+                            [](const Vec3& m) { return norm(m) > 1e-4; }),
+              200);
+}
+
 // The rows with a tangential bias give the others' result where there is none.
 TEST(SphereSweep, BothKindsOfRowsAgree) {
     const ContactProblem problem = heap(8, false);
@@ -157,13 +171,17 @@ TEST(SphereSweep, BothKindsOfRowsAgree) {
 
 // The sums of a sweep at rest are the map of residual.hpp.
 TEST(SphereSweep, TheSumsOfASolvedProblemTellItsResidual) {
-    const ContactProblem problem = heap(16, true);
-    SolverSettings settings;
-    settings.tolerance = 1e-3;
-    const SolverResult solved = Nlgs().solve(problem, Impulses(problem.contacts.size()), settings);
-    ASSERT_TRUE(solved.converged);
-    EXPECT_GT(solved.iterations, 10);
-    EXPECT_EQ(natural_map_residual(problem, solved.impulses), solved.residual);
+    for (const bool turning : {false, true}) {
+        const ContactProblem problem = heap(16, true, turning);
+        SolverSettings settings;
+        settings.tolerance = 1e-3;
+        const SolverResult solved =
+            Nlgs().solve(problem, Impulses(problem.contacts.size()), settings);
+        ASSERT_TRUE(solved.converged);
+        EXPECT_GT(solved.iterations, 10);
+        EXPECT_EQ(natural_map_residual(problem, solved.impulses), solved.residual);
+        EXPECT_EQ(solved.impulses.moments.empty(), !turning);
+    }
 }
 
 // A whole solve, with resting groups that wake and new layouts: for any instructions and threads

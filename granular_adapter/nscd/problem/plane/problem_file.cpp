@@ -62,6 +62,9 @@ void write_matrix(std::ostream& out, const DelassusMatrix& w) {
 void write_problem(std::ostream& out, const ContactProblem& problem) {
     if (problem.contacts.empty())
         throw std::invalid_argument("a contact problem without contacts cannot be written");
+    if (dimension(problem.bodies) != 2)
+        throw std::invalid_argument(
+            "contact problems of space cannot be written: leave contact.dump_interval out");
     if (has_rolling(problem))
         throw std::invalid_argument(
             "contact problems with rolling resistance cannot be written: the format of Siconos has "

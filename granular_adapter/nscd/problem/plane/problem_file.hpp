@@ -27,7 +27,7 @@
 namespace turbidite::nscd {
 
 /// Throws std::invalid_argument if there is no contact, or one with rolling resistance: the format
-/// cannot express either.
+/// cannot express either; and for a problem of space.
 void write_problem(std::ostream& out, const ContactProblem& problem);
 
 }  // namespace turbidite::nscd

@@ -25,4 +25,9 @@ inline void push(Twist& twist, const SpaceMobility& body, const Vec3& arm, const
     twist.spin = twist.spin + body.angular * cross(arm, p);
 }
 
+/// The same by a moment impulse.
+inline void turn(Twist& twist, const SpaceMobility& body, const Vec3& moment) {
+    twist.spin = twist.spin + body.angular * moment;
+}
+
 }  // namespace turbidite::nscd

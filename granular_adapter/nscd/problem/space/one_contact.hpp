@@ -18,10 +18,11 @@
 
 namespace turbidite::nscd {
 
-/// Diagonal block of W [1/kg].
+/// Diagonal block of W [1/kg], and W_rr = 1/I_a + 1/I_b of moments [1/(kg m2)].
 struct SphereBlock {
     double nn = 0.0;
     double tt = 0.0;
+    double rr = 0.0;
 };
 
 /// The tangential part of x, not longer than `most`.

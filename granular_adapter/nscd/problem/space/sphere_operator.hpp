@@ -4,13 +4,17 @@
 // compute than to store:
 //
 //     W_nn = 1/m_a + 1/m_b,   W_tt = W_nn + r_a^2/I_a + r_b^2/I_b,   r the lengths of the arms
+//     W_rr = 1/I_a + 1/I_b    of moments
+//
+// Moments and tangential impulses are coupled by n x (r_b/I_b - r_a/I_a), which no block contains:
+// solvers update them one after the other, and the natural map sees what is left.
 #pragma once
 
 #include <vector>
 
 #include "granular_adapter/nscd/problem/contact_kind.hpp"
 #include "granular_adapter/nscd/problem/space/mobility.hpp"
-#include "granular_adapter/nscd/problem/space/one_contact.hpp"
+#include "granular_adapter/nscd/problem/space/turning_contact.hpp"
 
 namespace turbidite::nscd {
 
@@ -42,10 +46,18 @@ class SphereOperator {
         });
     }
 
+    /// Whether some contact resists rolling or torsion.
+    bool has_moments() const {
+        return std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) {
+            return contact.rolling > 0.0 || contact.torsion > 0.0;
+        });
+    }
+
  private:
     static void add(SphereBlock& w, const SpaceMobility& body, const Vec3& arm) {
         w.nn += body.linear;
         w.tt += body.linear + body.angular * dot(arm, arm);
+        w.rr += body.angular;
     }
 
     const std::vector<Contact>& contacts_;
@@ -63,6 +75,11 @@ inline MapTerms map_terms(const Contact& contact, const SphereBlock& w, const Co
                           const ContactVector& u) {
     const ContactVector f = natural_map(r, u, contact.friction, 1.0 / w.nn);
     return {f.n * f.n + f.t * f.t + f.s * f.s, r.n * r.n + r.t * r.t + r.s * r.s};
+}
+
+inline MapTerms map_terms(const Contact& contact, const SphereBlock& w, const ContactVector& r,
+                          const ContactVector& u, const Turning& turning) {
+    return w.rr > 0.0 ? turning_terms(contact, w, r, u, turning) : map_terms(contact, w, r, u);
 }
 
 inline ContactVector solution(const Contact& contact, const SphereBlock& w,

@@ -46,5 +46,7 @@ template Sweeps<SphereRows<4>> avx2_sweeps();
 template Sweeps<SphereRows<1>> avx2_sweeps();
 template Sweeps<BiasedSphereRows<4>> avx2_sweeps();
 template Sweeps<BiasedSphereRows<1>> avx2_sweeps();
+template Sweeps<TurningSphereRows<4>> avx2_sweeps();
+template Sweeps<TurningSphereRows<1>> avx2_sweeps();
 
 }  // namespace turbidite::nscd

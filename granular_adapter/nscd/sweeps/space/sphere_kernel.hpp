@@ -10,7 +10,12 @@
 //     v_b += 1/m_b p,  w_b -= r_b/I_b n x (r_t' - r_t),    p = (r_n' - r_n) n + r_t' - r_t
 //     v_a -= 1/m_a p,  w_a -= r_a/I_a n x (r_t' - r_t)
 //
-// The arms are r_a n and -r_b n.
+// The arms are r_a n and -r_b n. With resistance to rolling and torsion then, at the new spins,
+//
+//     m' = m - (w_b - w_a)/W_rr, its part along n shortened to torsion r_n', the other to rolling
+//     r_n' w_b += 1/I_b (m' - m),  w_a -= 1/I_a (m' - m)
+//
+// which is exact for a contact alone where r_a/I_a = r_b/I_b: there m does not change u_t.
 
 template <class R>
 struct Vector {
@@ -132,6 +137,73 @@ TURBIDITE_INLINE void add_map(PassSums<width>& sums, const R& rn, const Vector<R
     store(sums.size, R(load(sums.size) + (rn * rn + product(rt, rt))));
 }
 
+/// n of the closest point of the cone with three limits (problem/space/turning_contact.hpp).
+template <class R>
+TURBIDITE_INLINE R nearest_normal(const R& n, const R (&size)[3], const R (&slope)[3]) {
+    R largest{};
+    for (unsigned set = 0; set < 8; ++set) {
+        R sum = n, square = R{} + 1.0;
+        for (unsigned i = 0; i < 3; ++i)
+            if (set >> i & 1u) sum += slope[i] * size[i], square += slope[i] * slope[i];
+        largest = larger(R(sum / square), largest);
+    }
+    return largest;
+}
+
+/// A vector as its parts across and along the normal.
+template <class R>
+struct Parts {
+    Vector<R> across, along;
+};
+template <class R>
+TURBIDITE_INLINE Parts<R> parts(const Vector<R>& x, const Vector<R>& normal) {
+    const Vector<R> along = product(normal, x) * normal;
+    return {x - along, along};
+}
+
+/// The same as add_map with moments.
+template <class Rows, class R>
+TURBIDITE_INLINE void add_turning_map(const Rows& row, PassSums<Rows::width>& sums,
+                                      const Vector<R>& normal, const R& un, const Vector<R>& ut,
+                                      const Vector<R>& w) {
+    const R rn = load(row.rn), s = load(row.inverse_nn), size = load(row.length);
+    const R one = R{} + 1.0, shorter = one / size;
+    const Vector<R> rt = load(row.rx, row.ry, row.rz);
+    const R slope[3] = {load(row.friction), load(row.rolling) * shorter,
+                        load(row.torsion) * shorter};
+    const Parts<R> spin = parts(size * w, normal);
+    const Parts<R> moment = parts(shorter * load(row.mx, row.my, row.mz), normal);
+    const Vector<R> t = rt - s * ut, roll = moment.across - s * spin.across;
+    const Vector<R> twist = moment.along - s * spin.along;
+    const R slip =
+        slope[0] * length(ut) + slope[1] * length(spin.across) + slope[2] * length(spin.along);
+    const R sizes[3] = {length(t), length(roll), length(twist)};
+    const R on = nearest_normal(R(rn - s * (un + slip)), sizes, slope);
+    const R fn = rn - on;
+    const Vector<R> ft = rt - clipped(t, R(slope[0] * on));
+    const Vector<R> fr = moment.across - clipped(roll, R(slope[1] * on));
+    const Vector<R> fw = moment.along - clipped(twist, R(slope[2] * on));
+    const R error = fn * fn + product(ft, ft) + product(fr, fr) + product(fw, fw);
+    const R all = rn * rn + product(rt, rt) + product(moment.across, moment.across) +
+                  product(moment.along, moment.along);
+    store(sums.error, R(load(sums.error) + error));
+    store(sums.size, R(load(sums.size) + all));
+}
+
+/// The new moment at the spins of the bodies, and its effect on them.
+template <class Rows, class R>
+TURBIDITE_INLINE void turn(Rows& row, const Vector<R>& normal, const R& n, Motion<R>& wa,
+                           Motion<R>& wb) {
+    const Vector<R> old = load(row.mx, row.my, row.mz);
+    const Parts<R> wanted = parts(old - load(row.inverse_rr) * (wb.rate - wa.rate), normal);
+    const Vector<R> moment = clipped(wanted.across, R(load(row.rolling) * n)) +
+                             clipped(wanted.along, R(load(row.torsion) * n));
+    const Vector<R> change = moment - old;
+    wa.rate = wa.rate - wa.inverse * change;
+    wb.rate = wb.rate + wb.inverse * change;
+    store(row.mx, moment.x), store(row.my, moment.y), store(row.mz, moment.z);
+}
+
 template <bool measure, class Rows>
 TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width>& sums) {
     using R = Real<Rows::width>;
@@ -147,18 +219,23 @@ TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width
     const R un = along + load(row.bias_n);
     Vector<R> ut = (apart - along * normal) - cross(arm_a * wa.rate + arm_b * wb.rate, normal);
     if constexpr (requires { row.bias_x; }) ut = ut + load(row.bias_x, row.bias_y, row.bias_z);
-    if constexpr (measure) add_map(sums, rn, rt, un, ut, mu, inverse_nn);
+    constexpr bool turns = requires {
+        row.mx;
+    };
+    if constexpr (measure && turns) add_turning_map(row, sums, normal, un, ut, wb.rate - wa.rate);
+    if constexpr (measure && !turns) add_map(sums, rn, rt, un, ut, mu, inverse_nn);
 
     const R n = larger(R(rn - un * inverse_nn), R{});
     const Vector<R> t = clipped(rt - load(row.inverse_tt) * ut, R(mu * n));
     if constexpr (measure) count_loaded(sums, n);
 
     const Vector<R> dt = t - rt;
-    const Vector<R> push = R(n - rn) * normal + dt, turn = cross(normal, dt);
+    const Vector<R> push = R(n - rn) * normal + dt, twist = cross(normal, dt);
     va.rate = va.rate - va.inverse * push;
     vb.rate = vb.rate + vb.inverse * push;
-    wa.rate = wa.rate - R(wa.inverse * arm_a) * turn;
-    wb.rate = wb.rate - R(wb.inverse * arm_b) * turn;
+    wa.rate = wa.rate - R(wa.inverse * arm_a) * twist;
+    wb.rate = wb.rate - R(wb.inverse * arm_b) * twist;
+    if constexpr (turns) turn(row, normal, n, wa, wb);
     store(row.rn, n);
     store(row.rx, t.x), store(row.ry, t.y), store(row.rz, t.z);
     scatter(bodies, row.a, velocity_of, va), scatter(bodies, row.a, spin_of, wa);

@@ -41,9 +41,24 @@ void fill(BiasedSphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
     rows.bias_z.v[lane] = bias[2];
 }
 
+template <int lanes>
+void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
+    fill(static_cast<BiasedSphereRows<lanes>&>(rows), lane, packed);
+    const bool rotates = packed.w.rr > 0.0;
+    rows.rolling.v[lane] = rotates ? packed.contact.rolling : 0.0;
+    rows.torsion.v[lane] = rotates ? packed.contact.torsion : 0.0;
+    rows.mx.v[lane] = packed.moment[0];
+    rows.my.v[lane] = packed.moment[1];
+    rows.mz.v[lane] = packed.moment[2];
+    rows.inverse_rr.v[lane] = rotates ? 1.0 / packed.w.rr : 0.0;
+    rows.length.v[lane] = rotates ? turning_length(packed.w) : 1.0;
+}
+
 template void fill(SphereRows<4>&, int, const SphereToPack&);
 template void fill(SphereRows<1>&, int, const SphereToPack&);
 template void fill(BiasedSphereRows<4>&, int, const SphereToPack&);
 template void fill(BiasedSphereRows<1>&, int, const SphereToPack&);
+template void fill(TurningSphereRows<4>&, int, const SphereToPack&);
+template void fill(TurningSphereRows<1>&, int, const SphereToPack&);
 
 }  // namespace turbidite::nscd

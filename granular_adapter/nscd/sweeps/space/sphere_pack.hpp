@@ -21,12 +21,15 @@ template <int lanes>
 void fill(SphereRows<lanes>& rows, int lane, const SphereToPack& packed);
 template <int lanes>
 void fill(BiasedSphereRows<lanes>& rows, int lane, const SphereToPack& packed);
+template <int lanes>
+void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed);
 
 /// A lane without a contact.
 template <SphereKind Rows>
 void fill_empty(Rows& rows, int lane, std::int32_t slot) {
     rows.a[lane] = rows.b[lane] = slot;
     rows.bias_n.v[lane] = 1.0;
+    if constexpr (requires { rows.length; }) rows.length.v[lane] = 1.0;
 }
 
 template <SphereKind Rows>
@@ -39,6 +42,11 @@ ContactVector impulse(const Rows& rows, int lane) {
     return r;
 }
 
+template <int lanes>
+Vec3 moment(const TurningSphereRows<lanes>& rows, int lane) {
+    return {rows.mx.v[lane], rows.my.v[lane], rows.mz.v[lane]};
+}
+
 inline SphereBody packed_body(const Twist& v, const SpaceMobility& mobility) {
     return {v.velocity[0], v.velocity[1], v.velocity[2], mobility.linear,
             v.spin[0],     v.spin[1],     v.spin[2],     mobility.angular};
@@ -48,6 +56,7 @@ inline SphereBody packed_body(const Twist& v, const SpaceMobility& mobility) {
 template <class Use>
 auto with_rows(const SphereOperator& w, const Use& use) {
     using std::type_identity;
+    if (w.has_moments()) return use(type_identity<TurningSphereRows<4>>());
     return w.has_tangential_bias() ? use(type_identity<BiasedSphereRows<4>>())
                                    : use(type_identity<SphereRows<4>>());
 }

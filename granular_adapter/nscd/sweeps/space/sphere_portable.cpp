@@ -25,5 +25,7 @@ template Sweeps<SphereRows<4>> portable_sweeps();
 template Sweeps<SphereRows<1>> portable_sweeps();
 template Sweeps<BiasedSphereRows<4>> portable_sweeps();
 template Sweeps<BiasedSphereRows<1>> portable_sweeps();
+template Sweeps<TurningSphereRows<4>> portable_sweeps();
+template Sweeps<TurningSphereRows<1>> portable_sweeps();
 
 }  // namespace turbidite::nscd

@@ -46,4 +46,14 @@ struct alignas(32) BiasedSphereRows : SphereRows<lanes> {
     Values bias_x, bias_y, bias_z;
 };
 
+/// The same with resistance to rolling and torsion; without it where neither body can rotate.
+template <int lanes>
+struct alignas(32) TurningSphereRows : BiasedSphereRows<lanes> {
+    using Values = Lanes<lanes>;
+    Values rolling, torsion;  ///< levers [m]
+    Values mx, my, mz;        ///< moment impulse on b, as a vector
+    Values inverse_rr;        ///< 1/(1/I_a + 1/I_b)
+    Values length;            ///< turning_length()
+};
+
 }  // namespace turbidite::nscd

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "launcher/job/pour_grains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/case_hash.hpp"
+#include "launcher/case/files/run_folder.hpp"
+#include "launcher/case/grains/pouring.hpp"
+#include "launcher/job/resume_run.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double piece = 10.0;           // [t_c] played at a time
+constexpr double longest = 200.0;        // [t_c]
+constexpr double energy_at_rest = 1e-6;  // [m u_c2]
+
+fs::path cache_folder() {
+    const char *given = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    if (given != nullptr && *given != '\0') return fs::path(given) / "turbidite" / "poured";
+    if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "turbidite" / "poured";
+    return fs::path("runs") / "poured";
+}
+
+/// The last row of a table, by column; empty without one.
+std::map<std::string, double> last_row(const fs::path& file) {
+    std::ifstream in(file);
+    std::string names, line, last, name, cell;
+    std::getline(in, names);
+    while (std::getline(in, line)) last = line;
+    std::map<std::string, double> row;
+    std::istringstream header(names), cells(last);
+    while (std::getline(header, name, ',') && std::getline(cells, cell, ','))
+        row[name] = parse_real(cell).value_or(NAN);
+    return row;
+}
+
+/// The end of the next piece.
+double next_end(const fs::path& history) {
+    const auto row = last_row(history);
+    const auto time = row.find("time");
+    if (time == row.end()) return piece;
+    return piece * (std::floor(time->second / piece + 1e-9) + 1.0);
+}
+
+/// No report is made of it.
+class WithoutReport {
+ public:
+    WithoutReport() {
+        if (const char* wish = std::getenv("TURBIDITE_REPORT")) before_ = wish;
+        ::setenv("TURBIDITE_REPORT", "off", 1);
+    }
+    ~WithoutReport() {
+        if (before_)
+            ::setenv("TURBIDITE_REPORT", before_->c_str(), 1);
+        else
+            ::unsetenv("TURBIDITE_REPORT");
+    }
+    WithoutReport(const WithoutReport&) = delete;
+    WithoutReport& operator=(const WithoutReport&) = delete;
+
+ private:
+    std::optional<std::string> before_;
+};
+
+JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
+                      const LaunchSite& site) {
+    if (!fs::exists(folder.history()))
+        return play(prepare(pouring, {folder.root, true}, site), site.programs);
+    const auto say = [](const std::string& text) { fmt::print(stderr, "turbidite: {}\n", text); };
+    const auto resumed = prepare_resumption(
+        folder.root, {fmt::format("time.end={:g}", next_end(folder.history()))}, site, say);
+    if (!resumed) return {};
+    return play(resumed->run, site.programs);
+}
+
+[[noreturn]] void end_early(const RunFolder& folder, ExitCode code, const std::string& why) {
+    throw Failure(code, fmt::format("the grains are not poured: {}\n  The pouring is in {}; the "
+                                    "same command goes on with it. The run itself was not started.",
+                                    why, folder.root.string()));
+}
+
+}  // namespace
+
+bool is_at_rest(const fs::path& history) {
+    const auto row = last_row(history);
+    const auto time = row.find("time"), energy = row.find("kinetic_energy");
+    return time != row.end() && energy != row.end() && time->second >= piece * (1.0 - 1e-9) &&
+           energy->second < energy_at_rest;
+}
+
+fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
+    std::vector<std::string> values = resolved.overrides;
+    for (std::string& change : pouring_changes(resolved)) values.push_back(std::move(change));
+    const ResolvedCase pouring = load_case(resolved.file, values);
+    const RunFolder folder{fs::absolute(cache_folder() / case_hash(pouring.yaml))};
+    if (is_at_rest(folder.history())) {
+        fmt::print("{} grains were poured before, in {}\n", pouring.population.size(),
+                   folder.root.string());
+        return folder.root;
+    }
+    fmt::print("Pouring {} grains, in {}\n", pouring.population.size(), folder.root.string());
+    std::fflush(stdout);
+    fs::create_directories(folder.root.parent_path());
+    const WithoutReport without;
+    while (!is_at_rest(folder.history())) {
+        if (next_end(folder.history()) > longest)
+            end_early(folder, ExitCode::participant_failed,
+                      fmt::format("they still move after {} t_c", longest));
+        const JobOutcome outcome = play_piece(pouring, folder, site);
+        if (outcome.code != ExitCode::done)
+            end_early(folder, outcome.code, "the dry run ended early");
+    }
+    return folder.root;
+}
+
+}  // namespace turbidite

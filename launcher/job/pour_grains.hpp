@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "launcher/case/case_file.hpp"
+#include "launcher/job/launch_line.hpp"
+
+namespace turbidite {
+
+/// The run that pours the grains of a poured case (pouring.hpp), which is played until they are at
+/// rest unless that was done before: its folder is named by the hash of its case, below
+/// XDG_CACHE_HOME or ~/.cache. One that was interrupted goes on. Throws Failure if it does not end
+/// well, or grains are not at rest after 200 t_c.
+std::filesystem::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site);
+
+/// A mean kinetic energy of the last row of a history.csv below 1e-6 m u_c2, after at least 10 t_c.
+bool is_at_rest(const std::filesystem::path& history);
+
+}  // namespace turbidite
