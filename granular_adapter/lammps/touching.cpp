@@ -92,7 +92,7 @@ struct Pair {
 class PairRecords {
  public:
     PairRecords(const Library& lammps, const RoundGrains& grains, double friction, double window)
-        : lammps_(lammps), grains_(discs), friction_(friction), window_(window) {
+        : lammps_(lammps), grains_(grains), friction_(friction), window_(window) {
         const int* tag = lammps.atoms<int*>("id");
         for (int i = 0; i < lammps_extract_setting(lammps.handle(), "nall"); ++i)
             index_.emplace(tag[i], i);  // the grain itself comes before its copies

@@ -62,6 +62,9 @@ Ruling left_is_not_cyclic(const Settings& s) {
 Ruling bottom_is_not_cyclic(const Settings& s) {
     return no_cyclic_side(s, "domain.bottom");
 }
+Ruling front_is_not_cyclic(const Settings& s) {
+    return is(s, "dimension", "3") ? no_cyclic_side(s, "domain.front") : std::nullopt;
+}
 
 Ruling shape_is_known(const Settings& s) {
     const bool told = is(s, "dimension", "3") && !grains_adapter(s).in_space;  // space_keys.cpp
@@ -201,6 +204,7 @@ KeyGroup adapter_keys() {
         .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},
                   {"domain.left", {"grains.adapter"}, left_is_not_cyclic},
                   {"domain.bottom", {"grains.adapter"}, bottom_is_not_cyclic},
+                  {"domain.front", {"grains.adapter", "dimension"}, front_is_not_cyclic},
                   {"domain.walls_file", {"grains.adapter"}, walls_have_an_engine},
                   {"grains.shape", {"grains.adapter"}, shape_is_known},
                   {"grains.script", {"grains.adapter"}, script_has_a_yade},
