@@ -51,13 +51,12 @@ Ruling solver_works_in_space(const Settings& s) {
 }  // namespace
 
 KeyGroup space_keys() {
-    return {
-        .keys = {},
-        .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
-                  {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
-                  {"domain.walls_file", {"dimension"}, no_plates_in_space},
-                  {"grains.adapter", {"dimension"}, adapter_plays_in_space},
-                  {"contact.solver", {"dimension"}, solver_works_in_space}}};
+    return {.keys = {},
+            .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
+                      {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
+                      {"domain.walls_file", {"dimension"}, no_plates_in_space},
+                      {"grains.adapter", {"dimension"}, adapter_plays_in_space},
+                      {"contact.solver", {"dimension"}, solver_works_in_space}}};
 }
 
 }  // namespace turbidite
