@@ -41,8 +41,8 @@ Ruling moreau_has_one_restitution(const Settings& s) {
 }
 
 Ruling only_discs_resist_rolling(const Settings& s) {
-    if (s.real("contact.rolling_friction") == 0.0 || s.text("grains.shape") == "disc")
-        return std::nullopt;
+    const bool round = is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
+    if (s.real("contact.rolling_friction") == 0.0 || round) return std::nullopt;
     return Objection{fmt::format("Rolling resistance is for discs, but grains.shape = {}: polygons "
                                  "need none, since their faces resist rolling.",
                                  s.text("grains.shape")),
@@ -143,6 +143,13 @@ KeyGroup contact_law_keys() {
                      "rolling resistance over R r_n: the slope up to which a disc does not roll",
                  .allowed = "A coefficient of rolling resistance must be zero or positive.",
                  .remedy = "Use 0 for grains that roll freely."},
+                of_space({.name = "contact.torsion_friction",
+                          .type = KeyType::real,
+                          .fallback = "0",
+                          .range = not_negative,
+                          .help = "resistance to a spin about the normal, over R r_n, as "
+                                  "contact.rolling_friction to rolling",
+                          .contacts = Contacts::rigid}),
                 {.name = "contact.adhesion",
                  .type = KeyType::choice,
                  .fallback = "none",

@@ -26,6 +26,7 @@ constexpr Coefficient coefficients[] = {
     {"restitution", &nscd::Surface::restitution},
     {"restitution_tangential", &nscd::Surface::restitution_tangential},
     {"rolling_friction", &nscd::Surface::rolling_friction},
+    {"torsion_friction", &nscd::Surface::torsion_friction},
     {"adhesion_force", &nscd::Surface::adhesion},
 };
 
@@ -81,6 +82,7 @@ nscd::Surface surface(const Settings& settings) {
     take(settings, "contact.restitution", 1.0, result.restitution);
     take(settings, "contact.restitution_tangential", 1.0, result.restitution_tangential);
     take(settings, "contact.rolling_friction", 1.0, result.rolling_friction);
+    take(settings, "contact.torsion_friction", 1.0, result.torsion_friction);
     return result;
 }
 

@@ -66,12 +66,27 @@ TEST_F(CInterface, AProgramOfALaterHeaderRunsOrIsRefusedInWords) {
     const Answer used = run("other_sizes uses-more");
     EXPECT_EQ(used.code, 3) << used.out << used.err;
     EXPECT_SAYS(used.err,
-                "the turbidite_adapter of the program has 128 bytes, this library knows "
-                "120 of them, and the program uses more");
+                "the turbidite_adapter of the program has 136 bytes, this library knows "
+                "128 of them, and the program uses more");
 
     const Answer small = run("other_sizes too-small");
     EXPECT_EQ(small.code, 3) << small.out << small.err;
     EXPECT_SAYS(small.err, "there have never been fewer than 88");
+}
+
+TEST_F(CInterface, AProgramSaysInWhichDimensionsItPlays) {
+    compile(headers + "/other_sizes.c", "present", "other_sizes");
+    const std::string space = "' --set dimension=3 --set 'domain.size=[8, 40, 4]";
+    for (const std::string dimension : {std::string(), space}) {
+        const Answer both = run("other_sizes both-dimensions" + dimension);
+        EXPECT_EQ(both.code, 0) << both.out << both.err;
+    }
+    const Answer planar = run("other_sizes uses-no-more" + space);
+    EXPECT_EQ(planar.code, 3) << planar.out << planar.err;
+    EXPECT_SAYS(planar.err, "dimension is 2, the case needs 3");
+    const Answer four = run("other_sizes four-dimensions");
+    EXPECT_EQ(four.code, 3) << four.out << four.err;
+    EXPECT_SAYS(four.err, "turbidite_adapter.dimensions = 4; allowed are 2, 3");
 }
 
 // MPI_Init, the split and MPI_Finalize are the program's.

@@ -83,6 +83,27 @@ TEST_F(Space, StartsFromAnotherRun) {
     EXPECT_GT(whole.at("kinetic_energy")[8], 1e-6);
 }
 
+// The second run finds the packing of the first.
+TEST_F(Space, PouredGrainsAreAtRestWhenTheRunBegins) {
+    ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);
+    const std::string poured =
+        "run case.yaml --set grains.generator=poured --set grains.count=150 "
+        "--set grains.jitter=0 --set time.end=0.5";
+    const Answer first = turbidite(poured + " --out first");
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_SAYS(first.out, "Pouring 150 grains");
+    const Columns run = history("first");
+    EXPECT_EQ(run.at("grains").front(), 150.0);
+    EXPECT_LT(run.at("kinetic_energy").front(), 1e-6);
+    EXPECT_LT(run.at("front_x").front(), 6.001);
+    EXPECT_GT(run.at("mean_speed").back(), 0.01);  // its wall is gone
+    const Answer second = turbidite(poured + " --out second");
+    ::unsetenv("XDG_CACHE_HOME");
+    EXPECT_SAYS(second.out, "150 grains were poured before");
+    EXPECT_EQ(lines_without_wall_times(text(scratch.path() / "second/history.csv")),
+              lines_without_wall_times(text(scratch.path() / "first/history.csv")));
+}
+
 TEST_F(Space, CheckForecastsAndRefusesInWords) {
     const Answer good = turbidite("check case.yaml");
     EXPECT_EQ(good.code, 0) << good.err;

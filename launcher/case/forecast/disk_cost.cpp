@@ -24,7 +24,7 @@ constexpr double of_scalar_field = 8.0;
 constexpr double of_fluid_checkpoint = 60.0;
 
 // Bytes per grain: of one output (grains and contacts, base64), of one checkpoint.
-constexpr double of_disc = 430.0, of_polygon = 700.0;
+constexpr double of_disc = 430.0, of_polygon = 700.0, of_sphere = 900.0;
 constexpr double of_grain_checkpoint = 900.0;
 
 constexpr double of_history_row = 550.0;
@@ -71,9 +71,10 @@ double fluid_bytes(const Settings& settings, const RunValues& run, double sets) 
 }
 
 double grain_bytes(const ResolvedCase& resolved, const RunValues& run, double sets) {
-    const double per_grain = (all_round(resolved) ? of_disc : of_polygon) *
-                                 (1.0 + outputs(run.windows, run.output_every)) +
-                             of_grain_checkpoint * sets;
+    const double planar = all_round(resolved) ? of_disc : of_polygon;
+    const double per_grain =
+        (run.dimension == 3 ? of_sphere : planar) * (1.0 + outputs(run.windows, run.output_every)) +
+        of_grain_checkpoint * sets;
     return per_grain * static_cast<double>(resolved.population.size());
 }
 

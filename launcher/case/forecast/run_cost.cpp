@@ -52,6 +52,7 @@ constexpr double seconds_per_cell = 6e-6;  // blockMesh, and reading its mesh
 
 // Bytes.
 constexpr double of_coupler = 2e7, of_coupler_per_grain = 2800.0;
+constexpr double of_coupler_per_sphere = 5000.0;  // with the voxels of its pores
 constexpr double of_yade = 2.5e8, of_other_hosts = 3e7, of_host_per_grain = 5000.0;
 constexpr double gigabyte = 1e9;
 
@@ -188,7 +189,9 @@ double predicted_memory(const ResolvedCase& resolved) {
     const double host = in_yade(settings) ? of_yade : of_other_hosts;
     const double programs =
         of_coupler + host * static_cast<double>(settings.integer("grains.ranks"));
-    const double grains = (of_coupler_per_grain + of_host_per_grain) * count(resolved);
+    const bool space = is(settings, "dimension", "3");
+    const double of_coupler_each = space ? of_coupler_per_sphere : of_coupler_per_grain;
+    const double grains = (of_coupler_each + of_host_per_grain) * count(resolved);
     return (settings.flag("fluid.enabled") ? fluid_memory(settings) : 0.0) +
            (programs + grains) / gigabyte;
 }

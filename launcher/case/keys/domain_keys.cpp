@@ -28,8 +28,7 @@ std::vector<Choice> side_choices(const BoxSide& side) {
 std::string side_help(const BoxSide& side) {
     const std::string help = std::string(side.name) + " side of the box";
     if (is_planar(side)) return help;
-    return help +
-           (side.inward > 0.0 ? ", at z = 0" : ", at z = its depth");
+    return help + (side.inward > 0.0 ? ", at z = 0" : ", at z = its depth");
 }
 
 KeySpec side_type(const BoxSide& side) {

@@ -48,33 +48,15 @@ Ruling solver_works_in_space(const Settings& s) {
                      "Use nlgs, or dimension: 2."};
 }
 
-/// Of contact.*, or of a material or pair.
-Ruling nothing_resists_rolling_in_space(const Settings& s) {
-    if (!in_space(s)) return std::nullopt;
-    const std::string last = ".rolling_friction", first = "contact.";
-    for (const auto& [key, value] : s.entries()) {
-        const bool rolls = key.rfind(first, 0) == 0 && key.size() > last.size() &&
-                           key.compare(key.size() - last.size(), last.size(), last) == 0;
-        if (rolls && s.real(key) != 0.0)
-            return Objection{
-                fmt::format("In space nothing resists rolling in this version, but {} = {}.", key,
-                            value),
-                "Use 0, or dimension: 2."};
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 KeyGroup space_keys() {
-    return {
-        .keys = {},
-        .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
-                  {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
-                  {"domain.walls_file", {"dimension"}, no_plates_in_space},
-                  {"grains.adapter", {"dimension"}, adapter_plays_in_space},
-                  {"contact.solver", {"dimension"}, solver_works_in_space},
-                  {"contact.rolling_friction", {"dimension"}, nothing_resists_rolling_in_space}}};
+    return {.keys = {},
+            .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
+                      {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
+                      {"domain.walls_file", {"dimension"}, no_plates_in_space},
+                      {"grains.adapter", {"dimension"}, adapter_plays_in_space},
+                      {"contact.solver", {"dimension"}, solver_works_in_space}}};
 }
 
 }  // namespace turbidite

@@ -42,5 +42,11 @@ int main(int argc, char** argv) {
     if (strcmp(argv[1], "own-mpi") == 0) return run_with_own_mpi(&mine, &argc, &argv);
     if (strcmp(argv[1], "uses-more") == 0) mine.member_of_tomorrow = &mine;
     if (strcmp(argv[1], "too-small") == 0) size = 8;
+    static const char* const spheres[] = {"sphere", "disc", 0};
+    if (strcmp(argv[1], "both-dimensions") == 0) {
+        mine.known.dimensions = TURBIDITE_BOTH_DIMENSIONS;
+        mine.known.shapes = spheres;
+    }
+    if (strcmp(argv[1], "four-dimensions") == 0) mine.known.dimensions = 4;
     return turbidite_run_grains_sized(&mine.known, size, &argc, &argv, argv[argc - 1]);
 }

@@ -8,8 +8,11 @@
 #include "coupler/protocol/prescribed_motion.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/protocol/sides.hpp"
+#include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/grains/neighbour_grid.hpp"
 #include "launcher/case/grains/population.hpp"
+#include "launcher/case/grains/pouring.hpp"
 #include "launcher/case/grains/space_lattice.hpp"
 #include "launcher/case/grains/space_packing.hpp"
 #include "tests/unit/case/case_test.hpp"
@@ -83,19 +86,55 @@ TEST_F(PlaneCase, WhatIsOfSpaceIsRefused) {
 // All at once, each in words.
 TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
     folder.write("w.csv", "id,x1,y1,x2,y2\n0,1,1,2,2\n");
-    const std::string text = refusal(
-        "", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
-             "domain.walls_file=w.csv", "grains.adapter=lammps-md", "contact.solver=central-path",
-             "domain.size=[12, 10]", "contact.materials.glass.rolling_friction=0.1"});
+    const std::string text =
+        refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
+                     "domain.walls_file=w.csv", "grains.adapter=lammps-md",
+                     "contact.solver=central-path", "domain.size=[12, 10]"});
     EXPECT_SAYS(text, "In space there is no fluid in this version.");
     EXPECT_SAYS(text, "In space grains are spheres in this version.");
     EXPECT_SAYS(text, "Walls inside the box are plates of the plane");
     EXPECT_SAYS(text, "lammps-md moves grains in the plane only in this version.");
     EXPECT_SAYS(text, "Use yade-nscd or standalone-nscd");
     EXPECT_SAYS(text, "central-path solves contacts of the plane only.");
-    EXPECT_SAYS(text, "but contact.materials.glass.rolling_friction = 0.1.");
     EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");
     EXPECT_EQ(text.find("supports discs only"), std::string::npos);
+}
+
+TEST_F(SpaceCase, TheForecastCountsSpheres) {
+    const auto window = [&](const char* count) {
+        return forecast_window(load("", {std::string("grains.count=") + count}), 64.0).grains;
+    };
+    EXPECT_DOUBLE_EQ(window("200"), 2.0 * window("100"));
+    EXPECT_DOUBLE_EQ(window("100"), 100 * 6e-6);
+    EXPECT_GT(predicted_memory(load("", {"grains.count=200"})), predicted_memory(load()));
+    EXPECT_GT(predicted_disk(load("", {"grains.count=200"})), 1.5 * predicted_disk(load()));
+}
+
+TEST_F(SpaceCase, ContactsMayResistRollingAndTorsion) {
+    const ResolvedCase resolved =
+        load("", {"contact.rolling_friction=0.1", "contact.torsion_friction=0.05"});
+    EXPECT_EQ(resolved.settings.real("contact.torsion_friction"), 0.05);
+}
+
+TEST_F(SpaceCase, PouredGrainsHaveStandInsAndARunOfTheirOwn) {
+    const std::vector<std::string> poured = {"grains.generator=poured", "grains.region=[6, 9, 6]",
+                                             "grains.pour_friction=0.5", "domain.right=free"};
+    const ResolvedCase resolved = load("", poured);
+    EXPECT_TRUE(is_poured(resolved.settings));
+    EXPECT_EQ(resolved.population.size(), 100u);
+    std::vector<std::string> changed = poured;
+    for (const std::string& change : pouring_changes(resolved)) changed.push_back(change);
+    const ResolvedCase pouring = load("", changed);
+    const Settings& s = pouring.settings;
+    EXPECT_EQ(s.text("grains.generator"), "random");
+    EXPECT_EQ(s.real("contact.friction"), 0.5);
+    EXPECT_EQ(s.text("domain.right"), "wall");    // the ground is smaller than the box
+    EXPECT_EQ(s.text("domain.front"), "cyclic");  // as deep as the box
+    EXPECT_EQ(s.real("run.size_x"), 6.0);
+    EXPECT_EQ(pouring.population.size(), 100u);
+    std::vector<std::string> full = poured;
+    full.push_back("grains.count=500");  // 0.81 of the region
+    EXPECT_SAYS(refusal("", full), "poured packings fill 0.66 at most");
 }
 
 TEST_F(SpaceCase, SidesComeInPairsAndRegionsInTheBox) {

@@ -100,6 +100,22 @@ TEST(NscdAdapterInSpace, GrainsLeaveThroughAFreeBack) {
     EXPECT_EQ(player.state.grains[0].id, 1);
 }
 
+// A sphere that spins about the vertical on the floor: I dw = -mu_t R m g dt, until it rests.
+TEST(NscdAdapterInSpace, TorsionStopsASpinAboutTheNormal) {
+    Settings s = space_box();
+    s.set("contact.torsion_friction", 0.1);
+    GrainState spinning = sphere_at(0, {5.0, 0.5, 3.0});
+    spinning.angular_velocity = {0, 2, 0};
+    Player player(s, {spinning});
+    player.play(100);
+    // mu_t R m g/I = 0.1 R/(0.4 R^2) = 0.5
+    EXPECT_NEAR(player.state.grains[0].angular_velocity[1], 2.0 - 0.5, 1e-6);
+    EXPECT_NEAR(player.state.contacts->front().rolling_impulse[1],
+                -0.1 * 0.5 * 1.5 * std::numbers::pi / 6.0 * 0.01, 1e-9);
+    player.play(350);
+    EXPECT_NEAR(player.state.grains[0].angular_velocity[1], 0.0, 1e-9);
+}
+
 TEST(NscdAdapterInSpace, DepthMayBeCyclic) {
     Settings s = space_box();
     for (const char* side : {"front", "back"})
