@@ -21,8 +21,7 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .moving_sides = true,
             .materials = true,
             .prescribed_grains = true,
-            .moved_grains = true,
-            .in_space = true};
+            .moved_grains = true};
 }
 
 GrainsAdapter external_program(const char* name, const char* help) {

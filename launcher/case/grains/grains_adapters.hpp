@@ -43,7 +43,6 @@ struct GrainsAdapter {
     bool materials = false;          ///< more than the first, contact.pairs
     bool prescribed_grains = false;  ///< fixed and driven ones
     bool moved_grains = false;       ///< that follow a motion of domain.motions
-    bool in_space = false;           ///< dimension: 3
     int most_ranks = 1;
     double disc_substep = 0.4e-6;  ///< of springs: time per disc and sub-step [s]
 

@@ -67,8 +67,7 @@ Ruling front_is_not_cyclic(const Settings& s) {
 }
 
 Ruling shape_is_known(const Settings& s) {
-    const bool told = is(s, "dimension", "3") && !grains_adapter(s).in_space;  // space_keys.cpp
-    if (told || has(grains_adapter(s).shapes, s.text("grains.shape"))) return std::nullopt;
+    if (has(grains_adapter(s).shapes, s.text("grains.shape"))) return std::nullopt;
     return unknown_to(
         s, "supports discs only", [](const GrainsAdapter& a) { return has(a.shapes, "polygon"); },
         "Use disc");

@@ -4,7 +4,6 @@
 // in its own sentence.
 #include <fmt/format.h>
 
-#include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
 namespace turbidite {
@@ -34,14 +33,6 @@ Ruling no_plates_in_space(const Settings& s) {
                      "Remove it, or use dimension: 2."};
 }
 
-Ruling adapter_plays_in_space(const Settings& s) {
-    if (!in_space(s) || grains_adapter(s).in_space) return std::nullopt;
-    return Objection{
-        fmt::format("{} moves grains in the plane only in this version.", s.text("grains.adapter")),
-        fmt::format("Use {}, or dimension: 2.",
-                    adapters_that([](const GrainsAdapter& a) { return a.in_space; }))};
-}
-
 Ruling solver_works_in_space(const Settings& s) {
     if (!in_space(s) || s.text("contact.solver") == "nlgs") return std::nullopt;
     return Objection{fmt::format("{} solves contacts of the plane only.", s.text("contact.solver")),
@@ -55,7 +46,6 @@ KeyGroup space_keys() {
             .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
                       {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
                       {"domain.walls_file", {"dimension"}, no_plates_in_space},
-                      {"grains.adapter", {"dimension"}, adapter_plays_in_space},
                       {"contact.solver", {"dimension"}, solver_works_in_space}}};
 }
 
