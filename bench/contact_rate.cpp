@@ -18,20 +18,33 @@ struct Order {
     double tolerance = 1e-3;
     double agitation = 0.0;
     int threads = 1;
+    bool spheres = false;
 };
 
 Sample run_worker(Site& site, const Order& order) {
     const std::filesystem::path result = site.folder() / "contact.json";
-    site.run(
-        {site.programs().folder / "turbidite-bench-contact", "--width",
-         fmt::format("{}", order.width), "--warm-up", std::to_string(order.warm_up), "--steps",
-         std::to_string(order.steps), "--sweeps", std::to_string(order.sweeps), "--tolerance",
-         fmt::format("{:g}", order.tolerance), "--agitation", fmt::format("{:g}", order.agitation),
-         "--threads", std::to_string(order.threads), "--result", result.string()},
-        "contact.log");
+    std::vector<std::string> words = {site.programs().folder / "turbidite-bench-contact",
+                                      "--width",
+                                      fmt::format("{}", order.width),
+                                      "--warm-up",
+                                      std::to_string(order.warm_up),
+                                      "--steps",
+                                      std::to_string(order.steps),
+                                      "--sweeps",
+                                      std::to_string(order.sweeps),
+                                      "--tolerance",
+                                      fmt::format("{:g}", order.tolerance),
+                                      "--agitation",
+                                      fmt::format("{:g}", order.agitation),
+                                      "--threads",
+                                      std::to_string(order.threads),
+                                      "--result",
+                                      result.string()};
+    if (order.spheres) words.push_back("--spheres");
+    site.run(words, "contact.log");
     const Sample sample = read_sample(result);
-    fmt::print(stderr, "  {} discs: {:.3g} contact-iterations per second\n",
-               sample.counts.at("discs"), sample.counts.at("rate"));
+    fmt::print(stderr, "  {} grains: {:.3g} contact-iterations per second\n",
+               sample.counts.at("grains"), sample.counts.at("rate"));
     return sample;
 }
 
@@ -45,8 +58,8 @@ double seconds(const std::vector<Sample>& samples, const std::string& part) {
 
 std::string scene(const std::vector<Sample>& samples) {
     return fmt::format(
-        "{} discs, {:.0f} contacts with an impulse, of {:.0f} candidates, {:.0f} sweeps",
-        count(samples, "discs"), count(samples, "contacts"), count(samples, "candidates"),
+        "{} grains, {:.0f} contacts with an impulse, of {:.0f} candidates, {:.0f} sweeps",
+        count(samples, "grains"), count(samples, "contacts"), count(samples, "candidates"),
         count(samples, "sweeps"));
 }
 
@@ -86,6 +99,15 @@ Measured contact_rate_1397(Site& site) {
 Measured contact_rate_50000(Site& site) {
     if (site.quick()) return rate(site, {.width = 21.2, .warm_up = 2, .steps = 2}, 1);
     return rate(site, {.width = 147.6, .warm_up = 20, .steps = 10}, 3);
+}
+
+// In mid-collapse: agitated until contacts are everywhere.
+Measured contact_rate_spheres(Site& site) {
+    Order order{.width = 26.3, .warm_up = 20, .steps = 5};
+    order.agitation = 0.1;
+    order.spheres = true;
+    if (site.quick()) order.width = 6.0, order.warm_up = 5, order.steps = 2;
+    return rate(site, order, 3);
 }
 
 // A fixed number of sweeps at both sizes, since large columns converge more slowly; with agitation,

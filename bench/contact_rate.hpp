@@ -10,6 +10,7 @@ namespace turbidite::bench {
 
 Measured contact_rate_1397(Site& site);
 Measured contact_rate_50000(Site& site);
+Measured contact_rate_spheres(Site& site);
 Measured contact_cost_growth(Site& site);
 
 }  // namespace turbidite::bench

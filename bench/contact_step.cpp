@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-bench-contact: times the contact solver on the steps of a dense column of discs.
+// turbidite-bench-contact: times the contact solver on the steps of a dense column of discs, or of
+// spheres.
 //
 // Every step is done by the engine (with warm start and detection). Then its problem is solved once
 // more from the same initial guess, and only this solve is timed. Counted are updates of contacts
@@ -21,6 +22,7 @@ namespace {
 
 struct Options {
     Column column;
+    bool spheres = false;
     double step = 0.01;
     int warm_up = 0, steps = 1;
     nscd::SolverSettings solver;
@@ -43,8 +45,15 @@ struct Totals {
     }
 };
 
+nscd::Engine column_of(const Options& options) {
+    if (options.spheres)
+        return dense_spheres({.width = options.column.width, .agitation = options.column.agitation},
+                             options.solver);
+    return dense_column(options.column, options.solver);
+}
+
 Sample run(const Options& options) {
-    nscd::Engine engine = dense_column(options.column, options.solver);
+    nscd::Engine engine = column_of(options);
     const auto solver = nscd::make_solver("nlgs");
     StepClock whole, solve;
     Totals totals;
@@ -67,7 +76,7 @@ Sample run(const Options& options) {
     sample.wall = solve.wall();
     sample.resident = resident_bytes();
     sample.parts = {{"step", whole.processor()}, {"solve", solve.processor()}};
-    sample.counts = {{"discs", static_cast<double>(engine.bodies().size())},
+    sample.counts = {{"grains", static_cast<double>(engine.bodies().size())},
                      {"candidates", totals.candidates / steps},
                      {"contacts", totals.contacts / steps},
                      {"sweeps", totals.sweeps / steps},
@@ -84,6 +93,7 @@ int main(int argc, char** argv) {
     turbidite::bench::Options options;
     CLI::App app{"The worker of `turbidite bench contact`", "turbidite-bench-contact"};
     app.add_option("--width", options.column.width, "of the column [D]");
+    app.add_flag("--spheres", options.spheres, "instead of discs");
     app.add_option("--shrink", options.column.shrink, "radii in [1 - shrink, 1] D/2");
     app.add_option("--agitation", options.column.agitation, "of velocities [sqrt(D g)]");
     app.add_option("--threads", options.solver.threads, "of the solver");

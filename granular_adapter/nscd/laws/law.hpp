@@ -85,7 +85,6 @@ struct ContactOutcome {
 
 /// Parameters that do not belong to the surfaces, for all parts; each part reads its own.
 struct LawSettings {
-    int dimension = 2;
     double recovery_fraction = 0.2;  ///< fraction of an overlap removed per step, [0, 1]
     double recovery_speed = 0.5;     ///< upper limit of the speed at which it is removed [m/s]
     double restitution_speed = 0.0;  ///< approaches slower than this do not rebound [m/s]
@@ -95,6 +94,7 @@ struct LawSettings {
     double adhesion_shear = 0.0;  ///< shear strength of a bond over its tensile strength
     /// Of the discs or spheres to which Surface::adhesion refers [m]
     double reference_diameter = 1.0;
+    int dimension = 2;  ///< of the contacts
 };
 
 /// What a law does in one slot; its functions hold its parameters.

@@ -225,7 +225,7 @@ TEST(SpaceTurning, APackingComesToRestAndIsRestored) {
         return engine;
     };
     Engine engine = make();
-    scenes::run(engine, 15.0, dt);
+    scenes::run(engine, 18.0, dt);
     EXPECT_LT(scenes::kinetic_energy(engine.bodies()), 1e-5);
     const StepReport report = engine.step(dt);
     EXPECT_TRUE(report.converged);
