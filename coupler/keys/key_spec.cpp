@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace turbidite {
 namespace {
@@ -68,7 +69,7 @@ std::vector<std::string> parts_of(const std::string& name) {
 
 KeySpec of_space(KeySpec key) {
     key.dimension = 3;
-    if (key.need == Need::fallback) key.in_space.fallback = key.fallback;
+    if (key.need == Need::fallback) key.in_space.fallback = std::exchange(key.fallback, "");
     key.need = Need::conditional;
     key.when = "dimension: 3";
     key.required = [](const Settings&) { return false; };

@@ -21,7 +21,7 @@ constexpr auto introduction =
 
 std::string default_text(const KeySpec& key) {
     if (key.dimension == 3)
-        return (key.fallback.empty() ? "optional" : "`" + key.fallback + "`") +
+        return (key.in_space.fallback ? "`" + *key.in_space.fallback + "`" : "optional") +
                std::string(" with ") + key.when;
     switch (key.need) {
         case Need::fallback:

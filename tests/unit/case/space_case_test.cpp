@@ -101,7 +101,7 @@ TEST_F(SpaceCase, TheForecastCountsSpheres) {
         return forecast_window(load("", {std::string("grains.count=") + count}), 64.0).grains;
     };
     EXPECT_DOUBLE_EQ(window("200"), 2.0 * window("100"));
-    EXPECT_DOUBLE_EQ(window("100"), 100 * 6e-6);
+    EXPECT_DOUBLE_EQ(window("100"), 100 * 8e-6);
     EXPECT_GT(predicted_memory(load("", {"grains.count=200"})), predicted_memory(load()));
     EXPECT_GT(predicted_disk(load("", {"grains.count=200"})), 1.5 * predicted_disk(load()));
 }
