@@ -16,7 +16,7 @@ Settings in_space(double zeta, double gravity) {
     Settings settings = soft_settings();
     settings.set("run.md_damping", zeta), settings.set("run.gravity", gravity);
     settings.set("run.dimension", std::int64_t{3});
-    settings.set("run.size_z", 12.0);
+    settings.set("run.size_z", 12.0), settings.set("run.acceleration_z", 0.0);
     settings.set("domain.front", std::string("wall"));
     settings.set("domain.back", std::string("wall"));
     return settings;

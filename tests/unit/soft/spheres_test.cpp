@@ -13,7 +13,7 @@ constexpr double radius = 0.5;
 Settings in_space(double zeta, double gravity) {
     Settings settings = heavy(zeta, gravity);
     settings.set("run.dimension", std::int64_t{3});
-    settings.set("run.size_z", 12.0);
+    settings.set("run.size_z", 12.0), settings.set("run.acceleration_z", 0.0);
     settings.set("domain.front", std::string("wall"));
     settings.set("domain.back", std::string("wall"));
     return settings;
