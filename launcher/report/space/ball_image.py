@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 LIGHT = np.array([-0.35, 0.65, 0.67]) / np.linalg.norm([-0.35, 0.65, 0.67])
-AMBIENT = 0.42
+AMBIENT = 0.5
 DEEP_SHADE = 0.38     # the darkest that depth makes a surface
 SHADE_REACH = 1.2     # of the depth compared with its surroundings, in median radii
 FEWEST_PIXELS = 0.5   # radius of the smallest mark
@@ -31,10 +31,11 @@ def surfaces(seen, radii, extent, pixels_per_length):
     left, right, bottom, top = extent
     columns, rows = (max(1, int(np.ceil((high - low) * pixels_per_length)))
                      for low, high in ((left, right), (bottom, top)))
-    found = Surfaces(np.full(rows * columns, -1, dtype=np.int64), np.full(rows * columns, -np.inf),
-                     np.zeros((rows * columns, 2)))
-    places = (seen[:, :2] - (left, bottom)) * pixels_per_length - 0.5
-    sizes = np.maximum(radii * pixels_per_length, FEWEST_PIXELS)
+    seen, radii = seen.astype(np.float32), np.asarray(radii, dtype=np.float32)
+    found = Surfaces(np.full(rows * columns, -1, dtype=np.int32), np.full(rows * columns, -np.inf, dtype=np.float32),
+                     np.zeros((rows * columns, 2), dtype=np.float32))
+    places = (seen[:, :2] - np.float32([left, bottom])) * np.float32(pixels_per_length) - np.float32(0.5)
+    sizes = np.maximum(radii * np.float32(pixels_per_length), np.float32(FEWEST_PIXELS))
     half = np.ceil(sizes).astype(int)
     for reach in np.unique(half):
         members = np.flatnonzero(half == reach)
@@ -70,7 +71,7 @@ def shaded(found, colours, radius):
     facing = np.sqrt(np.maximum(0.0, 1.0 - (found.offset**2).sum(axis=-1)))
     diffuse = np.clip(found.offset @ LIGHT[:2] + facing * LIGHT[2], 0.0, 1.0)
     light = (AMBIENT + (1.0 - AMBIENT) * diffuse) * _depth_shade(found.depth, covered, radius)
-    image = np.zeros((*covered.shape, 4))
+    image = np.zeros((*covered.shape, 4), dtype=np.float32)
     image[covered, :3] = colours[found.owner[covered]] * light[covered, None]
     image[covered, 3] = 1.0
     return image
@@ -82,7 +83,7 @@ def _depth_shade(depth, covered, radius):
         return np.ones(depth.shape)
     reach = max(1, int(round(SHADE_REACH * radius)))
     filled = np.where(covered, depth, 0.0)
-    weight = blurred(covered.astype(float), reach)
+    weight = blurred(covered.astype(np.float32), reach)
     below = np.where(covered, blurred(filled, reach) / np.maximum(weight, 1e-9) - filled, 0.0)
     scale = np.quantile(np.abs(below[covered]), 0.95) or 1.0
     return 1.0 - (1.0 - DEEP_SHADE) * np.clip(below / (2.0 * scale), 0.0, 1.0)
@@ -99,10 +100,10 @@ def blurred(image, reach):
 def _running_mean(image, reach, axis):
     width = [(0, 0), (0, 0)]
     width[axis] = (reach + 1, reach)
-    sums = np.cumsum(np.pad(image, width), axis=axis)
+    sums = np.cumsum(np.pad(image, width), axis=axis, dtype=np.float64)
     size = image.shape[axis]
     upper, lower = (np.take(sums, np.arange(size) + shift, axis=axis) for shift in (2 * reach + 1, 0))
-    return (upper - lower) / (2 * reach + 1)
+    return ((upper - lower) / (2 * reach + 1)).astype(np.float32)
 
 
 def halved(image):

@@ -9,16 +9,18 @@ from dataclasses import dataclass
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap
 
 from space import ball_image
 from space.camera import Camera
 
-PIXELS = 1100.0       # along the longer side of a picture
+PIXELS = 680.0        # along the longer side of a picture, as wide as a page shows it
 FINER = 2             # pixels are computed so many times finer, and averaged
 MARGIN = 0.8          # D around what is seen
 TICKS = 10.0          # D
 TICK_LENGTH = 0.6
 EDGE = '#8a8a8a'
+DARKEST = 0.2         # of a colour map that is used
 PLAIN = (0.80, 0.78, 0.73)  # of grains without a value
 INCHES = 5.6          # width of a single picture, its text readable at 420 pixels
 
@@ -59,11 +61,16 @@ def corners(box):
     return np.array([[x, y, z] for x in (0.0, box[0]) for y in (0.0, box[1]) for z in (0.0, box[2])])
 
 
+def colour_map(name):
+    """Without its darkest part, in which shaded spheres would be black."""
+    return ListedColormap(plt.get_cmap(name)(np.linspace(DARKEST, 1.0, 256)))
+
+
 def colours_of(values, limit, name):
-    """(n, 3) of values between 0 and `limit` in a colour map; plain without values."""
+    """(n, 3) of values between 0 and `limit` in a colour_map; plain without values."""
     if values is None:
         return None
-    return plt.get_cmap(name)(np.clip(values / limit, 0.0, 1.0))[:, :3]
+    return colour_map(name)(np.clip(values / limit, 0.0, 1.0))[:, :3]
 
 
 def image_of(shown, run, grains, colours):

@@ -37,7 +37,7 @@ def panel(run, frame, grains, limit):
     axes.imshow(scene.image_of(frame, run, grains, colours), origin='lower', extent=frame.extent, zorder=1,
                 interpolation='antialiased')
     axes.set_title(scene.title(run, grains.time), fontsize=10)
-    bar = result.colorbar(ScalarMappable(Normalize(0.0, limit), pictures.SPEED_COLOURS), cax=below,
+    bar = result.colorbar(ScalarMappable(Normalize(0.0, limit), scene.colour_map(pictures.SPEED_COLOURS)), cax=below,
                           orientation='horizontal', extend='max')
     bar.set_label(r'speed of the grains, $|u|\,/\,u_c$', fontsize=8, labelpad=1)
     below.tick_params(labelsize=7)
