@@ -336,7 +336,8 @@ TEST(NscdAdapter, IdentifiesItself) {
     EXPECT_EQ(hello.host_code, "YADE 2023.02a");
     EXPECT_FALSE(hello.adapter_version.empty());
     EXPECT_EQ(hello.role, Role::grains);
-    EXPECT_EQ(hello.capabilities.shapes, (std::vector<std::string>{"disc", "polygon", "triangle"}));
+    EXPECT_EQ(hello.capabilities.shapes,
+              (std::vector<std::string>{"disc", "polygon", "triangle", "sphere"}));
     const std::vector<std::string>& laws = hello.capabilities.contact_laws;
     for (const char* law : {"coulomb", "static-dynamic", "moreau", "capillary"})
         EXPECT_NE(std::find(laws.begin(), laws.end(), law), laws.end()) << law;
