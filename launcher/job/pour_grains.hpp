@@ -14,7 +14,7 @@ namespace turbidite {
 /// well, or grains are not at rest after 200 t_c.
 std::filesystem::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site);
 
-/// A mean kinetic energy of the last row of a history.csv below 1e-6 m u_c2, after at least 10 t_c.
+/// A mean kinetic energy of the last row of a history.csv below 1e-4 m u_c2, after at least 10 t_c.
 bool is_at_rest(const std::filesystem::path& history);
 
 }  // namespace turbidite
