@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr double piece = 10.0;     // [t_c] played at a time
 constexpr double longest = 200.0;  // [t_c]
-// [m u_c2]. Thousands of grains at rest keep 1e-6 to 3e-5: gaps of 1e-5 D that open and close within
-// a window of 0.01 t_c are speeds of 1e-3 u_c, and single grains in cages go on rolling.
+// [m u_c2]. Thousands of grains at rest keep 1e-6 to 3e-5: gaps of 1e-5 D that open and close
+// within a window of 0.01 t_c are speeds of 1e-3 u_c, and single grains in cages go on rolling.
 constexpr double energy_at_rest = 1e-4;
 
 fs::path cache_folder() {
