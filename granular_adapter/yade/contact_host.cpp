@@ -48,7 +48,10 @@ std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
 
 void ContactHost::lay_out(Layout layout) {
     auto next = new_engine(layout);
-    if (engine_) restore_contact_memory(*next, contact_memory(*engine_));
+    if (!given_memory_.empty())
+        restore_contact_memory(*next, std::exchange(given_memory_, {}));
+    else if (engine_ && engine_->settings().dimension == layout.dimension)
+        restore_contact_memory(*next, contact_memory(*engine_));
     engine_ = std::move(next);
     shapes_ = std::move(layout.shapes);
     states_ = std::move(layout.states);
@@ -78,7 +81,10 @@ std::vector<char> ContactHost::memory() const {
 }
 
 void ContactHost::restore_memory(const std::vector<char>& bytes) {
-    restore_contact_memory(*engine_, bytes);
+    if (std::as_const(*engine_).bodies().size() == 0)
+        given_memory_ = bytes;  // of the scene that is laid out next, whatever its dimension
+    else
+        restore_contact_memory(*engine_, bytes);
 }
 
 std::optional<Overlap> ContactHost::overlap() const {

@@ -101,6 +101,7 @@ class ContactHost {
     SceneWatch watch_;
     std::vector<Vec3> solved_positions_;  ///< at which the last contacts were solved
     double last_step_ = 0.0;
+    std::vector<char> given_memory_;  ///< for the first scene
 };
 
 }  // namespace turbidite::yade

@@ -39,6 +39,12 @@ Ruling solver_works_in_space(const Settings& s) {
                      "Use nlgs, or dimension: 2."};
 }
 
+Ruling no_problem_files_in_space(const Settings& s) {
+    if (!in_space(s)) return std::nullopt;
+    return Objection{"Contact problems of space are not written to files in this version.",
+                     "Remove it, or use dimension: 2."};
+}
+
 }  // namespace
 
 KeyGroup space_keys() {
@@ -46,7 +52,8 @@ KeyGroup space_keys() {
             .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
                       {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
                       {"domain.walls_file", {"dimension"}, no_plates_in_space},
-                      {"contact.solver", {"dimension"}, solver_works_in_space}}};
+                      {"contact.solver", {"dimension"}, solver_works_in_space},
+                      {"contact.dump_interval", {"dimension"}, no_problem_files_in_space}}};
 }
 
 }  // namespace turbidite

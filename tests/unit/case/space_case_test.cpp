@@ -86,13 +86,15 @@ TEST_F(PlaneCase, WhatIsOfSpaceIsRefused) {
 // All at once, each in words.
 TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
     folder.write("w.csv", "id,x1,y1,x2,y2\n0,1,1,2,2\n");
-    const std::string text = refusal(
-        "", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
-             "domain.walls_file=w.csv", "contact.solver=central-path", "domain.size=[12, 10]"});
+    const std::string text =
+        refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
+                     "domain.walls_file=w.csv", "contact.solver=central-path",
+                     "domain.size=[12, 10]", "contact.dump_interval=1"});
     EXPECT_SAYS(text, "In space there is no fluid in this version.");
     EXPECT_SAYS(text, "In space grains are spheres in this version.");
     EXPECT_SAYS(text, "Walls inside the box are plates of the plane");
     EXPECT_SAYS(text, "central-path solves contacts of the plane only.");
+    EXPECT_SAYS(text, "Contact problems of space are not written");
     EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");
 }
 
