@@ -32,9 +32,12 @@ TEST_F(ShippedCases, PlayTheirFirstWindows) {
         if (!std::regex_search(yaml, match, time_step)) continue;  // a study
         const std::string step = match[1].str();
         std::ostringstream line;
-        line << "timeout 100 " TURBIDITE_PROGRAM " run " << file.string() << " --force --out run"
+        line << "XDG_CACHE_HOME=" << scratch.path().string()
+             << " timeout 100 " TURBIDITE_PROGRAM " run " << file.string() << " --force --out run"
              << std::setprecision(12) << " --set time.end=" << 3.0 * std::stod(step)
              << " --set output.interval=" << step;
+        // Tens of thousands are poured for minutes.
+        if (yaml.find("generator: poured") != std::string::npos) line << " --set grains.count=200";
         const Answer answer = shell(line.str());
         EXPECT_EQ(answer.code, 0) << file << "\n" << answer.out << answer.err;
         EXPECT_EQ(rows_of_history(), 4) << file;

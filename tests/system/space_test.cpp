@@ -114,7 +114,7 @@ TEST_F(Space, CheckForecastsAndRefusesInWords) {
     EXPECT_EQ(bad.code, 2);
     for (const char* part :
          {"In space length, height and depth", "In space grains are spheres",
-          "yade-md moves grains in the plane only", "In space there is no fluid in this version"})
+          "yade-md does not support cyclic sides", "In space there is no fluid in this version"})
         EXPECT_SAYS(bad.err + bad.out, part);
 }
 
