@@ -47,8 +47,9 @@ def read_scene():
 
 
 def moves_in_space():
-    """Whether some body is free to move along all axes."""
-    return any(body.shape is not None and not set(body.state.blockedDOFs) & set('xyz') for body in O.bodies)
+    """Whether some sphere is free to move along all axes."""
+    return any(type(body.shape).__name__ == 'Sphere' and not body.isClumpMember
+               and not set(body.state.blockedDOFs) & set('xyz') for body in O.bodies)
 
 
 def period_of_cell(in_space):
