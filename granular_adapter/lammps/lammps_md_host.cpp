@@ -146,6 +146,7 @@ void LammpsMdHost::act(std::int64_t substep) {
 void LammpsMdHost::add_loads(double time, bool begins) {
     double** f = lammps_->atoms<double**>("f");
     double** torque = lammps_->atoms<double**>("torque");
+    double** omega = lammps_->atoms<double**>("omega");
     double** own = lammps_->atoms<double**>("d2_own");
     const Freedom free = grains_->freedom();
     const double* mass = lammps_->atoms<double*>("rmass");
@@ -161,7 +162,7 @@ void LammpsMdHost::add_loads(double time, bool begins) {
             torque[i][axis] *= mine[turn_factor];
         });
         f[i][1] -= mass[i] * gravity_;
-        if (!begins) grains_->turn(i, present_.step);
+        if (!begins) grains_->turn(mine, omega[i], present_.step);
     }
 }
 

@@ -82,8 +82,8 @@ void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int fi
         double* own = lammps_.atoms<double**>("d2_own")[i];
         lammps_.atoms<double*>("rmass")[i] = disc.mass;
         lammps_.atoms<double*>("radius")[i] = disc.radius;
-        freedom().each_turn(
-            [&](int axis) { lammps_.atoms<double**>("omega")[i][axis] = disc.spin[axis]; });
+        double* omega = lammps_.atoms<double**>("omega")[i];
+        freedom().each_turn([&](int axis) { omega[axis] = disc.spin[axis]; });
         own[turn_factor] = disc.turn_factor;
         set_orientation(own, disc.orientation);
         own[id_high] = double(disc.id >> 32);
@@ -139,14 +139,11 @@ void RoundGrains::set_orientation(double* own, const Quaternion& q) const {
         own[angle] = angle_about_z(q);
 }
 
-void RoundGrains::turn(int index, double time) {
-    double* own = lammps_.atoms<double**>("d2_own")[index];
-    const double* omega = lammps_.atoms<double**>("omega")[index];
+void RoundGrains::turn(double* own, const double* spin, double time) const {
     if (in_space())
-        set_orientation(own,
-                        rotated(orientation_of(own), time * Vec3{omega[0], omega[1], omega[2]}));
+        set_orientation(own, rotated(orientation_of(own), time * Vec3{spin[0], spin[1], spin[2]}));
     else
-        own[angle] += time * omega[2];
+        own[angle] += time * spin[2];
 }
 
 std::vector<Origin> RoundGrains::origins() const {

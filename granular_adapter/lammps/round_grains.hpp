@@ -75,8 +75,8 @@ class RoundGrains {
     Freedom freedom() const { return Freedom(dimension_); }
     bool in_space() const { return dimension_ == 3; }
 
-    /// Turns a grain of this rank, by its index into LAMMPS' arrays, by its spin over a time [s].
-    void turn(int index, double time);
+    /// Turns a grain with these columns of Own by its spin [rad/s] over a time [s].
+    void turn(double* own, const double* spin, double time) const;
 
     /// Creates the bodies of all ranks, each on the rank that owns its place; collective.
     void create(const nscd::Bodies& bodies, const MassClasses& classes, MPI_Comm communicator);

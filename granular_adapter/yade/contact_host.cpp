@@ -112,9 +112,7 @@ std::vector<ContactForce> ContactHost::contacts() const {
         contact.gap = point.gap;
         contact.normal_force = force.n;
         const nscd::Contact& frame = engine_->problem().contacts[k];
-        contact.shear_force = force.t * frame.tangent;
-        if (in_space())
-            contact.shear_force = contact.shear_force + force.s * nscd::binormal_of(frame);
+        contact.shear_force = nscd::world_impulse(frame, {0.0, force.t, force.s, 0.0});
         contact.rolling_moment = force.roll;
         result.push_back(contact);
     }
