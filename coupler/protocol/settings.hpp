@@ -6,10 +6,9 @@
 //
 //     run.diameter  run.velocity_scale  run.time_scale        D, u_c, t_c
 //     run.gravity   run.fluid_density   run.viscosity         g (along -y), rho_f, nu
-//     run.grain_weight                                        m g of a disc of diameter D in air,
-//     in
-//                                                             space of a sphere; unit of forces in
-//                                                             contact laws
+//     run.grain_weight                                        m g of a disc of diameter D in air
+//                                                             (in space of a sphere), unit of
+//                                                             forces in contact laws
 //     run.acceleration_x  run.acceleration_y                  fluid.acceleration
 //     run.acceleration_z                                      in space
 //     run.dimension                                           3 in space; missing in the plane

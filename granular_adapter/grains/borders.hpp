@@ -30,8 +30,7 @@ struct Border {
 };
 
 /// The sides of coupler/protocol/sides.hpp, from domain.* and run.*; made of the first material.
-/// Throws
-/// std::invalid_argument for an unknown type of side, or a cyclic side whose opposite is not
+/// Throws std::invalid_argument for an unknown type of side, or a cyclic side whose opposite is not
 /// cyclic.
 std::vector<Border> lay_borders(const Settings& settings);
 
