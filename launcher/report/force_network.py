@@ -75,23 +75,39 @@ def lines(network, scale):
 def statistics(networks):
     """(figure, name) of P(f/<f>) and of the directions of contacts between grains, one curve per network with at least
     50 of them; empty without any."""
-    shown = [network for network in networks if network.between_grains.sum() >= FEWEST_CONTACTS]
-    if not shown:
-        return []
+    shown = with_distribution(networks)
+    return [normal_forces(shown), contact_directions(shown)] if shown else []
+
+
+def with_distribution(networks):
+    """Those with contacts enough."""
+    return [network for network in networks if network.between_grains.sum() >= FEWEST_CONTACTS]
+
+
+def line_style(networks, k):
+    """Of the k-th of these."""
+    return dict(linewidth=1.2, linestyle=curves.dash(k), color=curves.in_order(k, len(networks)),
+                label=rf'$t = {networks[k].time:.3g}\,t_c$')
+
+
+def normal_forces(shown):
     result, forces = curves.panel('Normal forces', r'$f\,/\,\langle f \rangle$', r'$P(f\,/\,\langle f \rangle)$')
-    other = plt.figure(figsize=curves.PANEL, layout='constrained')
-    polar = other.add_subplot(projection='polar')
     for k, network in enumerate(shown):
-        style = dict(linewidth=1.2, linestyle=curves.dash(k), color=curves.in_order(k, len(shown)),
-                     label=rf'$t = {network.time:.3g}\,t_c$')
-        forces.plot(*distribution(network), marker='.', **style)
-        polar.plot(*directions(network), **style)
+        forces.plot(*distribution(network), marker='.', **line_style(shown, k))
     forces.set_yscale('log')
     forces.legend(fontsize=8)
+    return result, 'contact_forces'
+
+
+def contact_directions(shown):
+    result = plt.figure(figsize=curves.PANEL, layout='constrained')
+    polar = result.add_subplot(projection='polar')
+    for k, network in enumerate(shown):
+        polar.plot(*directions(network), **line_style(shown, k))
     polar.set_title('Directions of contacts', fontsize=10)
     polar.tick_params(labelsize=8)
     polar.set_rlabel_position(80)
-    return [(result, 'contact_forces'), (other, 'contact_directions')]
+    return result, 'contact_directions'
 
 
 def distribution(network):

@@ -169,12 +169,18 @@ def panel(run, shown, picture, limit, size):
     if image is None:
         below.set_axis_off()
         return result
-    bar = result.colorbar(image, cax=below, orientation='horizontal', extend='both' if wet else 'max')
-    bar.set_label(r'fluid, $v\,/\,u_c$' if wet else r'grains, $|u|\,/\,u_c$', fontsize=8)
-    below.tick_params(labelsize=7)
+    label, extend = (r'fluid, $v\,/\,u_c$', 'both') if wet else (r'grains, $|u|\,/\,u_c$', 'max')
+    bar_below(result, image, below, label, extend)
+    return result
+
+
+def bar_below(figure, image, axes, label, extend):
+    """The colour bar of a single picture, in axes of its own."""
+    bar = figure.colorbar(image, cax=axes, orientation='horizontal', extend=extend)
+    bar.set_label(label, fontsize=8)
+    axes.tick_params(labelsize=7)
     bar.locator = MaxNLocator(4)
     bar.update_ticks()
-    return result
 
 
 def frame(run, all_grains, beside=BAR_WIDTH):

@@ -47,23 +47,18 @@ def lines(camera, network, scale):
 
 def statistics(networks):
     """(figure, name) of P(f/<f>) and of how upright contacts between grains are; empty without enough of them."""
-    shown = [network for network in networks
-             if network.between_grains.sum() >= force_network.FEWEST_CONTACTS]
-    if not shown:
-        return []
-    result, forces = curves.panel('Normal forces', r'$f\,/\,\langle f \rangle$', r'$P(f\,/\,\langle f \rangle)$')
-    other, upright = curves.panel('Directions of contacts', r'$|n_y|$', r'$P(|n_y|)$')
+    shown = force_network.with_distribution(networks)
+    return [force_network.normal_forces(shown), contact_directions(shown)] if shown else []
+
+
+def contact_directions(shown):
+    result, upright = curves.panel('Directions of contacts', r'$|n_y|$', r'$P(|n_y|)$')
     for k, network in enumerate(shown):
-        style = dict(linewidth=1.2, linestyle=curves.dash(k), color=curves.in_order(k, len(shown)),
-                     label=rf'$t = {network.time:.3g}\,t_c$')
-        forces.plot(*force_network.distribution(network), marker='.', **style)
-        upright.plot(*steepness(network), **style)
+        upright.plot(*steepness(network), **force_network.line_style(shown, k))
     upright.axhline(1.0, color='black', linewidth=0.6)
     upright.set_ylim(bottom=0.0)
-    forces.set_yscale('log')
-    for axes in (forces, upright):
-        axes.legend(fontsize=8)
-    return [(result, 'contact_forces'), (other, 'contact_directions')]
+    upright.legend(fontsize=8)
+    return result, 'contact_directions'
 
 
 def steepness(network):

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The grains of a run in space at a few times: seen obliquely, and from the side, coloured by their speed."""
-import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
-from matplotlib.ticker import MaxNLocator
 
 import pictures
+from analysis.snapshots import evenly
 from space import scene
 from space.camera import OBLIQUE, SIDE
 
@@ -19,8 +18,7 @@ def panels(run, shown):
     if not there:
         return []
     limit = pictures.speed_limit(run, there)
-    chosen = sorted({int(round(i)) for i in np.linspace(0, len(there) - 1, SIDE_VIEWS)})
-    views = [(OBLIQUE, 'sequence', there), (SIDE, 'side', [there[i] for i in chosen])]
+    views = [(OBLIQUE, 'sequence', there), (SIDE, 'side', [there[i] for i in evenly(len(there), SIDE_VIEWS)])]
     found = []
     for camera, name, some in views:
         frame = scene.frame(run, [picture.grains for picture in there], camera)
@@ -37,12 +35,8 @@ def panel(run, frame, grains, limit):
     axes.imshow(scene.image_of(frame, run, grains, colours), origin='lower', extent=frame.extent, zorder=1,
                 interpolation='antialiased')
     axes.set_title(scene.title(run, grains.time), fontsize=10)
-    bar = result.colorbar(ScalarMappable(Normalize(0.0, limit), scene.colour_map(pictures.SPEED_COLOURS)), cax=below,
-                          orientation='horizontal', extend='max')
-    bar.set_label(r'speed of the grains, $|u|\,/\,u_c$', fontsize=8, labelpad=1)
-    below.tick_params(labelsize=7)
-    bar.locator = MaxNLocator(4)
-    bar.update_ticks()
+    scale = ScalarMappable(Normalize(0.0, limit), scene.colour_map(pictures.SPEED_COLOURS))
+    pictures.bar_below(result, scale, below, r'speed of the grains, $|u|\,/\,u_c$', 'max')
     return result
 
 
