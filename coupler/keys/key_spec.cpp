@@ -108,6 +108,10 @@ bool is(const Settings& settings, const char* key, const char* value) {
     return settings.has(key) && settings.text(key) == value;
 }
 
+bool in_space(const Settings& settings) {
+    return is(settings, "dimension", "3");
+}
+
 std::string allowed_values(const KeySpec& key) {
     if (!key.allowed.empty()) return key.allowed;
     if (key.type == KeyType::choice) return "Available: " + choice_names(key) + ".";

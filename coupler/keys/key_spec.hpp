@@ -99,6 +99,9 @@ std::string group_of(const std::string& key);
 /// True if the key has this value.
 bool is(const Settings& settings, const char* key, const char* value);
 
+/// Whether the case has dimension: 3.
+bool in_space(const Settings& settings);
+
 inline constexpr Range positive{.lower = 0.0, .lower_open = true};
 inline constexpr Range not_negative{.lower = 0.0};
 inline constexpr Range open_unit_interval{

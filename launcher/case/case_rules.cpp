@@ -36,9 +36,8 @@ bool is_resolved(const CaseEntries& entries) {
 bool is_meant(const KeySpec& key, const CaseEntry* entry, const Settings& settings, bool resolved) {
     if (!entry || entry->is_null || !settings.has(entry->key)) return false;
     return !resolved ||
-           settings.text(entry->key) != (is(settings, "dimension", "3")
-                                             ? key.in_space.fallback.value_or(key.fallback)
-                                             : key.fallback);
+           settings.text(entry->key) !=
+               (in_space(settings) ? key.in_space.fallback.value_or(key.fallback) : key.fallback);
 }
 
 /// One sentence for all keys with the same reason.

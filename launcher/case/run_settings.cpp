@@ -70,7 +70,7 @@ void set_run_settings(Settings& settings, const Packing& grains,
 
 std::vector<GrainState> grain_states(const Packing& grains, const Settings& settings,
                                      const Scales& scales) {
-    const bool space = is(settings, "dimension", "3");
+    const bool space = in_space(settings);
     std::vector<GrainState> states;
     for (const PlacedGrain& grain : grains) {
         GrainState state;

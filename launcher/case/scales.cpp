@@ -88,7 +88,7 @@ Scales make_scales(const Settings& settings) {
 }
 
 void set_run_values(Settings& settings, const Scales& scales) {
-    const bool wet = settings.flag("fluid.enabled"), space = is(settings, "dimension", "3");
+    const bool wet = settings.flag("fluid.enabled"), space = in_space(settings);
     const std::vector<double> size = real_list("domain.size", settings.text("domain.size"));
     settings.set("run.diameter", scales.diameter);
     settings.set("run.velocity_scale", scales.velocity);

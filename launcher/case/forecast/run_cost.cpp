@@ -116,7 +116,7 @@ double time_per_grain(const ResolvedCase& resolved) {
     if (settings.has("run.md_substeps"))
         return time_per_substep(resolved) *
                static_cast<double>(settings.integer("run.md_substeps"));
-    if (is(settings, "dimension", "3")) return sphere_contacts;
+    if (in_space(settings)) return sphere_contacts;
     return all_round(resolved) ? disc_contacts : polygon_contacts;
 }
 
@@ -189,7 +189,7 @@ double predicted_memory(const ResolvedCase& resolved) {
     const double host = in_yade(settings) ? of_yade : of_other_hosts;
     const double programs =
         of_coupler + host * static_cast<double>(settings.integer("grains.ranks"));
-    const bool space = is(settings, "dimension", "3");
+    const bool space = in_space(settings);
     const double of_coupler_each = space ? of_coupler_per_sphere : of_coupler_per_grain;
     const double grains = (of_coupler_each + of_host_per_grain) * count(resolved);
     return (settings.flag("fluid.enabled") ? fluid_memory(settings) : 0.0) +

@@ -68,7 +68,7 @@ GrainForms plain_spheres() {
 
 GrainForms make_grain_forms(const Settings& settings) {
     GrainForms result;
-    result.dimension = is(settings, "dimension", "3") ? 3 : 2;
+    result.dimension = in_space(settings) ? 3 : 2;
     std::vector<std::string> kinds{settings.text("grains.shape")};
     for (const ShapeEntry& entry : shape_list())
         if (entry.kind != kinds[0] && entry.dimension == result.dimension &&

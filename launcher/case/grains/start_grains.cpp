@@ -25,7 +25,7 @@ std::optional<PackingRegion> packing_region(const Settings& settings) {
 
 /// None in space unless there is a lattice.
 double compacity_of(const Settings& settings) {
-    const bool missing = is(settings, "dimension", "3") && !settings.has("grains.compacity");
+    const bool missing = in_space(settings) && !settings.has("grains.compacity");
     return missing ? 0.0 : settings.real("grains.compacity");
 }
 
@@ -105,7 +105,7 @@ bool are_described(const Settings& settings, const CaseEntries& entries, const G
     if (region_is_refused(settings, entries)) return false;
     if (given.earlier || !given.file.empty() || settings.has("grains.file")) return true;
     if (settings.text("grains.generator") != "lattice") return settings.has("grains.count");
-    return !is(settings, "dimension", "3") || settings.has("grains.compacity");
+    return !in_space(settings) || settings.has("grains.compacity");
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ PackingBox packing_box(const Settings& settings) {
 
 SolidSides solid_sides(const Settings& settings) {
     SolidSides sides;
-    const std::size_t count = side_count(is(settings, "dimension", "3") ? 3 : 2);
+    const std::size_t count = side_count(in_space(settings) ? 3 : 2);
     for (std::size_t i = 0; i < count; ++i)
         sides.solid[i] = holds_grains(settings.text(box_sides[i].key));
     return sides;

@@ -63,7 +63,7 @@ Ruling bottom_is_not_cyclic(const Settings& s) {
     return no_cyclic_side(s, "domain.bottom");
 }
 Ruling front_is_not_cyclic(const Settings& s) {
-    return is(s, "dimension", "3") ? no_cyclic_side(s, "domain.front") : std::nullopt;
+    return in_space(s) ? no_cyclic_side(s, "domain.front") : std::nullopt;
 }
 
 Ruling shape_is_known(const Settings& s) {

@@ -69,7 +69,7 @@ bool is_lattice(const Settings& s) {
 
 Objection lattice_objection(const Settings& s, const char* what) {
     return {fmt::format("The lattice has {} of diameter D only, not {}.",
-                        is(s, "dimension", "3") ? "spheres" : "discs", what),
+                        in_space(s) ? "spheres" : "discs", what),
             "Use grains.generator: random, or give the grains in grains.file."};
 }
 

@@ -9,10 +9,6 @@
 namespace turbidite {
 namespace {
 
-bool in_space(const Settings& s) {
-    return is(s, "dimension", "3");
-}
-
 Ruling no_fluid_in_space(const Settings& s) {
     if (!in_space(s) || !s.flag("fluid.enabled")) return std::nullopt;
     return Objection{"In space there is no fluid in this version.",

@@ -31,7 +31,7 @@ double number(const Settings& s, const std::string& name, const char* part) {
 }
 
 std::size_t dimension(const Settings& s) {
-    return is(s, "dimension", "3") ? 3 : 2;
+    return in_space(s) ? 3 : 2;
 }
 
 std::vector<double> numbers(const Settings& s, const std::string& name, const char* part) {

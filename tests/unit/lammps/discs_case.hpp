@@ -30,10 +30,10 @@ inline nscd::Body disc(GrainId id, double x, double y, Vec3 velocity = {}, doubl
 /// Some discs and their host.
 struct Scene {
     Scene(const Settings& settings, const std::vector<nscd::Body>& list,
-          MPI_Comm communicator = MPI_COMM_SELF) {
+          MPI_Comm communicator = MPI_COMM_SELF, const char* shape = "disc") {
         for (const nscd::Body& body : list) bodies.add(body);
         host.join(communicator);
-        host.create(settings, {{"disc", {}}}, bodies);
+        host.create(settings, {{shape, {}}}, bodies);
     }
 
     /// Sub-steps of `step` [s], with the results in `bodies`.

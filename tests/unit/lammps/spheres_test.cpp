@@ -12,39 +12,9 @@ namespace {
 constexpr double fine = std::numbers::pi / frequency / 1200.0;
 constexpr double radius = 0.5;
 
-Settings in_space(double zeta, double gravity) {
-    Settings settings = soft_settings();
-    settings.set("run.md_damping", zeta), settings.set("run.gravity", gravity);
-    settings.set("run.dimension", std::int64_t{3});
-    settings.set("run.size_z", 12.0), settings.set("run.acceleration_z", 0.0);
-    settings.set("domain.front", std::string("wall"));
-    settings.set("domain.back", std::string("wall"));
-    return settings;
-}
-
-nscd::Body sphere(GrainId id, const Vec3& place, const Vec3& velocity) {
-    nscd::Body body = disc(id, place[0], place[1], velocity);
-    body.mass = body.weight_mass = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3) * 1.5;
-    body.inertia = 0.4 * body.mass * radius * radius;
-    body.position = place;
-    return body;
-}
-
-struct SpaceScene {
-    SpaceScene(const Settings& settings, const std::vector<nscd::Body>& list) {
-        for (const nscd::Body& body : list) bodies.add(body);
-        host.join(MPI_COMM_SELF);
-        host.create(settings, {{"sphere", {}}}, bodies);
-    }
-
-    SubstepReport play(std::int64_t count, double step) {
-        SubstepReport report = host.run({count, step, true}, std::vector<Load>(bodies.size()));
-        host.read(bodies);
-        return report;
-    }
-
-    LammpsMdHost host;
-    nscd::Bodies bodies;
+struct SpaceScene : Scene {
+    SpaceScene(const Settings& settings, const std::vector<nscd::Body>& spheres)
+        : Scene(settings, spheres, MPI_COMM_SELF, "sphere") {}
 };
 
 Vec3 direction(double angle) {
@@ -56,8 +26,8 @@ TEST(Spheres, ThatStickOnImpactComeBackAlongTheContactAsAcrossIt) {
     const double along = 0.05;
     for (const double angle : {0.0, 0.7, 2.5}) {
         const Vec3 d = direction(angle);
-        SpaceScene scene(in_space(0.0, 0.0),
-                         {sphere(1, {5.0, 0.5005, 6.0}, along * d + Vec3{0.0, -1.0, 0.0})});
+        SpaceScene scene(soft_settings_in_space(0.0, 0.0),
+                         {soft_sphere(1, {5.0, 0.5005, 6.0}, along * d + Vec3{0.0, -1.0, 0.0})});
         scene.play(4000, fine);
         const Twist& twist = scene.bodies.twist[0];
         EXPECT_NEAR(twist.velocity[1], 1.0, 2e-3);
@@ -71,7 +41,8 @@ TEST(Spheres, ThatSlideSlowDownUntilTheyRoll) {
     const double mu = 0.3, speed = 0.3, overlap = 1.0 / (frequency * frequency);
     for (const double angle : {0.0, 1.9}) {
         const Vec3 d = direction(angle);
-        SpaceScene scene(in_space(1.0, 1.0), {sphere(1, {5.0, radius - overlap, 6.0}, speed * d)});
+        SpaceScene scene(soft_settings_in_space(1.0, 1.0),
+                         {soft_sphere(1, {5.0, radius - overlap, 6.0}, speed * d)});
         const double half = 2.0 * speed / (7.0 * mu) / 2.0;  // rolls after twice that
         const SubstepReport sliding = scene.play(4000, half / 4000.0);
         ASSERT_EQ(sliding.touching.size(), 1u);
@@ -88,8 +59,9 @@ TEST(Spheres, ThatSlideSlowDownUntilTheyRoll) {
 }
 
 TEST(Spheres, HaveAFrontAndABackAndAreTold) {
-    SpaceScene scene(in_space(0.0, 0.0), {sphere(1, {3.0, 5.0, 0.5005}, {0.0, 0.0, -1.0}),
-                                          sphere(2, {6.0, 5.0, 11.4995}, {0.0, 0.0, 1.0})});
+    SpaceScene scene(soft_settings_in_space(0.0, 0.0),
+                     {soft_sphere(1, {3.0, 5.0, 0.5005}, {0.0, 0.0, -1.0}),
+                      soft_sphere(2, {6.0, 5.0, 11.4995}, {0.0, 0.0, 1.0})});
     const SubstepReport during = scene.play(900, fine);
     ASSERT_EQ(during.touching.size(), 2u);
     EXPECT_EQ(during.touching[0].wall, 4);
@@ -100,8 +72,8 @@ TEST(Spheres, HaveAFrontAndABackAndAreTold) {
 }
 
 TEST(Spheres, AreTurnedAndPushedByLoadsInSpace) {
-    SpaceScene scene(in_space(0.0, 0.0), {sphere(1, {5.0, 5.0, 5.0}, {})});
-    const nscd::Body body = sphere(1, {}, {});
+    SpaceScene scene(soft_settings_in_space(0.0, 0.0), {soft_sphere(1, {5.0, 5.0, 5.0}, {})});
+    const nscd::Body body = soft_sphere(1, {}, {});
     const SubstepReport report =
         scene.host.run({100, 0.001, true}, {{{0.2, -0.1, 0.4}, {0.01, 0.02, 0.07}}});
     scene.host.read(scene.bodies);

@@ -58,9 +58,10 @@ inline nscd::Body grain(Kind kind, GrainId id, double x, double y, Vec3 velocity
 
 /// Some grains and their host.
 struct Scene {
-    Scene(const Settings& settings, const std::vector<nscd::Body>& list) {
+    Scene(const Settings& settings, const std::vector<nscd::Body>& list,
+          const ShapeTable& shapes = all_shapes) {
         for (const nscd::Body& body : list) bodies.add(body);
-        host.create(settings, all_shapes, bodies);
+        host.create(settings, shapes, bodies);
     }
 
     /// Sub-steps of `step` [s], with the results in `bodies`.

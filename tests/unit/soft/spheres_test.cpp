@@ -10,43 +10,9 @@ namespace {
 
 constexpr double radius = 0.5;
 
-Settings in_space(double zeta, double gravity) {
-    Settings settings = heavy(zeta, gravity);
-    settings.set("run.dimension", std::int64_t{3});
-    settings.set("run.size_z", 12.0), settings.set("run.acceleration_z", 0.0);
-    settings.set("domain.front", std::string("wall"));
-    settings.set("domain.back", std::string("wall"));
-    return settings;
-}
-
-nscd::Body sphere(GrainId id, const Vec3& place, const Vec3& velocity) {
-    const auto shape = make_shape({"sphere", {}});
-    nscd::Body body;
-    body.id = id;
-    body.radius = radius;
-    body.density = 1.5;
-    body.mass = body.weight_mass = body.density * shape->volume(radius);
-    body.inertia = body.density * shape->inertia_per_density(radius)(2, 2);
-    body.position = place;
-    body.twist.velocity = velocity;
-    return body;
-}
-
-/// Spheres and their host; positions and velocities as in Scene.
-struct SpaceScene {
-    SpaceScene(const Settings& settings, const std::vector<nscd::Body>& list) {
-        for (const nscd::Body& body : list) bodies.add(body);
-        host.create(settings, {{"sphere", {}}}, bodies);
-    }
-
-    SubstepReport play(std::int64_t count, double step) {
-        SubstepReport report = host.run({count, step, true}, std::vector<Load>(bodies.size()));
-        host.read(bodies);
-        return report;
-    }
-
-    SoftMdHost host;
-    nscd::Bodies bodies;
+struct SpaceScene : Scene {
+    SpaceScene(const Settings& settings, const std::vector<nscd::Body>& spheres)
+        : Scene(settings, spheres, {{"sphere", {}}}) {}
 };
 
 /// Horizontal, at an angle to x.
@@ -61,8 +27,8 @@ TEST(SoftSpheres, ThatStickOnImpactComeBackAlongTheContactAsAcrossIt) {
     const double along = 0.05;
     for (const double angle : {0.0, 0.7, 2.5}) {
         const Vec3 d = direction(angle);
-        SpaceScene scene(in_space(0.0, 0.0),
-                         {sphere(1, {5.0, 0.5005, 6.0}, along * d + Vec3{0.0, -1.0, 0.0})});
+        SpaceScene scene(soft_settings_in_space(0.0, 0.0),
+                         {soft_sphere(1, {5.0, 0.5005, 6.0}, along * d + Vec3{0.0, -1.0, 0.0})});
         scene.play(4000, fine);
         const Twist& twist = scene.bodies.twist[0];
         EXPECT_NEAR(twist.velocity[1], 1.0, 1e-3);
@@ -81,7 +47,8 @@ TEST(SoftSpheres, ThatSlideSlowDownUntilTheyRoll) {
     double way = 0.0;
     for (const double angle : {0.0, 0.4, 1.9}) {
         const Vec3 d = direction(angle);
-        SpaceScene scene(in_space(1.0, 1.0), {sphere(1, {5.0, radius - overlap, 6.0}, speed * d)});
+        SpaceScene scene(soft_settings_in_space(1.0, 1.0),
+                         {soft_sphere(1, {5.0, radius - overlap, 6.0}, speed * d)});
         const double half = 2.0 * speed / (7.0 * mu) / 2.0;  // rolls after twice that
         const SubstepReport sliding = scene.play(4000, half / 4000.0);
         ASSERT_EQ(sliding.touching.size(), 1u);
@@ -99,8 +66,9 @@ TEST(SoftSpheres, ThatSlideSlowDownUntilTheyRoll) {
 // The force on one is the opposite of that on the other, in all components, and both are turned
 // alike: momentum and the angular momentum of two that meet obliquely in space are kept.
 TEST(SoftSpheres, ThatMeetObliquelyKeepMomentumAndAngularMomentum) {
-    SpaceScene scene(in_space(0.2, 0.0), {sphere(1, {5.0, 5.0, 5.0}, {1.0, 0.3, -0.2}),
-                                          sphere(2, {5.67, 5.48, 5.575}, {-0.4, 0.1, 0.5})});
+    SpaceScene scene(soft_settings_in_space(0.2, 0.0),
+                     {soft_sphere(1, {5.0, 5.0, 5.0}, {1.0, 0.3, -0.2}),
+                      soft_sphere(2, {5.67, 5.48, 5.575}, {-0.4, 0.1, 0.5})});
     const auto momentum = [&] {
         Vec3 sum{};
         for (std::size_t i = 0; i < 2; ++i)
@@ -129,11 +97,11 @@ TEST(SoftSpheres, ThatMeetObliquelyKeepMomentumAndAngularMomentum) {
 // Across front and back they meet half-way: equal masses exchange their velocities, each appears on
 // the other side, and springs along the contact are kept while it does.
 TEST(SoftSpheres, MeetAcrossCyclicSides) {
-    Settings settings = in_space(0.0, 0.0);
+    Settings settings = soft_settings_in_space(0.0, 0.0);
     for (const char* side : {"domain.front", "domain.back"})
         settings.set(side, std::string("cyclic"));
-    SpaceScene scene(settings, {sphere(1, {3.0, 5.0, 0.4}, {0.0, 0.0, -1.0}),
-                                sphere(2, {3.0, 5.0, 11.3995}, {0.0, 0.0, 0.0})});
+    SpaceScene scene(settings, {soft_sphere(1, {3.0, 5.0, 0.4}, {0.0, 0.0, -1.0}),
+                                soft_sphere(2, {3.0, 5.0, 11.3995}, {0.0, 0.0, 0.0})});
     int touching = 0;
     double lowest = 12.0, highest = 0.0;
     for (int i = 0; i < 40; ++i) {
@@ -150,13 +118,13 @@ TEST(SoftSpheres, MeetAcrossCyclicSides) {
 
 // One that crosses a side keeps its neighbours, and so the spring at the floor.
 TEST(SoftSpheres, RollAcrossCyclicSidesAsElsewhere) {
-    Settings settings = in_space(1.0, 1.0);
+    Settings settings = soft_settings_in_space(1.0, 1.0);
     for (const char* side : {"domain.front", "domain.back"})
         settings.set(side, std::string("cyclic"));
     const double overlap = 1.0 / (frequency * frequency);
     const Vec3 inside{5.0, radius - overlap, 6.0}, near_side{9.0, radius - overlap, 11.99};
-    SpaceScene scene(settings,
-                     {sphere(1, inside, {0.0, 0.0, 0.3}), sphere(2, near_side, {0.0, 0.0, 0.3})});
+    SpaceScene scene(settings, {soft_sphere(1, inside, {0.0, 0.0, 0.3}),
+                                soft_sphere(2, near_side, {0.0, 0.0, 0.3})});
     scene.play(4000, 1e-4);
     EXPECT_LT(scene.bodies.position[1][2], 1.0);  // it has crossed
     EXPECT_NEAR(scene.bodies.twist[1].velocity[2], scene.bodies.twist[0].velocity[2], 1e-12);
@@ -165,8 +133,9 @@ TEST(SoftSpheres, RollAcrossCyclicSidesAsElsewhere) {
 }
 
 TEST(SoftSpheres, HaveAFrontAndABack) {
-    SpaceScene scene(in_space(0.0, 0.0), {sphere(1, {3.0, 5.0, 0.5005}, {0.0, 0.0, -1.0}),
-                                          sphere(2, {6.0, 5.0, 11.4995}, {0.0, 0.0, 1.0})});
+    SpaceScene scene(soft_settings_in_space(0.0, 0.0),
+                     {soft_sphere(1, {3.0, 5.0, 0.5005}, {0.0, 0.0, -1.0}),
+                      soft_sphere(2, {6.0, 5.0, 11.4995}, {0.0, 0.0, 1.0})});
     scene.play(4000, fine);
     EXPECT_NEAR(scene.bodies.twist[0].velocity[2], 1.0, 1e-3);
     EXPECT_NEAR(scene.bodies.twist[1].velocity[2], -1.0, 1e-3);
