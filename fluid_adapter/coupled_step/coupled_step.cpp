@@ -31,8 +31,8 @@ void CoupledStep::add_impulses(double sign, VelocityRows& u) {
     box_.add_impulses(sign, dt_, step_.pressure(), viscosity_.impulse(), u.pointers());
 }
 
-void CoupledStep::place_grains(const CollocationPoints& points) {
-    pressure_.begin(points, dt_, step_.kept_excess(dt_));
+void CoupledStep::place_grains(const Constraint& constraint) {
+    pressure_.begin(constraint, dt_, step_.kept_excess(dt_));
 }
 
 /// Conjugate directions need W to be symmetric, which it is as far as the slip is reduced: 1e-2 is

@@ -4,29 +4,22 @@
 #include <utility>
 
 namespace turbidite {
+namespace {
 
-RigidGrains::RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelocity velocity,
-                         const MultiplierSettings& settings)
-    : system_(system),
-      flow_(flow),
-      velocity_{velocity.x, velocity.y},
-      settings_(settings),
-      cells_(system.field().owned_cells()) {}
+CellVelocity cells_of(const VelocityPointers& u) {
+    return {u[0], u[1], u.size() > 2 ? u[2] : nullptr};
+}
+
+}  // namespace
 
 void RigidGrains::make_rigid(RigidChange& change, double reduction) {
-    MultiplierSettings settings = settings_;
-    settings.tolerance = 1.0;  // the slip of a change is judged by its own size
-    settings.reduction = reduction;
-    change.grains.begin(system_, change.velocity());
-    note(uzawa_cg(change.grains, settings, work_));
-    change.grains.impose();
+    note(constraint_.make_rigid(cells_of(change.u.pointers()), reduction, change.grains));
 }
 
 MultiplierResult RigidGrains::settle() {
     velocity();
-    const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
+    const MultiplierResult result = constraint_.settle();
     note(result);
-    flow_.impose();
     return result;
 }
 
@@ -39,8 +32,8 @@ void RigidGrains::combine(RigidChange& change, double keep, const RigidChange& o
     for (int axis = 0; axis < change.u.size(); ++axis)
         for (std::size_t c = 0; c < cells_; ++c)
             change.u[axis][c] = keep * change.u[axis][c] + other.u[axis][c];
-    change.grains.scale(keep);
-    change.grains.add(other.grains, 1.0);
+    for (std::size_t k = 0; k < change.grains.size(); ++k)
+        change.grains[k] = keep * change.grains[k] + other.grains[k];
 }
 
 void RigidGrains::add(const RigidChange& change, double share) {
@@ -53,7 +46,7 @@ void RigidGrains::add_later(const RigidChange& change, double share) {
     pending_ = {share, Components<const double*>(change.u.size())};
     for (int axis = 0; axis < change.u.size(); ++axis)
         pending_.change[axis] = change.u[axis].data();
-    flow_.add(change.grains, share);
+    constraint_.add(change.grains, share);
 }
 
 PendingChange RigidGrains::take_pending() {

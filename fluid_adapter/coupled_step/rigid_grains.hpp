@@ -1,32 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The map W from changes of the fluid's velocity to what grains let through of them: fluid inside
-// grains moves as a rigid body, and multipliers tie the boundary points to it
-// (multiplier/constrained_flow.hpp). W is symmetric in the product of momenta, the kinetic energy
-// of fluid and grains, and positive. Valid C++17.
+// The map W from changes of the fluid's velocity to what grains let through of them
+// (multiplier/constraint.hpp). W is symmetric in the product of momenta, the kinetic energy of
+// fluid and grains, and positive. Valid C++17.
 #pragma once
 
 #include <vector>
 
 #include "fluid_adapter/box_step/box_operators.hpp"
-#include "fluid_adapter/multiplier/uzawa_cg.hpp"
+#include "fluid_adapter/multiplier/constraint.hpp"
 
 namespace turbidite {
 
 /// A change of the fluid's velocity made rigid, and what it does to the grains.
 struct RigidChange {
     VelocityRows u;  ///< over the rank's cells [m/s]
-    ConstrainedFlow grains;
-
-    CellVelocity velocity() { return {u[0].data(), u[1].data()}; }
+    GrainChange grains;
 };
 
 class RigidGrains {
  public:
-    /// `flow`: of this window, imposed; both are kept by reference. `settings`: what its slip must
-    /// reach at the end.
-    RigidGrains(SaddleOperator& system, ConstrainedFlow& flow, CellVelocity velocity,
-                const MultiplierSettings& settings);
+    /// `constraint`: of this window, imposed on its velocity; kept by reference.
+    RigidGrains(Constraint& constraint, const VelocityPointers& velocity, std::size_t cells)
+        : constraint_(constraint), velocity_(velocity), cells_(cells) {}
 
     /// change <- W change. The slip is reduced by the factor `reduction`.
     void make_rigid(RigidChange& change, double reduction);
@@ -48,7 +44,7 @@ class RigidGrains {
     MultiplierResult settle();
 
     void sum_over_ranks(double* values, int count) const {
-        system_.field().sum_over_ranks(values, count);
+        constraint_.sum_over_ranks(values, count);
     }
 
     /// Of the window, with what is pending made unless it was taken.
@@ -61,12 +57,9 @@ class RigidGrains {
  private:
     void note(const MultiplierResult& result);
 
-    SaddleOperator& system_;
-    ConstrainedFlow& flow_;
+    Constraint& constraint_;
     VelocityPointers velocity_;
     PendingChange pending_;
-    MultiplierSettings settings_;
-    MultiplierWorkspace work_;
     std::size_t cells_;
     std::int64_t iterations_ = 0;
     bool converged_ = true;

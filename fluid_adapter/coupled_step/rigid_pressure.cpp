@@ -7,13 +7,13 @@
 
 namespace turbidite {
 
-void RigidPressure::begin(const CollocationPoints& points, double dt, double k) {
+void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
     dt_ = dt;
     kept_ = k;
     residual_.resize(step_.cells());
     rigid_.u.resize(step_.layers().components(), step_.cells());
     outside_.assign(step_.cells(), 1.0);
-    for (const InteriorCell& inside : points.interior) outside_[inside.cell] = 0.0;
+    constraint.clear_covered(outside_.data());
 }
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,

@@ -22,7 +22,7 @@ class RigidPressure {
 
     /// Takes the grains' places in a window of length dt [s]; k is the part of the excess that
     /// remains of the last window's.
-    void begin(const CollocationPoints& points, double dt, double k);
+    void begin(const Constraint& constraint, double dt, double k);
 
     /// Corrects the window's velocity and p until the rms of r is below the tolerance [1/s].
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);

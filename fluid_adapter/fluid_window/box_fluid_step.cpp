@@ -15,7 +15,7 @@ BoxFluidStep::BoxFluidStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows,
       step_(fluid, std::move(rows)),
       in_second_order_(fluid.second_order),
       largest_courant_(SecondOrder::largest_courant(fluid.central)),
-      floating_(fluid.pressure.x.has_zero_mode() && fluid.pressure.y.has_zero_mode()) {
+      floating_(fluid.pressure.has_zero_mode()) {
     if (coupled) coupled_.emplace(step_);
     take_velocity();
     sides_changed();
@@ -23,6 +23,12 @@ BoxFluidStep::BoxFluidStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows,
 
 double* BoxFluidStep::velocity(int axis) {
     return fields_->in_cell_order() ? step_.velocity(axis) : nullptr;
+}
+
+VelocityPointers BoxFluidStep::components() {
+    VelocityPointers u(step_.layers().components());
+    for (int axis = 0; axis < u.size(); ++axis) u[axis] = step_.velocity(axis);
+    return u;
 }
 
 void BoxFluidStep::put_velocity() {
@@ -34,27 +40,30 @@ void BoxFluidStep::take_velocity() {
 }
 
 void BoxFluidStep::sides_changed() {
-    const std::array<SideValues, 2> held = fields_->side_velocity();
-    for (int axis = 0; axis < 2; ++axis)
-        for (int side = 0; side < 4; ++side) {
+    const VelocityOnSides held = fields_->side_velocity();
+    const BoxLayers& layers = step_.layers();
+    // Per layer; those at bottom and top are of all ranks.
+    const int per_layer[] = {layers.nz, 0, layers.nx};
+    for (int axis = 0; axis < layers.components(); ++axis)
+        for (int side = 0; side < 2 * layers.components(); ++side) {
             std::vector<double>& own = step_.side_velocity(axis)[side];
-            std::copy_n(held[axis][side].begin() + (side < 2 ? fields_->first_row() : 0),
+            std::copy_n(held[axis][side].begin() + per_layer[side / 2] * fields_->first_row(),
                         own.size(), own.begin());
         }
 }
 
 void BoxFluidStep::load() {
-    fields_->read_velocity(step_.velocity(0), step_.velocity(1));
+    fields_->read_velocity(components());
 }
 
 void BoxFluidStep::store() {
-    fields_->write_velocity(step_.velocity(0), step_.velocity(1));
+    fields_->write_velocity(components());
 }
 
 void BoxFluidStep::put_unconstrained() {
     if (!coupled_) return put_velocity();
-    const VelocityRows s = coupled_->unconstrained();
-    fields_->write_velocity(s[0].data(), s[1].data());
+    VelocityRows s = coupled_->unconstrained();
+    fields_->write_velocity(s.pointers());
 }
 
 BoxStep::Force BoxFluidStep::on_all_ranks(BoxStep::Force force) const {
@@ -131,7 +140,9 @@ std::vector<BoundaryForce> BoxFluidStep::end_coupled() {
 }
 
 std::vector<VelocityValues> BoxFluidStep::velocity_values() {
-    return {{step_.velocity(0), step_.cells()}, {step_.velocity(1), step_.cells()}};
+    std::vector<VelocityValues> values;
+    for (double* u : components()) values.push_back({u, step_.cells()});
+    return values;
 }
 
 SideForce BoxFluidStep::convect(double dt, ImpulsesOfWindow* impulses) {
@@ -149,8 +160,8 @@ SideForce BoxFluidStep::diffuse_implicitly(double dt) {
 bool BoxFluidStep::finite() {
     double sum = 0.0;
     const std::size_t some = coupled_ ? step_.cells() : std::min<std::size_t>(step_.cells(), 100);
-    for (int axis = 0; axis < 2; ++axis)
-        for (std::size_t c = 0; c < some; ++c) sum += std::abs(step_.velocity(axis)[c]);
+    for (const double* u : components())
+        for (std::size_t c = 0; c < some; ++c) sum += std::abs(u[c]);
     return ranks_.all(std::isfinite(sum));
 }
 
@@ -163,11 +174,12 @@ std::vector<double> BoxFluidStep::memory() {
     const auto append = [&](const std::vector<double>& more) {
         values.insert(values.end(), more.begin(), more.end());
     };
-    for (int axis = 0; axis < 2; ++axis) append(step_.excess(axis));
+    const int components = step_.layers().components();
+    for (int axis = 0; axis < components; ++axis) append(step_.excess(axis));
     // The next window begins with p itself: the field has another level where no side fixes it.
     if (coupled_) values.insert(values.end(), step_.pressure(), step_.pressure() + step_.cells());
     if (!in_second_order_) return values;
-    for (int axis = 0; axis < 2; ++axis) append(step_.last_flux(axis));
+    for (int axis = 0; axis < components; ++axis) append(step_.last_flux(axis));
     second_order_.append_memory(*this, values);
     return values;
 }
@@ -179,25 +191,37 @@ void BoxFluidStep::set_memory(const std::vector<double>& values) {
         next += size;
     };
     const auto take_flux = [&](std::vector<double>& to) { take(to.data(), to.size()); };
-    for (int axis = 0; axis < 2; ++axis) take_flux(step_.excess(axis));
+    const int components = step_.layers().components();
+    for (int axis = 0; axis < components; ++axis) take_flux(step_.excess(axis));
     fields_->read_pressure(step_.pressure());
     if (coupled_) take(step_.pressure(), step_.cells());
     if (!in_second_order_) return;
-    for (int axis = 0; axis < 2; ++axis) take_flux(step_.last_flux(axis));
+    for (int axis = 0; axis < components; ++axis) take_flux(step_.last_flux(axis));
     second_order_.set_memory(*this, next);
+}
+
+/// Of values on faces; there is a layer of faces more than of cells along y.
+std::vector<MemoryRows::Array> BoxFluidStep::flux_rows() const {
+    const BoxLayers& layers = step_.layers();
+    std::vector<MemoryRows::Array> rows;
+    for (int axis = 0; axis < layers.components(); ++axis)
+        rows.push_back({layers.face_row(axis, 1, 0), axis == 1 ? 1u : 0u});
+    return rows;
 }
 
 /// As `memory` appends them.
 MemoryRows BoxFluidStep::memory_rows() const {
-    const std::size_t nx = static_cast<std::size_t>(step_.layers().nx);
-    const MemoryRows::Array cells{nx, 0}, single{};
-    const std::vector<MemoryRows::Array> flux{{nx + 1, 0}, {nx, 1}};
-    MemoryRows rows{static_cast<std::size_t>(fields_->first_row()), step_.cells() / nx, flux};
+    const BoxLayers& layers = step_.layers();
+    const MemoryRows::Array cells{layers.layer(), 0}, single{};
+    const std::vector<MemoryRows::Array> flux = flux_rows();
+    MemoryRows rows{static_cast<std::size_t>(fields_->first_row()),
+                    static_cast<std::size_t>(layers.ny), flux};
     const auto append = [&](const std::vector<MemoryRows::Array>& more) {
         rows.arrays.insert(rows.arrays.end(), more.begin(), more.end());
     };
     if (coupled_) append({cells});
-    if (in_second_order_) append(flux), append({single, cells, cells});
+    const std::vector<MemoryRows::Array> velocity(layers.components(), cells);
+    if (in_second_order_) append(flux), append({single}), append(velocity);
     return rows;
 }
 

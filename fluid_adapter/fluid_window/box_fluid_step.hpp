@@ -24,15 +24,15 @@ class RowFields {
 
     virtual int first_row() const = 0;  ///< in the box, of this rank
 
-    virtual void read_velocity(double* x, double* y) = 0;               ///< [m/s]
-    virtual void write_velocity(const double* x, const double* y) = 0;  ///< [m/s]
-    virtual void read_pressure(double* p) = 0;                          ///< over rho_f [m2/s2]
+    virtual void read_velocity(const VelocityPointers& u) = 0;   ///< [m/s]
+    virtual void write_velocity(const VelocityPointers& u) = 0;  ///< from u [m/s]
+    virtual void read_pressure(double* p) = 0;                   ///< over rho_f [m2/s2]
 
     /// `floating`: no side fixes p, and it is zero in the first cell of the box.
     virtual void write_pressure(const double* p, bool floating) = 0;
 
     /// What u holds on the sides, by component, along whole sides of the box.
-    virtual std::array<SideValues, 2> side_velocity() const = 0;
+    virtual VelocityOnSides side_velocity() const = 0;
 };
 
 class BoxFluidStep final : public FluidStep, private SecondOrderHost {
@@ -69,6 +69,8 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     void load();
     void store();
     BoxStep::Force on_all_ranks(BoxStep::Force force) const;
+    VelocityPointers components();
+    std::vector<MemoryRows::Array> flux_rows() const;
 
     std::vector<VelocityValues> velocity_values() override;
     void velocity_changed() override {}

@@ -11,7 +11,7 @@
 
 #include "coupler/protocol/records.hpp"
 #include "fluid_adapter/fluid_window/fluid_step.hpp"
-#include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/constraint.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
@@ -27,18 +27,19 @@ struct FluidMomentum {
 /// `store` have nothing to do.
 class StoredField : public FluidField {
  public:
-    /// From the fields, in cells of these points and those that other ranks know; no other is read.
-    virtual void load(const CollocationPoints& points) = 0;
+    /// From the fields, in cells of the constraint and those that other ranks know; no other is
+    /// read.
+    virtual void load(const Constraint& constraint) = 0;
 
-    /// Into the fields, in cells of these points only.
-    virtual void store(const CollocationPoints& points) = 0;
+    /// Into the fields, in cells of the constraint only.
+    virtual void store(const Constraint& constraint) = 0;
 
-    /// lambda = -rho_f (u - u3)/dt in the cells of these points, with the u3 of the fields; before
-    /// `store`.
-    virtual void put_force_density(const CollocationPoints& points) = 0;
+    /// lambda = -rho_f (u - u3)/dt in the cells of the constraint, with the u3 of the fields;
+    /// before `store`.
+    virtual void put_force_density(const Constraint& constraint) = 0;
 
     /// Adds a velocity to u in every cell [m/s].
-    virtual void accelerate(const std::array<double, 2>& change) = 0;
+    virtual void accelerate(const Vec3& change) = 0;
 
     virtual FluidMomentum momentum() const = 0;  ///< of all fluid
 };

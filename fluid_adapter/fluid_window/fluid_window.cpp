@@ -89,8 +89,8 @@ Kicks FluidWindow::impose() {
         multipliers_.impose();
         for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
-        if (window_.write_output) field_.put_force_density(multipliers_.points());
-        field_.store(multipliers_.points());
+        if (window_.write_output) field_.put_force_density(multipliers_.constraint());
+        field_.store(multipliers_.constraint());
         close_ledger();
     });
     check_finite(ledger_.finite(), "step 5 (multipliers)");
@@ -128,11 +128,10 @@ void FluidWindow::project() {
 /// u += a dt in every cell, those of grains included: the force on a grain contains that of the
 /// mean pressure gradient. It acts with the pressure, before the projection.
 void FluidWindow::drive() {
-    const double x = run_.acceleration[0], y = run_.acceleration[1];
-    if (x == 0.0 && y == 0.0) return;
-    field_.accelerate({x * window_.step, y * window_.step});
-    const double area = run_.size[0] * run_.size[1];
-    ledger_.add(BoundaryForce{x * area, y * area});
+    if (run_.acceleration == Vec3{}) return;
+    field_.accelerate(window_.step * run_.acceleration);
+    const Vec3 rate = volume() * run_.acceleration;
+    ledger_.add(BoundaryForce{rate[0], rate[1], rate[2]});
 }
 
 void FluidWindow::transport() {
@@ -149,10 +148,10 @@ template <class Take>
 void FluidWindow::answer(const char* name, Take take) {
     watch_.play(name, timings_.points, take);
     watch_.play(name, timings_.multipliers, [&] {
-        field_.load(multipliers_.points());
+        field_.load(multipliers_.constraint());
         note(multipliers_.solve());
     });
-    if (CoupledStep* coupled = step_.coupled()) coupled->place_grains(multipliers_.points());
+    if (CoupledStep* coupled = step_.coupled()) coupled->place_grains(multipliers_.constraint());
     correct_fluid(before_contacts(coupled_limits_));
     grains_taken_ = true;
 }
@@ -163,8 +162,9 @@ void FluidWindow::correct_fluid(const CoupledLimits& limits) {
     if (!coupled) return;
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         multipliers_.impose();
-        RigidGrains grains(multipliers_.system(), multipliers_.flow(),
-                           {step_.velocity(0), step_.velocity(1)}, multipliers_.continued());
+        VelocityPointers u(run_.dimension);
+        for (int axis = 0; axis < u.size(); ++axis) u[axis] = step_.velocity(axis);
+        RigidGrains grains(multipliers_.constraint(), u, field_.owned_cells());
         note(coupled->correct(grains, limits));
         report_.multiplier_iterations += grains.iterations();
         report_.multipliers_converged = report_.multipliers_converged && grains.converged();
@@ -196,10 +196,16 @@ void FluidWindow::note(const MultiplierResult& result) {
 }
 
 void FluidWindow::close_ledger() {
-    Planar to_grains = multipliers_.impulse_to_grains();
-    field_.sum_over_ranks(to_grains.data(), 2);
-    report_.momentum_defect = ledger_.close({to_grains.x(), to_grains.y(), 0.0});
-    report_.mean_velocity = ledger_.momentum() / (run_.fluid_density * run_.size[0] * run_.size[1]);
+    Vec3 to_grains = multipliers_.impulse_to_grains().linear;
+    field_.sum_over_ranks(to_grains.data(), 3);
+    report_.momentum_defect = ledger_.close(to_grains);
+    report_.mean_velocity = ledger_.momentum() / (run_.fluid_density * volume());
+}
+
+/// Of the domain [m3], per unit length in the plane.
+double FluidWindow::volume() const {
+    const double area = run_.size[0] * run_.size[1];
+    return run_.dimension == 3 ? area * run_.size[2] : area;
 }
 
 void FluidWindow::check_finite(bool finite, const char* steps) const {

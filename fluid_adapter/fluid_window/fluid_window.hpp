@@ -53,7 +53,6 @@ class FluidWindow {
     void velocity_changed();  ///< u of the fields
     void fields_replaced();   ///< all that a saved state holds
 
-    const CollocationPoints& points() const { return multipliers_.points(); }
     const FluidTimings& timings() const { return timings_; }
 
  private:
@@ -70,6 +69,7 @@ class FluidWindow {
     void note(const CoupledReport& result);
     void correct_fluid(const CoupledLimits& limits);
     void close_ledger();
+    double volume() const;
     void write_fields();
     bool fields_due() const;
 

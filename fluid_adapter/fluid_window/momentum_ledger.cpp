@@ -21,7 +21,7 @@ void MomentumLedger::open(double dt) {
 }
 
 void MomentumLedger::add(const BoundaryForce& force, double share) {
-    const Vec3 impulse = share * density_ * dt_ * Vec3{force[0], force[1], 0.0};
+    const Vec3 impulse = share * density_ * dt_ * Vec3{force[0], force[1], force[2]};
     impulses_ = impulses_ + impulse;
     largest_ = std::max(largest_, norm(impulse));
 }

@@ -101,10 +101,6 @@ const FluidTimings& FoamAdapter::timings() const {
     return window_->timings();
 }
 
-const CollocationPoints& FoamAdapter::points() const {
-    return window_->points();
-}
-
 void FoamAdapter::add_velocity(double x, double y) {
     window_->put_fields();
     Foam::volVectorField& U = store_->fields().U;

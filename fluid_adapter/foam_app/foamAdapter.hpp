@@ -9,7 +9,6 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "fluid_adapter/fluid_window/fluid_timings.hpp"
-#include "fluid_adapter/multiplier/collocation_points.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
@@ -42,7 +41,6 @@ class FoamAdapter final : public FluidAdapter {
 
     /// Timings of the last window.
     const FluidTimings& timings() const;
-    const CollocationPoints& points() const;
 
     /// Adds (x, y) to u everywhere [m/s]: an initial stream, or a uniform body force times dt.
     void add_velocity(double x, double y);

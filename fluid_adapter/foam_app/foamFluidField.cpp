@@ -113,19 +113,12 @@ void FoamFluidField::sum_over_holders(double* rows, int per_grain) const {
     if (shared_) shared_->sum(rows, per_grain);
 }
 
-template <class Visit>
-void FoamFluidField::for_cells_of(const CollocationPoints& points, Visit visit) const {
-    for (const InteriorCell& point : points.interior) visit(point.cell);
-    for (const StencilCell& at : points.stencilled)
-        if (owns(at.cell)) visit(at.cell);
-}
-
 std::array<double, 2> FoamFluidField::velocity_of(int cell) const {
     if (copies_used_) return {fields_.U[cell].x(), fields_.U[cell].y()};
     return {velocity_[0][cell], velocity_[1][cell]};
 }
 
-void FoamFluidField::accelerate(const std::array<double, 2>& change) {
+void FoamFluidField::accelerate(const Vec3& change) {
     if (copies_used_) {
         fields_.U.primitiveFieldRef() += Foam::vector(change[0], change[1], 0.0);
         fields_.U.correctBoundaryConditions();
@@ -140,9 +133,9 @@ FluidMomentum FoamFluidField::momentum() const {
     return fields_.momentum(velocity_[0], velocity_[1]);
 }
 
-void FoamFluidField::load(const CollocationPoints& points) {
+void FoamFluidField::load(const Constraint& constraint) {
     if (!copies_used_) return;
-    for_cells_of(points, [&](int cell) { load(cell); });
+    constraint.for_cells([&](int cell) { load(cell); });
     for (const int cell : shared_cells_) load(cell);
 }
 
@@ -151,18 +144,18 @@ void FoamFluidField::load(int cell) {
     velocity_[1][cell] = fields_.U[cell].y();
 }
 
-void FoamFluidField::store(const CollocationPoints& points) {
+void FoamFluidField::store(const Constraint& constraint) {
     if (!copies_used_) return;
-    for_cells_of(points, [&](int cell) {
+    constraint.for_cells([&](int cell) {
         fields_.U[cell] = Foam::vector(velocity_[0][cell], velocity_[1][cell], 0.0);
     });
     fields_.U.correctBoundaryConditions();
 }
 
-void FoamFluidField::put_force_density(const CollocationPoints& points) {
+void FoamFluidField::put_force_density(const Constraint& constraint) {
     fields_.lambda.primitiveFieldRef() = Foam::Zero;
     const Foam::scalar rate = fields_.rho / fields_.time.deltaTValue();
-    for_cells_of(points, [&](int cell) {
+    constraint.for_cells([&](int cell) {
         const Foam::vector corrected(velocity_[0][cell], velocity_[1][cell], 0.0);
         fields_.lambda[cell] = rate * (fields_.U[cell] - corrected);
     });

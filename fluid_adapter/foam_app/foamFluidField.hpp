@@ -45,15 +45,13 @@ class FoamFluidField final : public StoredField {
     /// u of one of this rank's cells, wherever it is [m/s].
     std::array<double, 2> velocity_of(int cell) const;
 
-    void accelerate(const std::array<double, 2>& change) override;
+    void accelerate(const Vec3& change) override;
     FluidMomentum momentum() const override;
-    void load(const CollocationPoints& points) override;
-    void store(const CollocationPoints& points) override;
-    void put_force_density(const CollocationPoints& points) override;
+    void load(const Constraint& constraint) override;
+    void store(const Constraint& constraint) override;
+    void put_force_density(const Constraint& constraint) override;
 
  private:
-    template <class Visit>
-    void for_cells_of(const CollocationPoints& points, Visit visit) const;
     void load(int cell);
 
     FluidFields& fields_;

@@ -12,16 +12,16 @@ int FoamRows::first_row() const {
     return rows_.rows_of_rank()[fields_.ranks.rank()].first;
 }
 
-void FoamRows::read_velocity(double* x, double* y) {
+void FoamRows::read_velocity(const VelocityPointers& u) {
     const Foam::vectorField& U = fields_.U.primitiveField();
-    rows_.gather([&](int c) { return U[c].x(); }, x);
-    rows_.gather([&](int c) { return U[c].y(); }, y);
+    for (int axis = 0; axis < u.size(); ++axis)
+        rows_.gather([&](int c) { return U[c][axis]; }, u[axis]);
 }
 
-void FoamRows::write_velocity(const double* x, const double* y) {
+void FoamRows::write_velocity(const VelocityPointers& u) {
     Foam::vectorField& U = fields_.U.primitiveFieldRef();
-    rows_.scatter(x, [&](int c, double value) { U[c].x() = value; });
-    rows_.scatter(y, [&](int c, double value) { U[c].y() = value; });
+    for (int axis = 0; axis < u.size(); ++axis)
+        rows_.scatter(u[axis], [&](int c, double value) { U[c][axis] = value; });
     fields_.U.correctBoundaryConditions();
 }
 
@@ -37,7 +37,7 @@ void FoamRows::write_pressure(const double* rows, bool floating) {
     fields_.p.correctBoundaryConditions();
 }
 
-std::array<SideValues, 2> FoamRows::side_velocity() const {
+VelocityOnSides FoamRows::side_velocity() const {
     return held_on_sides(fields_, box_);
 }
 

@@ -16,11 +16,11 @@ class FoamRows final : public RowFields {
 
     bool in_cell_order() const override { return rows_.in_cell_order(); }
     int first_row() const override;
-    void read_velocity(double* x, double* y) override;
-    void write_velocity(const double* x, const double* y) override;
+    void read_velocity(const VelocityPointers& u) override;
+    void write_velocity(const VelocityPointers& u) override;
     void read_pressure(double* p) override;
     void write_pressure(const double* p, bool floating) override;
-    std::array<SideValues, 2> side_velocity() const override;
+    VelocityOnSides side_velocity() const override;
 
     const CellRows& rows() const { return rows_; }
 

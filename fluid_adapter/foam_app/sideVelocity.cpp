@@ -63,7 +63,7 @@ bool SideVelocity::set(double time, double step) {
     return !patches_.empty();
 }
 
-std::array<SideValues, 2> held_on_sides(const FluidFields& fields, const BoxCells& box) {
+VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box) {
     const std::array<int, 2> length = {box.cells[1], box.cells[0]};
     const int per_component = 2 * (length[0] + length[1]);
     const auto first = [&](int side) {
@@ -82,7 +82,7 @@ std::array<SideValues, 2> held_on_sides(const FluidFields& fields, const BoxCell
         }
     }
     box.ranks.sum(values.data(), static_cast<int>(values.size()));
-    std::array<SideValues, 2> sides;
+    VelocityOnSides sides;
     for (int axis = 0; axis < 2; ++axis)
         for (int side = 0; side < 4; ++side) {
             const auto from = values.begin() + axis * per_component + first(side);

@@ -37,6 +37,6 @@ class SideVelocity {
 
 /// The values that U holds on the sides of a box, by component, along whole sides: left and right
 /// by row of the box, bottom and top by column. Every rank calls it and has the same result.
-std::array<SideValues, 2> held_on_sides(const FluidFields& fields, const BoxCells& box);
+VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box);
 
 }  // namespace turbidite

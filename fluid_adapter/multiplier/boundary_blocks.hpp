@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/planar.hpp"
 #include "fluid_adapter/multiplier/point_coupling.hpp"
 #include "fluid_adapter/multiplier/profile_cholesky.hpp"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/planar.hpp"
 
 namespace turbidite {
 

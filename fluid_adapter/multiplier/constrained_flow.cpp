@@ -108,24 +108,19 @@ void ConstrainedFlow::impose() {
     multipliers_.assign_zero(system_->rows(), system_->grains());
 }
 
-void ConstrainedFlow::add(const ConstrainedFlow& change, double share) {
-    for (std::size_t g = 0; g < motions_.size(); ++g) {
-        momentum_[g] += share * change.momentum_[g];
-        prescribed_[g] += share * change.prescribed_[g];
-        motions_[g] += share * change.motions_[g];
-        impulses_[g] += share * change.impulses_[g];
-    }
-    for (std::size_t i = 0; i < slip_.size(); ++i) slip_[i] += share * change.slip_[i];
+void ConstrainedFlow::copy_to(GrainChange& change) const {
+    change.clear();
+    for (const std::vector<Planar>* list : {&momentum_, &prescribed_, &motions_, &impulses_})
+        for (const Planar& of : *list) change.insert(change.end(), of.begin(), of.end());
+    change.insert(change.end(), slip_.begin(), slip_.end());
 }
 
-void ConstrainedFlow::scale(double keep) {
-    for (std::size_t g = 0; g < motions_.size(); ++g) {
-        momentum_[g] *= keep;
-        prescribed_[g] *= keep;
-        motions_[g] *= keep;
-        impulses_[g] *= keep;
-    }
-    for (double& slip : slip_) slip *= keep;
+void ConstrainedFlow::add(const GrainChange& change, double share) {
+    const double* value = change.data();
+    for (std::vector<Planar>* list : {&momentum_, &prescribed_, &motions_, &impulses_})
+        for (Planar& of : *list)
+            for (double& component : of) component += share * *value++;
+    for (double& slip : slip_) slip += share * *value++;
 }
 
 /// Asks for the velocity of a later slot's cell.

@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "fluid_adapter/multiplier/constraint.hpp"
 #include "fluid_adapter/multiplier/saddle_operator.hpp"
 
 namespace turbidite {
@@ -36,12 +37,12 @@ class ConstrainedFlow {
     /// Writes u for the present L into the velocity it began with.
     void impose();
 
-    /// What `share` times a constrained change does: to motions, impulses and slip. The caller adds
-    /// the change of the velocity itself.
-    void add(const ConstrainedFlow& change, double share);
+    /// Momenta, motions, impulses and slip as numbers, for `add` of another flow.
+    void copy_to(GrainChange& change) const;
 
-    /// The same for itself times `keep`.
-    void scale(double keep);
+    /// What `share` times a constrained change does to them. The caller adds the change of the
+    /// velocity itself.
+    void add(const GrainChange& change, double share);
 
     /// U, omega of every grain for the present L.
     const std::vector<Planar>& motions() const { return motions_; }

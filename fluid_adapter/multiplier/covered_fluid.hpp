@@ -15,15 +15,11 @@
 
 #include <Eigen/Core>
 
+#include "fluid_adapter/multiplier/cell_velocity.hpp"
 #include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/planar.hpp"
 
 namespace turbidite {
-
-/// Velocity components over the rank's own cells, in the field's arrays and not copied [m/s].
-struct CellVelocity {
-    double* x;
-    double* y;
-};
 
 /// Sums over the interior cells of a grain, weighted by V_c over the reference cell's volume: 1,
 /// r_x, r_y, r^2.

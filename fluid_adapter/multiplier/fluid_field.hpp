@@ -8,6 +8,7 @@
 #include "coupler/protocol/records.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 #include "fluid_adapter/multiplier/cell_table.hpp"
+#include "fluid_adapter/multiplier/layer_cells.hpp"
 
 namespace turbidite {
 
@@ -21,11 +22,22 @@ class FluidField {
     /// Local index of a cell, halo included; -1 if this rank does not know the cell.
     int cell(int i, int j, int k) const {
         const std::array<int, 3>& counts = grid().counts;
-        const bool inside = i >= 0 && j >= 0 && k == 0 && i < counts[0] && j < counts[1];
-        return inside ? cells().at(i, j) : -1;
+        const bool inside =
+            i >= 0 && j >= 0 && k >= 0 && i < counts[0] && j < counts[1] && k < counts[2];
+        if (!inside) return -1;
+        if (grid().dimension == 2) return cells().at(i, j);
+        return layers().owns(j) ? layers().cell(i, j, k) : -1;
     }
 
-    /// The same lookup without bounds checks, for cells of the grid.
+    /// In space: this rank's cells. They have no halo: points on surfaces, which need one, are of
+    /// the plane.
+    LayerCells layers() const {
+        const int layer = grid().counts[0] * grid().counts[2];
+        return {&grid(), first_layer(), owned_cells() / layer};
+    }
+    virtual int first_layer() const { return 0; }
+
+    /// In the plane: the same lookup without bounds checks, for cells of the grid.
     virtual const CellTable& cells() const = 0;
 
     virtual int owned_cells() const = 0;  ///< their local indices come first

@@ -42,7 +42,7 @@ std::vector<ImmersedGrain> ImmersedPlates::bodies(double time, double step) cons
         body.radius = entry.radius;
         body.position = {placed.middle[0], placed.middle[1], 0.0};
         body.orientation = matrix(rotation(Vec3{0.0, 0.0, placed.angle}));
-        body.contact_motion = planar(placed.twist);
+        body.contact_motion = placed.twist;
         body.has_boundary_points = false;
         body.prescribed = true;
         bodies.push_back(body);

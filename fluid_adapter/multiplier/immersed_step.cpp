@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/immersed_step.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "coupler/protocol/splitting.hpp"
+#include "fluid_adapter/multiplier/plane_constraint.hpp"
+#include "fluid_adapter/multiplier/space/interior_constraint.hpp"
 
 namespace turbidite {
 namespace {
@@ -37,15 +38,15 @@ PointRules point_rules(const Settings& settings) {
     throw std::invalid_argument("unknown fluid.points \"" + name + "\"; known: " + known);
 }
 
-/// The plane components (x, y, spin) are 0, 1, 5 of the six in space. The others are fixed; their
-/// diagonal entries are set to 1.
-std::array<double, 21> in_space(const Eigen::Matrix3d& plane) {
-    constexpr std::size_t six[] = {0, 1, 5};
-    std::array<double, 21> inertia{};
-    for (const std::size_t still : {2, 3, 4}) inertia[upper_entry(still, still)] = 1.0;
-    for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j) inertia[upper_entry(six[i], six[j])] = plane(i, j);
-    return inertia;
+std::unique_ptr<Constraint> make_constraint(FluidField& field, const Settings& settings,
+                                            const RunValues& run) {
+    if (run.dimension == 3) return std::make_unique<InteriorConstraint>(field);
+    return std::make_unique<PlaneConstraint>(field, point_rules(settings),
+                                             multiplier_settings(settings, run));
+}
+
+Impulse contact_impulse(const GrainState& state) {
+    return {state.contact_impulse, state.contact_angular_impulse};
 }
 
 }  // namespace
@@ -56,9 +57,8 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
       bodies_(run_, shapes),
       plates_(settings),
       moved_grains_(motions_of(settings, "run.grain_motions")),
-      settings_(multiplier_settings(settings, run_)),
       carries_contacts_(splitting_of(settings).rigid_grains),
-      placement_(point_rules(settings)) {
+      constraint_(make_constraint(field, settings, run_)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
 
@@ -73,7 +73,7 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     grain.orientation = matrix(rotation(state.orientation));
     grain.effective_mass = body.effective_mass;
     grain.effective_inertia = body.effective_inertia(2, 2);
-    grain.contact_motion = planar(twist_of(state));
+    grain.contact_motion = twist_of(state);
     grain.prescribed = state.prescribed;
     return grain;
 }
@@ -89,9 +89,9 @@ void ImmersedStep::take(const std::vector<GrainState>& states, const Window& win
     prescribe(window);
     for (const ImmersedGrain& plate : plates_.bodies(window.time, window.step))
         grains_.push_back(plate);
-    contact_impulses_.assign(grains_.size(), Planar::Zero());
+    contact_impulses_.assign(grains_.size(), {});
     pushed_ = false;
-    placement_.place(field_, grains_, points_);
+    constraint_->place(grains_);
 }
 
 /// Grains that follow a motion, which changes from window to window.
@@ -99,17 +99,17 @@ void ImmersedStep::prescribe(const Window& window) {
     for (const Moved& moved : moved_grains_) {
         const auto at = index_.find(moved.what);
         if (at == index_.end()) continue;
-        grains_[at->second].contact_motion = planar(moved.motion->rate(window.time, window.step));
+        grains_[at->second].contact_motion = moved.motion->rate(window.time, window.step);
     }
 }
 
 void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window& window) {
     take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
-        Planar& given = grains_[g].given_impulse;
-        given.y() = -bodies_(states[g]).submerged_mass * run_.gravity * window.step;
+        Impulse& given = grains_[g].given_impulse;
+        given.linear[1] = -bodies_(states[g]).submerged_mass * run_.gravity * window.step;
         if (!carries_contacts_) continue;
-        contact_impulses_[g] = planar(states[g].contact_impulse, states[g].contact_angular_impulse);
+        contact_impulses_[g] = contact_impulse(states[g]);
         given += contact_impulses_[g];
     }
 }
@@ -118,31 +118,23 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
     take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
         const GrainState& state = states[g];
-        contact_impulses_[g] = planar(state.contact_impulse, state.contact_angular_impulse);
-        grains_[g].announced_impulse =
-            planar(state.announced_impulse, state.announced_angular_impulse);
+        contact_impulses_[g] = contact_impulse(state);
+        grains_[g].announced_impulse = {state.announced_impulse, state.announced_angular_impulse};
     }
 }
 
-MultiplierResult ImmersedStep::solve() {
-    system_.assemble(field_, grains_, points_);
-    flow_.begin(system_, {field_.velocity(0), field_.velocity(1)}, momenta_of(grains_),
-                prescribed_motions(grains_));
-    const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
-    slip_goal_ = result.goal;
-    return result;
+CellVelocity ImmersedStep::velocity() const {
+    return {field_.velocity(0), field_.velocity(1),
+            run_.dimension == 3 ? field_.velocity(2) : nullptr};
 }
 
-MultiplierSettings ImmersedStep::continued() const {
-    MultiplierSettings settings = settings_;
-    settings.tolerance = slip_goal_ / settings.velocity_scale;
-    settings.reduction = 1.0;
-    return settings;
+MultiplierResult ImmersedStep::solve() {
+    return constraint_->solve(velocity());
 }
 
 MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {
-    changes_.assign(grains_.size(), Planar::Zero());
-    solved_.assign(grains_.size(), Planar::Zero());
+    changes_.assign(grains_.size(), {});
+    solved_.assign(grains_.size(), {});
     std::vector<std::uint8_t> received(states_, 0);
     for (const GrainState& state : with_contacts) {
         const auto at = index_.find(state.id);
@@ -152,31 +144,30 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
         if (std::exchange(received[at->second], 1) != 0)
             throw std::runtime_error("contact impulses were received twice for grain " +
                                      std::to_string(state.id));
-        const Planar impulse = planar(state.contact_impulse, state.contact_angular_impulse);
+        const Impulse impulse = contact_impulse(state);
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
-        solved_[at->second] = planar(twist_of(state));
+        solved_[at->second] = twist_of(state);
     }
     if (with_contacts.size() != states_)
         throw std::runtime_error("contact impulses were received for " +
                                  std::to_string(with_contacts.size()) +
                                  " grains, but the window has " + std::to_string(states_));
     pushed_ = true;
-    flow_.push(changes_);
-    return uzawa_cg(flow_, continued(), work_);
+    return constraint_->push(changes_);
 }
 
 /// True on exactly one rank: the owner of the cell that contains the centre or, for a grain leaving
 /// the grid, of the nearest cell.
 bool ImmersedStep::answers_for(std::size_t grain) const {
     const CellGrid& grid = field_.grid();
-    int index[2];
-    for (int axis = 0; axis < 2; ++axis) {
+    int index[3] = {};
+    for (int axis = 0; axis < grid.dimension; ++axis) {
         const int layer = grid.layer(axis, grains_[grain].position[axis]);
         index[axis] = grid.cyclic(axis) ? grid.wrapped(axis, layer)
                                         : std::clamp(layer, 0, grid.counts[axis] - 1);
     }
-    const int home = field_.cell(index[0], index[1], 0);
+    const int home = field_.cell(index[0], index[1], index[2]);
     return home >= 0 && field_.owns(home);
 }
 
@@ -193,51 +184,52 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
 double ImmersedStep::mismatch(std::size_t g) const {
     if (!pushed_) return 0.0;
     const double radius = grains_[g].radius / run_.hydrodynamic_radius;
-    const Planar off = flow_.motions()[g] - solved_[g];
-    return off.head<2>().norm() + radius * std::abs(off.z());
+    const Twist motion = constraint_->motion(g);
+    return norm(motion.velocity - solved_[g].velocity) +
+           radius * norm(motion.spin - solved_[g].spin);
 }
 
 /// A grain of prescribed motion moves as it did, whatever the impulses, and has no inertia to send.
 FreeResponse ImmersedStep::response(std::size_t g) const {
-    Planar free = flow_.motions()[g];
+    Twist free = constraint_->motion(g);
     FreeResponse response;
     response.id = grains_[g].id;
     response.mismatch = mismatch(g);
     if (!grains_[g].prescribed) {
-        const Eigen::Matrix3d& inertia = system_.effective_inertia()[g];
-        free -= inertia.llt().solve(contact_impulses_[g]);
-        response.inertia = in_space(inertia);
+        const Twist pushed = constraint_->moved_by(g, contact_impulses_[g]);
+        free = {free.velocity - pushed.velocity, free.spin - pushed.spin};
+        response.inertia = constraint_->effective_inertia(g);
     }
-    response.velocity = linear(free);
-    response.angular_velocity = angular(free);
+    response.velocity = free.velocity;
+    response.angular_velocity = free.spin;
     return response;
 }
 
 void ImmersedStep::impose() {
-    flow_.impose();
+    constraint_->impose();
 }
 
 std::vector<Kick> ImmersedStep::kicks() const {
     std::vector<Kick> kicks;
     for (std::size_t g = 0; g < states_; ++g) {
         if (!answers_for(g)) continue;
-        const Planar& motion = flow_.motions()[g];
-        const Planar& impulse = flow_.impulses()[g];
+        const Twist motion = constraint_->motion(g);
+        const Impulse impulse = constraint_->impulse(g);
         Kick kick;
         kick.id = grains_[g].id;
-        kick.velocity = linear(motion);
-        kick.angular_velocity = angular(motion);
-        kick.multiplier_impulse = linear(impulse);
-        kick.multiplier_angular_impulse = angular(impulse);
+        kick.velocity = motion.velocity;
+        kick.angular_velocity = motion.spin;
+        kick.multiplier_impulse = impulse.linear;
+        kick.multiplier_angular_impulse = impulse.moment;
         kicks.push_back(kick);
     }
     return kicks;
 }
 
-Planar ImmersedStep::impulse_to_grains() const {
-    Planar sum = Planar::Zero();
+Impulse ImmersedStep::impulse_to_grains() const {
+    Impulse sum;
     for (std::size_t g = 0; g < grains_.size(); ++g)
-        if (answers_for(g)) sum += flow_.impulses()[g];
+        if (answers_for(g)) sum += constraint_->impulse(g);
     return sum;
 }
 

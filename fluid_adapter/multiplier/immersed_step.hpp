@@ -21,8 +21,9 @@
 
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
+#include "fluid_adapter/multiplier/constraint.hpp"
+#include "fluid_adapter/multiplier/fluid_field.hpp"
 #include "fluid_adapter/multiplier/immersed_plates.hpp"
-#include "fluid_adapter/multiplier/uzawa_cg.hpp"
 
 namespace turbidite {
 
@@ -57,26 +58,21 @@ class ImmersedStep {
     /// Kicks of the grains whose centre this rank owns; after impose.
     std::vector<Kick> kicks() const;
 
-    /// Sum of the multiplier impulses over these bodies [N s/m], and of their moments [N s]; after
-    /// impose.
-    Planar impulse_to_grains() const;
+    /// Sum of the multiplier impulses over these bodies, and of their moments; after impose.
+    Impulse impulse_to_grains() const;
 
     /// The grains and plates of the window, as the multipliers see them.
     const std::vector<ImmersedGrain>& grains() const { return grains_; }
 
-    const CollocationPoints& points() const { return points_; }
-
-    // Between solve and impose, for changes of the velocity from outside:
-
-    SaddleOperator& system() { return system_; }
-    ConstrainedFlow& flow() { return flow_; }
-    MultiplierSettings continued()
-        const;  ///< to the slip that the window's first solve had to reach
+    /// Between solve and impose, for changes of the velocity from outside.
+    Constraint& constraint() { return *constraint_; }
+    const Constraint& constraint() const { return *constraint_; }
 
  private:
     ImmersedGrain immersed(const GrainState& state) const;
     void take(const std::vector<GrainState>& states, const Window& window);
     void prescribe(const Window& window);
+    CellVelocity velocity() const;
     bool answers_for(std::size_t grain) const;
     FreeResponse response(std::size_t g) const;
     double mismatch(std::size_t g) const;
@@ -87,22 +83,16 @@ class ImmersedStep {
     ImmersedBodies bodies_;
     ImmersedPlates plates_;
     std::vector<Moved> moved_grains_;
-    MultiplierSettings settings_;
-    bool carries_contacts_;   // from window to window
-    double slip_goal_ = 0.0;  // rms slip to reach, set by the window's first solve [m/s]
+    bool carries_contacts_;  // from window to window
 
     std::vector<ImmersedGrain> grains_;  // and plates
     std::size_t states_ = 0;             // of the grains alone
     std::unordered_map<GrainId, std::size_t> index_;
-    std::vector<Planar> contact_impulses_;  // J, contained in the present motions
-    std::vector<Planar> changes_;
-    std::vector<Planar> solved_;  // velocities that came with the last contact impulses
-    bool pushed_ = false;         // contacts have been solved in this window
-    PointPlacement placement_;
-    CollocationPoints points_;
-    SaddleOperator system_;
-    ConstrainedFlow flow_;
-    MultiplierWorkspace work_;
+    std::vector<Impulse> contact_impulses_;  // J, contained in the present motions
+    std::vector<Impulse> changes_;
+    std::vector<Twist> solved_;  // velocities that came with the last contact impulses
+    bool pushed_ = false;        // contacts have been solved in this window
+    std::unique_ptr<Constraint> constraint_;
 };
 
 }  // namespace turbidite

@@ -9,28 +9,12 @@
 // make them part of the saved state. Valid C++17.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "fluid_adapter/multiplier/constrained_flow.hpp"
+#include "fluid_adapter/multiplier/constraint.hpp"
 
 namespace turbidite {
-
-struct MultiplierSettings {
-    double tolerance = 1e-4;  ///< of the rms slip over u_c; usually 1e-4 .. 1e-6
-    /// The rms slip must also fall by this factor: with a short dt it may be below `tolerance` from
-    /// the start, and the grain would not feel the fluid.
-    double reduction = 1e-2;
-    double velocity_scale = 1.0;  ///< u_c [m/s]
-    int iterations = 200;         ///< upper limit
-};
-
-struct MultiplierResult {
-    std::int64_t iterations = 0;
-    double residual = 0.0;  ///< rms slip [m/s]
-    double goal = 0.0;      ///< rms slip required [m/s]
-    bool converged = true;
-};
 
 /// Work vectors, kept between windows: a solve no larger than an earlier one allocates nothing.
 struct MultiplierWorkspace {

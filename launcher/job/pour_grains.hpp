@@ -14,7 +14,9 @@ namespace turbidite {
 /// well, or grains are not at rest after 200 t_c.
 std::filesystem::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site);
 
-/// A mean kinetic energy of the last row of a history.csv below 1e-4 m u_c2, after at least 10 t_c.
-bool is_at_rest(const std::filesystem::path& history);
+/// Whether the last row of a history.csv, after at least 10 t_c, has a mean kinetic energy that
+/// grains at rest may keep [m u_c2]: 1e-4, and in a high packing (t h)^2/2, with its height h [D]
+/// and contacts solved to the tolerance t [u_c].
+bool is_at_rest(const std::filesystem::path& history, double tolerance);
 
 }  // namespace turbidite

@@ -56,17 +56,10 @@ CoupledReport play(Tank& tank, CoupledStep& coupled, const CoupledLimits& limits
                    double dt = time_step) {
     move(tank, coupled, dt);
     coupled.keep_transported();
-    std::vector<Planar> momenta;
-    for (std::size_t g = 0; g < tank.grains.size(); ++g) {
-        const ImmersedGrain& grain = tank.grains[g];
-        momenta.push_back(
-            Planar(grain.effective_mass, grain.effective_mass, grain.effective_inertia)
-                .cwiseProduct(tank.flow.motions()[g]));
-    }
-    tank.flow.begin(tank.system, tank.velocity(), momenta, prescribed_motions(tank.grains));
-    uzawa_cg(tank.flow, tank.settings, tank.work);
-    tank.flow.impose();
-    coupled.place_grains(tank.points);
+    for (std::size_t g = 0; g < tank.grains.size(); ++g)
+        tank.grains[g].contact_motion = twist(tank.motions()[g]);
+    tank.place_grains();
+    coupled.place_grains(tank.constraint);
     RigidGrains grains = tank.rigid();
     const CoupledReport report = coupled.correct(grains, limits);
     coupled.end();

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
+#include "fluid_adapter/multiplier/plane_constraint.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 
 namespace turbidite {
@@ -106,25 +107,37 @@ struct Tank {
           field(sides.stretched ? stretched_field : equal_field),
           grains(three_discs_of(density_ratio)),
           step(box_fluid(sides, viscosity)),
-          box(step.operators()) {
-        PointPlacement(PointRules{}).place(field, grains, points);
+          box(step.operators()),
+          constraint(field, PointRules{}, tight()) {
         step.pressure_solve();
         for (int axis = 0; axis < 2; ++axis) {
             std::vector<double> u(size());
             fill_randomly(u, 5 + axis);
             std::copy(u.begin(), u.end(), step.velocity(axis));
         }
+        place_grains();
+    }
+
+    static MultiplierSettings tight() {
+        MultiplierSettings settings;
         settings.tolerance = 1e-12;
         settings.reduction = 1.0;
-        system.assemble(field, grains, points);
-        flow.begin(system, velocity(), momenta_of(grains), prescribed_motions(grains));
-        uzawa_cg(flow, settings, work);
-        flow.impose();
+        return settings;
+    }
+
+    void place_grains() {
+        constraint.place(grains);
+        constraint.solve(velocity());
+        constraint.impose();
     }
 
     std::size_t size() const { return static_cast<std::size_t>(cells_across) * cells_across; }
     CellVelocity velocity() { return {step.velocity(0), step.velocity(1)}; }
-    RigidGrains rigid() { return RigidGrains(system, flow, velocity(), settings); }
+    RigidGrains rigid() {
+        return RigidGrains(constraint, {step.velocity(0), step.velocity(1)}, size());
+    }
+    const std::vector<Planar>& motions() const { return constraint.flow().motions(); }
+    const CollocationPoints& points() const { return constraint.points(); }
 
     /// Momentum of all fluid.
     Planar momentum() {
@@ -139,13 +152,9 @@ struct Tank {
     MemoryField stretched_field, equal_field;
     MemoryField& field;
     std::vector<ImmersedGrain> grains;
-    CollocationPoints points;
     BoxStep step;
     BoxOperators box;
-    SaddleOperator system;
-    ConstrainedFlow flow;
-    MultiplierSettings settings;
-    MultiplierWorkspace work;
+    PlaneConstraint constraint;
 };
 
 }  // namespace turbidite

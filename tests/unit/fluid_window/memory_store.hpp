@@ -19,14 +19,14 @@ class RowsInMemory final : public RowFields {
  public:
     bool in_cell_order() const override { return true; }
     int first_row() const override { return 0; }
-    void read_velocity(double*, double*) override {}
-    void write_velocity(const double* x, const double*) override { seen_x = x[0]; }
+    void read_velocity(const VelocityPointers&) override {}
+    void write_velocity(const VelocityPointers& u) override { seen_x = u[0][0]; }
     void read_pressure(double*) override {}
     void write_pressure(const double*, bool) override {}
-    std::array<SideValues, 2> side_velocity() const override { return sides; }
+    VelocityOnSides side_velocity() const override { return sides; }
 
     double seen_x = 0.0;  ///< u_x of the first cell, when it was last asked for
-    std::array<SideValues, 2> sides;
+    VelocityOnSides sides;
 };
 
 /// The velocity is the step's own.
@@ -43,10 +43,10 @@ class StepField final : public StoredField {
     double reference_mass() const override { return place_.reference_mass(); }
     double* velocity(int axis) override { return velocity_[axis]; }
 
-    void load(const CollocationPoints&) override {}
-    void store(const CollocationPoints&) override {}
-    void put_force_density(const CollocationPoints&) override {}
-    void accelerate(const std::array<double, 2>& change) override {
+    void load(const Constraint&) override {}
+    void store(const Constraint&) override {}
+    void put_force_density(const Constraint&) override {}
+    void accelerate(const Vec3& change) override {
         for (int axis = 0; axis < 2; ++axis)
             for (int c = 0; c < owned_cells(); ++c) velocity_[axis][c] += change[axis];
     }

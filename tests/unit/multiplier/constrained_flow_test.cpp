@@ -63,7 +63,7 @@ std::vector<ImmersedGrain> loose_heap() {
 /// Of the heap, one grain is held and one is driven.
 std::vector<ImmersedGrain> held_heap() {
     std::vector<ImmersedGrain> grains = loose_heap();
-    grains[1].contact_motion = Planar::Zero();
+    grains[1].contact_motion = {};
     grains[1].prescribed = grains[2].prescribed = true;
     return grains;
 }
@@ -325,7 +325,7 @@ TEST_P(Against, MomentumOfFluidAndGrains) {
     for (std::size_t g = 0; g < problem.grains.size(); ++g) {
         const ImmersedGrain& grain = problem.grains[g];
         const Planar& impulse = problem.flow.impulses()[g];
-        const Planar gained = problem.flow.motions()[g] - grain.contact_motion;
+        const Planar gained = problem.flow.motions()[g] - planar(grain.contact_motion);
         taken += impulse;
         if (grain.prescribed) {
             EXPECT_EQ(gained, Planar(Planar::Zero()));
@@ -382,10 +382,11 @@ TEST_P(WithOrWithoutBoundary, AnAnnouncedImpulseIsNotCountedTwice) {
     // not, and the fluid the same impulse.
     const Planar held(0.02, -0.05, 0.01);
     ImmersedGrain plain = disc(1, 3.013, 3.007, {0.1, -0.5, 0.7}), announced = plain;
-    announced.announced_impulse = held;
-    announced.contact_motion +=
-        Planar(held.x() / plain.effective_mass, held.y() / plain.effective_mass,
-               held.z() / plain.effective_inertia);
+    announced.announced_impulse = impulse(held);
+    announced.contact_motion =
+        twist(planar(plain.contact_motion) + Planar(held.x() / plain.effective_mass,
+                                                    held.y() / plain.effective_mass,
+                                                    held.z() / plain.effective_inertia));
     Problem first({plain}, GetParam()), second({announced}, GetParam());
     for (Problem* problem : {&first, &second}) {
         problem->solve(1e-12);
@@ -435,8 +436,10 @@ TEST(ConstrainedFlow, ImposesAVelocityInParts) {
     settings.tolerance = 1e-12;
     EXPECT_GT(uzawa_cg(response, settings, parts.work).iterations, 0);
     response.impose();
-    response.scale(4.0);
-    parts.flow.add(response, 0.25);
+    GrainChange four_fold;
+    response.copy_to(four_fold);
+    for (double& value : four_fold) value *= 4.0;
+    parts.flow.add(four_fold, 0.25);
     for (int axis = 0; axis < 2; ++axis)
         for (int c = 0; c < cells; ++c) parts.field.velocity(axis)[c] += change.velocity(axis)[c];
     parts.flow.push(pushes(4));

@@ -56,12 +56,12 @@ class DenseReference {
             const double m = grains_[g].effective_mass, I = grains_[g].effective_inertia;
             if (grains_[g].prescribed) {
                 inverse.segment<3>(3 * g).setZero();
-                free.segment<3>(3 * g) = grains_[g].contact_motion;
+                free.segment<3>(3 * g) = planar(grains_[g].contact_motion);
                 continue;
             }
             inverse.segment<3>(3 * g) << 1.0 / m, 1.0 / m, 1.0 / I;
             free.segment<3>(3 * g) =
-                inverse.segment<3>(3 * g).cwiseProduct(grains_[g].momentum() + pushes[g]);
+                inverse.segment<3>(3 * g).cwiseProduct(planar(grains_[g].momentum()) + pushes[g]);
         }
         const Eigen::SparseMatrix<double> B = B_.sparseView();  // at most nine entries in a row
         const Eigen::MatrixXd gram(B * per_mass_.asDiagonal() * B.transpose());

@@ -12,7 +12,7 @@
 #include "coupler/shapes/immersed_body.hpp"
 #include "fluid_adapter/multiplier/boundary_operator.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
-#include "fluid_adapter/multiplier/immersed_grain.hpp"
+#include "fluid_adapter/multiplier/planar.hpp"
 
 namespace turbidite {
 
@@ -106,7 +106,7 @@ inline ImmersedGrain disc(GrainId id, double x, double y, const Planar& motion =
     grain.position = {x, y, 0.0};
     grain.effective_mass = body.effective_mass;
     grain.effective_inertia = body.effective_inertia(2, 2);
-    grain.contact_motion = motion;
+    grain.contact_motion = twist(motion);
     return grain;
 }
 

@@ -119,7 +119,7 @@ TEST_P(StretchedGrid, KeepsMomentumAndAgreesWithADenseSolve) {
     Planar change = field.momentum() - before;
     for (int g = 0; g < 2; ++g) {
         EXPECT_LT((flow.motions()[g] - expected[g]).norm(), 1e-8);
-        const Planar gained = flow.motions()[g] - grains[g].contact_motion;
+        const Planar gained = flow.motions()[g] - planar(grains[g].contact_motion);
         EXPECT_NEAR(grains[g].effective_mass * gained.x(), flow.impulses()[g].x(), 1e-12);
         EXPECT_NEAR(grains[g].effective_inertia * gained.z(), flow.impulses()[g].z(), 1e-12);
         change += grains[g].effective_mass * gained;

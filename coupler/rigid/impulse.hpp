@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Impulses on a rigid body. Valid C++17.
+#pragma once
+
+#include "coupler/rigid/vec3.hpp"
+
+namespace turbidite {
+
+/// Of forces on a body over a time, and of their moments about its centre; also a momentum.
+struct Impulse {
+    Vec3 linear{};  ///< [N s]; per unit length in the plane
+    Vec3 moment{};  ///< [N s m]; the same
+
+    Impulse& operator+=(const Impulse& other) {
+        linear = linear + other.linear;
+        moment = moment + other.moment;
+        return *this;
+    }
+};
+
+inline Impulse operator+(Impulse a, const Impulse& b) {
+    return a += b;
+}
+inline Impulse operator-(const Impulse& a, const Impulse& b) {
+    return {a.linear - b.linear, a.moment - b.moment};
+}
+
+}  // namespace turbidite

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/box_app/array_store.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace turbidite {
+namespace {
+
+End velocity_end(Side side) {
+    return side == Side::cyclic ? End::periodic
+           : side == Side::wall ? End::dirichlet
+                                : End::neumann;
+}
+
+End pressure_end(Side side) {
+    return side == Side::cyclic ? End::periodic
+           : side == Side::wall ? End::neumann
+                                : End::dirichlet;
+}
+
+SeparableOperator operator_of(const CellGrid& grid, End (*end)(Side)) {
+    const auto axis = [&](int a) {
+        return AxisOperator{grid.counts[a], grid.spacing[a], end(grid.sides[a][0]),
+                            end(grid.sides[a][1])};
+    };
+    SeparableOperator all{axis(0), axis(1)};
+    if (grid.dimension == 3) all.z = axis(2);
+    return all;
+}
+
+BoxFluid fluid_of(const ArrayBox& box) {
+    BoxFluid fluid;
+    fluid.velocity = operator_of(box.grid, velocity_end);
+    fluid.pressure = operator_of(box.grid, pressure_end);
+    fluid.viscosity = box.viscosity;
+    fluid.central = box.central;
+    fluid.second_order = box.second_order;
+    return fluid;
+}
+
+/// The step's arrays are all there is; every side is at rest.
+class NoFields final : public RowFields {
+ public:
+    explicit NoFields(const CellGrid& grid) {
+        const std::size_t nx = grid.counts[0], ny = grid.counts[1], nz = grid.counts[2];
+        const std::size_t sizes[] = {ny * nz, nx * nz, nx * ny};
+        for (SideValues& values : sides_)
+            for (std::size_t side = 0; side < values.size(); ++side)
+                values[side].assign(sizes[side / 2], 0.0);
+    }
+
+    bool in_cell_order() const override { return true; }
+    int first_row() const override { return 0; }
+    void read_velocity(const VelocityPointers&) override {}
+    void write_velocity(const VelocityPointers&) override {}
+    void read_pressure(double*) override {}
+    void write_pressure(const double*, bool) override {}
+    VelocityOnSides side_velocity() const override { return sides_; }
+
+ private:
+    VelocityOnSides sides_;
+};
+
+}  // namespace
+
+CellGrid grid_of_cubes(const std::array<int, 3>& cells, double edge,
+                       const std::array<Side, 3>& sides) {
+    CellGrid grid;
+    grid.dimension = cells[2] > 1 ? 3 : 2;
+    grid.counts = cells;
+    grid.spacing = {edge, edge, grid.dimension == 3 ? edge : 1.0};
+    for (int axis = 0; axis < grid.dimension; ++axis) grid.sides[axis].fill(sides[axis]);
+    return grid;
+}
+
+ArrayField::ArrayField(const ArrayBox& box)
+    : grid_(box.grid),
+      cells_(grid_.counts[0] * grid_.counts[1] * grid_.counts[2]),
+      mass_(box.density * grid_.spacing[0] * grid_.spacing[1] * grid_.spacing[2]) {
+    if (grid_.dimension == 3) return;
+    index_.resize(cells_);
+    std::iota(index_.begin(), index_.end(), 0);
+    table_ = {index_.data(), {0, 0}, {grid_.counts[0], grid_.counts[1]}, {0, 0}};
+}
+
+void ArrayField::work_on(FluidStep& step) {
+    for (int axis = 0; axis < grid_.dimension; ++axis) velocity_[axis] = step.velocity(axis);
+}
+
+void ArrayField::accelerate(const Vec3& change) {
+    for (int axis = 0; axis < grid_.dimension; ++axis)
+        for (int c = 0; c < cells_; ++c) velocity_[axis][c] += change[axis];
+}
+
+FluidMomentum ArrayField::momentum() const {
+    FluidMomentum of;
+    for (int axis = 0; axis < grid_.dimension; ++axis)
+        for (int c = 0; c < cells_; ++c) {
+            of.sum[axis] += mass_ * velocity_[axis][c];
+            of.magnitudes += mass_ * std::abs(velocity_[axis][c]);
+        }
+    return of;
+}
+
+ArrayStore::ArrayStore(const ArrayBox& box) : density_(box.density), field_(box) {
+    const BoxFluid fluid = fluid_of(box);
+    step_ = std::make_unique<BoxFluidStep>(fluid, std::make_unique<AllRows>(fluid.pressure),
+                                           std::make_unique<NoFields>(box.grid), ranks_,
+                                           box.rigid_grains);
+    field_.work_on(*step_);
+}
+
+}  // namespace turbidite

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Which cells move with which sphere. A cell belongs to the sphere of R_h that its centre lies in;
+// of several, to that with the smallest power |r|^2 - R_h^2, so that a plane divides two spheres
+// that overlap (the smaller id where it is equal). A cell of none whose six neighbours are covered,
+// or beyond a wall, joins the sphere of the smallest power: nothing flows in it, and its pressure
+// would be tied to no other. Valid C++17.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+#include "fluid_adapter/multiplier/layer_cells.hpp"
+
+namespace turbidite {
+
+/// Consecutive cells along x that belong to a sphere.
+struct CellRun {
+    int cell;  ///< local index of the first
+    int count;
+    Eigen::Vector3d first;  ///< r = x - X of its centre [m]
+    double volume;          ///< V_c over that of the reference cell
+};
+
+class SphereCells {
+ public:
+    /// Keeps a reference to the grid.
+    explicit SphereCells(const LayerCells& cells) : cells_(cells) {}
+
+    /// Finds the cells of this rank. Every rank passes all spheres within two cells of its layers.
+    void find(const std::vector<ImmersedGrain>& grains);
+
+    const std::vector<CellRun>& runs(std::size_t grain) const { return runs_[grain]; }
+
+    /// Cells that joined a sphere since they were shut in.
+    int shut_in() const { return shut_in_; }
+
+ private:
+    struct Place {
+        int i, j, k;  // in the grid
+    };
+    struct Row {
+        int grain, j, k;
+        double dy, dz;  // of its cells' centres from the grain's [m]
+    };
+    struct Joined {
+        int grain;
+        Place at;
+    };
+
+    void find_neighbours(const std::vector<ImmersedGrain>& grains);
+    void find_runs(int grain);
+    void find_row(const Row& row);
+    bool belongs(int grain, int i, int j, int k) const;
+    double power(int grain, int i, int j, int k) const;
+    double arm(int grain, int axis, int wrapped) const;
+    void add_run(const Row& row, int low, int high);
+    void mark(int i, int j, int k);
+    bool is_covered(int i, int j, int k) const;
+    std::size_t mask_cell(int i, int j, int k) const;
+    void join_shut_in();
+    void join_if_shut_in(int beside, Place at, std::vector<Joined>& joined) const;
+    int nearest(int grain, const Place& at) const;
+    Place place_of(int cell) const;
+    const CellGrid& grid() const { return *cells_.grid; }
+
+    LayerCells cells_;
+    const std::vector<ImmersedGrain>* grains_ = nullptr;
+    std::vector<std::vector<int>> neighbours_;  // by grain: near ones
+    std::vector<std::vector<CellRun>> runs_;    // by grain
+    std::vector<std::uint8_t> covered_;         // of this rank's layers and one more at either end
+    int shut_in_ = 0;
+};
+
+}  // namespace turbidite
