@@ -46,8 +46,8 @@ Settings settings_of(const Flow& flow) {
     s.set("fluid.splitting", flow.splitting);
     s.set("fluid.splitting_tolerance", flow.splitting_tolerance);
     s.set("fluid.splitting_iterations", std::int64_t{400});
-    // The radius of the sphere with the shift in cells; R = D/2.
-    s.set("fluid.hydrodynamic_radius", 1.0 + 2.0 * flow.shift * flow.edge);
+    s.set("fluid.hydrodynamic_radius", 1.0);
+    s.set("run.surface_shift", flow.shift * flow.edge);
     const char* names[3][2] = {{"left", "right"}, {"bottom", "top"}, {"front", "back"}};
     for (int axis = 0; axis < 3; ++axis)
         for (const char* side : names[axis])

@@ -11,6 +11,7 @@ void read_fluid(const Settings& settings, RunValues& run) {
     run.viscosity = settings.real("run.viscosity");
     run.hydrodynamic_radius = settings.real("fluid.hydrodynamic_radius");
     const bool space = run.dimension == 3;
+    if (settings.has("run.surface_shift")) run.surface_shift = settings.real("run.surface_shift");
     run.acceleration = {settings.real("run.acceleration_x"), settings.real("run.acceleration_y"),
                         space ? settings.real("run.acceleration_z") : 0.0};
 }

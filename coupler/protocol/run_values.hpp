@@ -27,7 +27,8 @@ struct RunValues {
     bool wet = false;                  ///< with a fluid
     double fluid_density = 0.0;        ///< rho_f; 0 when dry [kg/m3]
     double viscosity = 0.0;            ///< nu; 0 when dry [m2/s]
-    double hydrodynamic_radius = 1.0;  ///< R_h/R; 1 when dry
+    double hydrodynamic_radius = 1.0;  ///< R_h/R without the shift; 1 when dry
+    double surface_shift = 0.0;        ///< R_h - hydrodynamic_radius R; 0 in the plane [m]
     Vec3 acceleration{};               ///< uniform body force on the fluid over rho_f [m/s2]
 
     double step = 0.0;              ///< dt, the length of a window [s]
@@ -39,9 +40,9 @@ struct RunValues {
     Vec3 period{};  ///< period of the domain per axis; 0: not cyclic [m]
 };
 
-/// Reads run.*, fluid.enabled, fluid.hydrodynamic_radius, domain.left, domain.bottom and, in space,
-/// domain.front. Throws std::out_of_range or std::invalid_argument naming a key that is missing or
-/// of another type.
+/// Reads run.* (run.surface_shift may be missing), fluid.enabled, fluid.hydrodynamic_radius,
+/// domain.left, domain.bottom and, in space, domain.front. Throws std::out_of_range or
+/// std::invalid_argument naming a key that is missing or of another type.
 RunValues run_values(const Settings& settings);
 
 }  // namespace turbidite

@@ -24,6 +24,7 @@ class ImmersedBodies {
  private:
     double fluid_density_ = 0.0;  ///< [kg/m3]
     double hydrodynamic_radius_ = 1.0;
+    double surface_shift_ = 0.0;
     std::vector<std::shared_ptr<const Shape>> shapes_;
 };
 

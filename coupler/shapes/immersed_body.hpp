@@ -28,7 +28,7 @@ struct ImmersedBody {
     Eigen::Matrix3d displaced_inertia;
 };
 
-/// `hydrodynamic_radius` is R_h / R in (0, 1]. The effective mass and inertia of a grain that is
+/// `hydrodynamic_radius` is R_h / R, positive. The effective mass and inertia of a grain that is
 /// not denser than the fluid are zero or negative: it moves only together with the fluid it covers.
 ImmersedBody immersed_body(const Shape& shape, double radius, double density, double fluid_density,
                            double hydrodynamic_radius);

@@ -5,35 +5,13 @@
 #include <numeric>
 #include <utility>
 
+#include "fluid_adapter/fluid_window/box_of_grid.hpp"
+
 namespace turbidite {
 namespace {
 
-End velocity_end(Side side) {
-    return side == Side::cyclic ? End::periodic
-           : side == Side::wall ? End::dirichlet
-                                : End::neumann;
-}
-
-End pressure_end(Side side) {
-    return side == Side::cyclic ? End::periodic
-           : side == Side::wall ? End::neumann
-                                : End::dirichlet;
-}
-
-SeparableOperator operator_of(const CellGrid& grid, End (*end)(Side)) {
-    const auto axis = [&](int a) {
-        return AxisOperator{grid.counts[a], grid.spacing[a], end(grid.sides[a][0]),
-                            end(grid.sides[a][1])};
-    };
-    SeparableOperator all{axis(0), axis(1)};
-    if (grid.dimension == 3) all.z = axis(2);
-    return all;
-}
-
 BoxFluid fluid_of(const ArrayBox& box) {
-    BoxFluid fluid;
-    fluid.velocity = operator_of(box.grid, velocity_end);
-    fluid.pressure = operator_of(box.grid, pressure_end);
+    BoxFluid fluid = box_of(box.grid);
     fluid.viscosity = box.viscosity;
     fluid.central = box.central;
     fluid.second_order = box.second_order;
@@ -43,15 +21,9 @@ BoxFluid fluid_of(const ArrayBox& box) {
 /// The step's arrays are all there is; every side is at rest.
 class NoFields final : public RowFields {
  public:
-    explicit NoFields(const CellGrid& grid) {
-        const std::size_t nx = grid.counts[0], ny = grid.counts[1], nz = grid.counts[2];
-        const std::size_t sizes[] = {ny * nz, nx * nz, nx * ny};
-        for (SideValues& values : sides_)
-            for (std::size_t side = 0; side < values.size(); ++side)
-                values[side].assign(sizes[side / 2], 0.0);
-    }
+    explicit NoFields(const CellGrid& grid) : sides_(sides_at_rest(grid)) {}
 
-    bool in_cell_order() const override { return true; }
+    bool stay_in_rows() const override { return true; }
     int first_row() const override { return 0; }
     void read_velocity(const VelocityPointers&) override {}
     void write_velocity(const VelocityPointers&) override {}

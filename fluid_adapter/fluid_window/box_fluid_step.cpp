@@ -22,7 +22,7 @@ BoxFluidStep::BoxFluidStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows,
 }
 
 double* BoxFluidStep::velocity(int axis) {
-    return fields_->in_cell_order() ? step_.velocity(axis) : nullptr;
+    return fields_->stay_in_rows() ? step_.velocity(axis) : nullptr;
 }
 
 VelocityPointers BoxFluidStep::components() {
@@ -32,11 +32,11 @@ VelocityPointers BoxFluidStep::components() {
 }
 
 void BoxFluidStep::put_velocity() {
-    if (fields_->in_cell_order()) store();
+    if (fields_->stay_in_rows()) store();
 }
 
 void BoxFluidStep::take_velocity() {
-    if (fields_->in_cell_order()) load();
+    if (fields_->stay_in_rows()) load();
 }
 
 void BoxFluidStep::sides_changed() {
@@ -82,7 +82,7 @@ FluxReport BoxFluidStep::solenoidal() {
 }
 
 Projection BoxFluidStep::project() {
-    if (!fields_->in_cell_order()) load();
+    if (!fields_->stay_in_rows()) load();
     const FluxReport report = solenoidal();
     double largest[] = {report.divergence, report.courant};
     ranks_.max(largest, 2);
@@ -129,7 +129,7 @@ BoundaryForce BoxFluidStep::diffuse() {
     BoundaryForce force{};
     if (!in_second_order_) force = diffuse_implicitly(dt_);
     if (in_second_order_ && !viscous_transport_) force = second_order_.diffuse(*this, dt_);
-    if (!fields_->in_cell_order()) store();
+    if (!fields_->stay_in_rows()) store();
     return on_all_ranks(force);
 }
 

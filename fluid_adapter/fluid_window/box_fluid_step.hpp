@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Steps 1 to 3 on rows of a box (box_step/box_step.hpp) as a FluidStep. A rank works on complete
-// rows. Where the store's cells are these rows, in their order, the velocity stays in them, and the
-// fields u and p are copied when somebody asks; otherwise u is copied to rows before the steps and
-// back after them. Valid C++17.
+// rows. Where these are also what step 5 works on, the velocity stays in them, and the fields u and
+// p are copied when somebody asks; otherwise u is copied to rows before the steps and back after
+// them. Valid C++17.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,9 @@ class RowFields {
  public:
     virtual ~RowFields() = default;
 
-    /// The store's cells are the rows, in the same order.
-    virtual bool in_cell_order() const = 0;
+    /// Step 5 works on the rows themselves: in the plane they are the store's cells in the same
+    /// order, in space all that the rank has.
+    virtual bool stay_in_rows() const = 0;
 
     virtual int first_row() const = 0;  ///< in the box, of this rank
 
@@ -38,7 +39,7 @@ class RowFields {
 class BoxFluidStep final : public FluidStep, private SecondOrderHost {
  public:
     /// Begins with the velocity of the fields. `coupled`: pressure and viscosity are corrected
-    /// together with the grains; the cells must be in order.
+    /// together with the grains; velocities must stay in rows.
     BoxFluidStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows,
                  std::unique_ptr<RowFields> fields, const RankGroup& ranks, bool coupled);
 

@@ -26,6 +26,10 @@ FluidMomentum momentum_of(const FluidFields& fields, X x, Y y) {
     return {density * Vec3{sum[0], sum[1], 0.0}, density * sum[2]};
 }
 
+bool in_the_plane(const Foam::polyMesh& mesh) {
+    return mesh.nSolutionD() == 2;
+}
+
 Foam::fileName parent_of(const std::filesystem::path& directory) {
     return Foam::fileName(
         std::filesystem::absolute(directory).lexically_normal().parent_path().string());
@@ -62,7 +66,7 @@ FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup
       phi(stored(mesh, "phi", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
           Foam::fvc::flux(U)),
       excess(stored(mesh, "excess", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE), 0.0 * phi),
-      thickness(mesh.bounds().span().z()) {
+      thickness(in_the_plane(mesh) ? mesh.bounds().span().z() : 1.0) {
     const Foam::IOdictionary properties = transport_properties(mesh);
     nu = Foam::dimensionedScalar("nu", Foam::dimViscosity, properties).value();
     rho = Foam::dimensionedScalar("rho", Foam::dimDensity, properties).value();

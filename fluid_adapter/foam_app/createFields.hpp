@@ -34,7 +34,8 @@ struct FluidFields {
     Foam::surfaceScalarField excess;
     Foam::scalar nu;   ///< [m2/s]
     Foam::scalar rho;  ///< rho_f [kg/m3]
-    /// Of the single layer of cells [m]: integrals over it are per unit length.
+    /// Of the single layer of cells in the plane [m]: integrals over it are per unit length; 1 in
+    /// space.
     Foam::scalar thickness;
 
     /// Whether the case's endTime is reached.
@@ -52,7 +53,8 @@ struct FluidFields {
     /// Largest Courant number of phi.
     Foam::scalar courant() const;
 
-    /// Momentum of all fluid [N s/m], of U or of these components by cell.
+    /// Momentum of all fluid [N s/m], of U or of these components by cell, in the
+    /// plane.
     FluidMomentum momentum() const;
     FluidMomentum momentum(const double* x, const double* y) const;
 };

@@ -39,11 +39,11 @@ Hello FoamAdapter::describe() const {
     hello.adapter = "openfoam";
     hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = "OpenFOAM 1912";
-    hello.dimension = 2;
+    hello.dimension = 0;  // both
     hello.capabilities.saves_state = true;
     hello.capabilities.serialises_state = true;
     hello.capabilities.effective_inertia = true;
-    hello.capabilities.shapes = {"disc", "triangle", "polygon"};
+    hello.capabilities.shapes = {"disc", "triangle", "polygon", "sphere"};
     return hello;
 }
 
@@ -109,15 +109,15 @@ void FoamAdapter::add_velocity(double x, double y) {
     window_->velocity_changed();
 }
 
-Vec3 FoamAdapter::velocity(int i, int j) const {
+Vec3 FoamAdapter::velocity(int i, int j, int k) const {
     const FoamFluidField& field = store_->field();
-    const auto [x, y] = field.velocity_of(field.cell(i, j, 0));
-    return {x, y, 0.0};
+    return field.velocity_of(field.cell(i, j, k));
 }
 
-double FoamAdapter::pressure(int i, int j) const {
+double FoamAdapter::pressure(int i, int j, int k) const {
     window_->put_fields();
-    return store_->fields().p[store_->field().cell(i, j, 0)];
+    const FoamFluidField& field = store_->field();
+    return store_->fields().p[field.mesh_cell(field.cell(i, j, k))];
 }
 
 }  // namespace turbidite

@@ -46,10 +46,10 @@ class FoamAdapter final : public FluidAdapter {
     void add_velocity(double x, double y);
 
     /// u in cell (i, j) of the grid, which this rank must own [m/s].
-    Vec3 velocity(int i, int j) const;
+    Vec3 velocity(int i, int j, int k = 0) const;
 
     /// p over rho_f in the same cell [m2/s2]. Collective, as is save().
-    double pressure(int i, int j) const;
+    double pressure(int i, int j, int k = 0) const;
 
  private:
     FluidRank of_this_rank() const;

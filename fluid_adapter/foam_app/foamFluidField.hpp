@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
@@ -36,14 +37,21 @@ class FoamFluidField final : public StoredField {
     void hold_grains(const GrainId* ids, int count) const override;
     void sum_over_holders(double* rows, int per_grain) const override;
 
-    /// i + nx j of each of this rank's cells. Throws Failure as the constructor does.
+    /// i + nx (k + nz j) of each of this rank's cells. Throws Failure as the constructor does.
     std::vector<int> cell_numbers() const;
 
-    /// Works on the velocity that a step keeps; null: on copies from U, as at first.
-    void work_on(double* x, double* y);
+    /// Works on the velocity that the step keeps, or, if it keeps none, on copies from U, as at
+    /// first.
+    void work_on(FluidStep& step);
+
+    /// In space, where a rank has whole layers.
+    int first_layer() const override { return first_cell_ / (grid_.counts[0] * grid_.counts[2]); }
+
+    /// The cell of the mesh with this local index, after work_on.
+    int mesh_cell(int cell) const { return mesh_cell_.empty() ? cell : mesh_cell_[cell]; }
 
     /// u of one of this rank's cells, wherever it is [m/s].
-    std::array<double, 2> velocity_of(int cell) const;
+    Vec3 velocity_of(int cell) const;
 
     void accelerate(const Vec3& change) override;
     FluidMomentum momentum() const override;
@@ -53,10 +61,14 @@ class FoamFluidField final : public StoredField {
 
  private:
     void load(int cell);
+    void know_halo();
+    void copy_velocity();
+    void find_layers();
+    FluidMomentum momentum_of_layers() const;
 
     FluidFields& fields_;
     CellGrid grid_;
-    LocalBlock block_;
+    std::optional<LocalBlock> block_;       // in the plane
     CellTable cells_;                       // local indices in a block of the grid
     std::unique_ptr<HaloExchange> halo_;    // on several ranks
     std::unique_ptr<SharedGrains> shared_;  // on several ranks
@@ -64,7 +76,9 @@ class FoamFluidField final : public StoredField {
     std::vector<char> in_a_halo_;           // the same, by cell
     std::array<std::vector<double>, 2> halo_velocity_;
     std::array<std::vector<double>, 2> copies_;  // of U, unless a step keeps the velocity
-    std::array<double*, 2> velocity_{};
+    std::array<double*, 3> velocity_{};
+    std::vector<int> mesh_cell_;  // in space: by local index
+    int first_cell_ = 0;          // in space: number of the first
     bool copies_used_ = true;
     int owned_ = 0;
     double cell_mass_ = 0.0;

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/foamRows.hpp"
 
+#include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
 
 namespace turbidite {
 
 FoamRows::FoamRows(FluidFields& fields, const BoxCells& box)
     : fields_(fields), box_(box), rows_(fields.ranks, box.cells[0], box.cells[1], box.place) {}
+
+FoamRows::FoamRows(FluidFields& fields, const CellGrid& grid, const std::vector<int>& cells)
+    : fields_(fields),
+      grid_(&grid),
+      rows_(fields.ranks, grid.counts[0] * grid.counts[2], grid.counts[1], cells) {}
 
 int FoamRows::first_row() const {
     return rows_.rows_of_rank()[fields_.ranks.rank()].first;
@@ -38,7 +44,7 @@ void FoamRows::write_pressure(const double* rows, bool floating) {
 }
 
 VelocityOnSides FoamRows::side_velocity() const {
-    return held_on_sides(fields_, box_);
+    return grid_ ? sides_at_rest(*grid_) : held_on_sides(fields_, box_);
 }
 
 }  // namespace turbidite

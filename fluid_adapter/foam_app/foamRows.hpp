@@ -14,7 +14,10 @@ class FoamRows final : public RowFields {
  public:
     FoamRows(FluidFields& fields, const BoxCells& box);
 
-    bool in_cell_order() const override { return rows_.in_cell_order(); }
+    /// In space, with the number i + nx (k + nz j) of every cell of this rank. Sides are at rest.
+    FoamRows(FluidFields& fields, const CellGrid& grid, const std::vector<int>& cells);
+
+    bool stay_in_rows() const override { return grid_ ? rows_.stays() : rows_.in_cell_order(); }
     int first_row() const override;
     void read_velocity(const VelocityPointers& u) override;
     void write_velocity(const VelocityPointers& u) override;
@@ -26,7 +29,8 @@ class FoamRows final : public RowFields {
 
  private:
     FluidFields& fields_;
-    BoxCells box_;
+    BoxCells box_;                    // in the plane
+    const CellGrid* grid_ = nullptr;  // in space
     CellRows rows_;
 };
 

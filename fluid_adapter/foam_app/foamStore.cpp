@@ -17,7 +17,7 @@ FoamStore::FoamStore(const std::filesystem::path& directory, const RankGroup& ra
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       output_(fields_, settings),
       probes_(settings) {
-    field_.work_on(step_->velocity(0), step_->velocity(1));
+    field_.work_on(*step_);
 }
 
 double FoamStore::equal_height() const {

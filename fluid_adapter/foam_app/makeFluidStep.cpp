@@ -8,6 +8,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/protocol/splitting.hpp"
+#include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/foam_app/foamRows.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
 #include "fluid_adapter/foam_app/operatorStep.hpp"
@@ -154,17 +155,42 @@ std::unique_ptr<FluidStep> box_fluid_step(FluidFields& fields, const TransportMe
                                           const BoxCells& box, const CellGrid& grid) {
     const BoxFluid fluid = box_fluid(fields, method, box, grid);
     auto own = std::make_unique<FoamRows>(fields, box);
-    if (method.coupled && !own->in_cell_order())
+    if (method.coupled && !own->stay_in_rows())
         throw DoesNotFit("its ranks do not have complete rows of cells");
     auto rows = box_rows(fields.ranks, fluid.pressure, own->rows());
     return std::make_unique<BoxFluidStep>(fluid, std::move(rows), std::move(own), fields.ranks,
                                           method.coupled);
 }
 
+/// In space fields are a view of the rows: there are no steps by OpenFOAM's operators.
+std::unique_ptr<FluidStep> step_in_space(const Settings& settings, FluidFields& fields,
+                                         const CellGrid& grid, const std::vector<int>& cells) {
+    const std::optional<TransportMethod> method = transport_on_rows(fields);
+    if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U))
+        throw Failure(ExitCode::bad_input,
+                      "in space fluid.transport_scheme must be Gauss limitedLinearV, linear, LUST "
+                      "or linearUpwind with linear gradients, and fluid.pressure_solver and "
+                      "fluid.viscous_solver FFT");
+    BoxFluid fluid = box_of(grid);
+    fluid.viscosity = fields.nu;
+    fluid.limiter = method->limiter;
+    fluid.central = method->central;
+    fluid.second_order = in_second_order(settings);
+    auto own = std::make_unique<FoamRows>(fields, grid, cells);
+    if (!own->stay_in_rows())
+        throw Failure(ExitCode::bad_input,
+                      "in space every rank must have whole layers of cells of one y: use "
+                      "fluid.decomposition = rows");
+    auto rows = box_rows(fields.ranks, fluid.pressure, own->rows());
+    return std::make_unique<BoxFluidStep>(fluid, std::move(rows), std::move(own), fields.ranks,
+                                          splitting_of(settings).rigid_grains);
+}
+
 }  // namespace
 
 std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
                                            const CellGrid& grid, const std::vector<int>& cells) {
+    if (grid.dimension == 3) return step_in_space(settings, fields, grid, cells);
     const BoxCells box =
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
     std::optional<TransportMethod> method = transport_on_rows(fields);

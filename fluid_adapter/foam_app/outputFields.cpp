@@ -29,6 +29,7 @@ std::unique_ptr<Foam::volScalarField> written(FluidFields& fields, const char* n
 }  // namespace
 
 OutputFields::OutputFields(FluidFields& fields, const Settings& settings) : fields_(fields) {
+    if (fields.mesh.nSolutionD() == 3) return;
     if (wanted(settings, "vorticity"))
         vorticity_ = written(fields, "vorticity", Foam::dimless / Foam::dimTime);
     if (wanted(settings, "solid")) solid_ = written(fields, "solid", Foam::dimless);

@@ -34,9 +34,13 @@ std::vector<double> shares_of(const Foam::fvPatch& patch, int axis, const SideMo
 SideVelocity::SideVelocity(const std::array<SideMotion, box_sides.size()>& motions,
                            FluidFields& fields)
     : motions_(motions), fields_(fields) {
-    for (std::size_t side = 0; side < planar_sides; ++side) {
+    for (std::size_t side = 0; side < box_sides.size(); ++side) {
         const BoxSide& at = box_sides[side];
         if (!motions_[side].motion) continue;
+        if (fields.mesh.nSolutionD() == 3)
+            throw Failure(ExitCode::bad_input, std::string(at.key) +
+                                                   "_motion: in space the sides of the fluid are "
+                                                   "at rest; let grains or body forces move it");
         const Foam::label patch = fields.mesh.boundary().findPatchID(at.name);
         if (patch < 0 || !fields.U.boundaryField()[patch].fixesValue())
             throw Failure(ExitCode::bad_input,

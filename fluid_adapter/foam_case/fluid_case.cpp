@@ -116,10 +116,11 @@ std::string solution(const Settings& settings) {
 }
 
 std::string patch(const FluidDomain& domain, std::size_t side) {
-    static const char* faces[] = {"(0 4 7 3)", "(1 2 6 5)", "(0 1 5 4)", "(3 7 6 2)"};
+    static const char* faces[] = {"(0 4 7 3)", "(1 2 6 5)", "(0 1 5 4)",
+                                  "(3 7 6 2)", "(0 3 2 1)", "(4 5 6 7)"};
     const std::string& kind = domain.sides[side];
     std::string type = kind == "wall" ? "wall" : "patch";
-    if (kind == "cyclic")  // partners: left-right, bottom-top
+    if (kind == "cyclic")  // partners: left-right, bottom-top, front-back
         type = fmt::format("cyclic; neighbourPatch {}", box_sides[opposite(side)].name);
     return fmt::format("    {} {{ type {}; faces ({}); }}\n", box_sides[side].name, type,
                        faces[side]);
@@ -136,26 +137,30 @@ std::string grading_of_rows(const FluidDomain& domain) {
 
 std::string block_mesh(const FluidDomain& domain) {
     std::string vertices;
-    for (double z : {0.0, domain.thickness})
+    for (double z : {0.0, domain.size[2]})
         for (const auto& [x, y] : {std::pair{0.0, 0.0},
                                    {domain.size[0], 0.0},
                                    {domain.size[0], domain.size[1]},
                                    {0.0, domain.size[1]}})
             vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
     std::string patches;
-    for (std::size_t side = 0; side < planar_sides; ++side) patches += patch(domain, side);
+    for (std::size_t side = 0; side < side_count(domain.dimension); ++side)
+        patches += patch(domain, side);
+    if (domain.dimension == 2)
+        patches += "    frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }\n";
     return fmt::format(
         "scale 1;\nvertices\n(\n{});\n"
-        "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} 1) simpleGrading (1 {} 1) );\n"
-        "edges ();\nboundary\n(\n{}"
-        "    frontAndBack {{ type empty; faces ((0 3 2 1) (4 5 6 7)); }}\n);\n",
-        vertices, domain.cells[0], domain.cells[1], grading_of_rows(domain), patches);
+        "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading (1 {} 1) );\n"
+        "edges ();\nboundary\n(\n{});\n",
+        vertices, domain.cells[0], domain.cells[1], domain.cells[2], grading_of_rows(domain),
+        patches);
 }
 
 /// The rank of every cell, in blockMesh's order: complete rows, nearly as many for each rank.
 std::string rank_of_cells(const FluidDomain& domain, std::int64_t ranks) {
-    std::string text = fmt::format("{}\n(\n", domain.cells[0] * domain.cells[1]);
-    for (std::int64_t j = 0; j < domain.cells[1]; ++j) {
+    std::string text = fmt::format("{}\n(\n", domain.cells[0] * domain.cells[1] * domain.cells[2]);
+    for (std::int64_t row = 0; row < domain.cells[1] * domain.cells[2]; ++row) {
+        const std::int64_t j = row % domain.cells[1];
         const std::string rank = fmt::format("{} ", j * ranks / domain.cells[1]);
         for (int i = 0; i < domain.cells[0]; ++i) text += rank;
         text += '\n';
@@ -192,14 +197,14 @@ std::string decomposition(const Settings& settings, const FluidDomain& domain) {
 template <class Closed>
 std::string boundary_field(const FluidDomain& domain, Closed closed, const std::string& at_free) {
     std::string text = "boundaryField\n{\n";
-    for (std::size_t side = 0; side < planar_sides; ++side) {
+    for (std::size_t side = 0; side < side_count(domain.dimension); ++side) {
         const std::string& kind = domain.sides[side];
         const std::string value = kind == "cyclic" ? "type cyclic;"
                                   : kind == "free" ? at_free
                                                    : closed(side);
         text += fmt::format("    {} {{ {} }}\n", box_sides[side].name, value);
     }
-    return text + "    frontAndBack { type empty; }\n}\n";
+    return text + (domain.dimension == 2 ? "    frontAndBack { type empty; }\n}\n" : "}\n");
 }
 
 /// The mean velocity of the first window; the fluid program sets that of every window, with its

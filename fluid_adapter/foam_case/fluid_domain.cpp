@@ -49,11 +49,14 @@ FluidDomain fluid_domain(const Settings& settings) {
     FluidDomain domain;
     const RunValues run = run_values(settings);
     const double per_length = settings.real("fluid.cells_per_diameter") / run.diameter;
-    domain.size = {run.size[0], run.size[1]};
-    domain.cells = {cell_count("run.size_x", run.size[0], per_length),
-                    cell_count("run.size_y", run.size[1], per_length)};
+    const char* keys[] = {"run.size_x", "run.size_y", "run.size_z"};
+    domain.dimension = run.dimension;
+    for (int axis = 0; axis < run.dimension; ++axis) {
+        domain.size[axis] = run.size[axis];
+        domain.cells[axis] = cell_count(keys[axis], run.size[axis], per_length);
+    }
+    if (run.dimension == 2) domain.size[2] = domain.size[0] / domain.cells[0];
     domain.equal_height = run.size[1];
-    domain.thickness = domain.size[0] / domain.cells[0];
     domain.sides = side_types(settings);
     if (rows_are_stretched(settings)) stretch_rows(settings, run, domain);
     return domain;

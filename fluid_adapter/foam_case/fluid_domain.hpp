@@ -15,11 +15,11 @@
 namespace turbidite {
 
 struct FluidDomain {
-    std::array<double, 2> size{};  ///< [m]
-    std::array<int, 2> cells{};
+    int dimension = 2;
+    std::array<double, 3> size{};  ///< in the plane z is that of the single layer of cells [m]
+    std::array<int, 3> cells{1, 1, 1};
     std::vector<double> row_edges;  ///< ascending, if rows have different heights [m]; else empty
     double equal_height = 0.0;      ///< up to which rows are equal [m]
-    double thickness = 0.0;  ///< of the single layer of cells [m]; results are per unit length
     SideTypes sides{};
 };
 

@@ -68,7 +68,7 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     ImmersedGrain grain;
     grain.id = state.id;
     grain.shape = &shape;
-    grain.radius = run_.hydrodynamic_radius * state.radius;
+    grain.radius = run_.hydrodynamic_radius * state.radius + run_.surface_shift;
     grain.position = {state.position[0], state.position[1], state.position[2]};
     grain.orientation = matrix(rotation(state.orientation));
     grain.effective_mass = body.effective_mass;
@@ -183,7 +183,7 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
 /// Of what is sent, whatever has changed the motions since the contacts were solved.
 double ImmersedStep::mismatch(std::size_t g) const {
     if (!pushed_) return 0.0;
-    const double radius = grains_[g].radius / run_.hydrodynamic_radius;
+    const double radius = (grains_[g].radius - run_.surface_shift) / run_.hydrodynamic_radius;
     const Twist motion = constraint_->motion(g);
     return norm(motion.velocity - solved_[g].velocity) +
            radius * norm(motion.spin - solved_[g].spin);

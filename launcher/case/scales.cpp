@@ -111,7 +111,11 @@ void set_run_values(Settings& settings, const Scales& scales) {
     settings.set("run.size_z", (space ? size.at(2) : 1.0) * scales.diameter);
     if (space) {
         settings.set("run.dimension", std::int64_t{3});
-        settings.set("run.acceleration_z", 0.0);  // of a fluid
+        settings.set("run.acceleration_z", acceleration.at(2) * scales.velocity / scales.time);
+        if (wet)
+            settings.set("run.surface_shift", settings.real("fluid.surface_shift") *
+                                                  scales.diameter /
+                                                  settings.real("fluid.cells_per_diameter"));
     }
     set_probes(settings, scales.diameter);
     set_run_times(settings, scales.time);

@@ -34,8 +34,10 @@ std::string fluid_line(const ResolvedCase& resolved) {
     if (!settings.flag("fluid.enabled")) return "  fluid: none\n";
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double cells = settings.real("fluid.cells_per_diameter");
-    return fmt::format("  fluid: {:.0f} x {:.0f} cells, Re = {:.4g}\n", size[0] * cells,
-                       fluid_rows(settings), resolved.scales.reynolds) +
+    const std::string depth =
+        in_space(settings) ? fmt::format(" x {:.0f}", size.at(2) * cells) : "";
+    return fmt::format("  fluid: {:.0f} x {:.0f}{} cells, Re = {:.4g}\n", size[0] * cells,
+                       fluid_rows(settings), depth, resolved.scales.reynolds) +
            rows_text(settings, size[1]) + "  scheme: " + settings.text("coupling.scheme") + "\n";
 }
 

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "coupler/protocol/splitting.hpp"
@@ -28,7 +29,9 @@ double fluid_rows(const Settings& settings) {
 
 double fluid_cells(const Settings& settings) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
-    return size.at(0) * settings.real("fluid.cells_per_diameter") * fluid_rows(settings);
+    const double across = settings.real("fluid.cells_per_diameter");
+    const double layer = size.at(0) * across * (in_space(settings) ? size.at(2) * across : 1.0);
+    return layer * fluid_rows(settings);
 }
 
 double fluid_memory(const Settings& settings) {

@@ -28,6 +28,10 @@ struct FluidRates {
 constexpr FluidRates paper_splitting{50e-9, 280e-9};
 constexpr FluidRates explicit_splitting{85e-9, 380e-9};
 constexpr FluidRates implicit_splitting{300e-9, 1500e-9};
+// In space: closed form, no points on surfaces.
+constexpr FluidRates paper_splitting_in_space{80e-9, 40e-9};
+constexpr FluidRates explicit_splitting_in_space{120e-9, 60e-9};
+constexpr FluidRates implicit_splitting_in_space{450e-9, 225e-9};
 constexpr double second_order = 1.3;   // of the cells
 constexpr double busiest_share = 1.6;  // of the covered cells, over an equal one: grains settle
 
@@ -70,7 +74,7 @@ double rounds(const ResolvedCase& resolved) {
     return scheme.repeats || resolved.population.size() > 1 ? scheme.usual_rounds : 1.0;
 }
 
-/// Solid area over that of a cell.
+/// Solid area over that of a cell; in space volumes.
 double covered_cells(const ResolvedCase& resolved) {
     std::vector<std::shared_ptr<const Shape>> shapes;
     for (const ShapeRecord& shape : resolved.shapes) shapes.push_back(make_shape(shape));
@@ -79,13 +83,15 @@ double covered_cells(const ResolvedCase& resolved) {
         area += shapes.at(grain.shape)->volume(grain.radius);
     const double cell =
         resolved.scales.diameter / resolved.settings.real("fluid.cells_per_diameter");
-    return area / (cell * cell);
+    return area / (cell * cell * (in_space(resolved.settings) ? cell : 1.0));
 }
 
 FluidRates rates(const Settings& settings) {
     const Splitting& splitting = splitting_of(settings);
-    if (!splitting.rigid_grains) return paper_splitting;
-    return splitting.iterated ? implicit_splitting : explicit_splitting;
+    const bool space = in_space(settings);
+    if (!splitting.rigid_grains) return space ? paper_splitting_in_space : paper_splitting;
+    if (splitting.iterated) return space ? implicit_splitting_in_space : implicit_splitting;
+    return space ? explicit_splitting_in_space : explicit_splitting;
 }
 
 /// More ranks than cores share no more work, and whenever they meet the last one has to wait until

@@ -91,7 +91,7 @@ Ruling whole_cells(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const double cells = s.real("fluid.cells_per_diameter");
     std::vector<double> lengths = real_list("domain.size", s.text("domain.size"));
-    if (s.real("fluid.stretch_ratio") > 1.0) lengths.resize(1);  // rows fit any height
+    if (s.real("fluid.stretch_ratio") > 1.0) lengths.erase(lengths.begin() + 1);  // any height
     for (const double length : lengths) {
         const double count = length * cells;
         const double whole = std::max(1.0, std::round(count));
@@ -205,7 +205,7 @@ KeyGroup domain_keys() {
                  .type = KeyType::choice,
                  .fallback = "2",
                  .choices = {{"2", "plane; masses and forces per unit length"},
-                             {"3", "space: spheres, without a fluid in this version"}},
+                             {"3", "space: spheres"}},
                  .help = "dimension of space"},
                 {.name = "domain.size",
                  .type = KeyType::real_list,

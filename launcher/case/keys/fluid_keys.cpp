@@ -364,7 +364,11 @@ std::vector<KeySpec> flow_keys() {
                  "gradient of the mean pressure; part of the force on a grain",
          .allowed = "A list of two numbers.",
          .remedy = "Write for example acceleration: [0.1, 0].",
-         .idle = without_fluid},
+         .idle = without_fluid,
+         .in_space = {.entries = 3,
+                      .allowed = "A list of three numbers.",
+                      .remedy = "Write for example acceleration: [0.1, 0, 0].",
+                      .fallback = "[0, 0, 0]"}},
     };
 }
 
@@ -382,8 +386,18 @@ std::vector<KeySpec> multiplier_keys() {
          .fallback = "interior+boundary",
          .choices = {{"interior", "cell centres inside a grain"},
                      {"interior+boundary", "and points on its surface"}},
-         .help = "points where rigid motion is imposed",
-         .idle = without_fluid},
+         .help = "points where rigid motion is imposed; in space interior",
+         .idle = without_fluid,
+         .in_space = {.fallback = "interior"}},
+        of_space({.name = "fluid.surface_shift",
+                  .type = KeyType::real,
+                  .unit = "cells",
+                  .fallback = "0.3",
+                  .range = {.lower = 0.0, .upper = 1.0},
+                  .help = "how far the fluid sees the surface of a grain outside of it: a "
+                          "calibration, since cells whose centres lie inside a sphere are a sphere "
+                          "that is a little too small",
+                  .idle = without_fluid}),
         {.name = "fluid.point_spacing",
          .type = KeyType::real,
          .unit = "cells",

@@ -87,14 +87,24 @@ Ruling lattice_has_one_size(const Settings& s) {
     return lattice_objection(s, "several sizes");
 }
 
+/// Of a grain of diameter D: what the fluid sees over its volume, where that is more (R_h > R).
+double displaced_share(const Settings& s) {
+    if (!in_space(s)) return 1.0;
+    const double shift = 2.0 * s.real("fluid.surface_shift") / s.real("fluid.cells_per_diameter");
+    return std::max(1.0, std::pow(s.real("fluid.hydrodynamic_radius") + shift, 3));
+}
+
 // Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
 // positive.
 Ruling light_grains_need_joint(const Settings& s) {
-    if (s.real("grains.density_ratio") > 1.0 || !s.flag("fluid.enabled") ||
+    const double displaced = s.flag("fluid.enabled") ? displaced_share(s) : 0.0;
+    if (s.real("grains.density_ratio") > displaced || !s.flag("fluid.enabled") ||
         find_scheme(s.text("coupling.scheme")).needs_inertia())
         return std::nullopt;
     return Objection{"With coupling.scheme: " + s.text("coupling.scheme") +
-                         " grains in a fluid must be denser than it: a ratio above 1.",
+                         fmt::format(" grains in a fluid must be denser than what they displace: "
+                                     "a ratio above {}.",
+                                     real_text(displaced)),
                      "Use coupling.scheme: joint, which takes any density, or a larger ratio."};
 }
 
@@ -287,14 +297,16 @@ KeyGroup grains_keys() {
                  .help = "seed of all random numbers",
                  .idle = without_chance},
             },
-        .rules = {
-            {"grains.vertices", {}, vertices_are_convex},
-            {"grains.shape", {"grains.generator"}, lattice_has_discs},
-            {"grains.radius", {"grains.generator"}, lattice_has_radius},
-            {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
-            {"grains.region", {"domain.size"}, region_in_box},
-            {"grains.density_ratio", {"fluid.enabled", "coupling.scheme"}, light_grains_need_joint},
-            {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
+        .rules = {{"grains.vertices", {}, vertices_are_convex},
+                  {"grains.shape", {"grains.generator"}, lattice_has_discs},
+                  {"grains.radius", {"grains.generator"}, lattice_has_radius},
+                  {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
+                  {"grains.region", {"domain.size"}, region_in_box},
+                  {"grains.density_ratio",
+                   {"fluid.enabled", "coupling.scheme", "fluid.surface_shift",
+                    "fluid.cells_per_diameter"},
+                   light_grains_need_joint},
+                  {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
 }
 
 }  // namespace turbidite

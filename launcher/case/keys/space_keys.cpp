@@ -4,16 +4,72 @@
 // in its own sentence.
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
+#include "coupler/protocol/sides.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
 namespace turbidite {
 namespace {
 
-Ruling no_fluid_in_space(const Settings& s) {
-    if (!in_space(s) || !s.flag("fluid.enabled")) return std::nullopt;
-    return Objection{"In space there is no fluid in this version.",
-                     "Set fluid.enabled: false, or dimension: 2."};
+bool is_wet_space(const Settings& s) {
+    return in_space(s) && s.flag("fluid.enabled");
 }
+
+Ruling points_are_interior(const Settings& s) {
+    if (!is_wet_space(s) || s.text("fluid.points") == "interior") return std::nullopt;
+    return Objection{"In space there are no points on surfaces in this version.", "Use interior."};
+}
+
+template <const char* const& key>
+Ruling is_direct(const Settings& s) {
+    if (!is_wet_space(s) || s.text(key) == "FFT") return std::nullopt;
+    return Objection{"In space the fluid is solved on rows of its box only.", "Use FFT."};
+}
+
+Ruling ranks_have_layers(const Settings& s) {
+    if (!is_wet_space(s) || s.text("fluid.decomposition") == "rows") return std::nullopt;
+    return Objection{"In space every rank has whole layers of cells of one y.", "Use rows."};
+}
+
+/// What a fluid in the plane can do, and one in space in this version cannot.
+Ruling only_in_the_plane(const Settings& s) {
+    if (!is_wet_space(s)) return std::nullopt;
+    return Objection{"With a fluid in space this does not work in this version.",
+                     "Remove it, or use dimension: 2."};
+}
+
+/// domain.SIDE_motion of every side.
+const std::array<std::string, box_sides.size()>& motion_keys() {
+    static const auto keys = [] {
+        std::array<std::string, box_sides.size()> all;
+        for (std::size_t side = 0; side < all.size(); ++side)
+            all[side] = std::string(box_sides[side].key) + "_motion";
+        return all;
+    }();
+    return keys;
+}
+
+template <std::size_t side>
+Ruling side_lets_nothing_in(const Settings& s) {
+    if (!is_wet_space(s) || s.text(box_sides[side].key) != "inflow") return std::nullopt;
+    return Objection{"With a fluid in space nothing flows in through a side in this version.",
+                     "Use free, cyclic or wall."};
+}
+
+template <std::size_t... side>
+void add_side_rules(std::vector<Rule>& rules, std::index_sequence<side...>) {
+    (rules.push_back(
+         {motion_keys()[side].c_str(), {"dimension", "fluid.enabled"}, only_in_the_plane}),
+     ...);
+    (rules.push_back(
+         {box_sides[side].key, {"dimension", "fluid.enabled"}, side_lets_nothing_in<side>}),
+     ...);
+}
+
+constexpr const char* pressure_solver = "fluid.pressure_solver";
+constexpr const char* viscous_solver = "fluid.viscous_solver";
 
 Ruling shape_is_of_the_dimension(const Settings& s) {
     const bool sphere = s.text("grains.shape") == "sphere";
@@ -44,12 +100,19 @@ Ruling no_problem_files_in_space(const Settings& s) {
 }  // namespace
 
 KeyGroup space_keys() {
-    return {.keys = {},
-            .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
-                      {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
-                      {"domain.walls_file", {"dimension"}, no_plates_in_space},
-                      {"contact.solver", {"dimension"}, solver_works_in_space},
-                      {"contact.dump_interval", {"dimension"}, no_problem_files_in_space}}};
+    std::vector<Rule> rules = {
+        {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
+        {"domain.walls_file", {"dimension"}, no_plates_in_space},
+        {"contact.solver", {"dimension"}, solver_works_in_space},
+        {"contact.dump_interval", {"dimension"}, no_problem_files_in_space},
+        {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
+        {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
+        {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},
+        {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers},
+        {"output.fields", {"dimension", "fluid.enabled"}, only_in_the_plane},
+        {"output.probes", {"dimension", "fluid.enabled"}, only_in_the_plane}};
+    add_side_rules(rules, std::make_index_sequence<box_sides.size()>{});
+    return {.keys = {}, .rules = std::move(rules)};
 }
 
 }  // namespace turbidite

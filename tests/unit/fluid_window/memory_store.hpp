@@ -17,7 +17,7 @@ namespace turbidite {
 /// The fields of the store are the rows of the step.
 class RowsInMemory final : public RowFields {
  public:
-    bool in_cell_order() const override { return true; }
+    bool stay_in_rows() const override { return true; }
     int first_row() const override { return 0; }
     void read_velocity(const VelocityPointers&) override {}
     void write_velocity(const VelocityPointers& u) override { seen_x = u[0][0]; }

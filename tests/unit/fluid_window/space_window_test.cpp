@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Windows of a fluid in space: a sphere that sinks in a box.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fluid_adapter/box_app/array_store.hpp"
+#include "fluid_adapter/fluid_window/fluid_window.hpp"
+#include "tests/run_settings.hpp"
+
+namespace turbidite {
+namespace {
+
+constexpr double edge = 1.0 / 8.0;
+constexpr double step = 0.01;
+constexpr std::array<int, 3> box{24, 32, 28};
+constexpr std::array<Side, 3> sides{Side::cyclic, Side::wall, Side::wall};
+
+Settings settings(const std::string& splitting) {
+    Settings result = run_settings();
+    result.set("run.dimension", std::int64_t{3});
+    result.set("domain.left", std::string("cyclic"));
+    result.set("domain.right", std::string("cyclic"));
+    result.set("domain.front", std::string("wall"));
+    result.set("domain.back", std::string("wall"));
+    const char* sizes[] = {"run.size_x", "run.size_y", "run.size_z"};
+    for (int axis = 0; axis < 3; ++axis) result.set(sizes[axis], box[axis] * edge);
+    result.set("run.acceleration_z", 0.0);
+    result.set("run.surface_shift", 0.3 * edge);
+    result.set("fluid.splitting", splitting);
+    result.set("fluid.splitting_iterations", std::int64_t{400});
+    result.set("fluid.splitting_tolerance", 1e-8);
+    return result;
+}
+
+ArrayBox fluid_box(const std::string& splitting) {
+    ArrayBox result;
+    result.grid = grid_of_cubes(box, edge, sides);
+    result.viscosity = 0.01;
+    result.rigid_grains = splitting != "marchuk-yanenko";
+    return result;
+}
+
+struct Scene {
+    explicit Scene(const std::string& splitting)
+        : store(fluid_box(splitting)), window(store, settings(splitting), {{"sphere", {}}}) {
+        ball.id = 7;
+        ball.radius = 0.5;
+        ball.density = 2.0;
+        ball.position = {1.513, 2.007, 1.761};
+        ball.velocity = {0.05, -0.4, 0.1};
+    }
+
+    /// A window in which the sphere stays where it is.
+    Kicks play() {
+        window.advance({index, static_cast<double>(index) * step, step, false});
+        ++index;
+        window.correct({ball});
+        const Kicks kicks = window.impose();
+        ball.velocity = kicks.kicks.at(0).velocity;
+        ball.angular_velocity = kicks.kicks.at(0).angular_velocity;
+        return kicks;
+    }
+
+    ArrayStore store;
+    FluidWindow window;
+    GrainState ball;
+    std::int64_t index = 0;
+};
+
+class SpaceWindows : public testing::TestWithParam<std::string> {};
+
+TEST_P(SpaceWindows, MomentumChangesOnlyBySphereAndWalls) {
+    Scene scene(GetParam());
+    for (int window = 0; window < 3; ++window) {
+        const Kicks kicks = scene.play();
+        EXPECT_GT(kicks.kicks[0].multiplier_impulse[1], 0.0);
+        EXPECT_LT(kicks.kicks[0].multiplier_impulse[2], 0.0);
+        EXPECT_LT(kicks.report.momentum_defect, 1e-9) << window;
+        EXPECT_TRUE(kicks.report.multipliers_converged);
+        EXPECT_EQ(kicks.report.multiplier_iterations, 0) << "the closed form iterates nothing";
+    }
+}
+
+/// The sphere, twice as dense as the fluid at rest that it covers, sets it in motion, in every
+/// direction: with the added mass C = 1/2 of an infinite fluid, and more in a box.
+///
+///     (rho_s - rho_f) V U0 = (rho_s + C rho_f) V U
+TEST_P(SpaceWindows, TheSphereSetsTheFluidInMotion) {
+    if (GetParam() == "marchuk-yanenko") GTEST_SKIP() << "its pressure does not know the sphere";
+    Scene scene(GetParam());
+    const Vec3 before = scene.ball.velocity;
+    const Vec3 after = scene.play().kicks.at(0).velocity;
+    const double wet = std::pow(1.0 + 2.0 * 0.3 * edge, 3);  // V(R_h)/V
+    for (int axis = 0; axis < 3; ++axis) {
+        const double added = ((2.0 - wet) * before[axis] / after[axis] - 2.0) / wet;
+        EXPECT_GT(added, 0.45) << axis;
+        EXPECT_LT(added, 0.80) << axis;
+    }
+}
+
+/// What a step remembers beside u and p is all that the next window needs.
+TEST_P(SpaceWindows, GoOnFromWhatWasSaved) {
+    Scene whole(GetParam()), first(GetParam());
+    for (int window = 0; window < 4; ++window) whole.play();
+    for (int window = 0; window < 2; ++window) first.play();
+    Scene second(GetParam());
+    const int cells = second.store.field().owned_cells();
+    for (int axis = 0; axis < 3; ++axis)
+        std::copy_n(first.store.field().velocity(axis), cells, second.store.field().velocity(axis));
+    second.store.step().set_memory(first.store.step().memory());
+    second.ball = first.ball;
+    second.index = first.index;
+    for (int window = 0; window < 2; ++window) second.play();
+    EXPECT_EQ(second.ball.velocity, whole.ball.velocity);
+    EXPECT_EQ(second.ball.angular_velocity, whole.ball.angular_velocity);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int c = 0; c < cells; ++c)
+            ASSERT_EQ(second.store.field().velocity(axis)[c],
+                      whole.store.field().velocity(axis)[c]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Splittings, SpaceWindows,
+                         testing::Values("marchuk-yanenko", "explicit-multiplier",
+                                         "implicit-multiplier"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             name[name.find('-')] = '_';
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace turbidite
