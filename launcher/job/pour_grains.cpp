@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr double piece = 10.0;     // [t_c] played at a time
 constexpr double longest = 200.0;  // [t_c]
 /// Thousands of grains at rest keep 1e-6 to 3e-5: gaps of 1e-5 D that open and close within a
-/// window of 0.01 t_c are speeds of 1e-3 u_c, and single grains in cages go on rolling. What is left
-/// at contacts that lie above each other adds up: 71 D of 50,000 spheres, at a tolerance of 1e-3,
-/// move up and down as a whole with 0.035 u_c, for ever.
+/// window of 0.01 t_c are speeds of 1e-3 u_c, and single grains in cages go on rolling. What is
+/// left at contacts that lie above each other adds up: 71 D of 50,000 spheres, at a tolerance of
+/// 1e-3, move up and down as a whole with 0.035 u_c, for ever.
 double energy_at_rest(double height, double tolerance) {
     const double speed = tolerance * height;
     return std::max(1e-4, 0.5 * speed * speed);

@@ -93,10 +93,15 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
              "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
     if (!find_scheme(settings.text("coupling.scheme")).needs_inertia())
         rules.push_back(
-            {[](const PlacedGrain& g) { return g.density && *g.density <= 1.0 && !g.prescribed; },
+            {[settings](const PlacedGrain& g) {
+                 return g.density && *g.density <= displaced_share(settings, g.radius) &&
+                        !g.prescribed;
+             },
              [](const PlacedGrain& g) { return fmt::format("density = {}", *g.density); },
-             "Without coupling.scheme: joint, grains in a fluid must be denser than it.",
-             "Use coupling.scheme: joint, or a density above 1."});
+             "Without coupling.scheme: joint, grains in a fluid must be denser than what they "
+             "displace.",
+             "Use coupling.scheme: joint, or a density above 1 (in space: (1 + fluid.surface_shift "
+             "/ cells per radius)^3)."});
     return rules;
 }
 
@@ -113,6 +118,15 @@ CaseProblem refused(const StartGrains& start, std::size_t i, const GrainRule& ru
 }
 
 }  // namespace
+
+double displaced_share(const Settings& settings, double radius) {
+    if (!settings.has("fluid.surface_shift") || !settings.has("fluid.cells_per_diameter"))
+        return 1.0;
+    const double cells = settings.real("fluid.cells_per_diameter") * radius;  // of its radius
+    const double seen =
+        settings.real("fluid.hydrodynamic_radius") + settings.real("fluid.surface_shift") / cells;
+    return std::max(1.0, seen * seen * seen);
+}
 
 CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
                              const GrainForms& forms) {

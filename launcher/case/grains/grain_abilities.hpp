@@ -19,4 +19,8 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
 CaseProblems check_periods(const Packing& grains, const Settings& settings,
                            const CaseEntries& entries);
 
+/// The volume that the fluid sees of a sphere of this radius [D] over its own, where that is more
+/// (fluid.surface_shift); 1 in the plane. Without the fluid's responses grains must be denser.
+double displaced_share(const Settings& settings, double radius);
+
 }  // namespace turbidite

@@ -3,6 +3,7 @@
 // The grains and their initial positions.
 #include <fmt/format.h>
 #include "coupler/shapes/shape.hpp"
+#include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing.hpp"
 #include "launcher/case/grains/space_lattice.hpp"
@@ -87,17 +88,10 @@ Ruling lattice_has_one_size(const Settings& s) {
     return lattice_objection(s, "several sizes");
 }
 
-/// Of a grain of diameter D: what the fluid sees over its volume, where that is more (R_h > R).
-double displaced_share(const Settings& s) {
-    if (!in_space(s)) return 1.0;
-    const double shift = 2.0 * s.real("fluid.surface_shift") / s.real("fluid.cells_per_diameter");
-    return std::max(1.0, std::pow(s.real("fluid.hydrodynamic_radius") + shift, 3));
-}
-
 // Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
 // positive.
 Ruling light_grains_need_joint(const Settings& s) {
-    const double displaced = s.flag("fluid.enabled") ? displaced_share(s) : 0.0;
+    const double displaced = displaced_share(s, 0.5);
     if (s.real("grains.density_ratio") > displaced || !s.flag("fluid.enabled") ||
         find_scheme(s.text("coupling.scheme")).needs_inertia())
         return std::nullopt;
@@ -297,16 +291,14 @@ KeyGroup grains_keys() {
                  .help = "seed of all random numbers",
                  .idle = without_chance},
             },
-        .rules = {{"grains.vertices", {}, vertices_are_convex},
-                  {"grains.shape", {"grains.generator"}, lattice_has_discs},
-                  {"grains.radius", {"grains.generator"}, lattice_has_radius},
-                  {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
-                  {"grains.region", {"domain.size"}, region_in_box},
-                  {"grains.density_ratio",
-                   {"fluid.enabled", "coupling.scheme", "fluid.surface_shift",
-                    "fluid.cells_per_diameter"},
-                   light_grains_need_joint},
-                  {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
+        .rules = {
+            {"grains.vertices", {}, vertices_are_convex},
+            {"grains.shape", {"grains.generator"}, lattice_has_discs},
+            {"grains.radius", {"grains.generator"}, lattice_has_radius},
+            {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
+            {"grains.region", {"domain.size"}, region_in_box},
+            {"grains.density_ratio", {"fluid.enabled", "coupling.scheme"}, light_grains_need_joint},
+            {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
 }
 
 }  // namespace turbidite

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/prescribed_motion.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/protocol/sides.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/grains/neighbour_grid.hpp"
 #include "launcher/case/grains/population.hpp"
@@ -80,6 +82,8 @@ TEST_F(PlaneCase, WhatIsOfSpaceIsRefused) {
     EXPECT_SAYS(refusal("", {"grains.shape=sphere"}), "A sphere is a grain of space.");
     EXPECT_SAYS(refusal("", {"domain.front=cyclic"}), "This key exists with dimension: 3 only.");
     EXPECT_SAYS(refusal("", {"grains.lattice=fcc"}), "This key exists with dimension: 3 only.");
+    EXPECT_SAYS(refusal("", {"fluid.surface_shift=0.3"}),
+                "This key exists with dimension: 3 only.");
     EXPECT_SAYS(refusal("", {"domain.size=[12, 10, 6]"}), "Width and height of the box");
 }
 
@@ -90,12 +94,48 @@ TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
         refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
                      "domain.walls_file=w.csv", "contact.solver=central-path",
                      "domain.size=[12, 10]", "contact.dump_interval=1"});
-    EXPECT_SAYS(text, "In space there is no fluid in this version.");
     EXPECT_SAYS(text, "In space grains are spheres in this version.");
     EXPECT_SAYS(text, "Walls inside the box are plates of the plane");
     EXPECT_SAYS(text, "central-path solves contacts of the plane only.");
     EXPECT_SAYS(text, "Contact problems of space are not written");
     EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");
+}
+
+// What a fluid in the plane can do and one in space cannot.
+TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
+    const std::vector<std::string> wet = {"fluid.enabled=true", "fluid.reynolds=10",
+                                          "fluid.cells_per_diameter=8"};
+    EXPECT_EQ(refusal("", wet), "");
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = wet;
+        all.insert(all.end(), more.begin(), more.end());
+        return refusal("", all);
+    };
+    const std::string text =
+        with({"fluid.points=interior+boundary", "fluid.pressure_solver=PCG",
+              "fluid.decomposition=columns", "output.fields=vorticity", "output.probes=[1, 1]",
+              "domain.top=inflow", "domain.motions.m.velocity=[1, 0, 0]"});
+    EXPECT_SAYS(text, "In space there are no points on surfaces in this version.");
+    EXPECT_SAYS(text, "In space the fluid is solved on rows of its box only.");
+    EXPECT_SAYS(text, "In space every rank has whole layers of cells of one y.");
+    EXPECT_SAYS(text, "output.fields = vorticity");
+    EXPECT_SAYS(text, "output.probes = [1, 1]");
+    EXPECT_SAYS(text, "nothing flows in through a side");
+    EXPECT_SAYS(with({"fluid.cells_per_diameter=8.3"}), "the mesh needs whole ones");
+    EXPECT_SAYS(with({"fluid.surface_shift=1.5"}), "fluid.surface_shift = 1.5");
+    // Without the fluid's responses a sphere must be denser than what it displaces: (1 + 0.6/8)^3.
+    EXPECT_SAYS(with({"coupling.scheme=split", "grains.density_ratio=1.2"}), "a ratio above 1.24");
+    EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
+}
+
+TEST_F(SpaceCase, AFluidInSpaceIsForecast) {
+    const std::vector<std::string> wet = {"fluid.enabled=true", "fluid.reynolds=10",
+                                          "fluid.cells_per_diameter=8"};
+    const ResolvedCase space = load("", wet);
+    const auto size = real_list("domain.size", space.settings.text("domain.size"));
+    EXPECT_DOUBLE_EQ(fluid_cells(space.settings), size[0] * size[1] * size[2] * 512.0);
+    EXPECT_GT(forecast_window(space, 64.0).fluid, 80e-9 * fluid_cells(space.settings));
+    EXPECT_DOUBLE_EQ(space.settings.real("run.surface_shift"), 0.3 / 8.0);
 }
 
 TEST_F(SpaceCase, TheForecastCountsSpheres) {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Spheres in a liquid, from the case file to the files of the run: OpenFOAM and contact dynamics in
+// three dimensions.
+#include <cmath>
+
+#include "tests/system/history_columns.hpp"
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+const char* const settling = R"(
+dimension: 3
+domain: {size: [4, 5, 4], left: cyclic, right: cyclic, front: cyclic, back: cyclic}
+grains: {adapter: standalone-nscd, generator: random, count: 16, region: [4, 4, 4], density_ratio: 3}
+fluid: {reynolds: 20, cells_per_diameter: 6, splitting: explicit-multiplier}
+contact: {friction: 0.4}
+scales: {kind: avalanche}
+time: {step: 0.02, end: 6}
+output: {interval: 0.5}
+checkpoint: {interval: 3}
+)";
+
+class SpaceFluid : public ShellTest {
+ protected:
+    void SetUp() override { scratch.write("case.yaml", settling); }
+
+    Answer turbidite(const std::string& words) const {
+        return shell(std::string(TURBIDITE_PROGRAM) + " " + words);
+    }
+    Columns history(const std::string& folder) const {
+        return columns_of(text(scratch.path() / folder / "history.csv"));
+    }
+};
+
+TEST_F(SpaceFluid, SpheresSettleOnTheFloor) {
+    const Answer answer = turbidite("run case.yaml --out run");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const Columns run = history("run");
+    EXPECT_EQ(run.at("grains").back(), 16.0);
+    EXPECT_LT(run.at("mean_position_y").back(), run.at("mean_position_y").front() - 0.4);
+    EXPECT_GT(run.at("contacts").back(), 4.0);
+    const auto record = nlohmann::json::parse(text(scratch.path() / "run/run.json"));
+    EXPECT_LE(record["maxima"]["grain_balance"].get<double>(), 1e-9);
+    EXPECT_LE(record["maxima"]["fluid_balance"].get<double>(), 1e-9);
+    EXPECT_LE(record["maxima"]["joint_mismatch"].get<double>(), 1e-4);
+    // They fall through the liquid, which they drag along and which goes up around them.
+    double fastest = 0.0;
+    for (const double v : run.at("mean_velocity_y")) fastest = std::min(fastest, v);
+    EXPECT_LT(fastest, -0.05);
+    EXPECT_GT(fastest, -1.0);
+    EXPECT_TRUE(std::filesystem::exists(scratch.path() / "run/fluid/6/U"));
+}
+
+/// Two ranks of layers, with spheres on the border between them.
+TEST_F(SpaceFluid, TwoRanksAgreeWithOne) {
+    ASSERT_EQ(turbidite("run case.yaml --out one --set time.end=3").code, 0);
+    const Answer answer = turbidite("run case.yaml --out two --set time.end=3 --set fluid.ranks=2");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const Columns one = history("one"), two = history("two");
+    for (const char* name : {"mean_velocity_x", "mean_velocity_y", "mean_velocity_z", "flow_y"})
+        for (std::size_t row = 0; row < one.at(name).size(); ++row)
+            EXPECT_NEAR(one.at(name)[row], two.at(name)[row], 1e-7) << name << " in row " << row;
+}
+
+TEST_F(SpaceFluid, AResumedRunHasEqualBits) {
+    ASSERT_EQ(turbidite("run case.yaml --out whole").code, 0);
+    ASSERT_EQ(turbidite("run case.yaml --out parts --set time.end=3").code, 0);
+    const Answer more = turbidite("resume parts --set time.end=6");
+    ASSERT_EQ(more.code, 0) << more.err;
+    EXPECT_EQ(lines_without_wall_times(text(scratch.path() / "whole/history.csv")),
+              lines_without_wall_times(text(scratch.path() / "parts/history.csv")));
+    for (const char* file : {"grains/grains_00000300.vtp", "fluid/6/U", "fluid/6/p"})
+        EXPECT_EQ(text(scratch.path() / "whole" / file), text(scratch.path() / "parts" / file))
+            << file;
+}
+
+TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {
+    const std::string short_run = "run case.yaml --set time.end=2 --out ";
+    ASSERT_EQ(turbidite(short_run + "shifted").code, 0);
+    ASSERT_EQ(turbidite(short_run + "plain --set fluid.surface_shift=0").code, 0);
+    const double shifted = history("shifted").at("mean_velocity_y").back();
+    const double plain = history("plain").at("mean_velocity_y").back();
+    EXPECT_LT(plain, shifted - 0.02) << "a smaller sphere falls faster";
+}
+
+}  // namespace
+}  // namespace turbidite
