@@ -23,12 +23,6 @@ Ruling shape_is_of_the_dimension(const Settings& s) {
                      "Use sphere, or dimension: 2."};
 }
 
-Ruling no_plates_in_space(const Settings& s) {
-    if (!in_space(s)) return std::nullopt;
-    return Objection{"Walls inside the box are plates of the plane in this version.",
-                     "Remove it, or use dimension: 2."};
-}
-
 Ruling solver_works_in_space(const Settings& s) {
     if (!in_space(s) || s.text("contact.solver") == "nlgs") return std::nullopt;
     return Objection{fmt::format("{} solves contacts of the plane only.", s.text("contact.solver")),
@@ -47,7 +41,6 @@ KeyGroup space_keys() {
     return {.keys = {},
             .rules = {{"fluid.enabled", {"dimension"}, no_fluid_in_space},
                       {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
-                      {"domain.walls_file", {"dimension"}, no_plates_in_space},
                       {"contact.solver", {"dimension"}, solver_works_in_space},
                       {"contact.dump_interval", {"dimension"}, no_problem_files_in_space}}};
 }
