@@ -50,19 +50,23 @@ WallJoints::WallJoints(const std::vector<Wall>& walls) {
     if (std::count_if(walls.begin(), walls.end(), is_round) < 2) return;
     rims_.resize(walls.size());
     for (std::size_t i = 0; i < walls.size(); ++i)
-        for (std::size_t j = 0; j < walls.size(); ++j) {
-            if (i == j || !is_round(walls[i]) || !is_round(walls[j])) continue;
-            const double tolerance = same_rim * std::max(size_of(walls[i]), size_of(walls[j]));
-            if (!same_axis(walls[i], walls[j], tolerance)) continue;
-            const OnAxis on{dot(walls[j].point - walls[i].point, walls[i].normal),
-                            dot(walls[i].normal, walls[j].normal) > 0.0 ? 1.0 : -1.0};
-            for (std::size_t end = 0; end < 2; ++end) {
-                Rim& rim = rims_[i][end];
-                const std::size_t before = rim.others.size();
-                join(rim, walls[i].meridian[end], walls[j], on, tolerance);
-                if (j < i && rim.others.size() > before) rim.first = false;
-            }
-        }
+        for (std::size_t j = 0; j < walls.size(); ++j)
+            if (i != j && is_round(walls[i]) && is_round(walls[j])) join_pair(walls, i, j);
+}
+
+/// Tells wall i where it meets wall j.
+void WallJoints::join_pair(const std::vector<Wall>& walls, std::size_t i, std::size_t j) {
+    const Wall &own = walls[i], &other = walls[j];
+    const double tolerance = same_rim * std::max(size_of(own), size_of(other));
+    if (!same_axis(own, other, tolerance)) return;
+    const OnAxis on{dot(other.point - own.point, own.normal),
+                    dot(own.normal, other.normal) > 0.0 ? 1.0 : -1.0};
+    for (std::size_t end = 0; end < 2; ++end) {
+        Rim& rim = rims_[i][end];
+        const std::size_t before = rim.others.size();
+        join(rim, own.meridian[end], other, on, tolerance);
+        if (j < i && rim.others.size() > before) rim.first = false;
+    }
 }
 
 bool WallJoints::is_nearest(std::int32_t wall, std::size_t end, const BesideAxis& offset) const {

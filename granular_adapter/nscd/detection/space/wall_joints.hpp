@@ -35,6 +35,8 @@ class WallJoints {
     bool is_nearest(std::int32_t wall, std::size_t end, const BesideAxis& offset) const;
 
  private:
+    void join_pair(const std::vector<Wall>& walls, std::size_t i, std::size_t j);
+
     std::vector<std::array<Rim, 2>> rims_;  ///< by wall; empty without round walls
 };
 
