@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls inside the box: plates that are at rest or follow a prescribed motion, for grains and fluid
-// alike. From the resolved case (written by launcher/case/inner_walls):
+// Walls inside the box in the plane: plates that are at rest or follow a prescribed motion, for
+// grains and fluid alike. Those of space: space_walls.hpp. From the resolved case (written by
+// launcher/case/inner_walls):
 //
 //     run.walls   `ID X1 Y1 X2 Y2 VX VY SPIN PX PY FRICTION THICKNESS` in run units, separated by
 //     `;`

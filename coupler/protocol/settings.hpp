@@ -23,6 +23,7 @@
 //     run.probes                            output.probes: x y x y ... [m]; missing without any
 //     run.materials                         names of materials 1, 2, ..., separated by spaces;
 //                                           coefficients are contact.materials.NAME.*
+//     run.side_material                     index of the material of the sides; missing: 0
 //
 // Valid C++17.
 #pragma once

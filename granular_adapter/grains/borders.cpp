@@ -40,6 +40,8 @@ std::string named(const nscd::Bodies& bodies, std::size_t i) {
 std::vector<Border> lay_borders(const Settings& settings) {
     const RunValues run = run_values(settings);
     const SideTypes types = side_types(settings);
+    const auto material = static_cast<std::int32_t>(
+        settings.has("run.side_material") ? settings.integer("run.side_material") : 0);
     std::vector<Border> borders;
     for (std::size_t i = 0; i < side_count(run.dimension); ++i) {
         const auto& [name, key, axis, inward] = box_sides[i];
@@ -47,7 +49,7 @@ std::vector<Border> lay_borders(const Settings& settings) {
         plane.normal = {};
         plane.normal[axis] = inward;
         plane.point[axis] = inward > 0.0 ? 0.0 : run.size[axis];
-        plane.material = 0;
+        plane.material = material;
         plane.key = static_cast<std::int32_t>(i);
         borders.push_back({name, kind_of(types[i]), plane});
     }

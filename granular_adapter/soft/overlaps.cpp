@@ -9,7 +9,7 @@ namespace turbidite::soft {
 
 void OverlapFinder::find(const nscd::Bodies& bodies) {
     overlaps_.clear();
-    const nscd::PlacedShapes placed = narrow_.place(bodies);
+    const nscd::PlacedShapes placed = narrow_.place(bodies, walls_);
     for (const Near& near : neighbours_.of(bodies, walls_)) detect(bodies, near, placed);
 }
 

@@ -148,7 +148,7 @@ void ContactHost::check_bodies(const char* when) const {
             throw at_fault(bodies.id[i], " has a position or velocity that is not finite", when);
         if (bodies.fixed[i]) continue;
         for (const nscd::Wall& wall : std::as_const(*engine_).walls())
-            if (!std::isfinite(wall.half_length) && signed_distance(wall, bodies.position[i]) < 0.0)
+            if (!has_ends(wall) && signed_distance(wall, bodies.position[i]) < 0.0)
                 throw at_fault(bodies.id[i],
                                " has its centre behind wall " + std::to_string(wall.key), when);
     }

@@ -40,6 +40,8 @@ class Store:
             if key in options:
                 options[key] = repr(float(options[key]) * float(case[unit]))
         self.settings = {'gravity': [0.0, -float(case['run.gravity']), 0.0], 'show': 0, 'options': options}
+        if walls_of_the_engine(case):
+            self.settings['engine_walls'] = walls_of_the_engine(case)
         self.engine = turbidite_contact.memory.holder(self.settings)
 
     def keep(self, contacts):
@@ -76,6 +78,9 @@ class Scene:
             self.body_of[grain['id']] = O.bodies.append(body)
             states.append(O.bodies[self.body_of[grain['id']]].state)
         O.dt = float(settings['run.step'])
+        if walls_of_the_engine(settings):
+            print(f'{walls_of_the_engine(settings)} walls inside the box are not in YADE\'s scene: the contact engine '
+                  'has them, and recorders and pictures of YADE do not show them', flush=True)
         return states, turns
 
     def _create_materials(self, settings, density):
@@ -146,6 +151,12 @@ class Scene:
         self.script.expect_fewer(bodies)
         for body in bodies:
             O.bodies.erase(body)
+
+
+def walls_of_the_engine(case):
+    """How many walls inside the box YADE's scene does not have: all those of space."""
+    walls = case.get('run.walls', '')
+    return len(walls.split(';')) if walls and domain_sides.in_space(case) else 0
 
 
 def axes_of(body):

@@ -37,7 +37,12 @@ std::vector<Turn> turns_of(const python::object& list) {
 }
 
 bool is_plate(const nscd::Wall& wall) {
-    return std::isfinite(wall.half_length);
+    return wall.form == nscd::WallForm::flat && has_ends(wall);
+}
+
+/// Cylinders, cones, rings and rectangles of space are walls of the contact engine alone.
+bool is_in_the_scene(const nscd::Wall& wall) {
+    return wall.form == nscd::WallForm::flat;
 }
 
 /// Half lengths of the walls inside the box [m].
@@ -49,8 +54,8 @@ python::list plate_list(const std::vector<nscd::Wall>& walls) {
 }
 
 void demand_all_sides(std::size_t created, const std::vector<nscd::Wall>& walls) {
-    const auto plates = std::count_if(walls.begin(), walls.end(), is_plate);
-    const std::size_t sides = walls.size() - static_cast<std::size_t>(plates);
+    const auto inner = std::count_if(walls.begin(), walls.end(), nscd::has_ends);
+    const std::size_t sides = walls.size() - static_cast<std::size_t>(inner);
     if (created != sides)
         throw std::logic_error("YADE's scene has " + std::to_string(created) +
                                " walls at sides of the domain, the contact engine " +
@@ -106,7 +111,7 @@ void YadeAdapter::write_bodies() {
     for (const nscd::Wall& wall : std::as_const(engine_).engine().walls())
         if (is_plate(wall))
             plates_.write(plate++, plate_motion(wall));
-        else
+        else if (is_in_the_scene(wall))
             sides_.write(side++, side_motion(wall));
 }
 

@@ -17,6 +17,7 @@
 #include "launcher/case/placed_case.hpp"
 #include "launcher/case/resolved_text.hpp"
 #include "launcher/case/run_settings.hpp"
+#include "launcher/case/walls/space_walls.hpp"
 
 namespace turbidite {
 namespace {
@@ -55,7 +56,9 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
     result.script = std::move(placed.script);
     result.scales = make_scales(settings);
     result.grains_csv = population_csv(grains, forms, material_names(settings));
-    result.walls_csv = placed.walls.empty() ? "" : walls_csv(placed.walls);
+    if (!placed.walls.empty())
+        result.walls_csv =
+            in_space(settings) ? space_walls_csv(placed.walls) : walls_csv(placed.walls);
     result.yaml =
         resolved_text(settings, grains.size(), result.grains_csv, result.walls_csv, result.script);
     for (const auto& notes : {placed.start.notes, forms.notes, rule_notes(settings, entries)})

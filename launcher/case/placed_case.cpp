@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/whole_file.hpp"
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/case/grains/grain_abilities.hpp"
+#include "launcher/case/grains/materials.hpp"
+#include "launcher/case/walls/space_walls.hpp"
 #include "launcher/case/walls/wall_motion.hpp"
 
 namespace turbidite {
@@ -46,7 +49,8 @@ InnerWalls walls_of(const Settings& settings, const CaseEntries& entries, const 
     if (!settings.has("domain.walls_file")) return {};
     const auto file = folder / settings.text("domain.walls_file");
     if (!is_file(file)) return {{}, {missing_file(entries, "domain.walls_file", file)}};
-    InnerWalls read = read_walls_csv(file);
+    InnerWalls read = in_space(settings) ? read_space_walls_csv(file, material_names(settings))
+                                         : read_walls_csv(file);
     const std::string name = file.filename().string();
     if (read.problems.empty())
         read.problems = check_walls(read.walls, grains, forms, packing_box(settings), name,

@@ -10,6 +10,7 @@
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/materials.hpp"
 #include "launcher/case/grains/soft_contact.hpp"
+#include "launcher/case/walls/space_walls.hpp"
 #include "launcher/case/walls/wall_motion.hpp"
 
 namespace turbidite {
@@ -20,6 +21,22 @@ void set_materials(Settings& settings) {
     for (const std::string& name : material_names(settings))
         if (name != "default") names += (names.empty() ? "" : " ") + name;
     settings.set("run.materials", names);
+}
+
+std::string text_of(const std::vector<InnerWall>& walls, const Settings& settings,
+                    const Scales& scales) {
+    const double friction = settings.real("contact.friction");
+    return in_space(settings)
+               ? space_walls_setting(walls, scales, friction, material_names(settings))
+               : walls_setting(walls, scales, friction);
+}
+
+/// The material of the sides of the box, if it is not the first.
+void set_side_material(Settings& settings) {
+    if (!settings.has("domain.material")) return;
+    const auto names = material_names(settings);
+    const auto at = std::find(names.begin(), names.end(), settings.text("domain.material"));
+    settings.set("run.side_material", std::int64_t{at - names.begin()});
 }
 
 /// The coupling scheme, resolved here once for all programs.
@@ -60,11 +77,12 @@ void set_run_settings(Settings& settings, const Packing& grains,
                       const std::vector<InnerWall>& walls, const Scales& scales) {
     set_run_values(settings, scales);
     set_scheme(settings);
-    settings.set("run.walls", walls_setting(walls, scales, settings.real("contact.friction")));
+    settings.set("run.walls", text_of(walls, settings, scales));
     settings.set("run.wall_motions", motions_setting(settings, walls, scales));
     settings.set("run.inflow_motions", inflows_setting(settings, scales));
     settings.set("run.grain_motions", grain_motions_setting(settings, grains, scales));
     set_materials(settings);
+    set_side_material(settings);
     set_soft_contact(settings, grains);
 }
 

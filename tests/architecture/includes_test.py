@@ -89,7 +89,9 @@ PLANE_DOORS = {
     "detection/narrow_phase.cpp": "lists the detectors of all pairs of shapes, and what walls may do",
 }
 SPACE_DOORS = {name: PLANE_DOORS[name] for name in (
-    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/residual.cpp", "solvers/nlgs.cpp")}
+    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/residual.cpp", "solvers/nlgs.cpp",
+    "detection/narrow_phase.cpp")}
+SPACE_DOORS["detection/narrow_phase.hpp"] = "holds the rims that round walls share"
 PLANE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/plane/', re.MULTILINE)
 PLANE_TYPE = re.compile(r"\b(Plan(?:ar|e)[A-Z]\w*|Placed?Polygons?|Polygon[A-Z]\w*|Delassus\w*)\b")
 SPACE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/space/', re.MULTILINE)

@@ -83,6 +83,53 @@ TEST_F(Space, StartsFromAnotherRun) {
     EXPECT_GT(whole.at("kinetic_energy")[8], 1e-6);
 }
 
+/// A cup that stands on a disc, and a paddle that turns above it.
+const char* const walls = R"(id,kind,x,y,z,ax,ay,az,bx,by,bz,r1,r2,material,motion
+1,cone,5,1,5,0,2,0,,,,2,4,steel,
+2,cylinder,5,3,5,0,8,0,,,,4,,steel,
+3,ring,5,1,5,0,1,0,,,,0,2,steel,
+4,plate,5,6,4,3,0,0,0,0,2,,,,stirring
+)";
+
+const char* const cup = R"(
+dimension: 3
+domain:
+  size: [10, 16, 10]
+  walls_file: walls.csv
+  motions:
+    stirring: {kind: constant, spin: 0.3, axis: [0, 1, 0]}
+grains: {adapter: standalone-nscd, generator: random, cylinder: [5, 7, 5, 5, 16, 5, 4], count: 150}
+fluid: {enabled: false}
+contact: {friction: 0.4, materials: {steel: {friction: 0.1}}}
+time: {step: 0.02, end: 8}
+output: {interval: 2}
+checkpoint: {interval: 4}
+)";
+
+TEST_F(Space, WallsInsideTheBoxHoldSpheres) {
+    scratch.write("walls.csv", walls);
+    scratch.write("cup.yaml", cup);
+    const Answer answer = turbidite("run cup.yaml --out whole");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const Columns whole = history("whole");
+    EXPECT_EQ(whole.at("grains").back(), 150.0);
+    EXPECT_GT(whole.at("mean_position_y").back(), 2.0);  // not below the disc
+    EXPECT_LT(whole.at("mean_position_y").back(), 6.0);
+    EXPECT_LE(record("whole")["maxima"]["penetration"].get<double>(), 1e-2);
+    EXPECT_LE(record("whole")["maxima"]["grain_balance"].get<double>(), 1e-11);
+    EXPECT_SAYS(text(scratch.path() / "whole/grains/contacts_00000400.vtp"), "normal_force");
+    // What turns goes on where it was.
+    ASSERT_EQ(turbidite("run cup.yaml --out parts --set time.end=4").code, 0);
+    ASSERT_EQ(turbidite("resume parts --set time.end=8").code, 0);
+    EXPECT_EQ(lines_without_wall_times(text(scratch.path() / "whole/history.csv")),
+              lines_without_wall_times(text(scratch.path() / "parts/history.csv")));
+    // YADE's scene does not have these walls, but its grains feel them.
+    const Answer yade = turbidite("run cup.yaml --out yade --set grains.adapter=yade-nscd");
+    ASSERT_EQ(yade.code, 0) << yade.err;
+    EXPECT_SAYS(text(scratch.path() / "yade/logs/grains.log"), "4 walls inside the box are not in");
+    EXPECT_EQ(history("yade").at("mean_position_y"), whole.at("mean_position_y"));
+}
+
 // The second run finds the packing of the first.
 TEST_F(Space, PouredGrainsAreAtRestWhenTheRunBegins) {
     ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);

@@ -70,8 +70,9 @@ std::vector<ContactPoint> Detection::unordered(const Look& look) const {
     return points;
 }
 
-/// Round bodies have one point at most, and it is cheaper to find it twice, first for its place in
-/// the order, than to write all points down and move them into their order.
+/// Round bodies have one point (or a few, at a wall into which they just fit), and it is cheaper to
+/// find it twice, first for its place in the order, than to write all points down and move them
+/// into their order.
 template <class Order>
 std::vector<ContactPoint> Detection::in_order(const Look& look, Order order) const {
     std::vector<Near> found;
@@ -92,7 +93,7 @@ std::vector<ContactPoint> Detection::in_order(const Look& look, Order order) con
 std::vector<ContactPoint> Detection::points(const Bodies& bodies, const std::vector<Wall>& walls,
                                             const Vec3& gravity, double reach, double share) const {
     if (bodies.size() == 0) return {};
-    const Look look{bodies, walls, reach, share, narrow_.place(bodies)};
+    const Look look{bodies, walls, reach, share, narrow_.place(bodies, walls)};
     const double band = one_height * *std::min_element(bodies.radius.begin(), bodies.radius.end());
     if (order_ == ContactOrder::cells && !has_corners())
         return in_order(look, CellOrder({bodies, walls, box_, gravity, reach, share, band}));
@@ -103,12 +104,12 @@ std::vector<ContactPoint> Detection::points(const Bodies& bodies, const std::vec
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const {
-    return deepest(unordered({bodies, walls, 0.0, 0.0, narrow_.place(bodies)}));
+    return deepest(unordered({bodies, walls, 0.0, 0.0, narrow_.place(bodies, walls)}));
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls,
                                   const std::vector<ContactPoint>& of) const {
-    const PlacedShapes placed = narrow_.place(bodies);
+    const PlacedShapes placed = narrow_.place(bodies, walls);
     std::vector<ContactPoint> points;
     for (const ContactPoint& pair : of)
         if (pair.wall < 0)

@@ -8,6 +8,7 @@
 #include "granular_adapter/nscd/detection/plane/planar_walls.hpp"
 #include "granular_adapter/nscd/detection/plane/polygon_contacts.hpp"
 #include "granular_adapter/nscd/detection/round_contacts.hpp"
+#include "granular_adapter/nscd/detection/space/space_walls.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -53,7 +54,7 @@ const std::vector<WallDetectorEntry>& wall_detector_list() {
         {"disc", disc_wall, check_planar},
         {"polygon", polygon_wall, check_planar},
         {"triangle", polygon_wall, check_planar},
-        {"sphere", round_half_space, check_half_space}};
+        {"sphere", sphere_wall, check_space_wall}};
     return entries;
 }
 

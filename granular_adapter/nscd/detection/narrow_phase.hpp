@@ -8,12 +8,15 @@
 
 #include "granular_adapter/nscd/detection/contact_point.hpp"
 #include "granular_adapter/nscd/detection/plane/placed_polygons.hpp"
+#include "granular_adapter/nscd/detection/space/wall_joints.hpp"
 
 namespace turbidite::nscd {
 
-/// The shapes with corners of all bodies of a configuration, in world axes.
+/// What is found once per configuration: the shapes with corners of all bodies, in world axes, and
+/// the rims that walls have in common.
 struct PlacedShapes {
     PlacedPolygons polygons;
+    WallJoints joints;
 };
 
 using PairDetector = void (*)(const PairView&, std::vector<ContactPoint>&);
@@ -46,7 +49,9 @@ class NarrowPhase {
     void check(const Wall& wall) const;
 
     /// Once per configuration; views refer to the result.
-    PlacedShapes place(const Bodies& bodies) const { return {{polygons_, bodies}}; }
+    PlacedShapes place(const Bodies& bodies, const std::vector<Wall>& walls = {}) const {
+        return {{polygons_, bodies}, WallJoints(walls)};
+    }
     bool has_corners() const { return polygons_.any(); }
     bool has_corners(std::int32_t shape) const { return polygons_[shape].corners > 0; }
 

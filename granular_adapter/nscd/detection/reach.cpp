@@ -29,9 +29,27 @@ double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
     return fastest;
 }
 
-/// Bound of the speed of a turning segment: that of its fastest end.
+/// No place of a wall with ends is farther from its point than this.
+double farthest_end(const Wall& wall) {
+    if (wall.form == WallForm::flat) return wall.half_length + wall.half_thickness;
+    if (wall.form == WallForm::rectangle)
+        return std::hypot(wall.half_length, wall.half_width) + wall.half_thickness;
+    const auto& [p, q] = wall.meridian;
+    return std::max(norm(p), norm(q)) + wall.half_thickness;
+}
+
+/// A round wall that turns about its own axis stays where it is.
+bool turns_in_place(const Wall& wall) {
+    const auto along = [&](const Vec3& x) {
+        return norm(cross(wall.normal, x)) <= 1e-12 * norm(x);
+    };
+    return wall.form == WallForm::round && along(wall.twist.spin) && along(wall.point - wall.pivot);
+}
+
+/// Bound of the speed of a turning wall with ends: that of its fastest end.
 double end_speed(const Wall& wall) {
-    const double arm = norm(wall.point - wall.pivot) + wall.half_length + wall.half_thickness;
+    if (turns_in_place(wall)) return norm(wall.twist.velocity);
+    const double arm = norm(wall.point - wall.pivot) + farthest_end(wall);
     return norm(wall.twist.velocity) + norm(wall.twist.spin) * arm;
 }
 
@@ -41,7 +59,7 @@ double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
     for (const Wall& wall : walls) {
         fastest = std::max(fastest, norm(wall.twist.velocity));
         if (wall.twist.spin == Vec3{}) continue;
-        if (std::isfinite(wall.half_length)) {
+        if (has_ends(wall)) {
             fastest = std::max(fastest, end_speed(wall));
             continue;
         }

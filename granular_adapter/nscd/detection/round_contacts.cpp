@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/detection/round_contacts.hpp"
 
-#include <cmath>
-#include <stdexcept>
-#include <string>
-
 namespace turbidite::nscd {
-
-void check_half_space(const Wall& wall) {
-    if (std::isfinite(wall.half_length))
-        throw std::invalid_argument("wall " + std::to_string(wall.key) +
-                                    ": half_length = " + std::to_string(wall.half_length) +
-                                    ": segments are of the plane; a wall of spheres has no ends, "
-                                    "so leave the length infinite");
-}
 
 void round_round(const PairView& view, std::vector<ContactPoint>& points) {
     const double radius_a = view.bodies.radius[view.a], radius_b = view.bodies.radius[view.b];

@@ -12,9 +12,6 @@ namespace turbidite::nscd {
 
 void round_round(const PairView& view, std::vector<ContactPoint>& points);
 
-/// Throws std::invalid_argument for a wall with ends.
-void check_half_space(const Wall& wall);
-
 /// The wall is solid behind its normal, and has no ends.
 void round_half_space(const WallView& view, std::vector<ContactPoint>& points);
 

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "coupler/rigid/vec3.hpp"
-#include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -26,10 +25,6 @@ Shifts shifts(double middle, double reach, double low, double high, double perio
 }
 
 /// Where the centres of the bodies are along each axis.
-struct Extent {
-    Vec3 low{}, high{};
-};
-
 Extent extent(const Bodies& bodies) {
     Extent all{bodies.position.front(), bodies.position.front()};
     for (const Vec3& x : bodies.position)
@@ -43,9 +38,10 @@ Extent extent(const Bodies& bodies) {
 Shifts shifts(const Wall& wall, std::size_t axis, const Extent& all, const PeriodicBox& box,
               double reach) {
     if (!box.repeats(static_cast<int>(axis))) return {};
-    const double along = std::abs(tangent_of(wall.normal)[axis]);
-    return shifts(wall.point[axis], reach + along * wall.half_length + wall.half_thickness,
-                  all.low[axis], all.high[axis], box.length[axis]);
+    const Extent own = extent_of(wall);
+    return shifts(0.5 * (own.low[axis] + own.high[axis]),
+                  reach + 0.5 * (own.high[axis] - own.low[axis]), all.low[axis], all.high[axis],
+                  box.length[axis]);
 }
 
 void add_images(const Wall& wall, const Extent& all, const PeriodicBox& box, double reach,
@@ -71,7 +67,7 @@ std::vector<Wall> with_images(const std::vector<Wall>& walls, const Bodies& bodi
     if (bodies.size() == 0 || !box.repeats()) return all;
     const Extent where = extent(bodies);
     for (const Wall& wall : walls)
-        if (std::isfinite(wall.half_length)) add_images(wall, where, box, reach, all);
+        if (has_ends(wall)) add_images(wall, where, box, reach, all);
     return all;
 }
 

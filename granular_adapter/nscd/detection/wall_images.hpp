@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Segments in a box with periodic sides: their images are as solid as they are. A body may touch
-// several images of one segment at once.
+// Walls with ends in a box with periodic sides: their images are as solid as they are. A body may
+// touch several images of one wall at once.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace turbidite::nscd {
 
-/// The walls, at the same indices, and behind them the images of segments that come within `reach`
-/// [m] of where the centres of the bodies are.
+/// The walls, at the same indices, and behind them the images of those with ends that come within
+/// `reach` [m] of where the centres of the bodies are.
 std::vector<Wall> with_images(const std::vector<Wall>& walls, const Bodies& bodies,
                               const PeriodicBox& box, double reach);
 

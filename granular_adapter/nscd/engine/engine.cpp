@@ -127,9 +127,7 @@ void Engine::detect(const std::vector<Twist>& free, double dt) {
 /// Whether a body that crosses a side may touch another image of a wall than before.
 bool Engine::may_meet_images() const {
     const PeriodicBox& box = settings_.box;
-    return box.repeats() && std::any_of(walls_.begin(), walls_.end(), [](const Wall& wall) {
-               return std::isfinite(wall.half_length);
-           });
+    return box.repeats() && std::any_of(walls_.begin(), walls_.end(), has_ends);
 }
 
 /// The walls, and what a body that looks `reach` beyond its surface may see of their images.

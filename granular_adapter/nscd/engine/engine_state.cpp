@@ -8,20 +8,21 @@ namespace {
 
 constexpr std::uint64_t bodies_format = 0x344445534354ULL;
 constexpr std::uint64_t memory_format = 0x354d454d4354ULL;
-constexpr std::uint64_t space_format = 0x33314d454d4354ULL;
+constexpr std::uint64_t space_format = 0x33324d454d4354ULL;
 
 /// Position and motion of a wall; everything else comes from the settings.
 template <class Visit, class AnyWall>
-void for_each_state(AnyWall& wall, Visit&& visit) {
+void for_each_state(AnyWall& wall, bool space, Visit&& visit) {
     visit(wall.point), visit(wall.normal), visit(wall.twist.velocity), visit(wall.twist.spin);
     visit(wall.pivot);
+    if (space) visit(wall.side);
 }
 
-void read_walls(ByteReader& in, std::vector<Wall>& walls) {
+void read_walls(ByteReader& in, bool space, std::vector<Wall>& walls) {
     if (in.value<std::uint64_t>() != walls.size())
         throw std::invalid_argument("saved contact state: the number of walls differs");
     for (Wall& wall : walls)
-        for_each_state(wall,
+        for_each_state(wall, space,
                        [&in](auto& value) { value = in.value<std::decay_t<decltype(value)>>(); });
 }
 
@@ -54,7 +55,7 @@ void write_memory(ByteWriter& out, const SavedMemory& memory) {
     out.array(memory.states.found);
     out.value(static_cast<std::uint64_t>(memory.walls.size()));
     for (const Wall& wall : memory.walls)
-        for_each_state(wall, [&out](const auto& value) { out.value(value); });
+        for_each_state(wall, memory.space, [&out](const auto& value) { out.value(value); });
     if (memory.space) out.array(memory.moments);
 }
 
@@ -67,7 +68,7 @@ SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls, bool spa
     memory.states.accepted = in.array<RememberedState>();
     memory.states.found = in.array<RememberedState>();
     memory.walls = walls;
-    read_walls(in, memory.walls);
+    read_walls(in, space, memory.walls);
     memory.space = space;
     if (space) memory.moments = in.array<RememberedContact>();
     return memory;

@@ -1,12 +1,72 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/problem/walls.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "coupler/rigid/rotation.hpp"
 
 namespace turbidite::nscd {
+namespace {
+
+/// Of a segment or a rectangle along one axis.
+double half_extent(const Wall& wall, std::size_t axis) {
+    if (wall.form != WallForm::rectangle)  // a segment lies in the plane
+        return axis < 2 ? std::abs(wall.normal[1 - axis]) * wall.half_length : 0.0;
+    const Vec3 across = cross(wall.normal, wall.side);
+    return wall.half_length * std::abs(wall.side[axis]) + wall.half_width * std::abs(across[axis]);
+}
+
+Extent round_extent(const Wall& wall) {
+    Extent all;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double n = wall.normal[axis], across = std::sqrt(std::max(0.0, 1.0 - n * n));
+        const auto& [p, q] = wall.meridian;
+        const double most = wall.half_thickness, x = wall.point[axis];
+        all.low[axis] =
+            x - most + std::min(p.height * n - p.radius * across, q.height * n - q.radius * across);
+        all.high[axis] =
+            x + most + std::max(p.height * n + p.radius * across, q.height * n + q.radius * across);
+    }
+    return all;
+}
+
+void check_rectangle(const Wall& wall, const std::string& name) {
+    if (!(std::isfinite(wall.half_length) && wall.half_width > 0.0))
+        throw std::invalid_argument(name + "the edges of a rectangle must be longer than zero");
+    if (!(std::abs(norm(wall.side) - 1.0) < 1e-9 && std::abs(dot(wall.side, wall.normal)) < 1e-9))
+        throw std::invalid_argument(name +
+                                    "the side of a rectangle must have length 1 and be normal to "
+                                    "its normal");
+}
+
+void check_meridian(const Wall& wall, const std::string& name) {
+    const auto& [p, q] = wall.meridian;
+    if (!(p.radius >= 0.0 && q.radius >= 0.0))
+        throw std::invalid_argument(name + "its radii must be zero or positive");
+    const double length = norm(q - p);
+    if (!(length > 0.0 && std::isfinite(length)) || !(p.radius + q.radius > 0.0))
+        throw std::invalid_argument(name + "its two rims must be apart and not both on its axis");
+}
+
+}  // namespace
+
+bool has_ends(const Wall& wall) {
+    return wall.form != WallForm::flat || std::isfinite(wall.half_length);
+}
+
+Extent extent_of(const Wall& wall) {
+    if (wall.form == WallForm::round) return round_extent(wall);
+    Extent all;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double half = half_extent(wall, axis) + wall.half_thickness;
+        all.low[axis] = wall.point[axis] - half;
+        all.high[axis] = wall.point[axis] + half;
+    }
+    return all;
+}
 
 double signed_distance(const Wall& wall, const Vec3& point) {
     return dot(wall.normal, point - wall.point);
@@ -32,6 +92,7 @@ void move(Wall& wall, double step) {
     wall.point = wall.pivot + turn(arm);
     wall.normal = turn(wall.normal);
     wall.normal = (1.0 / norm(wall.normal)) * wall.normal;
+    if (wall.form == WallForm::rectangle) wall.side = turn(wall.side);
 }
 
 void check_wall(const Wall& wall) {
@@ -44,6 +105,8 @@ void check_wall(const Wall& wall) {
         throw std::invalid_argument(name + "the half length must be positive");
     if (!(wall.half_thickness >= 0.0))
         throw std::invalid_argument(name + "the half thickness must be zero or positive");
+    if (wall.form == WallForm::rectangle) check_rectangle(wall, name);
+    if (wall.form == WallForm::round) check_meridian(wall, name);
     const auto& [velocity, spin] = wall.twist;
     if (!is_finite(velocity) || !is_finite(wall.pivot) || !is_finite(spin))
         throw std::invalid_argument(name + "its motion must be finite");

@@ -44,6 +44,9 @@ class Host:
     """`settings` as returned above; `mark`: that of the store with which this engine is up to date."""
 
     def __init__(self, settings, remembered, mark):
+        if settings.get('engine_walls'):
+            raise Refused(f'turbidite_contact: the case of this scene has {settings["engine_walls"]} walls inside the '
+                          'box (domain.walls_file) that are not in YADE\'s scene: its grains cannot go on without them')
         self.settings, self.mark = settings, mark
         self.engine = turbidite_contact_engine.ContactEngine(settings['options'], settings['gravity'])
         if remembered:

@@ -66,6 +66,7 @@ double make_room(Packing& grains, const PackingRequest& request) {
 }
 
 bool inside(const PlacedGrain& grain, const PackingRegion& limits) {
+    if (limits.cylinder) return limits.holds({grain.x, grain.y, grain.z}, grain.radius);
     return grain.x >= grain.radius && grain.x + grain.radius <= limits.width &&
            grain.y >= grain.radius && grain.y + grain.radius <= limits.height &&
            (limits.depth == 0.0 ||
@@ -160,7 +161,8 @@ std::int64_t shake(Packing& grains, const PackingRequest& request, const Packing
 void apply_jitter(PackingResult& result, const PackingRequest& request) {
     if (request.jitter <= 0.0) return;
     const PackingRegion whole{request.box.width, request.box.height, request.box.depth};
-    const std::int64_t moved = shake(result.grains, request, whole);
+    const bool round = request.region && request.region->cylinder;  // a wall may be around it
+    const std::int64_t moved = shake(result.grains, request, round ? *request.region : whole);
     const auto all = static_cast<std::int64_t>(result.grains.size());
     if (moved < all)
         result.notes.push_back(fmt::format(

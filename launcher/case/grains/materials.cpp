@@ -29,6 +29,7 @@ double fallback(const Settings& s, const char* coefficient) {
     return given(s, std::string("contact.") + coefficient, 0.0);
 }
 
+/// Of "steel", or of a pair, "glass-steel".
 std::optional<Objection> unknown_material(const std::string& pair,
                                           const std::vector<std::string>& names) {
     const auto dash = pair.find('-');
@@ -88,6 +89,9 @@ CaseProblems check_materials(const Settings& settings, const CaseEntries& entrie
         if (!objection && settings.has("contact.law")) objection = unfit(settings, group);
         if (objection) problems.push_back(problem_with(key, *objection, settings, entries));
     }
+    if (settings.has("domain.material"))
+        if (const auto objection = unknown_material(settings.text("domain.material"), names))
+            problems.push_back(problem_with("domain.material", *objection, settings, entries));
     return problems;
 }
 

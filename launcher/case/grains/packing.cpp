@@ -2,6 +2,8 @@
 #include "launcher/case/grains/packing.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "launcher/case/grains/lattice.hpp"
 #include "launcher/case/grains/pouring.hpp"
@@ -19,6 +21,15 @@ double largest_radius(const Packing& grains) {
 
 namespace {
 
+constexpr double rounding = 1e-9;  // [D] lets an exact fit survive rounding
+
+bool is_within(const PackingCylinder& cylinder, const Vec3& place, double radius) {
+    const Vec3 axis = cylinder.to - cylinder.from, arm = place - cylinder.from;
+    const double length = norm(axis), height = dot(arm, axis) / length;
+    return height >= radius - rounding && height <= length - radius + rounding &&
+           norm(arm - (height / length) * axis) <= cylinder.radius - radius + rounding;
+}
+
 PackingResult not_poured_in_the_plane(const PackingRequest&) {
     PackingResult result;
     result.refusal =
@@ -28,6 +39,32 @@ PackingResult not_poured_in_the_plane(const PackingRequest&) {
 }
 
 }  // namespace
+
+double PackingRegion::volume() const {
+    if (!cylinder) return width * height * depth;
+    return std::numbers::pi * cylinder->radius * cylinder->radius *
+           norm(cylinder->to - cylinder->from);
+}
+
+bool PackingRegion::holds(const Vec3& place, double radius) const {
+    if (cylinder) return is_within(*cylinder, place, radius);
+    const Vec3 at = place - corner;
+    return at[0] >= radius - rounding && at[0] + radius <= width + rounding &&
+           at[1] >= radius - rounding && at[1] + radius <= height + rounding &&
+           at[2] >= radius - rounding && at[2] + radius <= depth + rounding;
+}
+
+/// A circle normal to the unit vector e extends by R sqrt(1 - e_i^2) along axis i.
+PackingRegion enclosing(const PackingCylinder& cylinder) {
+    const Vec3 along = cylinder.to - cylinder.from, e = along / norm(along);
+    Vec3 low{}, size{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double half = cylinder.radius * std::sqrt(std::max(0.0, 1.0 - e[i] * e[i]));
+        low[i] = std::min(cylinder.from[i], cylinder.to[i]) - half;
+        size[i] = std::abs(along[i]) + 2.0 * half;
+    }
+    return {size[0], size[1], size[2], low, cylinder};
+}
 
 const std::vector<GeneratorEntry>& generator_list() {
     static const std::vector<GeneratorEntry> generators = {

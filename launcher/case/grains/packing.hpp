@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 
@@ -46,12 +47,29 @@ struct PackingBox {
     bool in_space() const { return depth > 0.0; }
 };
 
-/// A rectangle in the lower left corner of the box, in space a cuboid in the lower left front one.
-struct PackingRegion {
-    double width = 0.0;   ///< [D]
-    double height = 0.0;  ///< [D]
-    double depth = 0.0;   ///< in space [D]
+/// A cylinder in space.
+struct PackingCylinder {
+    Vec3 from{}, to{};    ///< ends of its axis [D]
+    double radius = 0.0;  ///< [D]
 };
+
+/// A rectangle in the lower left corner of the box, in space a cuboid in the lower left front one
+/// or anywhere, or a cylinder that it encloses.
+struct PackingRegion {
+    double width = 0.0;                            ///< [D]
+    double height = 0.0;                           ///< [D]
+    double depth = 0.0;                            ///< in space [D]
+    Vec3 corner{};                                 ///< of a region in space [D]
+    std::optional<PackingCylinder> cylinder = {};  ///< touches the six sides of the cuboid
+
+    /// In space [D3].
+    double volume() const;
+    /// Whether a sphere at this place is inside; up to rounding where it touches a side.
+    bool holds(const Vec3& place, double radius) const;
+};
+
+/// The region of a cylinder, as large as it needs.
+PackingRegion enclosing(const PackingCylinder& cylinder);
 
 struct PackingRequest {
     PackingBox box;

@@ -102,6 +102,7 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     changes.push_back("grains.generator=random");
     changes.push_back("grains.adapter=standalone-nscd");
     changes.push_back("grains.script=~");
+    if (settings.has("grains.extra_file")) changes.push_back("grains.extra_file=~");
     if (settings.has("grains.pour_friction"))
         changes.push_back("contact.friction=" + settings.text("grains.pour_friction"));
     for (const char* plain : {"output.interval=1", "checkpoint.interval=5", "checkpoint.keep=1",

@@ -22,12 +22,6 @@ int cells_along(double length, double radius, double edge) {
     return static_cast<int>(std::floor((length - 2.0 * radius + rounding) / edge)) + 1;
 }
 
-bool is_inside(const Vec3& place, double radius, const PackingRegion& region) {
-    return place[0] + radius <= region.width + rounding &&
-           place[1] + radius <= region.height + rounding &&
-           place[2] + radius <= region.depth + rounding;
-}
-
 }  // namespace
 
 double SpaceLattice::densest() const {
@@ -68,9 +62,10 @@ Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, 
         for (int k = 0; k < nz; ++k)
             for (int i = 0; i < nx; ++i)
                 for (const Vec3& site : lattice.sites) {
-                    const Vec3 place{radius + edge * (i + site[0]), radius + edge * (j + site[1]),
-                                     radius + edge * (k + site[2])};
-                    if (!is_inside(place, radius, region)) continue;
+                    const Vec3 place = region.corner + Vec3{radius + edge * (i + site[0]),
+                                                            radius + edge * (j + site[1]),
+                                                            radius + edge * (k + site[2])};
+                    if (!region.holds(place, radius)) continue;
                     PlacedGrain grain{.id = static_cast<GrainId>(grains.size()),
                                       .x = place[0],
                                       .y = place[1],

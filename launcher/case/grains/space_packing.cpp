@@ -24,10 +24,6 @@ constexpr double shaking_distance = 0.2;  // [D]
 // Random sequential addition of equal spheres ends at 0.38; from here on most attempts fail.
 constexpr double one_by_one_fraction = 0.3;
 
-double volume(const PackingRegion& region) {
-    return region.width * region.height * region.depth;
-}
-
 double solid_volume(const std::vector<double>& radii) {
     double sum = 0.0;
     for (const double r : radii) sum += 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -35,9 +31,9 @@ double solid_volume(const std::vector<double>& radii) {
 }
 
 PlacedGrain random_place(const PackingRegion& region, double edge, RandomNumbers& random) {
-    PlacedGrain grain{.x = random.uniform(edge, region.width - edge),
-                      .y = random.uniform(edge, region.height - edge)};
-    grain.z = random.uniform(edge, region.depth - edge);
+    PlacedGrain grain{.x = region.corner[0] + random.uniform(edge, region.width - edge),
+                      .y = region.corner[1] + random.uniform(edge, region.height - edge)};
+    grain.z = region.corner[2] + random.uniform(edge, region.depth - edge);
     return grain;
 }
 
@@ -50,6 +46,7 @@ bool add_one(NeighbourGrid& grid, const PackingRegion& region, double radius, do
         PlacedGrain grain = random_place(region, radius + gap, random);
         grain.radius = radius;
         grain.id = static_cast<GrainId>(grid.grains().size());
+        if (region.cylinder && !region.holds({grain.x, grain.y, grain.z}, radius + gap)) continue;
         if (!grid.is_free(grain, gap)) continue;
         grid.insert(grain);
         return true;
@@ -72,7 +69,7 @@ Packing enough_sites(const PackingRequest& request, double largest) {
     constexpr int steps = 64;
     const SpaceLattice& lattice = space_lattice("fcc");
     const std::vector<double> all_largest(static_cast<std::size_t>(request.count), largest);
-    const double needed = solid_volume(all_largest) / volume(request.filled());
+    const double needed = solid_volume(all_largest) / request.filled().volume();
     for (int i = std::max(1, static_cast<int>(steps * needed / lattice.densest())); i <= steps;
          ++i) {
         Packing sites =
@@ -108,22 +105,25 @@ Packing shaken_sites(const PackingRequest& request, const std::vector<double>& r
     return grains;
 }
 
+std::string words_of(const PackingRegion& region) {
+    if (region.cylinder) return fmt::format("a cylinder of {:.4g} D3", region.volume());
+    return fmt::format("{} x {} x {} D", region.width, region.height, region.depth);
+}
+
 std::string too_dense(const PackingRequest& request, double fraction) {
-    const PackingRegion region = request.filled();
     return fmt::format(
-        "They fill {:.3g} of {} x {} x {} D; at random places at most {} are possible. Pour them: "
+        "They fill {:.3g} of {}; at random places at most {} are possible. Pour them: "
         "let fewer per volume fall in a higher box, and start from that run with run --from. Or "
         "ask for fewer grains, or use grains.generator: lattice.",
-        fraction, region.width, region.height, region.depth, largest_random_fraction);
+        fraction, words_of(request.filled()), largest_random_fraction);
 }
 
 std::string does_not_fit(const PackingRequest& request) {
-    const PackingRegion region = request.filled();
-    return fmt::format(
-        "A region of {} x {} x {} D has no room for them. Ask for fewer grains or "
-        "enlarge {}.",
-        region.width, region.height, region.depth,
-        request.region ? "grains.region" : "domain.size");
+    return fmt::format("There is no room for them in {}. Ask for fewer grains or enlarge {}.",
+                       words_of(request.filled()),
+                       request.filled().cylinder ? "grains.cylinder"
+                       : request.region          ? "grains.region"
+                                                 : "domain.size");
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ PackingResult random_space_packing(const PackingRequest& request) {
     PackingResult result;
     RandomNumbers random(request.seed);
     const std::vector<double> radii = draw_radii(request, random);
-    const double fraction = solid_volume(radii) / volume(request.filled());
+    const double fraction = solid_volume(radii) / request.filled().volume();
     if (fraction > largest_random_fraction) {
         result.refusal = too_dense(request, fraction);
         return result;

@@ -17,7 +17,14 @@
 namespace turbidite {
 namespace {
 
+/// Ends of the axis and radius.
+PackingRegion cylinder_region(const std::vector<double>& n) {
+    return enclosing({{n.at(0), n.at(1), n.at(2)}, {n.at(3), n.at(4), n.at(5)}, n.at(6)});
+}
+
 std::optional<PackingRegion> packing_region(const Settings& settings) {
+    if (settings.has("grains.cylinder"))
+        return cylinder_region(real_list("grains.cylinder", settings.text("grains.cylinder")));
     if (!settings.has("grains.region")) return std::nullopt;
     const auto size = real_list("grains.region", settings.text("grains.region"));
     return PackingRegion{size.at(0), size.at(1), size.size() > 2 ? size[2] : 0.0};
@@ -71,13 +78,26 @@ StartGrains generated_grains(const Settings& settings, const CaseEntries& entrie
 }
 
 StartGrains grains_from_file(const std::filesystem::path& file, const Settings& settings,
-                             const CaseEntries& entries, const GrainForms& forms) {
-    if (!is_file(file)) return {{}, {}, {}, {missing_file(entries, "grains.file", file)}};
+                             const CaseEntries& entries, const GrainForms& forms,
+                             const char* key = "grains.file") {
+    if (!is_file(file)) return {{}, {}, {}, {missing_file(entries, key, file)}};
     PopulationFile read =
         read_population_csv(file, forms, material_names(settings), motion_names(settings));
     // Unreadable positions would be checked as 0.
     if (!read.problems.empty()) return {{}, {}, {}, std::move(read.problems)};
     return {std::move(read.grains), std::move(read.source), {}, {}};
+}
+
+StartGrains extra_grains(const std::filesystem::path& file, const Settings& settings,
+                         const CaseEntries& entries, const GrainForms& forms) {
+    return grains_from_file(file, settings, entries, forms, "grains.extra_file");
+}
+
+void add(StartGrains& start, StartGrains more) {
+    start.notes.push_back(
+        fmt::format("{} grains more from {}", more.grains.size(), more.source.name));
+    start.grains.insert(start.grains.end(), more.grains.begin(), more.grains.end());
+    append(start.problems, std::move(more.problems));
 }
 
 StartGrains grains_of(const EarlierStart& start, const Settings& settings,
@@ -100,9 +120,19 @@ bool region_is_refused(const Settings& settings, const CaseEntries& entries) {
     return region->width > box.width || region->height > box.height || region->depth > box.depth;
 }
 
+/// A cylinder without an axis, or one that is not read.
+bool cylinder_is_refused(const Settings& settings, const CaseEntries& entries) {
+    const CaseEntry* entry = entries.find("grains.cylinder");
+    if (entry == nullptr || entry->is_null) return false;
+    if (!settings.has("grains.cylinder")) return true;
+    return !is_in_box(real_list("grains.cylinder", settings.text("grains.cylinder")),
+                      packing_box(settings));
+}
+
 /// Whether the keys that describe the grains were all accepted: a generator needs a count.
 bool are_described(const Settings& settings, const CaseEntries& entries, const GivenGrains& given) {
-    if (region_is_refused(settings, entries)) return false;
+    if (region_is_refused(settings, entries) || cylinder_is_refused(settings, entries))
+        return false;
     if (given.earlier || !given.file.empty() || settings.has("grains.file")) return true;
     if (settings.text("grains.generator") != "lattice") return settings.has("grains.count");
     return !in_space(settings) || settings.has("grains.compacity");
@@ -128,6 +158,18 @@ SolidSides solid_sides(const Settings& settings) {
     return sides;
 }
 
+bool is_in_box(const std::vector<double>& n, const PackingBox& box) {
+    constexpr double rounding = 1e-9;
+    if (n.size() != 7 || !(n[6] > 0.0)) return false;
+    if (n[0] == n[3] && n[1] == n[4] && n[2] == n[5]) return false;
+    const PackingRegion region = cylinder_region(n);
+    const Vec3 high = region.corner + Vec3{region.width, region.height, region.depth};
+    const Vec3 size{box.width, box.height, box.depth};
+    for (std::size_t i = 0; i < 3; ++i)
+        if (region.corner[i] < -rounding || high[i] > size[i] + rounding) return false;
+    return true;
+}
+
 CaseProblem missing_file(const CaseEntries& entries, const std::string& key,
                          const std::filesystem::path& file) {
     const CaseEntry* entry = entries.find(key);
@@ -144,11 +186,18 @@ StartGrains start_grains(const Settings& settings, const CaseEntries& entries,
                          const GrainForms& forms, const std::filesystem::path& folder,
                          const GivenGrains& given) {
     if (!are_described(settings, entries, given)) return {};
-    if (given.earlier) return grains_of(*given.earlier, settings, forms);
     if (!given.file.empty()) return grains_from_file(given.file, settings, entries, forms);
-    if (settings.has("grains.file"))
+    StartGrains start;
+    if (given.earlier)
+        start = grains_of(*given.earlier, settings, forms);
+    else if (settings.has("grains.file"))
         return grains_from_file(folder / settings.text("grains.file"), settings, entries, forms);
-    return generated_grains(settings, entries, forms);
+    else
+        start = generated_grains(settings, entries, forms);
+    if (settings.has("grains.extra_file"))
+        add(start,
+            extra_grains(folder / settings.text("grains.extra_file"), settings, entries, forms));
+    return start;
 }
 
 }  // namespace turbidite

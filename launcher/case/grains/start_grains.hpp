@@ -40,11 +40,15 @@ struct StartGrains {
 PackingBox packing_box(const Settings& settings);
 SolidSides solid_sides(const Settings& settings);
 
-/// The grains given, else those of grains.file (a path relative to `folder`), else generated ones.
+/// The grains given, else those of grains.file (a path relative to `folder`), else generated ones;
+/// to generated ones and to those of another run those of grains.extra_file are added.
 /// None if the keys that describe them were refused.
 StartGrains start_grains(const Settings& settings, const CaseEntries& entries,
                          const GrainForms& forms, const std::filesystem::path& folder,
                          const GivenGrains& given);
+
+/// Whether the numbers of grains.cylinder describe a cylinder inside the box.
+bool is_in_box(const std::vector<double>& cylinder, const PackingBox& box);
 
 /// `file` was named by `key` and does not exist.
 CaseProblem missing_file(const CaseEntries& entries, const std::string& key,

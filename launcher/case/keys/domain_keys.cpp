@@ -170,6 +170,11 @@ KeyTable profile_keys(std::index_sequence<side...>) {
 template <std::size_t... side>
 KeyTable side_keys(KeyTable table, std::index_sequence<side...>) {
     table.insert(table.end() - 1, {side_type(box_sides[side])...});  // before the walls inside
+    table.push_back({.name = "domain.material",
+                     .type = KeyType::text,
+                     .need = Need::optional,
+                     .help = "material of the sides of the box, a name below contact.materials; "
+                             "that with the coefficients of contact.* unless given"});
     for (KeyTable more : {KeyTable{side_motion(box_sides[side])...},
                           profile_keys(every_planar_side), motion_keys()})
         for (KeySpec& key : more) table.push_back(std::move(key));
@@ -229,7 +234,10 @@ KeyGroup domain_keys() {
                          "in D, "
                          "velocities in u_c, spin in 1/t_c about (px,py); path relative to the "
                          "case file). "
-                         "In a fluid they are at least two cells thick"},
+                         "In a fluid they are at least two cells thick. In space "
+                         "id,kind,x,y,z,ax,ay,az[,bx,by,bz][,r1][,r2][,thickness][,vx,vy,vz]"
+                         "[,wx,wy,wz][,px,py,pz][,friction][,material][,motion], kind plate, "
+                         "cylinder, cone or ring (docs/spheres.md)"},
             },
             every_side),
         .rules = side_rules()};

@@ -7,6 +7,7 @@
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing.hpp"
 #include "launcher/case/grains/space_lattice.hpp"
+#include "launcher/case/grains/start_grains.hpp"
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
@@ -55,6 +56,25 @@ Ruling region_in_box(const Settings& s) {
     return Objection{
         fmt::format("The region lies in the box, domain.size = {} D.", s.text("domain.size")),
         "Make it smaller, or remove it to fill the whole box."};
+}
+
+Ruling cylinder_in_box(const Settings& s) {
+    if (is_in_box(real_list("grains.cylinder", s.text("grains.cylinder")), packing_box(s)))
+        return std::nullopt;
+    return Objection{
+        fmt::format("The cylinder has an axis and a radius above 0, and lies in the box, "
+                    "domain.size = {} D.",
+                    s.text("domain.size")),
+        "Make it smaller, or enlarge the box."};
+}
+
+Ruling cylinder_is_the_only_region(const Settings& s) {
+    if (s.has("grains.region"))
+        return Objection{"Grains fill a cylinder or a box, but grains.region is given too.",
+                         "Remove one of them."};
+    if (!is(s, "grains.generator", "poured")) return std::nullopt;
+    return Objection{"Grains are poured into boxes in this version.",
+                     "Use grains.generator: random or lattice, and let them fall in the run."};
 }
 
 Ruling vertices_are_convex(const Settings& s) {
@@ -216,6 +236,17 @@ KeyGroup grains_keys() {
                                          "and at most the box's.",
                               .remedy = "Write for example region: [20, 20, 10], or remove it to "
                                         "fill the whole box."}},
+                of_space({.name = "grains.cylinder",
+                          .type = KeyType::real_list,
+                          .unit = "D",
+                          .need = Need::optional,
+                          .help = "x1, y1, z1, x2, y2, z2, R: the generator fills the cylinder of "
+                                  "radius R around the axis from point 1 to point 2, in the place "
+                                  "of grains.region",
+                          .allowed = "Seven numbers: the ends of the axis and the radius.",
+                          .remedy = "Write for example cylinder: [10, 0, 10, 10, 40, 10, 10].",
+                          .entries = 7,
+                          .idle = beside_a_file}),
                 of_space({.name = "grains.lattice",
                           .type = KeyType::choice,
                           .fallback = "fcc",
@@ -270,6 +301,12 @@ KeyGroup grains_keys() {
                          "fluid's, motion free, fixed, driven or of domain.motions; path relative "
                          "to the case file); "
                          "overrides the generator"},
+                {.name = "grains.extra_file",
+                 .type = KeyType::text,
+                 .need = Need::optional,
+                 .help = "CSV file of grains, as grains.file, that are added to those that the "
+                         "generator places or pours, and to those of run --from",
+                 .idle = beside_a_file},
                 {.name = "grains.script",
                  .type = KeyType::text,
                  .need = Need::optional,
@@ -297,6 +334,8 @@ KeyGroup grains_keys() {
             {"grains.radius", {"grains.generator"}, lattice_has_radius},
             {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
             {"grains.region", {"domain.size"}, region_in_box},
+            {"grains.cylinder", {"domain.size", "domain.left", "domain.bottom"}, cylinder_in_box},
+            {"grains.cylinder", {"grains.generator"}, cylinder_is_the_only_region},
             {"grains.density_ratio", {"fluid.enabled", "coupling.scheme"}, light_grains_need_joint},
             {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
 }

@@ -79,12 +79,6 @@ Ruling shape_is_of_the_dimension(const Settings& s) {
                      "Use sphere, or dimension: 2."};
 }
 
-Ruling no_plates_in_space(const Settings& s) {
-    if (!in_space(s)) return std::nullopt;
-    return Objection{"Walls inside the box are plates of the plane in this version.",
-                     "Remove it, or use dimension: 2."};
-}
-
 Ruling solver_works_in_space(const Settings& s) {
     if (!in_space(s) || s.text("contact.solver") == "nlgs") return std::nullopt;
     return Objection{fmt::format("{} solves contacts of the plane only.", s.text("contact.solver")),
@@ -102,7 +96,7 @@ Ruling no_problem_files_in_space(const Settings& s) {
 KeyGroup space_keys() {
     std::vector<Rule> rules = {
         {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
-        {"domain.walls_file", {"dimension"}, no_plates_in_space},
+        {"domain.walls_file", {"dimension", "fluid.enabled"}, only_in_the_plane},
         {"contact.solver", {"dimension"}, solver_works_in_space},
         {"contact.dump_interval", {"dimension"}, no_problem_files_in_space},
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},

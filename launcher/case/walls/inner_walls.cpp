@@ -9,6 +9,7 @@
 #include <map>
 
 #include "launcher/case/files/csv_table.hpp"
+#include "launcher/case/walls/space_walls.hpp"
 
 namespace turbidite {
 namespace {
@@ -119,7 +120,35 @@ double smallest_gap(const std::vector<PlacedOutline>& plates, const PlacedOutlin
     return smallest;
 }
 
+/// Of a wall and a grain, at the start.
+class StartGap {
+ public:
+    StartGap(const InnerWall& wall, const GrainForms& forms, const PackingBox& box)
+        : wall_(wall), forms_(forms) {
+        if (!wall.space) plates_ = images(wall, box);
+    }
+    double operator()(const PlacedGrain& grain) const {
+        if (wall_.space) return surface_gap(wall_, grain);
+        return smallest_gap(plates_, placed_outline(grain, forms_)) - 0.5 * wall_.thickness;
+    }
+
+ private:
+    const InnerWall& wall_;
+    const GrainForms& forms_;
+    std::vector<PlacedOutline> plates_;
+};
+
+std::string place_of(const PlacedGrain& grain, bool space) {
+    return space ? fmt::format("({}, {}, {})", grain.x, grain.y, grain.z)
+                 : fmt::format("({}, {})", grain.x, grain.y);
+}
+
 }  // namespace
+
+bool InnerWall::moves_itself() const {
+    if (space) return space->velocity != Vec3{} || space->spin != Vec3{};
+    return velocity != Point2{} || spin != 0.0;
+}
 
 InnerWalls read_walls_csv(const std::filesystem::path& file) {
     CsvTable table = read_csv(file, csv_form());
@@ -167,18 +196,17 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
                                      const std::string& source, double tolerance) {
     std::vector<CaseProblem> problems;
     for (const InnerWall& wall : walls) {
-        const std::vector<PlacedOutline> plates = images(wall, box);
+        const StartGap gap_of(wall, forms, box);
         for (const PlacedGrain& grain : grains) {
-            const double gap =
-                smallest_gap(plates, placed_outline(grain, forms)) - 0.5 * wall.thickness;
+            const double gap = gap_of(grain);
             if (gap >= -tolerance || problems.size() >= most_problems) continue;
             problems.push_back(
                 {.source = source,
                  .line = 0,
                  .key = {},
                  .value = {},
-                 .fault = fmt::format("wall {} cuts grain {} at ({}, {}) by {:.4g} D", wall.id,
-                                      grain.id, grain.x, grain.y, -gap),
+                 .fault = fmt::format("wall {} cuts grain {} at {} by {:.4g} D", wall.id, grain.id,
+                                      place_of(grain, wall.space.has_value()), -gap),
                  .allowed = "Grains may touch a wall but not overlap with it.",
                  .remedy = "Move the wall or the grain."});
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls inside the box, from a CSV file (`domain.walls_file`):
+// Walls inside the box, from a CSV file (`domain.walls_file`; in space space_walls.hpp):
 //
 //     id,x1,y1,x2,y2[,thickness][,vx,vy][,spin][,px,py][,friction][,motion]
 //
@@ -17,10 +17,22 @@
 #include <string>
 #include <vector>
 
+#include "coupler/protocol/space_walls.hpp"
 #include "launcher/case/grains/population.hpp"
 #include "launcher/case/scales.hpp"
 
 namespace turbidite {
+
+/// What a wall in space is, and how it moves (space_walls.hpp).
+struct SpaceForm {
+    SpaceWallKind kind = SpaceWallKind::plate;
+    Vec3 place{}, a{}, b{};              ///< [D]
+    double radius = 0.0, radius2 = 0.0;  ///< [D]
+    Vec3 velocity{};                     ///< [u_c]
+    Vec3 spin{};                         ///< [1/t_c]
+    Vec3 pivot{};                        ///< [D]
+    std::string material = {};           ///< empty: that of the touching grain, with `friction`
+};
 
 struct InnerWall {
     GrainId id = 0;
@@ -31,19 +43,25 @@ struct InnerWall {
     std::optional<Point2> pivot;     ///< [D]
     std::optional<double> friction;  ///< mu
     std::string motion = {};         ///< name below domain.motions; empty: velocity and spin
+    std::optional<SpaceForm> space;  ///< in space, in the place of the plane's members
+
+    /// Whether it has a velocity or spin without a motion.
+    bool moves_itself() const;
 };
 
 struct InnerWalls {
     std::vector<InnerWall> walls;
     std::vector<CaseProblem> problems;
 };
+
+/// In the plane.
 InnerWalls read_walls_csv(const std::filesystem::path& file);
 
-/// Writes every column; reading it back gives the same walls.
+/// In the plane. Writes every column; reading it back gives the same walls.
 std::string walls_csv(const std::vector<InnerWall>& walls);
 
-/// Reports grains that a plate, or its image across cyclic sides, cuts at the start by more than
-/// `tolerance` [D].
+/// Reports grains that a wall, in the plane or its image across cyclic sides, cuts at the start by
+/// more than `tolerance` [D].
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
                                      const GrainForms& forms, const PackingBox& box,
                                      const std::string& source,
@@ -56,7 +74,7 @@ constexpr double least_cells_of_plate = 2.0;
 std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
                                          const std::string& source, double cell);
 
-/// The value of `run.walls`: walls separated by `;`, each
+/// The value of `run.walls` in the plane: walls separated by `;`, each
 /// `id x1 y1 x2 y2 vx vy spin px py friction thickness` in the run's units.
 std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
                           double friction);

@@ -225,7 +225,10 @@ std::optional<Objection> bad_side(const Settings& s, const BoxSide& side) {
 
 std::optional<Objection> bad_inner_wall(const Settings& s, const InnerWall& wall) {
     if (!is_known(s, wall.motion)) return unknown_motion(s);
-    if (wall.velocity == Point2{} && wall.spin == 0.0) return std::nullopt;
+    if (!wall.moves_itself()) return std::nullopt;
+    if (wall.space)
+        return Objection{"A wall that follows a motion has no velocity and spin of its own.",
+                         "Leave them empty, or motion."};
     return Objection{"A wall that follows a motion has no vx, vy and spin of its own.",
                      "Set them to 0, or leave motion empty."};
 }

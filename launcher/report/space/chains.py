@@ -6,7 +6,7 @@ from matplotlib.collections import LineCollection
 
 import curves
 import force_network
-from space import scene
+from space import scene, walls
 from space.camera import OBLIQUE
 
 PALE = (0.93, 0.92, 0.90)
@@ -25,6 +25,7 @@ def panels(run, networks):
 def panel(run, frame, network, scale):
     result, axes, _ = scene.axes_for(frame)
     scene.draw_box(axes, frame)
+    walls.draw(axes, run, frame, network.grains.time / run.scale('t_c'))
     pale = np.tile(PALE, (len(network.grains.radii), 1))
     image = scene.image_of(frame, run, network.grains, pale)
     image[..., 3] *= 0.55

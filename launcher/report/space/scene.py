@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 
-from space import ball_image
+from space import ball_image, walls
 from space.camera import Camera
 
 PIXELS = 680.0        # along the longer side of a picture, as wide as a page shows it
@@ -45,10 +45,14 @@ class Frame:
 
 
 def frame(run, all_grains, camera):
-    """Around everything that the grains reach at these times; the whole depth of the box is shown."""
+    """Around everything that the grains reach at these times and the walls at the start, inside the box; the whole
+    depth of the box is shown."""
     box = np.array([*run.size(), run.depth()])
     reach = [((one.positions() + one.radii[:, None]) / run.scale('D')).max(axis=0) for one in all_grains
              if one is not None and len(one.radii)]
+    inner = walls.extent(run)
+    if inner is not None:
+        reach.append(inner[1])
     if reach:
         box[:2] = np.minimum(box[:2], np.ceil(np.max(reach, axis=0)[:2] + 1.0))
     seen = camera.seen(corners(box))

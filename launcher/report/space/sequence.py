@@ -5,7 +5,7 @@ from matplotlib.colors import Normalize
 
 import pictures
 from analysis.snapshots import evenly
-from space import scene
+from space import scene, walls
 from space.camera import OBLIQUE, SIDE
 
 PANEL_WIDTH = 420  # pixels that a picture needs
@@ -30,6 +30,7 @@ def panel(run, frame, grains, limit):
     """One picture with its colour bar; `limit`: speed of the last colour [u_c]."""
     result, axes, below = scene.axes_for(frame, bar=True)
     scene.draw_box(axes, frame)
+    walls.draw(axes, run, frame, grains.time / run.scale('t_c'))
     speeds = grains.speeds()
     colours = scene.colours_of(None if speeds is None else speeds / run.scale('u_c'), limit, pictures.SPEED_COLOURS)
     axes.imshow(scene.image_of(frame, run, grains, colours), origin='lower', extent=frame.extent, zorder=1,

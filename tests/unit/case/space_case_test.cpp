@@ -95,7 +95,7 @@ TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
                      "domain.walls_file=w.csv", "contact.solver=central-path",
                      "domain.size=[12, 10]", "contact.dump_interval=1"});
     EXPECT_SAYS(text, "In space grains are spheres in this version.");
-    EXPECT_SAYS(text, "Walls inside the box are plates of the plane");
+    EXPECT_SAYS(text, "In space the first line must read id,kind,x,y,z");
     EXPECT_SAYS(text, "central-path solves contacts of the plane only.");
     EXPECT_SAYS(text, "Contact problems of space are not written");
     EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");

@@ -17,7 +17,7 @@ import grain_files
 import report
 import run_data
 from analysis import concentration, snapshots, weight_balance
-from space import ball_image, camera, chains, free_surface, scene
+from space import ball_image, camera, chains, free_surface, scene, walls
 
 CASE = """dimension: 3
 domain:
@@ -112,6 +112,55 @@ class Files(SpaceRun):
         # A third of the radius below the top: s = 2/3.
         self.assertAlmostEqual(concentration.volume_below(0.0, 1.0, 2.0 / 3.0),
                                np.pi * (2 / 3 + 2 / 3 - 8 / 81), places=12)
+
+
+WALLS = """id,kind,x,y,z,ax,ay,az,bx,by,bz,r1,r2,px,py,pz,wx,wy,wz,motion
+1,cylinder,3,0,2,0,4,0,,,,2,,3,0,2,0,0,0,
+2,cone,3,0,2,0,-1,0,,,,2,1,3,0,2,0,0,0,
+3,ring,3,1,2,0,1,0,,,,0,1,3,1,2,0,0,0,gate
+4,plate,3,2,1,2,0,0,0,0,2,,,4,2,2,0,1,0,
+"""
+GATE = '  motions.gate.kind: table\n  motions.gate.table: [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, -4, 0]  # t_c, D, D\n'
+
+
+class Walls(SpaceRun):
+    def setUp(self):
+        super().setUp()
+        self.write('case.yaml', CASE.replace('domain:\n', 'domain:\n' + GATE))
+        self.write('grains/walls.csv', WALLS)
+        self.run_data = run_data.load_run(self.folder)
+        self.walls = walls.plates.walls_of(self.run_data)
+
+    def test_rims_lie_on_the_surface(self):
+        for wall, radii, heights in zip(self.walls, ((2, 2), (2, 1), (1,)), ((0, 4), (0, -1), (1,))):
+            rims = [line for line, _ in walls.lines(wall) if len(line) > 2]
+            self.assertEqual(len(rims), len(radii))
+            for rim, radius, height in zip(rims, radii, heights):
+                np.testing.assert_allclose(np.hypot(rim[:, 0] - 3, rim[:, 2] - 2), radius)
+                np.testing.assert_allclose(rim[:, 1], height)
+
+    def test_lines_along_a_shell_join_its_rims(self):
+        along = [line for line, _ in walls.lines(self.walls[1]) if len(line) == 2]
+        self.assertEqual(len(along), walls.LENGTHWISE)
+        for line in along:
+            np.testing.assert_allclose(np.hypot(line[:, 0] - 3, line[:, 2] - 2), [2, 1])
+
+    def test_walls_are_drawn_where_they_are(self):
+        line, outwards = walls.lines(self.walls[2])[0]
+        for time, level in ((0.5, 1.0), (1.5, -1.0), (9.0, -3.0)):
+            np.testing.assert_allclose(walls.placed(self.run_data, self.walls[2], time, line, outwards)[0][:, 1], level)
+        corners, outwards = walls.lines(self.walls[3])[0]
+        turned, _ = walls.placed(self.run_data, self.walls[3], np.pi / 2, corners, outwards)
+        np.testing.assert_allclose(turned[0], [3, 2, 3], atol=1e-12)  # a quarter turn about y
+
+    def test_a_picture_has_them_before_and_behind_the_grains(self):
+        frame = scene.frame(self.run_data, [self.grains()], camera.OBLIQUE)
+        self.assertEqual(frame.box[1], 5.0)  # all of the cylinder
+        _, axes, _ = scene.axes_for(frame)
+        walls.draw(axes, self.run_data, frame, 0.0)
+        behind, before = [len(lines.get_segments()) for lines in axes.collections]
+        self.assertGreater(behind, 100)
+        self.assertGreater(before, 100)
 
 
 class FreeSurface(SpaceRun):

@@ -140,6 +140,72 @@ TEST(NscdAdapterInSpace, AMovingFloorDragsAlongZ) {
     EXPECT_NEAR(player.state.grains[0].velocity[0], 0.0, 1e-12);
 }
 
+/// A cylinder around y of radius 2, of the second material, with a disc as its bottom.
+constexpr const char* cup =
+    "0 cylinder 5 4 3 0 6 0 0 0 0 2 0 0 0 0 0 0 0 0 5 4 3 0.3 1;"
+    "1 ring 5 4 3 0 1 0 0 0 0 0 2 0 0 0 0 0 0 0 5 4 3 0.3 1";
+
+TEST(NscdAdapterInSpace, WallsInsideTheBoxHoldGrains) {
+    Settings s = space_box();
+    s.set("run.walls", std::string(cup));
+    s.set("run.materials", std::string("ice"));
+    s.set("contact.materials.ice.friction", 0.0);
+    std::vector<GrainState> grains;
+    for (GrainId id = 0; id < 4; ++id)
+        grains.push_back(sphere_at(id, {5.0 + 0.6 * (id % 2), 5.0 + 1.1 * id, 3.0}, {1.0, 0, 0}));
+    Player player(s, grains);
+    player.play(400);
+    std::set<std::int32_t> touched;
+    for (const ContactRecord& contact : *player.state.contacts)
+        if (contact.wall >= 0) touched.insert(contact.wall);
+    EXPECT_EQ(touched, (std::set<std::int32_t>{6, 7}));
+    for (const GrainState& grain : player.state.grains) {
+        EXPECT_LE(std::hypot(grain.position[0] - 5, grain.position[2] - 3), 1.5 + 1e-3);
+        EXPECT_GE(grain.position[1], 4.5 - 1e-3);
+    }
+}
+
+/// The disc turns; without its material's friction it would not turn the sphere.
+TEST(NscdAdapterInSpace, WallsHaveMaterialsAndMotions) {
+    for (const bool rough : {false, true}) {
+        Settings s = space_box();
+        s.set("run.walls", std::string(cup));
+        s.set("run.materials", std::string("ice"));
+        s.set("contact.materials.ice.friction", rough ? 0.3 : 0.0);
+        s.set("run.wall_motions", std::string("7 constant 0 0 0 0 2 0"));
+        Player player(s, {sphere_at(0, {6.0, 4.5, 3.0})});
+        player.play(20);
+        // The disc moves along -z there.
+        if (rough)
+            EXPECT_LT(player.state.grains[0].velocity[2], -0.02);
+        else
+            EXPECT_EQ(player.state.grains[0].velocity[2], 0.0);
+        EXPECT_GT(player.state.grains[0].contact_impulse[1], 0.0);
+    }
+}
+
+TEST(NscdAdapterInSpace, SidesHaveAMaterial) {
+    Settings s = space_box();
+    s.set("run.materials", std::string("ice"));
+    s.set("contact.materials.ice.friction", 0.0);
+    s.set("run.side_material", std::int64_t{1});
+    Player player(s, {sphere_at(0, {5.0, 0.5, 3.0}, {1.0, 0, 0})});
+    player.play(20);
+    EXPECT_NEAR(player.state.grains[0].velocity[0], 1.0, 1e-12);
+    EXPECT_GT(player.state.grains[0].contact_impulse[1], 0.0);
+}
+
+TEST(NscdAdapterInSpace, WallsOfAnotherFormAreRefused) {
+    for (const char* text :
+         {"0 cube 5 4 3 0 6 0 0 0 0 2 0 0 0 0 0 0 0 0 5 4 3 0.3 1", "0 plate 1 2 3",
+          "0 cylinder 5 4 3 0 6 0 0 0 0 2 0 0 0 0 0 0 0 0 5 4 3 0.3 x",
+          "0 cylinder 5 4 3 0 6 0 0 0 0 0 0 0 0 0 0 0 0 0 5 4 3 0.3 -1"}) {
+        Settings s = space_box();
+        s.set("run.walls", std::string(text));
+        EXPECT_THROW(Player(s, {}), std::invalid_argument) << text;
+    }
+}
+
 TEST(NscdAdapterInSpace, GrainsFollowMotionsAboutAnyAxis) {
     Settings s = space_box();
     s.set("run.grain_motions", std::string("0 constant 0 0 1 0 2 0"));

@@ -44,6 +44,9 @@ void disc_segment(const WallView& view, std::vector<ContactPoint>& points) {
 }  // namespace
 
 void check_planar(const Wall& wall) {
+    if (wall.form != WallForm::flat)
+        throw std::invalid_argument("wall " + std::to_string(wall.key) +
+                                    ": in the plane walls are half-planes and segments");
     const auto& [velocity, spin] = wall.twist;
     if (velocity[2] != 0.0 || spin[0] != 0.0 || spin[1] != 0.0)
         throw std::invalid_argument("wall " + std::to_string(wall.key) +

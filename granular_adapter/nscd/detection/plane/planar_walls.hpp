@@ -9,7 +9,7 @@
 
 namespace turbidite::nscd {
 
-/// Throws std::invalid_argument unless the wall moves in the plane.
+/// Throws std::invalid_argument unless the wall is of the plane and moves in it.
 void check_planar(const Wall& wall);
 
 void disc_wall(const WallView& view, std::vector<ContactPoint>& points);

@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The benchmark of bulk solids of Dosta et al. (Comput. Phys. Commun. 296 (2024) 109066): counts of our runs beside those
+of other codes (bench/dem8_silo.csv), and the grains of the drum.
+
+    bench/dem8.py silo RUN              of configs/silo.yaml: spheres above the lip since the gate opened, and the flow
+    bench/dem8.py drum RUN              of configs/drum.yaml: M1 in two quarters of the drum
+    bench/dem8.py drum-grains [SHARE]   prints the grains of a SHARE of the drum's depth (1/5) as CSV
+"""
+import csv
+import random
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / 'launcher/report'))
+
+import grain_files
+import run_data
+from space import walls
+
+STEADY = (1.0, 3.0)  # s, between which the published flow is taken
+
+# The drum in D = 2 mm: M1 of radius 0.5 D above M2 of radius 1 D.
+DRUM_RADIUS, DRUM_DEPTH, DRUM_AXIS = 50.0, 30.0, 51.0
+DRUM_LAYERS = ((8000, 1.0, 2.0, 'M2'), (30000, 0.5, 2.5, 'default'))  # count, radius [D], density, material
+SPACING = 1.04      # over the diameter, along x and y
+UNEVEN = 0.015      # of the diameter, so that it is no lattice
+
+
+def silo(run):
+    lip, opened, published = silo_marks(run)
+    ours = [(time - opened, int((grains.centres[:, 1] > lip).sum())) for time, grains in outputs(run)
+            if time >= opened - 1e-9]
+    rows = {float(row['t_s']): row for row in published_counts()}
+    print(f'{"t [s]":>6} {"ours":>8} {"LIGGGHTS":>9} {"MUSEN":>8}   spheres above the lip since the gate opened')
+    for time, count in ours:
+        row = rows.get(round(time, 3), {})
+        print(f'{time:6.2f} {count:8d} {row.get(published + "_liggghts", ""):>9} {row.get(published + "_musen", ""):>8}')
+    print('\nflow [1000/s] in each interval: ' + ' '.join(
+        f'{(n - m) / (t - s) / -1000:.1f}' for (s, m), (t, n) in zip(ours, ours[1:])))
+    for code in ('liggghts', 'musen'):
+        first, last = (int(rows[time][f'{published}_{code}']) for time in STEADY)
+        print(f'{code.upper()}, {STEADY[0]:g} to {STEADY[1]:g} s: {(first - last) / (STEADY[1] - STEADY[0]) / 1000:.2f}')
+
+
+def silo_marks(run):
+    """(y of the lip [m], time at which the gate begins to move [s], name of the orifice in the published counts)."""
+    gate = next(wall for wall in walls.plates.walls_of(run) if wall['motion'] == 'gate')
+    table = np.array([float(v) for v in run.case['domain.motions.gate.table'].strip('[]').split(',')]).reshape(-1, 4)
+    still = table[(table[:, 1:] == 0.0).all(axis=1), 0].max()
+    radius = float(gate['r2']) * run.scale('D')
+    return float(gate['y']) * run.scale('D'), still * run.scale('t_c'), 'large' if radius > 0.025 else 'small'
+
+
+def published_counts():
+    with open(ROOT / 'bench/dem8_silo.csv', newline='') as file:
+        return list(csv.DictReader(line for line in file if not line.startswith('#')))
+
+
+def outputs(run):
+    """(time [s], grains) of every output."""
+    for time, path in grain_files.grain_series(run):
+        yield time, grain_files.read_grains(time, path)
+
+
+def drum(run):
+    axis = DRUM_AXIS * run.scale('D')
+    print(f'{"t [s]":>6} {"right above":>12} {"left below":>11}   M1 in these quarters of the drum')
+    for time, grains in outputs(run):
+        x, y = (grains.centres[:, k] - axis for k in (0, 1))
+        small = grains.radii < 0.75 * run.scale('D')
+        print(f'{time:6.2f} {int((small & (x > 0) & (y > 0)).sum()):12d} {int((small & (x < 0) & (y < 0)).sum()):11d}')
+
+
+def drum_grains(share):
+    """Rows from below, M2 first; no grain touches another one or the drum."""
+    numbers, depth = random.Random(1), share * DRUM_DEPTH
+    grains, level = [], DRUM_AXIS - DRUM_RADIUS
+    for count, radius, density, material in DRUM_LAYERS:
+        left, spacing, along = round(share * count), 2.0 * radius * SPACING, int(depth / (2.0 * radius))
+        row = 0
+        while left > 0:
+            y = level + (row + 0.5) * spacing
+            half = np.sqrt(max(0.0, (DRUM_RADIUS - radius * SPACING)**2 - (abs(y - DRUM_AXIS) + 0.5 * spacing)**2))
+            across = int(2.0 * half / spacing)
+            for i in range(across):
+                for k in range(min(along, left)):
+                    shift = [UNEVEN * radius * numbers.uniform(-1, 1) for _ in range(3)]
+                    grains.append((DRUM_AXIS + (i + 0.5 - 0.5 * across) * spacing + shift[0], y + shift[1],
+                                   ((k + 0.5 * (row % 2 + 1)) * depth / along) % depth, radius, density, material))
+                left -= min(along, left)
+            row += 1
+        level += row * spacing
+    return grains
+
+
+def print_grains(share):
+    print('id,x,y,z,radius,density,material')
+    for number, (x, y, z, radius, density, material) in enumerate(drum_grains(share)):
+        print(f'{number},{x:.3f},{y:.3f},{z:.3f},{radius:g},{density:g},{material}')
+
+
+def main(words):
+    if len(words) == 2 and words[0] in ('silo', 'drum'):
+        {'silo': silo, 'drum': drum}[words[0]](run_data.load_run(words[1]))
+    elif words and words[0] == 'drum-grains' and len(words) <= 2:
+        print_grains(float(words[1]) if len(words) == 2 else 0.2)
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])
