@@ -337,6 +337,7 @@ void Engine::restore_from(const std::vector<std::vector<char>>& of_ranks) {
         demand_end(in);
     }
     bodies_ = std::move(bodies);
+    sort_by_id(bodies_);
     take_memory(std::move(memory));
     forget_step();
 }

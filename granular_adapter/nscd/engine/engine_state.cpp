@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "granular_adapter/nscd/ranks/body_rows.hpp"
+
 namespace turbidite::nscd {
 namespace {
 
@@ -109,6 +111,11 @@ void append(SavedMemory& all, SavedMemory memory) {
     all.states.started = all.states.started || memory.states.started;
     all.walls = std::move(memory.walls);
     all.space = memory.space;
+}
+
+void sort_by_id(Bodies& bodies) {
+    take_rows(order_of_ids(bodies),
+              [&](const auto& each) { Bodies::for_each_array(bodies, each); });
 }
 
 void demand_end(const ByteReader& in) {

@@ -38,6 +38,9 @@ SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls, bool spa
 void append(Bodies& all, Bodies bodies);
 void append(SavedMemory& all, SavedMemory memory);
 
+/// The bodies in the order of their ids.
+void sort_by_id(Bodies& bodies);
+
 /// Throws std::invalid_argument if bytes are left.
 void demand_end(const ByteReader& in);
 

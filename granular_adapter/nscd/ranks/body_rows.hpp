@@ -4,6 +4,10 @@
 // array, always in the same order.
 #pragma once
 
+#include <algorithm>
+#include <numeric>
+
+#include "granular_adapter/nscd/problem/bodies.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
 
 namespace turbidite::nscd {
@@ -29,6 +33,15 @@ std::size_t append_rows(const std::vector<char>& bytes, const Visit& visit) {
         for (std::uint64_t i = 0; i < count; ++i) array.push_back(in.value<Entry>());
     });
     return static_cast<std::size_t>(count);
+}
+
+inline std::vector<std::int32_t> order_of_ids(const Bodies& bodies) {
+    std::vector<std::int32_t> order(bodies.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+        return bodies.id[static_cast<std::size_t>(a)] < bodies.id[static_cast<std::size_t>(b)];
+    });
+    return order;
 }
 
 /// The entries in another order, those left out dropped.

@@ -168,12 +168,7 @@ void RankDomain::settle(const CellGrid& grid, const RankShare& share) {
     take_rows(staying, visit);
     for (const RankExchange::Bytes& arrived : ranks_.swap(std::move(rows)))
         append_rows(arrived, visit);
-    std::vector<std::int32_t> order(bodies.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        return bodies.id[static_cast<std::size_t>(a)] < bodies.id[static_cast<std::size_t>(b)];
-    });
-    take_rows(order, visit);
+    take_rows(order_of_ids(bodies), visit);
     // Contacts of large bodies stay on the first rank.
     const auto destination = [&](const ContactKey& key) {
         const auto at = moved.find(keeper(key));
