@@ -42,11 +42,13 @@ double* PhaseMessages::outgoing(std::size_t phase, int to) {
 
 void PhaseMessages::post(std::size_t phase) {
     std::vector<MPI_Request>& requests = phases_[phase].requests;
+    if (requests.empty()) return;
     PMPI_Startall(static_cast<int>(requests.size()), requests.data());
 }
 
 void PhaseMessages::await(std::size_t phase) {
     std::vector<MPI_Request>& requests = phases_[phase].requests;
+    if (requests.empty()) return;
     PMPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 

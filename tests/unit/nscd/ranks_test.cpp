@@ -73,7 +73,6 @@ void add_result(const Engine& engine, Played& result) {
         EXPECT_TRUE(result.memory.emplace(contact.key, contact.force).second);
 }
 
-/// `shift`: a change of velocity that makes everything travel.
 Played play(const Scene& scene, int ranks) {
     Played result;
     std::mutex mutex;
@@ -152,7 +151,7 @@ TEST(Ranks, HaveTheBitsOfOneRank) {
         const Played many = play(scene, ranks);
         expect_equal(one, many);
         EXPECT_GT(many.moved.size(), 10u) << "bodies have to change their rank";
-        EXPECT_GT(many.doubles, 10000u);
+        EXPECT_GT(many.doubles, 3000u);
         EXPECT_EQ(many.empty_ranks, 0u);
     }
 }
@@ -205,10 +204,10 @@ TEST(Ranks, HaveTheBitsOfOneRankWithEveryLaw) {
     scene.settings.law_settings.adhesion_shear = 1.0;
     for (Wall& wall : scene.walls) wall.material = 0;
     const Played one = play(scene, 1);
-    ASSERT_GT(one.contacts, 5000);
+    ASSERT_GT(one.contacts, 2000);
     const auto turning = std::count_if(one.impulses.begin(), one.impulses.end(),
                                        [](const auto& x) { return norm(x.second.second) > 0.0; });
-    ASSERT_GT(turning, 50);
+    ASSERT_GT(turning, 20);
     for (const int ranks : {2, 3}) {
         const Played many = play(scene, ranks);
         expect_equal(one, many);
