@@ -50,12 +50,16 @@ HubFiles hub_files(const RunFolder& folder) {
     return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(), folder.root};
 }
 
-std::optional<Resumption> resumption(const std::string& directory, const std::string& set) {
+std::optional<Resumption> resumption(const std::string& directory, const std::string& set,
+                                     const Settings& settings) {
     if (set.empty()) return std::nullopt;
-    const CheckpointSets sets(directory);
-    const Bytes bytes = load(std::filesystem::path(directory) / CheckpointSets::folder(set),
-                             sets.manifest(set).coupler);
-    return Resumption{set, decode<CouplerState>(bytes)};
+    const Manifest manifest = CheckpointSets(directory).manifest(set);
+    const Bytes bytes =
+        load(std::filesystem::path(directory) / CheckpointSets::folder(set), manifest.coupler);
+    Resumption resumed{set, decode<CouplerState>(bytes)};
+    const auto ranks = static_cast<std::size_t>(settings.integer("grains.ranks"));
+    if (manifest.grains.size() != ranks) share_out(resumed.state, static_cast<int>(ranks));
+    return resumed;
 }
 
 // If the hub has run, it has written its own, more complete record.
@@ -107,7 +111,7 @@ RunStatus couple(const std::string& directory, const std::string& set,
     const RunFolder folder{directory};
     MaybeRecorded grains(meeting.grains.get(), resolved, folder, Role::grains);
     MaybeRecorded fluid(meeting.fluid.get(), resolved, folder, Role::fluid);
-    Hub hub({resolved.settings, resolved.shapes, resolved.population, resumption(directory, set)},
+    Hub hub({resolved.settings, resolved.shapes, resolved.population, resumption(directory, set, resolved.settings)},
             hub_files(folder), *grains.channel(), fluid.channel(),
             find_scheme(resolved.settings.text("run.scheme")));
     std::signal(SIGTERM, [](int) { ended_from_outside = 1; });

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "coupler/protocol/even_shares.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -51,6 +53,11 @@ CouplerState decode(View bytes) {
                                " grains instead of " +
                                std::to_string(state.output.state.grains.size()));
     return state;
+}
+
+void share_out(CouplerState& state, int ranks) {
+    const std::vector<int> owners = even_shares(state.output.state.grains, ranks);
+    state.owners.assign(owners.begin(), owners.end());
 }
 
 std::vector<Motion> shares_of(const CouplerState& state, int ranks) {

@@ -24,6 +24,9 @@ Bytes encode(const CouplerState& state);
 template <>
 CouplerState decode(View bytes);
 
+/// Shares the grains out among another number of ranks (protocol/even_shares.hpp).
+void share_out(CouplerState& state, int ranks);
+
 /// The grains of `state` by the ranks that own them.
 std::vector<Motion> shares_of(const CouplerState& state, int ranks);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "coupler/protocol/even_shares.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/largest.hpp"
 
@@ -56,22 +57,35 @@ std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>
     return all;
 }
 
-/// The first share takes in the others, so that a single one is not copied.
-Motion joined(std::vector<Motion>& shares) {
-    auto contacts = all_contacts(shares);
-    ContactReport report;
-    std::size_t grains = 0;
-    for (const Motion& share : shares) {
-        add(report, share.report);
-        grains += share.grains.size();
+/// A grain of a share.
+struct Source {
+    GrainId id;
+    std::size_t rank, at;
+};
+
+bool lower_id(const Source& a, const Source& b) {
+    return a.id < b.id;
+}
+
+/// The grains of all shares in the order of their ids, which most ranks keep already.
+std::vector<Source> in_order_of_ids(const std::vector<Motion>& shares) {
+    std::vector<Source> all;
+    for (std::size_t rank = 0; rank < shares.size(); ++rank) {
+        const auto before = static_cast<std::ptrdiff_t>(all.size());
+        for (std::size_t at = 0; at < shares[rank].grains.size(); ++at)
+            all.push_back({shares[rank].grains[at].id, rank, at});
+        const auto middle = all.begin() + before;
+        if (!std::is_sorted(middle, all.end(), lower_id))
+            std::stable_sort(middle, all.end(), lower_id);
+        std::inplace_merge(all.begin(), middle, all.end(), lower_id);
     }
-    Motion all = std::move(shares.front());
-    all.grains.reserve(grains);
-    for (auto share = shares.begin() + 1; share != shares.end(); ++share)
-        all.grains.insert(all.grains.end(), share->grains.begin(), share->grains.end());
-    all.report = report;
-    all.contacts = std::move(contacts);
     return all;
+}
+
+ContactReport report_of(const std::vector<Motion>& shares) {
+    ContactReport report;
+    for (const Motion& share : shares) add(report, share.report);
+    return report;
 }
 
 }  // namespace
@@ -80,19 +94,27 @@ ExchangePlan::ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 per
     : boxes_(std::move(fluid_boxes)), margin_(margin), period_(period) {}
 
 Motion ExchangePlan::gather(std::vector<Motion> shares) {
-    remember_owners(shares);
-    Motion all = joined(shares);
+    auto contacts = all_contacts(shares);
+    const ContactReport report = report_of(shares);
+    owners_ = shares.size();
+    Motion all = owners_ == 1 ? std::move(shares.front()) : merged(shares);
+    if (owners_ == 1) owner_.assign(all.grains.size(), 0);
+    all.report = report;
+    all.contacts = std::move(contacts);
     if (const auto twice = index_.follow(all.grains))
         throw PhysicsRefused("grain " + std::to_string(*twice) + " was sent twice");
     return all;
 }
 
-void ExchangePlan::remember_owners(const std::vector<Motion>& shares) {
+/// The grains of several ranks, and who owns them.
+Motion ExchangePlan::merged(const std::vector<Motion>& shares) {
+    Motion all;
     owner_.clear();
-    owners_ = shares.size();
-    std::size_t grains = 0;
-    for (std::size_t rank = 0; rank < shares.size(); ++rank)
-        owner_.resize(grains += shares[rank].grains.size(), static_cast<int>(rank));
+    for (const Source& source : in_order_of_ids(shares)) {
+        all.grains.push_back(shares[source.rank].grains[source.at]);
+        owner_.push_back(static_cast<int>(source.rank));
+    }
+    return all;
 }
 
 std::vector<MotionShare> ExchangePlan::by_place(const Motion& motion) const {
@@ -149,14 +171,14 @@ template std::vector<std::vector<FreeResponse>> ExchangePlan::by_owner(
     std::vector<FreeResponse>) const;
 
 std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks) {
-    std::vector<GrainState> sorted = population;
-    if (ranks > 1)
-        std::stable_sort(
-            sorted.begin(), sorted.end(),
-            [](const GrainState& a, const GrainState& b) { return a.position[0] < b.position[0]; });
-    std::vector<Motion> shares(ranks);
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-        shares[i * ranks / sorted.size()].grains.push_back(sorted[i]);
+    std::vector<Motion> shares(static_cast<std::size_t>(ranks));
+    if (ranks == 1) {
+        shares[0].grains = population;
+        return shares;
+    }
+    const std::vector<int> rank = even_shares(population, ranks);
+    for (std::size_t i = 0; i < population.size(); ++i)
+        shares[static_cast<std::size_t>(rank[i])].grains.push_back(population[i]);
     return shares;
 }
 

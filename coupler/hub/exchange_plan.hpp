@@ -20,6 +20,8 @@ class ExchangePlan {
     ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period);
 
     /// Merges what the grains ranks sent into one list and remembers which rank owns which grain.
+    /// Those of several ranks are in the order of their ids, so that sums over grains do not depend
+    /// on who owns them.
     /// Contacts (checked by hub/contact_check) are in the order of contact_before, whatever the
     /// number of ranks. Throws PhysicsRefused when an id occurs twice.
     Motion gather(std::vector<Motion> shares);
@@ -39,7 +41,7 @@ class ExchangePlan {
     std::vector<std::vector<Record>> by_owner(std::vector<Record> records) const;
 
  private:
-    void remember_owners(const std::vector<Motion>& shares);
+    Motion merged(const std::vector<Motion>& shares);
     template <class Record>
     std::vector<int> owners_of(const std::vector<Record>& records) const;
     [[noreturn]] void refuse_missing(const std::vector<bool>& answered) const;
@@ -52,8 +54,7 @@ class ExchangePlan {
     std::size_t owners_ = 0;
 };
 
-/// The population split into `ranks` shares of nearly equal count, in the order of x, so that
-/// neighbours stay together.
+/// The population split into `ranks` shares (protocol/even_shares.hpp).
 std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ranks);
 
 }  // namespace turbidite

@@ -68,6 +68,14 @@ class GrainsAdapter {
     /// After initialise() of a resumed run, with the same settings: from here on everything must be
     /// as if the run had never been interrupted. `state` is this rank's own.
     virtual void restore(const SavedState& state) = 0;
+
+    /// The states of all ranks of a run that had another number of them: this rank takes its even
+    /// share of the grains (coupler/protocol/even_shares.hpp).
+    virtual void restore_from(const std::vector<SavedState>& of_ranks) {
+        throw Failure(ExitCode::bad_input, "the checkpoint was written by " +
+                                               std::to_string(of_ranks.size()) +
+                                               " grains ranks; go on with the same grains.ranks");
+    }
 };
 
 class FluidAdapter {

@@ -219,10 +219,8 @@ class RoleSession : public Session {
     static void restore_from(FluidAdapter& fluid, const std::vector<SavedState>& states) {
         fluid.restore_from(states);
     }
-    [[noreturn]] static void restore_from(GrainsAdapter&, const std::vector<SavedState>& states) {
-        throw Failure(ExitCode::bad_input, "the checkpoint was written by " +
-                                               std::to_string(states.size()) +
-                                               " grains ranks; go on with the same grains.ranks");
+    static void restore_from(GrainsAdapter& grains, const std::vector<SavedState>& states) {
+        grains.restore_from(states);
     }
 
     Role role_;

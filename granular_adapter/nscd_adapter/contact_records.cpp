@@ -28,7 +28,7 @@ std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& 
 }
 
 ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
-    const nscd::Bodies& bodies = engine.bodies();
+    const nscd::Bodies& bodies = engine.bodies_of_points();
     const nscd::ContactPoint& point = engine.points()[k];
     const nscd::Contact& contact = engine.problem().contacts[k];
     const nscd::ContactVector& impulse = engine.impulses()[k];

@@ -2,14 +2,16 @@
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 
 #include <chrono>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
+#include "coupler/protocol/even_shares.hpp"
 #include "coupler/protocol/freed_memory.hpp"
 #include "granular_adapter/grains/case_bodies.hpp"
 #include "granular_adapter/grains/inner_walls.hpp"
-#include "granular_adapter/nscd/detection/broad_phase.hpp"
 #include "granular_adapter/nscd/laws/law_list.hpp"
+#include "granular_adapter/nscd/ranks/gathered.hpp"
 #include "granular_adapter/nscd_adapter/contact_records.hpp"
 #include "granular_adapter/nscd_adapter/contact_settings.hpp"
 #include "granular_adapter/nscd_adapter/free_motion.hpp"
@@ -85,11 +87,17 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     std::vector<nscd::Wall> walls = walls_of(borders_);
     for (const nscd::Wall& wall : inner_walls(settings)) walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
-    light_ = first_light_grain(run_, shapes, grains);
-    add_grains(bodies(), run_, shapes, grains);
-    nscd::check_periods(bodies().radius, engine().settings().box);
-    check_inside(bodies(), borders_, "at the start");
+    if (ranks_) engine().share_with(*ranks_);
     report_ = {};
+    agree([&] {
+        light_ = first_light_grain(run_, shapes, grains);
+        add_grains(bodies(), run_, shapes, grains);
+        check_inside(bodies(), borders_, "at the start");
+    });
+    if (broken_) return motion();
+    engine().check_periods();
+    start_twists_ = bodies().twist;
+    engine().carry(start_twists_);
     report_.max_penetration = engine_->max_penetration();
     report_.wall_seconds = watch.seconds();
     return motion();
@@ -98,11 +106,11 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
 Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const StopWatch watch;
     begin_round();
-    check_inside(bodies(), borders_, in_window(window) + " before contacts");
+    agree([&] { check_inside(bodies(), borders_, in_window(window) + " before contacts"); });
     set_velocities(engine().walls(), moved_walls_, window.time, window.step);
     set_velocities(bodies(), moved_grains_, window.time, window.step);
     const nscd::StepReport step = solve_contacts(window, responses);
-    check_velocities(bodies(), in_window(window) + " after contacts");
+    agree([&] { check_velocities(bodies(), in_window(window) + " after contacts"); });
     contact_twists_ = bodies().twist;
     report_ = report_of(step);
     report_.wall_seconds = watch.seconds();
@@ -120,11 +128,16 @@ void NscdAdapter::begin_round() {
 
 nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                                              const std::vector<FreeResponse>& responses) {
-    answered_ = !responses.empty();
-    if (!answered_ && light_) refuse_light_grain(*light_);
+    FreeMotion free;
+    answered_ = on_any_rank(!responses.empty());
+    agree([&] {
+        if (!answered_ && light_) refuse_light_grain(*light_);
+        if (answered_)
+            free =
+                free_motion(bodies(), responses, in_window(window), engine().settings().dimension);
+    });
+    if (broken_) return {};
     if (!answered_) return engine().step(window.step);
-    FreeMotion free =
-        free_motion(bodies(), responses, in_window(window), engine().settings().dimension);
     return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
 }
 
@@ -133,9 +146,12 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     if (contact_twists_.size() != bodies().size())
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
     dumps_.after(window, engine().problem());
-    if (run_.wet || !kicks.empty())
-        take_velocities(bodies(), kicks, in_window(window), run_.dimension);
-    check_velocities(bodies(), in_window(window) + " after the kick");
+    agree([&] {
+        if (run_.wet || !kicks.empty())
+            take_velocities(bodies(), kicks, in_window(window), run_.dimension);
+        check_velocities(bodies(), in_window(window) + " after the kick");
+    });
+    if (broken_) return motion();
     std::optional<std::vector<ContactRecord>> contacts;
     if (window.write_output) contacts = contact_records(engine());
     report_.contact_violation = engine().contact_violation();
@@ -144,11 +160,13 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
     contact_twists_.clear();
     remove_leavers();
-    check_places(bodies(), borders_, in_window(window) + " after motion");
+    start_twists_ = bodies().twist;
+    agree([&] { check_places(bodies(), borders_, in_window(window) + " after motion"); });
+    if (broken_) return motion();
     report_.removed = static_cast<std::int64_t>(removed_.size());
     report_.max_penetration = engine().max_penetration_after_move();
     Motion result = motion();
-    if (contacts) drop_contacts_of(removed_, *contacts);
+    if (contacts) drop_contacts_of(removed_anywhere_, *contacts);
     result.contacts = std::move(contacts);
     result.report.wall_seconds = report_.wall_seconds = watch.seconds();
     return result;
@@ -162,7 +180,39 @@ void NscdAdapter::restore(const SavedState& state) {
     engine().restore(state);
     follow_walls(borders_, engine().walls());
     contact_twists_.clear();
+    start_twists_ = bodies().twist;
     removed_.clear();
+}
+
+void NscdAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
+    engine().restore_from(of_ranks);
+    const int ranks = ranks_ ? ranks_->size() : 1, own = ranks_ ? ranks_->rank() : 0;
+    std::vector<std::uint8_t> mine;
+    for (const int rank : even_shares(grain_states(bodies()), ranks)) mine.push_back(rank == own);
+    engine().keep(mine);
+    follow_walls(borders_, engine().walls());
+    contact_twists_.clear();
+    start_twists_ = bodies().twist;
+    removed_.clear();
+}
+
+bool NscdAdapter::on_any_rank(bool here) const {
+    return ranks_ && !broken_ ? nscd::any(*ranks_, here) : here;
+}
+
+/// A check that may fail on one rank only.
+template <class Check>
+void NscdAdapter::agree(Check check) {
+    if (!ranks_) return check();
+    if (broken_) return;
+    std::exception_ptr failure;
+    try {
+        check();
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    broken_ = on_any_rank(failure != nullptr);
+    if (failure) std::rethrow_exception(failure);
 }
 
 const nscd::Engine& NscdAdapter::engine() const {
@@ -194,7 +244,8 @@ void NscdAdapter::remove_leavers() {
     removed_.clear();
     for (std::size_t i = 0; i < all.size(); ++i)
         if (!stays[i]) removed_.push_back(all.id[i]);
-    if (!removed_.empty()) engine().keep(stays);
+    removed_anywhere_ = ranks_ ? nscd::gathered(*ranks_, removed_) : removed_;
+    if (!removed_anywhere_.empty()) engine().keep(stays);
 }
 
 Motion NscdAdapter::motion() const {

@@ -11,6 +11,11 @@
 // velocity, or follow run.grain_motions. For the materials of grains and their pairs see
 // contact_settings.hpp.
 //
+// On several ranks (share_with) grains go to the ranks of their cells (nscd/ranks): what
+// initialise, advance and apply_kick return are the grains that this rank has then. A check that
+// fails on one rank is known to all, which go on without exchanging anything until the coupler ends
+// the run.
+//
 // Reads: contact.*, coupling.positions, domain.{left,right,bottom,top,front,back}, fluid.enabled,
 // fluid.hydrodynamic_radius, run.*. Gravity acts along -y; sides as in borders.hpp.
 #pragma once
@@ -42,6 +47,10 @@ class NscdAdapter final : public GrainsAdapter {
     /// initialise().
     void set_run_folder(std::filesystem::path folder) { run_folder_ = std::move(folder); }
 
+    /// The ranks of the run; to be called before initialise(). The exchange must outlive the
+    /// adapter.
+    void share_with(nscd::RankExchange& ranks) { ranks_ = &ranks; }
+
     Hello describe() const override;
     Motion initialise(const Settings& settings, const ShapeTable& shapes,
                       const std::vector<GrainState>& grains) override;
@@ -59,6 +68,9 @@ class NscdAdapter final : public GrainsAdapter {
 
     /// To be called after initialise() with the same settings.
     void restore(const SavedState& state) override;
+
+    /// The grains of all ranks are shared out evenly (coupler/protocol/even_shares.hpp).
+    void restore_from(const std::vector<SavedState>& of_ranks) override;
 
     /// Between two calls a host may overwrite anything in its bodies: positions, velocities, loads,
     /// flags.
@@ -82,12 +94,17 @@ class NscdAdapter final : public GrainsAdapter {
 
     static Positions parse_positions(const std::string& text);
     nscd::EngineSettings engine_settings(const Settings& settings) const;
+    template <class Check>
+    void agree(Check check);
+    bool on_any_rank(bool here) const;
     void begin_round();
     nscd::StepReport solve_contacts(const Window& window,
                                     const std::vector<FreeResponse>& responses);
     void remove_leavers();
     Motion motion() const;
 
+    nscd::RankExchange* ranks_ = nullptr;  ///< none: one rank
+    bool broken_ = false;                  ///< a check has failed on another rank
     std::string adapter_name_;
     std::string host_code_;
     std::filesystem::path run_folder_ = ".";
@@ -101,8 +118,9 @@ class NscdAdapter final : public GrainsAdapter {
     std::vector<Twist> start_twists_;    ///< U^n of this window
     std::vector<Twist> contact_twists_;  ///< U^{n+4/5} of this window
     std::vector<GrainId> removed_;
-    std::optional<GrainId> light_;  ///< the first grain that is not denser than the fluid
-    ContactReport report_;          ///< of this window
+    std::vector<GrainId> removed_anywhere_;  ///< the same on all ranks
+    std::optional<GrainId> light_;           ///< the first grain that is not denser than the fluid
+    ContactReport report_;                   ///< of this window
 };
 
 }  // namespace turbidite

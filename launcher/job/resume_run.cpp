@@ -251,6 +251,7 @@ const std::vector<std::string>& keys_that_may_change() {
                                                   "checkpoint.",
                                                   "limits.",
                                                   "fluid.ranks",
+                                                  "grains.ranks",
                                                   "contact.iterations",
                                                   "contact.tolerance",
                                                   "coupling.iterations",

@@ -1,35 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The order of contacts by global cells, in which Gauss-Seidel can be divided among ranks without
-// changing a bit. Space is divided into cubes of edge
-//
-//     L = max(5 d, 2 span/1e6),   d = 2 r_max (1 + share) + reach
-//
-// d is a bound of the distance of two centres in contact, r_max the largest radius up to four times
-// the median, span the farthest a centre is from the origin of the cells (twenty bits are enough
-// for a cell). A contact belongs to the cell of its body with the lower id, and cells have one of
-// eight parities. Since L > 2 d, contacts of different cells of one parity share no body: these
-// cells may be swept in any order or at the same time.
+// The order of contacts by global cells (cell_grid.hpp), in which Gauss-Seidel can be divided among
+// ranks without changing a bit. A contact belongs to the cell of its body with the lower id.
+// Contacts of different cells of one parity share no body: these cells may be swept in any order or
+// at the same time.
 //
 // Order: parities of x, then z, then y, even before odd; within a cell from the top down
 // (contact_order.hpp), in bands of equal height; ids; feature. Contacts of bodies above four times
 // the median radius do not set the size of the cells: they are a class of their own after the eight
 // parities, from the top down.
 //
-// The contacts are given in another order with the same result, in which neighbours follow each
-// other closely, so that several sweeps can (sweep_pipeline.hpp): along each axis the cells 0, 2,
-// 1, 4, 3, 6, 5, ... Cells that share a body differ by at most one along each axis, and of two such
-// indices the even one is first in both orders.
+// On one rank the contacts are given in another order with the same result, in which neighbours
+// follow each other closely, so that several sweeps can (sweep_pipeline.hpp): along each axis the
+// cells 0, 2, 1, 4, 3, 6, 5, ... Cells that share a body differ by at most one along each axis, and
+// of two such indices the even one is first in both orders. On several ranks they are in phases,
+// parity by parity.
 //
 // Nothing depends on the order in which bodies are stored.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "granular_adapter/nscd/cells/parity_grid.hpp"
 #include "granular_adapter/nscd/detection/contact_point.hpp"
-#include "granular_adapter/nscd/problem/periodic_box.hpp"
+#include "granular_adapter/nscd/problem/contact_cells.hpp"
 
 namespace turbidite::nscd {
 
@@ -47,32 +43,22 @@ struct CellScene {
 class CellOrder {
  public:
     explicit CellOrder(const CellScene& scene);
+    /// On several ranks: contacts in phases, by cells that are the same for all.
+    CellOrder(const CellScene& scene, const ParityGrid& grid);
 
     void add(const ContactPoint& point);
 
     /// Indices of the points added so far, in order.
     std::vector<std::int32_t> take();
 
-    /// Indices of a cell along the axes.
-    struct Cell {
-        std::uint64_t x = 0, y = 0, z = 0;
-        bool large = false;  ///< of no cell: a body is large
+    /// The cells of the points taken last, and the number of them up to the end of each phase.
+    ContactCells take_cells() { return std::move(cells_); }
+    std::vector<std::size_t> take_phase_ends() { return std::move(phase_ends_); }
 
-        /// 0 to 7, in the order of the sweep; 8 for the contacts of large bodies.
-        int parity() const {
-            return large ? 8 : static_cast<int>((x & 1) << 2 | (z & 1) << 1 | (y & 1));
-        }
-    };
+    using Cell = ParityGrid::Cell;
     Cell cell(const ContactPoint& point) const;
 
  private:
-    /// Equal cells along one axis: a fixed number where it is periodic.
-    struct Axis {
-        double lower = 0.0, edge = 1.0;
-        std::int64_t count = 0;  ///< 0: no end
-
-        std::uint64_t index(double x) const;
-    };
     struct Place {
         std::uint64_t cell;  ///< place of the cell in the order
         double layer;        ///< an integer, increasing downwards
@@ -81,16 +67,19 @@ class CellOrder {
         std::int32_t point;
     };
 
-    void lay_axes(double least_edge);
     double layer(const ContactPoint& point) const;
     bool is_large(std::int32_t body) const;
+    void take_phase(std::vector<Place>& places, std::vector<std::int32_t>& order);
 
     CellScene scene_;
-    double large_ = 0.0;  ///< radius above which bodies are a class of their own [m]
-    std::array<Axis, 3> axes_;
+    ParityGrid grid_;
     Vec3 down_{};
     bool layered_ = false;
-    std::vector<Place> places_;
+    bool by_parity_;
+    std::vector<std::vector<Place>> phases_;
+    std::int32_t count_ = 0;
+    ContactCells cells_;
+    std::vector<std::size_t> phase_ends_;
 };
 
 }  // namespace turbidite::nscd

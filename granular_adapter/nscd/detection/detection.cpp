@@ -73,34 +73,80 @@ std::vector<ContactPoint> Detection::unordered(const Look& look) const {
 /// Round bodies have one point (or a few, at a wall into which they just fit), and it is cheaper to
 /// find it twice, first for its place in the order, than to write all points down and move them
 /// into their order.
-template <class Order>
-std::vector<ContactPoint> Detection::in_order(const Look& look, Order order) const {
-    std::vector<Near> found;
-    std::vector<ContactPoint> point;
+template <class Order, class Wanted>
+std::vector<ContactPoint> Detection::in_order(const Look& look, Order& order,
+                                              const Wanted& wanted) const {
+    struct Found {
+        Near near;
+        std::size_t point, of;  // of the points of the pair
+    };
+    std::vector<Found> found;
+    std::vector<ContactPoint> pair;
     each_near(look, [&](const Near& near) {
-        point.clear();
-        add(look, near, point);
-        if (point.empty()) return;
-        order.add(point.front());
-        found.push_back(near);
+        if (!wanted(near)) return;
+        pair.clear();
+        add(look, near, pair);
+        for (std::size_t p = 0; p < pair.size(); ++p) {
+            order.add(pair[p]);
+            found.push_back({near, p, pair.size()});
+        }
     });
     std::vector<ContactPoint> points;
     points.reserve(found.size());
-    for (const std::int32_t i : order.take()) add(look, found[static_cast<std::size_t>(i)], points);
+    for (const std::int32_t i : order.take()) {
+        const auto& [near, point, of] = found[static_cast<std::size_t>(i)];
+        if (of == 1) {
+            add(look, near, points);
+            continue;
+        }
+        pair.clear();
+        add(look, near, pair);
+        points.push_back(pair[point]);
+    }
     return points;
 }
 
 std::vector<ContactPoint> Detection::points(const Bodies& bodies, const std::vector<Wall>& walls,
                                             const Vec3& gravity, double reach, double share) const {
+    return ordered_points({bodies, walls, gravity, reach, share}).points;
+}
+
+OrderedPoints Detection::ordered_points(const Search& search) const {
+    const auto& [bodies, walls, gravity, reach, share] = search;
     if (bodies.size() == 0) return {};
     const Look look{bodies, walls, reach, share, narrow_.place(bodies, walls)};
     const double band = one_height * *std::min_element(bodies.radius.begin(), bodies.radius.end());
-    if (order_ == ContactOrder::cells && !has_corners())
-        return in_order(look, CellOrder({bodies, walls, box_, gravity, reach, share, band}));
-    if (!has_corners()) return in_order(look, TopDownOrder(bodies, gravity, band));
+    const auto all = [](const Near&) { return true; };
+    if (order_ == ContactOrder::cells && !has_corners()) {
+        CellOrder order({bodies, walls, box_, gravity, reach, share, band});
+        std::vector<ContactPoint> points = in_order(look, order, all);
+        return {std::move(points), order.take_cells(), {}};
+    }
+    if (!has_corners()) {
+        TopDownOrder order(bodies, gravity, band);
+        return {in_order(look, order, all), {}, {}};
+    }
     std::vector<ContactPoint> points = unordered(look);
     order_top_down(points, bodies, gravity, band);
-    return points;
+    return {std::move(points), {}, {}};
+}
+
+OrderedPoints Detection::ordered_points(const Search& search, const ParityGrid& grid,
+                                        std::size_t own) const {
+    const Bodies& bodies = search.bodies;
+    const Look look{bodies, search.walls, search.reach, search.share,
+                    narrow_.place(bodies, search.walls)};
+    const double band = one_height * grid.sizes().smallest;
+    CellOrder order({bodies, search.walls, box_, search.gravity, search.reach, search.share, band},
+                    grid);
+    const auto is_large = [&](std::int32_t body) { return grid.is_large(bodies.radius[body]); };
+    const auto wanted = [&](const Near& near) {
+        if (near.wall >= 0) return static_cast<std::size_t>(near.b) < own;
+        const std::int32_t lower = bodies.id[near.a] < bodies.id[near.b] ? near.a : near.b;
+        return static_cast<std::size_t>(lower) < own || is_large(near.a) || is_large(near.b);
+    };
+    std::vector<ContactPoint> points = in_order(look, order, wanted);
+    return {std::move(points), order.take_cells(), order.take_phase_ends()};
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const {

@@ -10,12 +10,22 @@
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
 #include "granular_adapter/nscd/detection/contact_order.hpp"
 #include "granular_adapter/nscd/detection/narrow_phase.hpp"
+#include "granular_adapter/nscd/problem/contact_cells.hpp"
 #include "granular_adapter/nscd/problem/periodic_box.hpp"
 
 namespace turbidite::nscd {
 
+/// Contact points in order, and their cells if they are ordered by cells.
+struct OrderedPoints {
+    std::vector<ContactPoint> points;
+    ContactCells cells;
+    std::vector<std::size_t> phase_ends;  ///< by phase, the number of cells up to its end
+};
+
 /// From the top down, or by cells of eight parities.
 enum class ContactOrder { top_down, cells };
+
+class ParityGrid;
 
 class Detection {
  public:
@@ -32,6 +42,20 @@ class Detection {
     /// corners.
     std::vector<ContactPoint> points(const Bodies& bodies, const std::vector<Wall>& walls,
                                      const Vec3& gravity, double reach, double share) const;
+
+    /// Bodies and walls, and how far to look.
+    struct Search {
+        const Bodies& bodies;
+        const std::vector<Wall>& walls;
+        Vec3 gravity{};
+        double reach = 0.0, share = 0.0;
+    };
+    OrderedPoints ordered_points(const Search& search) const;
+
+    /// The same on one of several ranks, whose own bodies come before those of others: the points
+    /// whose body with the lower id is its own, and those of large bodies, in phases.
+    OrderedPoints ordered_points(const Search& search, const ParityGrid& grid,
+                                 std::size_t own) const;
 
     /// Largest overlap of all pairs, >= 0 [m].
     double deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const;
@@ -50,8 +74,8 @@ class Detection {
     template <class Visit>
     void each_near(const Look& look, const Visit& visit) const;
     std::vector<ContactPoint> unordered(const Look& look) const;
-    template <class Order>
-    std::vector<ContactPoint> in_order(const Look& look, Order order) const;
+    template <class Order, class Wanted>
+    std::vector<ContactPoint> in_order(const Look& look, Order& order, const Wanted& wanted) const;
 
     NarrowPhase narrow_;
     PeriodicBox box_;

@@ -79,6 +79,13 @@ StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
     return step_from(free, mobilities_of(bodies_, settings_.dimension), dt);
 }
 
+void Engine::share_with(RankExchange& ranks) {
+    if (!in_space())
+        throw std::invalid_argument(
+            "contacts in the plane are computed on one rank in this version: use grains.ranks: 1");
+    ranks_ = std::make_unique<RankDomain>(ranks);
+}
+
 StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
     check_step(dt);
     if (free.size() != bodies_.size() || size(mobilities) != bodies_.size())
@@ -89,12 +96,55 @@ StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobiliti
         throw std::invalid_argument("the mobilities of a contact step are of dimension " +
                                     std::to_string(dimension(mobilities)) + ", the engine of " +
                                     std::to_string(settings_.dimension));
-    check_periods(bodies_.radius, settings_.box);
+    if (!ranks_) check_periods();
     release_step();
-    detect(free, dt);
+    look_ahead(free, dt);
+    if (!ranks_) return solve_step(free, std::move(mobilities), dt);
+    std::vector<Twist> all = free;
+    gather_bodies(all, mobilities);
+    return solve_step(all, std::move(mobilities), dt);
+}
+
+StepReport Engine::solve_step(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
+    detect();
     pose(free, std::move(mobilities), dt);
     SolverResult result = solve(dt);
     return hand_out(std::move(result), dt);
+}
+
+void Engine::check_periods() {
+    if (ranks_)
+        ranks_->check_periods(bodies_, settings_.box);
+    else
+        nscd::check_periods(bodies_.radius, settings_.box);
+}
+
+/// How far surfaces can approach each other (reach.hpp), over all ranks.
+double Engine::bound(const std::vector<Twist>& twists, double dt) const {
+    if (!ranks_) return approach_bound(bodies_, walls_, twists, detection_.has_corners(), dt);
+    const std::vector<Twist> extremes = ranks_->extremes(twists);
+    return largest(ranks_->ranks(), approach_bound(bodies_, walls_, extremes, false, dt));
+}
+
+/// Sets how far to look for contacts that may close within the step.
+void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
+    reach_ = std::max({bound(free, dt), bound(bodies_.twist, dt), laws_.law().range()});
+}
+
+/// Gives bodies that have crossed cells to other ranks, and gets copies of those near the own
+/// cells.
+void Engine::gather_bodies(std::vector<Twist>& free, Mobilities& mobilities) {
+    grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box,
+                                         reach_, alert_share);
+    ranks_->settle(*grid_, share({&free}, &mobilities));
+    present_ = bodies_;
+    ranks_->add_copies(*grid_, present_, {&free}, &mobilities);
+}
+
+/// Everything that goes with the bodies to another rank.
+RankShare Engine::share(std::vector<std::vector<Twist>*> twists, Mobilities* mobilities) {
+    twists.insert(twists.end(), carried_.begin(), carried_.end());
+    return {bodies_, std::move(twists), mobilities, memory_, turning_memory_, laws_.states()};
 }
 
 /// Frees what the last step left, so that this step gets the same memory again: cached where it
@@ -106,14 +156,16 @@ void Engine::release_step() {
 }
 
 /// Finds every contact point that may close within the step.
-void Engine::detect(const std::vector<Twist>& free, double dt) {
-    const bool corners = detection_.has_corners();
-    reach_ = std::max({approach_bound(bodies_, walls_, free, corners, dt),
-                       approach_bound(bodies_, walls_, bodies_.twist, corners, dt),
-                       laws_.law().range()});
-    check_periods(bodies_.radius, settings_.box);
+void Engine::detect() {
     placed_walls_ = placed_walls(reach_);
-    points_ = detection_.points(bodies_, placed_walls_, settings_.gravity, reach_, alert_share);
+    const Detection::Search search{bodies_of_points(), placed_walls_, settings_.gravity, reach_,
+                                   alert_share};
+    OrderedPoints found = ranks_ ? detection_.ordered_points(search, *grid_, bodies_.size())
+                                 : detection_.ordered_points(search);
+    problem_ = {};
+    if (ranks_) problem_.ranks = &ranks_->plan(*grid_, present_, found);
+    points_ = std::move(found.points);
+    problem_.cells = std::move(found.cells);
     if (placed_walls_.size() > walls_.size()) name_images(placed_walls_, points_);
     keys_.clear();
     keys_.reserve(points_.size());
@@ -139,15 +191,17 @@ std::vector<Wall> Engine::placed_walls(double reach) const {
 
 /// Sets up the contact problem of these points under the laws, and the initial guess.
 void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
-    problem_ =
-        laws_.pose({points_, keys_, bodies_, placed_walls_}, free, std::move(mobilities), dt);
+    ContactProblem posed =
+        laws_.pose({points_, keys_, bodies_of_points(), placed_walls_}, free, std::move(mobilities),
+                   {std::move(problem_.cells), problem_.ranks}, dt);
+    problem_ = std::move(posed);
     guess_ = initial_guess(dt);
 }
 
 Impulses Engine::initial_guess(double dt) const {
     if (!in_space()) return memory_.guesses(keys_, dt);
     Impulses guess = from_world_axes(problem_, memory_.guesses(keys_, dt));
-    if (!turning_memory_.contacts().empty())
+    if (on_any_rank(problem_, !turning_memory_.contacts().empty()))
         guess.moments = moments_of(turning_memory_.guesses(keys_, dt));
     return guess;
 }
@@ -204,25 +258,42 @@ void Engine::move(double dt) {
 
 void Engine::move(double dt, const std::vector<Twist>& velocities) {
     check_step(dt);
-    moved_ = approach_bound(bodies_, walls_, velocities, detection_.has_corners(), dt);
+    moved_ = bound(velocities, dt);
     nscd::move(bodies_, velocities, dt, settings_.box);
     for (Wall& wall : walls_) nscd::move(wall, dt);
     laws_.states().accept();
 }
 
-double Engine::max_penetration() const {
-    return detection_.deepest_overlap(bodies_, placed_walls(0.0));
+double Engine::max_penetration() {
+    if (!ranks_) return detection_.deepest_overlap(bodies_, placed_walls(0.0));
+    forget_step();
+    grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, 0.0,
+                                         0.0);
+    ranks_->settle(*grid_, share({}, nullptr));
+    present_ = bodies_;
+    ranks_->add_copies(*grid_, present_, {}, nullptr);
+    return detection_.deepest_overlap(present_, placed_walls(0.0));
 }
 
-double Engine::max_penetration_after_move() const {
+double Engine::max_penetration_after_move() {
     // Bodies moved farther than the last step detected, some were removed, or one may have crossed
     // a side and touch another image of a plate: all pairs must be tested.
     if (!(moved_ <= reach_) || may_meet_images()) return max_penetration();
-    return detection_.deepest_overlap(bodies_, walls_, points_);
+    follow_bodies();
+    return detection_.deepest_overlap(bodies_of_points(), walls_, points_);
 }
 
-double Engine::contact_violation() const {
-    return nscd::contact_violation(problem_, solution_, bodies_.twist);
+double Engine::contact_violation() {
+    follow_bodies();
+    return nscd::contact_violation(problem_, solution_, bodies_of_points().twist);
+}
+
+/// The bodies of the points as they are now.
+void Engine::follow_bodies() {
+    if (!ranks_) return;
+    std::copy(bodies_.position.begin(), bodies_.position.end(), present_.position.begin());
+    std::copy(bodies_.twist.begin(), bodies_.twist.end(), present_.twist.begin());
+    ranks_->follow(present_);
 }
 
 void Engine::keep(const std::vector<std::uint8_t>& mask) {
@@ -255,6 +326,21 @@ void Engine::restore(const std::vector<char>& state) {
     forget_step();
 }
 
+void Engine::restore_from(const std::vector<std::vector<char>>& of_ranks) {
+    Bodies bodies;
+    SavedMemory memory;
+    for (const std::vector<char>& state : of_ranks) {
+        ByteReader in(state);
+        append(bodies, read_bodies(in));
+        append(memory, read_memory(in, walls_, in_space()));
+        demand_end(in);
+    }
+    bodies_ = std::move(bodies);
+    sort_by_id(bodies_);
+    take_memory(std::move(memory));
+    forget_step();
+}
+
 std::vector<char> Engine::save_memory() const {
     ByteWriter out;
     write_memory(out, saved_memory());
@@ -281,20 +367,27 @@ void Engine::take_memory(SavedMemory memory) {
 }
 
 ContactKey Engine::key(const ContactPoint& point) const {
+    const std::vector<GrainId>& id = bodies_of_points().id;
     if (point.wall >= 0)
-        return {placed_walls_[static_cast<std::size_t>(point.wall)].key, bodies_.id[point.b], 1,
+        return {placed_walls_[static_cast<std::size_t>(point.wall)].key, id[point.b], 1,
                 point.feature};
-    return {bodies_.id[point.a], bodies_.id[point.b], 0, point.feature};
+    return {id[point.a], id[point.b], 0, point.feature};
 }
 
 /// Gives velocities and impulses to the bodies, the initial guess of the next step to the memory,
 /// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
     remember(result.impulses, dt);
-    laws_.find_states({points_, keys_, bodies_, placed_walls_}, result.impulses);
+    laws_.find_states({points_, keys_, bodies_of_points(), placed_walls_}, result.impulses);
     impulses_ = laws_.felt(result.impulses);
     solution_ = std::move(result.impulses);
-    bodies_.twist = std::move(result.velocities);
+    if (ranks_) {
+        const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
+        bodies_.twist.assign(result.velocities.begin(), result.velocities.begin() + own);
+        present_.twist = std::move(result.velocities);
+    } else {
+        bodies_.twist = std::move(result.velocities);
+    }
     sum_impulses();
     return {static_cast<std::int64_t>(points_.size()),
             static_cast<std::int64_t>(memory_.contacts().size()),
@@ -307,21 +400,24 @@ StepReport Engine::hand_out(SolverResult result, double dt) {
 
 /// Sums contact impulses and their moments by body.
 void Engine::sum_impulses() {
-    std::fill(bodies_.contact_impulse.begin(), bodies_.contact_impulse.end(), Vec3{});
-    std::fill(bodies_.contact_angular_impulse.begin(), bodies_.contact_angular_impulse.end(),
-              Vec3{});
-    const auto add = [this](std::int32_t body, const Vec3& arm, const Vec3& p, const Vec3& moment) {
-        bodies_.contact_impulse[body] = bodies_.contact_impulse[body] + p;
-        Vec3& sum = bodies_.contact_angular_impulse[body];
-        sum = sum + cross(arm, p) + moment;
+    std::vector<Twist> sums(bodies_of_points().size());  // impulses in the places of velocities
+    const auto add = [&sums](std::int32_t body, const Vec3& arm, const Vec3& p,
+                             const Vec3& moment) {
+        Twist& sum = sums[static_cast<std::size_t>(body)];
+        sum.velocity = sum.velocity + p;
+        sum.spin = sum.spin + cross(arm, p) + moment;
     };
-    for (std::size_t k = 0; k < points_.size(); ++k) {
+    each_contact(problem_, sums, [&](std::size_t k) {
         const Vec3 moment = world_moment(impulses_, k);
-        if (impulses_[k] == ContactVector{} && moment == Vec3{}) continue;
+        if (impulses_[k] == ContactVector{} && moment == Vec3{}) return;
         const Contact& contact = problem_.contacts[k];
         const Vec3 p = world_impulse(contact, impulses_[k]);
         add(contact.b, contact.arm_b, p, moment);
         if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -moment);
+    });
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        bodies_.contact_impulse[i] = sums[i].velocity;
+        bodies_.contact_angular_impulse[i] = sums[i].spin;
     }
 }
 

@@ -18,6 +18,10 @@
 //
 // Hosts may overwrite bodies() freely between two calls. Results are bitwise reproducible and
 // depend only on the bodies and their order.
+//
+// Several engines, one per rank, can share a configuration in space (share_with): each has its own
+// bodies, which move to other ranks as they cross cells, and the results have the bits of one
+// engine with all of them. All ranks then make the same calls in the same order.
 #pragma once
 
 #include <memory>
@@ -32,6 +36,7 @@
 #include "granular_adapter/nscd/problem/periodic_box.hpp"
 #include "granular_adapter/nscd/problem/walls.hpp"
 #include "granular_adapter/nscd/problem/warm_start.hpp"
+#include "granular_adapter/nscd/ranks/rank_domain.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
@@ -70,6 +75,13 @@ class Engine {
     /// of the dimension.
     Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls);
 
+    /// To be called before the first step; the exchange must outlive the engine. Throws
+    /// std::invalid_argument in the plane.
+    void share_with(RankExchange& ranks);
+
+    /// An array of the host with one entry per body, which goes with the bodies to other ranks.
+    void carry(std::vector<Twist>& array) { carried_.push_back(&array); }
+
     Bodies& bodies() { return bodies_; }
     const Bodies& bodies() const { return bodies_; }
     const std::vector<Wall>& walls() const { return walls_; }
@@ -78,6 +90,9 @@ class Engine {
     /// The walls of the last step's contact points: walls(), and behind them the images of plates
     /// across periodic sides.
     const std::vector<Wall>& walls_of_points() const { return placed_walls_; }
+    /// The bodies of the last step's contact points: bodies(), and behind them copies of those of
+    /// other ranks.
+    const Bodies& bodies_of_points() const { return ranks_ ? present_ : bodies_; }
     const EngineSettings& settings() const { return settings_; }
 
     /// Replaces the surfaces, for a host that knows its materials late; laws and contact memory are
@@ -105,16 +120,21 @@ class Engine {
     /// Moves with the given velocities; those of the bodies stay.
     void move(double dt, const std::vector<Twist>& velocities);
 
-    /// Largest overlap at the present configuration, >= 0 [m].
-    double max_penetration() const;
+    /// Throws std::invalid_argument naming an axis along which two bodies, of any rank, could touch
+    /// on both sides.
+    void check_periods();
+
+    /// Largest overlap at the present configuration, >= 0; of several ranks that of their own
+    /// bodies, which they exchange first [m].
+    double max_penetration();
 
     /// The same right after move(), from the pairs detected by the last step if these suffice.
     /// Bodies and walls must be where move() and keep() left them.
-    double max_penetration_after_move() const;
+    double max_penetration_after_move();
 
     /// How far the bodies' present velocities are from the contact conditions of the last step
     /// (residual.hpp) [m/s].
-    double contact_violation() const;
+    double contact_violation();
 
     /// Contact points of the last step, and the impulses on the bodies there. With an attractive
     /// law a normal impulse may be negative.
@@ -136,6 +156,9 @@ class Engine {
     std::vector<char> save() const;
     /// Throws std::invalid_argument for bytes of another format, and then changes nothing.
     void restore(const std::vector<char>& state);
+    /// What several ranks saved, all bodies of all of them in the order of the ranks; those that
+    /// this rank does not have can be left out with keep().
+    void restore_from(const std::vector<std::vector<char>>& of_ranks);
 
     /// Walls and contact memory only, for hosts that store the bodies themselves.
     ContactMemory& memory() { return memory_; }
@@ -146,11 +169,17 @@ class Engine {
  private:
     std::vector<Wall> placed_walls(double reach) const;
     bool may_meet_images() const;
-    void detect(const std::vector<Twist>& free, double dt);
+    void look_ahead(const std::vector<Twist>& free, double dt);
+    double bound(const std::vector<Twist>& twists, double dt) const;
+    void gather_bodies(std::vector<Twist>& free, Mobilities& mobilities);
+    RankShare share(std::vector<std::vector<Twist>*> twists, Mobilities* mobilities);
+    StepReport solve_step(const std::vector<Twist>& free, Mobilities mobilities, double dt);
+    void detect();
     void pose(const std::vector<Twist>& free, Mobilities mobilities, double dt);
     SolverResult solve(double dt);
     StepReport hand_out(SolverResult result, double dt);
     void sum_impulses();
+    void follow_bodies();
     double take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                       double dt);
     ContactKey key(const ContactPoint& point) const;
@@ -161,6 +190,7 @@ class Engine {
     SavedMemory saved_memory() const;
     bool in_space() const { return settings_.dimension == 3; }
     void take_memory(SavedMemory memory);
+    Bodies& present() { return ranks_ ? present_ : bodies_; }
 
     EngineSettings settings_;
     Detection detection_;
@@ -169,6 +199,10 @@ class Engine {
     ContactLaws laws_;
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;
+    std::unique_ptr<RankDomain> ranks_;  ///< none: one rank has everything
+    std::unique_ptr<ParityGrid> grid_;   ///< of the last step on several ranks
+    Bodies present_;                     ///< bodies_ and copies of those of other ranks
+    std::vector<std::vector<Twist>*> carried_;
     ContactMemory memory_;
     ContactMemory turning_memory_;  // moments of space; empty without resistance to rolling
     double reach_ = 0.0;            ///< largest gap the last step detected [m]

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/engine/engine_state.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "granular_adapter/nscd/ranks/body_rows.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -72,6 +75,47 @@ SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls, bool spa
     memory.space = space;
     if (space) memory.moments = in.array<RememberedContact>();
     return memory;
+}
+
+namespace {
+
+template <class Entry>
+void append_entries(std::vector<Entry>& all, const std::vector<Entry>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Each once, in the order of the keys.
+void sort_by_key(std::vector<RememberedState>& states) {
+    std::sort(states.begin(), states.end(),
+              [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
+}
+
+}  // namespace
+
+void append(Bodies& all, Bodies bodies) {
+    const Bodies more = std::move(bodies);
+    std::vector<const void*> arrays;
+    Bodies::for_each_array(more, [&](const auto& array) { arrays.push_back(&array); });
+    std::size_t at = 0;
+    Bodies::for_each_array(all, [&](auto& array) {
+        append_entries(array, *static_cast<const std::decay_t<decltype(array)>*>(arrays[at++]));
+    });
+}
+
+void append(SavedMemory& all, SavedMemory memory) {
+    append_entries(all.contacts, memory.contacts);
+    append_entries(all.moments, memory.moments);
+    append_entries(all.states.accepted, memory.states.accepted);
+    append_entries(all.states.found, memory.states.found);
+    sort_by_key(all.states.accepted), sort_by_key(all.states.found);
+    all.states.started = all.states.started || memory.states.started;
+    all.walls = std::move(memory.walls);
+    all.space = memory.space;
+}
+
+void sort_by_id(Bodies& bodies) {
+    take_rows(order_of_ids(bodies),
+              [&](const auto& each) { Bodies::for_each_array(bodies, each); });
 }
 
 void demand_end(const ByteReader& in) {

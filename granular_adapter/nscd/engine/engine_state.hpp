@@ -34,6 +34,13 @@ void write_memory(ByteWriter& out, const SavedMemory& memory);
 /// of the same dimension.
 SavedMemory read_memory(ByteReader& in, const std::vector<Wall>& walls, bool space);
 
+/// Puts what other ranks have saved behind it; walls are the same for all.
+void append(Bodies& all, Bodies bodies);
+void append(SavedMemory& all, SavedMemory memory);
+
+/// The bodies in the order of their ids.
+void sort_by_id(Bodies& bodies);
+
 /// Throws std::invalid_argument if bytes are left.
 void demand_end(const ByteReader& in);
 

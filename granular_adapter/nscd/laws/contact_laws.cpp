@@ -143,9 +143,10 @@ ContactSituation ContactLaws::situation(const DetectedContacts& contacts,
 }
 
 ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
-                                 Mobilities mobilities, double step) {
+                                 Mobilities mobilities, ContactPlaces places, double step) {
     check_materials(contacts);
-    ContactProblem problem{std::move(mobilities), free, {}, 0.0};
+    ContactProblem problem{std::move(mobilities),   free,        {}, 0.0,
+                           std::move(places.cells), places.ranks};
     problem.contacts.reserve(contacts.points.size());
     situations_.clear();
     terms_.clear();
@@ -173,16 +174,17 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
             attraction_[k] = step * terms.attraction;
         }
     }
-    if (!attraction_.empty()) pull(problem);
+    if (on_any_rank(problem, !attraction_.empty())) pull(problem);
     return problem;
 }
 
 // What holds a pair at rest may cancel the attraction to the last digit.
 void ContactLaws::pull(ContactProblem& problem) const {
-    std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(attraction_.size())));
+    std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(problem.contacts.size())));
     for (std::size_t i = 0; i < pulled.size(); ++i)
         problem.cancelled =
             std::max(problem.cancelled, norm(pulled[i].velocity - problem.free[i].velocity));
+    if (problem.ranks) problem.cancelled = problem.ranks->largest(problem.cancelled);
     problem.free = std::move(pulled);
 }
 

@@ -23,6 +23,12 @@ struct DetectedContacts {
     const std::vector<Wall>& walls;
 };
 
+/// What a problem keeps of the detection (contact_problem.hpp).
+struct ContactPlaces {
+    ContactCells cells;
+    const RankPlan* ranks = nullptr;
+};
+
 class ContactLaws {
  public:
     /// Throws std::invalid_argument for unknown names, for parameters that are missing or out of
@@ -39,7 +45,7 @@ class ContactLaws {
     /// The contact problem of a step, from free velocities without contacts. Throws
     /// std::invalid_argument naming a body or wall whose material is not in the table.
     ContactProblem pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
-                        Mobilities mobilities, double step);
+                        Mobilities mobilities, ContactPlaces places, double step);
 
     /// r = r~ - dt c n: the impulses on the bodies, from the solution r~ of the last problem [N s].
     Impulses felt(const Impulses& solution) const;

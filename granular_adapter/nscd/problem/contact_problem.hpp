@@ -23,8 +23,10 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/contact_cells.hpp"
 #include "granular_adapter/nscd/problem/contact_vector.hpp"
 #include "granular_adapter/nscd/problem/mobilities.hpp"
+#include "granular_adapter/nscd/ranks/rank_plan.hpp"
 
 namespace turbidite::nscd {
 
@@ -64,7 +66,28 @@ struct ContactProblem {
     /// Speeds that may have cancelled in v_free, beyond those left in it; their rounding remains
     /// [m/s].
     double cancelled = 0.0;
+    ContactCells cells = {};  ///< of the contacts; empty in the plane
+    /// Where other ranks have contacts of the same problem, then those of this rank are in phases.
+    const RankPlan* ranks = nullptr;
 };
+
+/// Contacts of all ranks.
+inline std::size_t contacts_in_all(const ContactProblem& problem) {
+    return problem.ranks ? problem.ranks->contacts() : problem.contacts.size();
+}
+
+/// Whether something is true on one of the ranks that share a problem; collective.
+inline bool on_any_rank(const ContactProblem& problem, bool here) {
+    return problem.ranks ? problem.ranks->any(here) : here;
+}
+
+/// Calls visit(k) for the contacts of a problem in their order. `values`, one per body, are those
+/// of all ranks before the contacts of each phase, and at the end.
+template <class Visit>
+void each_contact(const ContactProblem& problem, std::vector<Twist>& values, const Visit& visit) {
+    if (problem.ranks) return problem.ranks->each_contact(values, visit);
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k) visit(k);
+}
 
 /// t = e_z x n, of length 1; e_x where n is along e_z.
 Vec3 tangent_of(const Vec3& normal);
@@ -120,20 +143,21 @@ template <class Mobility>
 std::vector<Twist> body_velocities(const ContactProblem& problem,
                                    const std::vector<Mobility>& bodies, const Impulses& r) {
     std::vector<Twist> v = problem.free;
-    for (std::size_t k = 0; k < r.size(); ++k) {
-        if (r[k] == ContactVector{}) continue;
+    each_contact(problem, v, [&](std::size_t k) {
+        if (r[k] == ContactVector{}) return;
         const Contact& contact = problem.contacts[k];
         const Vec3 p = world_impulse(contact, r[k]);
         push(v[contact.b], bodies[contact.b], contact.arm_b, p, r[k].roll);
         if (contact.a >= 0)
             push(v[contact.a], bodies[contact.a], contact.arm_a, -1.0 * p, -r[k].roll);
-    }
+    });
     if constexpr (requires { turn(v[0], bodies[0], Vec3{}); })
-        for (std::size_t k = 0; k < r.moments.size(); ++k) {
-            const Contact& contact = problem.contacts[k];
-            turn(v[contact.b], bodies[contact.b], r.moments[k]);
-            if (contact.a >= 0) turn(v[contact.a], bodies[contact.a], -r.moments[k]);
-        }
+        if (on_any_rank(problem, !r.moments.empty()))
+            each_contact(problem, v, [&](std::size_t k) {
+                const Contact& contact = problem.contacts[k];
+                turn(v[contact.b], bodies[contact.b], r.moments[k]);
+                if (contact.a >= 0) turn(v[contact.a], bodies[contact.a], -r.moments[k]);
+            });
     return v;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "granular_adapter/nscd/problem/cell_sums.hpp"
 #include "granular_adapter/nscd/problem/contact_kind.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 
@@ -36,6 +37,10 @@ struct MapSums {
         error += term.error;
         size += term.size;
     }
+    void add(const MapSums& cell) {
+        error += cell.error;
+        size += cell.size;
+    }
 
     double residual(double floor) const {
         return error == 0.0 ? 0.0 : std::sqrt(error / (size + floor));
@@ -57,6 +62,12 @@ struct ChangeSums {
         scale += squared(w, product(w, 0.5 * (next + old)));
     }
 
+    void add(const ChangeSums& cell) {
+        change += cell.change;
+        largest = std::max(largest, cell.largest);
+        scale += cell.scale;
+    }
+
     ChangeMeasures measures(std::size_t contacts) const {
         if (change == 0.0) return {};
         return {std::sqrt(change / scale),
@@ -64,37 +75,56 @@ struct ChangeSums {
     }
 };
 
+/// A single sum.
+struct PlainSum {
+    double value = 0.0;
+
+    void add(const PlainSum& cell) { value += cell.value; }
+};
+
 template <ContactOperator W>
 double rounding_floor(const ContactProblem& problem, const W& w) {
     const RoundingFloor floor(problem);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-        sum += floor.term(problem.contacts[k], w.block(k).nn);
-    return sum;
+    return sum_over_contacts<PlainSum>(problem,
+                                       [&](PlainSum& sum, std::size_t k) {
+                                           sum.value +=
+                                               floor.term(problem.contacts[k], w.block(k).nn);
+                                       })
+        .value;
 }
 
 /// `floor`: rounding_floor(problem, w).
 template <ContactOperator W>
 double natural_map_residual(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
                             const Impulses& r, double floor) {
-    MapSums map;
-    for (std::size_t k = 0; k < r.size(); ++k)
-        map.add(map_terms_of(problem, w, v, r, k, biased_velocity(problem.contacts[k], v)));
-    return map.residual(floor);
+    return sum_over_contacts<MapSums>(
+               problem,
+               [&](MapSums& map, std::size_t k) {
+                   map.add(
+                       map_terms_of(problem, w, v, r, k, biased_velocity(problem.contacts[k], v)));
+               })
+        .residual(floor);
 }
+
+/// Sums of a measurement.
+struct MeasureSums {
+    MapSums map;
+    ChangeSums change;
+
+    void add(const MeasureSums& cell) { map.add(cell.map), change.add(cell.change); }
+};
 
 template <ContactOperator W>
 Measures measures(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
                   const Impulses& r, double floor) {
-    MapSums map;
-    ChangeSums change;
-    for (std::size_t k = 0; k < r.size(); ++k) {
-        const Contact& contact = problem.contacts[k];
-        const ContactVector u = biased_velocity(contact, v);
-        map.add(map_terms_of(problem, w, v, r, k, u));
-        change.add(contact, w.block(k), r[k], u);
-    }
-    return {map.residual(floor), change.measures(r.size())};
+    const auto sums =
+        sum_over_contacts<MeasureSums>(problem, [&](MeasureSums& cell, std::size_t k) {
+            const Contact& contact = problem.contacts[k];
+            const ContactVector u = biased_velocity(contact, v);
+            cell.map.add(map_terms_of(problem, w, v, r, k, u));
+            cell.change.add(contact, w.block(k), r[k], u);
+        });
+    return {sums.map.residual(floor), sums.change.measures(contacts_in_all(problem))};
 }
 
 }  // namespace turbidite::nscd

@@ -42,7 +42,7 @@ double RoundingFloor::term(const Contact& contact, double nn) const {
 }
 
 double natural_map_residual(const ContactProblem& problem, const Impulses& r) {
-    if (r.empty()) return 0.0;
+    if (contacts_in_all(problem) == 0) return 0.0;
     return with_operator(problem, [&](const auto& w) {
         return natural_map_residual(problem, w, body_velocities(problem, r), r,
                                     rounding_floor(problem, w));

@@ -11,7 +11,7 @@ namespace turbidite::nscd {
 SolverResult Nlgs::solve(const ContactProblem& problem, const Impulses& guess,
                          const SolverSettings& settings) const {
     check_settings(settings);
-    if (problem.contacts.empty()) return {{}, problem.free, 0, 0.0, {}, true};
+    if (contacts_in_all(problem) == 0) return {{}, problem.free, 0, 0.0, {}, true};
     const auto solve_kind = [&]<ContactOperator W>(const W& w) {
         const NlgsCall<W> call{problem, w, guess, settings, instructions_};
         return with_rows(w, [&]<class Rows>(std::type_identity<Rows>) {

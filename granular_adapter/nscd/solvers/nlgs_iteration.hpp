@@ -8,6 +8,7 @@
 
 #include "granular_adapter/nscd/problem/measures.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
+#include "granular_adapter/nscd/sweeps/cell_schedule.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
 
@@ -20,9 +21,24 @@ inline constexpr double layout_cost = 12.0;
 // With fewer contacts than this, one thread is faster (docs/performance.md).
 inline constexpr std::size_t threaded_contacts = 6000;
 
-inline int useful_threads(const SolverSettings& settings, std::size_t contacts) {
-    return contacts < threaded_contacts ? 1 : static_cast<int>(settings.threads);
+/// On several ranks sweeps do not follow each other closely enough for several threads.
+inline int useful_threads(const SolverSettings& settings, const ContactProblem& problem) {
+    if (problem.ranks || problem.contacts.size() < threaded_contacts) return 1;
+    return static_cast<int>(settings.threads);
 }
+
+/// What a measuring sweep found.
+struct SweepCheck {
+    double error = 0.0, size = 0.0;  ///< |natural map|^2 and |r|^2, summed over the contacts
+    double loaded = 0.0;             ///< contacts with an impulse
+    double visited = 0.0;            ///< groups that sweeps update
+    double all = 0.0;                ///< groups
+
+    void add(const SweepCheck& cell) {
+        error += cell.error, size += cell.size;
+        loaded += cell.loaded, visited += cell.visited, all += cell.all;
+    }
+};
 
 /// Arguments of a solve.
 template <ContactOperator W>
@@ -42,7 +58,7 @@ class NlgsIteration {
           w_(call.w),
           settings_(call.settings),
           sweeps_(sweeps<Rows>(call.instructions)),
-          team_(useful_threads(call.settings, call.guess.size())) {
+          team_(useful_threads(call.settings, call.problem)) {
         result_.impulses = call.guess;
         leave_out_unloaded(result_.impulses);
         result_.converged = false;
@@ -53,10 +69,11 @@ class NlgsIteration {
         while (!result_.converged && result_.iterations < settings_.max_iterations) {
             const std::int64_t before = result_.iterations;
             sweep_until_check();
-            if (looks_good() || result_.iterations == settings_.max_iterations)
+            const SweepCheck found = check();
+            if (looks_good(found) || result_.iterations == settings_.max_iterations)
                 look();
             else
-                adapt(result_.iterations - before);
+                adapt(result_.iterations - before, found);
         }
         return std::move(result_);
     }
@@ -86,18 +103,24 @@ class NlgsIteration {
         const MovedBodies moved(w_.bodies());
         std::vector<std::uint8_t> active(count);
         pairs_.reserve(count);
-        for (std::size_t k = 0; k < count; ++k) {
+        const auto read = [&](PlainSum& sum, std::size_t k) {
             const Contact& contact = problem_.contacts[k];
-            floor_ += floor.term(contact, w_.block(k).nn);
+            sum.value += floor.term(contact, w_.block(k).nn);
             pairs_.push_back(moved.of(contact));
             active[k] = is_active(k) ? 1 : 0;
-        }
+        };
+        floor_ = sum_over_contacts<PlainSum>(problem_, read).value;
         return active;
     }
 
     Schedule schedule(const std::vector<std::uint8_t>& active) const {
         const ScheduleSettings shape{.width = Rows::width};
-        return make_schedule(pairs_, active, w_.bodies().size(), shape);
+        const std::size_t bodies = w_.bodies().size();
+        if (problem_.cells.empty() && !problem_.ranks)
+            return make_schedule(pairs_, active, bodies, shape);
+        return make_cell_schedule(
+            pairs_, active, bodies, shape, problem_.cells,
+            problem_.ranks ? problem_.ranks->cell_ends() : std::vector<std::size_t>());
     }
 
     /// The contact has an impulse, or closes at the velocities of the initial guess.
@@ -110,15 +133,64 @@ class NlgsIteration {
     void sweep_until_check() {
         std::size_t count = 1;
         while (!check_due(++result_.iterations, settings_)) ++count;
-        pipeline_->run(count, team_);
+        if (problem_.ranks)
+            pipeline_->run_in_phases(count, [this](std::size_t phase) { exchange(phase); });
+        else
+            pipeline_->run(count, team_);
     }
 
-    bool looks_good() const {
-        const auto& active = pipeline_->active_sums();
-        const auto& resting = pipeline_->resting_sums();
-        const double error = total(active.error) + total(resting.error);
-        const double size = total(active.size) + total(resting.size);
-        return error <= settings_.tolerance * settings_.tolerance * (size + floor_);
+    /// Takes over what other ranks have done to bodies.
+    void exchange(std::size_t phase) {
+        if constexpr (requires(typename Rows::Body & body) { set_rates(body, nullptr); })
+            exchange_rates(phase);
+    }
+
+    void exchange_rates(std::size_t phase) {
+        const auto body_of = [this](std::int32_t body) -> typename Rows::Body* {
+            const std::int32_t slot = layout_->slots[static_cast<std::size_t>(body)];
+            return slot < 0 ? nullptr : &layout_->bodies[static_cast<std::size_t>(slot)];
+        };
+        problem_.ranks->exchange(
+            phase,
+            [&](std::int32_t body, double* to) {
+                if (const auto* from = body_of(body)) copy_rates(*from, to);
+            },
+            [&](std::int32_t body, const double* from) {
+                if (auto* to = body_of(body)) set_rates(*to, from);
+            });
+    }
+
+    SweepCheck check() const {
+        const Schedule& schedule = layout_->schedule;
+        if (!schedule.by_cells)
+            return check_of({0, schedule.active}, {schedule.active, schedule.all}, 0);
+        std::vector<SweepCheck> of_cells(schedule.cell_ends.size());
+        for (std::size_t cell = 0, s = 0; cell < of_cells.size(); ++cell)
+            for (; s < schedule.cell_ends[cell]; ++s)
+                of_cells[cell].add(
+                    check_of(schedule.stretches[s].active, schedule.stretches[s].resting, s));
+        return sum_over_cells(problem_, of_cells);
+    }
+
+    /// Of these groups, whose sums the pipeline keeps at `place`.
+    SweepCheck check_of(const GroupRange& active, const GroupRange& resting,
+                        std::size_t place) const {
+        const auto& in_active = pipeline_->active_sums(place);
+        const auto& in_resting = pipeline_->resting_sums(place);
+        const auto awake = [&](std::int32_t group) {
+            return layout_->awake.begin() + (group - layout_->schedule.active);
+        };
+        const std::int32_t moving = active.last - active.first;
+        return {
+            total(in_active.error) + total(in_resting.error),
+            total(in_active.size) + total(in_resting.size),
+            total(in_active.loaded) + total(in_resting.loaded),
+            static_cast<double>(moving + std::count(awake(resting.first), awake(resting.last), 1)),
+            static_cast<double>(moving + resting.last - resting.first)};
+    }
+
+    bool looks_good(const SweepCheck& found) const {
+        return found.error <= settings_.tolerance * settings_.tolerance * (found.size + floor_);
     }
 
     /// The reported residual, computed from one consistent state.
@@ -133,13 +205,9 @@ class NlgsIteration {
 
     /// Makes a new layout once the updates spent on groups without impulse have cost as much: in
     /// total at most twice the cost of knowing the future (the ski-rental rule).
-    void adapt(std::int64_t sweeps) {
-        const double loaded =
-            total(pipeline_->active_sums().loaded) + total(pipeline_->resting_sums().loaded);
-        const auto awake = std::count(layout_->awake.begin(), layout_->awake.end(), 1);
-        const double visited = layout_->schedule.active + static_cast<double>(awake);
-        wasted_ += static_cast<double>(sweeps) * (visited - loaded / Rows::width);
-        if (wasted_ < layout_cost * layout_->schedule.all) return;
+    void adapt(std::int64_t sweeps, const SweepCheck& found) {
+        wasted_ += static_cast<double>(sweeps) * (found.visited - found.loaded / Rows::width);
+        if (wasted_ < layout_cost * found.all) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
         wasted_ = 0.0;
     }

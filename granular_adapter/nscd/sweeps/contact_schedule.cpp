@@ -97,14 +97,6 @@ class LastStretches {
     std::vector<std::int32_t> last_;
 };
 
-/// Places the groups at rest after the active ones in memory.
-void append(Schedule& schedule, std::vector<std::int32_t> resting) {
-    schedule.lanes.insert(schedule.lanes.end(), resting.begin(), resting.end());
-    for (Stretch& stretch : schedule.stretches)
-        for (std::int32_t* end : {&stretch.resting.first, &stretch.resting.last})
-            *end += schedule.active;
-}
-
 }  // namespace
 
 Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::uint8_t>& active,
@@ -119,14 +111,25 @@ Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<st
         last = {{last.active.last, moving.groups()}, {last.resting.last, resting.groups()}};
         schedule.stretches.push_back(last);
     }
-    schedule.active = moving.groups();
-    schedule.all = moving.groups() + resting.groups();
     schedule.lanes = moving.take_lanes();
-    append(schedule, resting.take_lanes());
-    const LastStretches touching(schedule, pairs, bodies, settings.width);
+    complete(schedule, resting.take_lanes(), pairs, bodies, settings.width);
+    return schedule;
+}
+
+void complete(Schedule& schedule, const std::vector<std::int32_t>& resting,
+              const std::vector<MovedPair>& pairs, std::size_t bodies, int width) {
+    const auto groups = [width](const std::vector<std::int32_t>& lanes) {
+        return static_cast<std::int32_t>(lanes.size() / static_cast<std::size_t>(width));
+    };
+    schedule.active = groups(schedule.lanes);
+    schedule.all = schedule.active + groups(resting);
+    schedule.lanes.insert(schedule.lanes.end(), resting.begin(), resting.end());
+    for (Stretch& stretch : schedule.stretches)
+        for (std::int32_t* end : {&stretch.resting.first, &stretch.resting.last})
+            *end += schedule.active;
+    const LastStretches touching(schedule, pairs, bodies, width);
     for (std::size_t s = 0; s < schedule.stretches.size(); ++s)
         schedule.stretches[s].after = touching.of(s);
-    return schedule;
 }
 
 }  // namespace turbidite::nscd

@@ -75,6 +75,9 @@ class BodySlots {
 
     std::vector<Body> bodies;
 
+    /// By body; -1 for one that has none of its own.
+    std::vector<std::int32_t> take_slots() { return std::move(slot_); }
+
  private:
     std::vector<std::int32_t> slot_;
     const std::vector<Twist>& velocities_;
@@ -100,6 +103,7 @@ template <class Rows>
 struct SweepLayout {
     Schedule schedule;
     std::vector<typename Rows::Body> bodies;
+    std::vector<std::int32_t> slots;  ///< by body of the problem; -1: it moves in no contact
     std::vector<Rows> rows;
     /// Per group at rest: 1 if it is swept nevertheless, because a contact has gained an impulse.
     std::vector<std::uint8_t> awake;
@@ -109,25 +113,26 @@ struct SweepLayout {
                 const Impulses& r, const std::vector<Twist>& velocities, Schedule laid)
         : schedule(std::move(laid)) {
         using Mobility = typename W::Mobility;
-        BodySlots<typename Rows::Body, Mobility> slots(velocities, w.bodies());
+        BodySlots<typename Rows::Body, Mobility> placed(velocities, w.bodies());
         make_room();
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
             Rows& row = row_of(i);
             const int lane = static_cast<int>(i % Rows::width);
             if (schedule.lanes[i] < 0) {
-                fill_empty(row, lane, slots.meet(-1, false));
+                fill_empty(row, lane, placed.meet(-1, false));
                 continue;
             }
             const auto k = static_cast<std::size_t>(schedule.lanes[i]);
             const Contact& c = problem.contacts[k];
-            const std::int32_t slot_a = slots.meet(c.a, pairs[k].a >= 0);
-            const std::int32_t slot_b = slots.meet(c.b, pairs[k].b >= 0);
+            const std::int32_t slot_a = placed.meet(c.a, pairs[k].a >= 0);
+            const std::int32_t slot_b = placed.meet(c.b, pairs[k].b >= 0);
             fill(row, lane,
                  ContactToPack<Mobility, typename W::Block>{
                      c, w.block(k), c.a < 0 ? Mobility() : w.bodies()[c.a], w.bodies()[c.b], r[k],
                      slot_a, slot_b, r.moments.empty() ? Vec3{} : r.moments[k]});
         }
-        bodies = std::move(slots.bodies);
+        bodies = std::move(placed.bodies);
+        slots = placed.take_slots();
     }
 
     /// The same state in the groups of another schedule.

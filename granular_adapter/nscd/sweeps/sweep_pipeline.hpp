@@ -31,7 +31,7 @@ class SweepPipeline {
     /// groups at rest (`awake`). The last one also measures, tests all groups at rest, and sets
     /// which of them are `awake`.
     void run(std::size_t sweeps, ThreadTeam& team) {
-        active_sums_ = resting_sums_ = {};
+        prepare_sums();
         progress_ = std::vector<Progress>(sweeps);
         const auto share = [&](int thread) {
             return sweeps * static_cast<std::size_t>(thread) /
@@ -40,9 +40,23 @@ class SweepPipeline {
         team.run([&](int thread) { drive(share(thread), share(thread + 1)); });
     }
 
-    /// Sums of the last sweep over active groups, and over groups at rest.
-    const Sums& active_sums() const { return active_sums_; }
-    const Sums& resting_sums() const { return resting_sums_; }
+    /// The same, sweep after sweep, in the phases of the schedule; `after(phase)` ends each of
+    /// them.
+    template <class After>
+    void run_in_phases(std::size_t sweeps, const After& after) {
+        prepare_sums();
+        const std::vector<std::size_t>& ends = layout_.schedule.phase_ends;
+        for (std::size_t sweep = 1; sweep <= sweeps; ++sweep) {
+            std::size_t at = 0;
+            for (std::size_t phase = 0; phase < ends.size(); after(phase++))
+                for (; at < ends[phase]; ++at) sweep == sweeps ? measure(at) : update(at);
+        }
+    }
+
+    /// Sums of the last sweep over active groups, and over groups at rest; of a schedule by cells
+    /// one per stretch.
+    const Sums& active_sums(std::size_t stretch = 0) const { return active_sums_[stretch]; }
+    const Sums& resting_sums(std::size_t stretch = 0) const { return resting_sums_[stretch]; }
 
  private:
     /// Number of stretches completed by a sweep, in a cache line of its own.
@@ -51,6 +65,14 @@ class SweepPipeline {
         Progress() = default;
         Progress(const Progress&) {}
     };
+
+    void prepare_sums() {
+        active_sums_.assign(layout_.schedule.by_cells ? stretches().size() : 1, {});
+        resting_sums_ = active_sums_;
+    }
+    std::size_t place_of_sums(std::size_t stretch) const {
+        return layout_.schedule.by_cells ? stretch : 0;
+    }
 
     const std::vector<Stretch>& stretches() const { return layout_.schedule.stretches; }
     std::size_t done(std::size_t sweep) const {
@@ -66,7 +88,7 @@ class SweepPipeline {
     void advance(std::size_t sweep) {
         const std::size_t at = done(sweep);
         const bool last = sweep + 1 == progress_.size();
-        last ? measure(stretches()[at]) : update(stretches()[at]);
+        last ? measure(at) : update(at);
         progress_[sweep].stretches.store(at + 1, std::memory_order_release);
     }
 
@@ -85,7 +107,8 @@ class SweepPipeline {
                                 : range.first + static_cast<std::int32_t>(found - from);
     }
 
-    void update(const Stretch& stretch) {
+    void update(std::size_t at) {
+        const Stretch& stretch = stretches()[at];
         typename Rows::Body* const bodies = layout_.bodies.data();
         sweeps_.plain(row(stretch.active.first), row(stretch.active.last), bodies);
         for (std::int32_t group = next_awake(stretch.resting); group < stretch.resting.last;
@@ -93,12 +116,14 @@ class SweepPipeline {
             sweeps_.plain(row(group), row(group) + 1, bodies);
     }
 
-    void measure(const Stretch& stretch) {
+    void measure(std::size_t at) {
+        const Stretch& stretch = stretches()[at];
         typename Rows::Body* const bodies = layout_.bodies.data();
-        sweeps_.measured(row(stretch.active.first), row(stretch.active.last), bodies, active_sums_);
+        sweeps_.measured(row(stretch.active.first), row(stretch.active.last), bodies,
+                         active_sums_[place_of_sums(at)]);
         if (stretch.resting.first < stretch.resting.last)
             sweeps_.asked(row(stretch.resting.first), row(stretch.resting.last), bodies,
-                          resting_sums_, &awake(stretch.resting.first));
+                          resting_sums_[place_of_sums(at)], &awake(stretch.resting.first));
     }
 
     /// Runs the sweeps [first, last) in one thread: one stretch of each in turn, as far as the
@@ -124,7 +149,7 @@ class SweepPipeline {
     Sweeps<Rows> sweeps_;
     SweepLayout<Rows>& layout_;
     std::vector<Progress> progress_;
-    Sums active_sums_, resting_sums_;
+    std::vector<Sums> active_sums_, resting_sums_;
 };
 
 }  // namespace turbidite::nscd

@@ -24,12 +24,17 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .moved_grains = true};
 }
 
+GrainsAdapter on_ranks_in_space(GrainsAdapter adapter) {
+    adapter.most_ranks_in_space = any_number;
+    return adapter;
+}
+
 GrainsAdapter external_program(const char* name, const char* help) {
     GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
     adapter.contacts = Contacts::any;
     adapter.repeats_windows = true;
     adapter.moved_grains = false;
-    adapter.most_ranks = any_number;
+    adapter.most_ranks = adapter.most_ranks_in_space = any_number;
     return adapter;
 }
 

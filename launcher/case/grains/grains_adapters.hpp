@@ -43,7 +43,8 @@ struct GrainsAdapter {
     bool materials = false;          ///< more than the first, contact.pairs
     bool prescribed_grains = false;  ///< fixed and driven ones
     bool moved_grains = false;       ///< that follow a motion of domain.motions
-    int most_ranks = 1;
+    int most_ranks = 1;           ///< in the plane
+    int most_ranks_in_space = 1;  ///< at least as many
     double disc_substep = 0.4e-6;  ///< of springs: time per disc and sub-step [s]
 
     /// False: planned for a later version.
@@ -52,6 +53,9 @@ struct GrainsAdapter {
 
 /// What every host of the contact engine can do.
 GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host, const char* file);
+
+/// The same with any number of ranks in space.
+GrainsAdapter on_ranks_in_space(GrainsAdapter adapter);
 
 /// A program of the user's own. The handshake says which shapes and schemes it supports; the rest
 /// it has to refuse itself.

@@ -145,9 +145,15 @@ Ruling command_is_one_program(const Settings& s) {
 
 Ruling ranks_are_supported(const Settings& s) {
     const GrainsAdapter& adapter = grains_adapter(s);
-    if (s.integer("grains.ranks") <= adapter.most_ranks) return std::nullopt;
-    return Objection{fmt::format("{} runs on one rank in this version.", adapter.name),
-                     "Use 1, or grains.adapter: lammps-md."};
+    const int most = in_space(s) ? adapter.most_ranks_in_space : adapter.most_ranks;
+    if (s.integer("grains.ranks") <= most) return std::nullopt;
+    const bool plane_only = adapter.most_ranks_in_space > 1;
+    const std::string others =
+        in_space(s) ? adapters_that([](const GrainsAdapter& a) { return a.most_ranks_in_space > 1; })
+                    : adapters_that([](const GrainsAdapter& a) { return a.most_ranks > 1; });
+    return Objection{fmt::format("{} runs on one rank {}in this version.", adapter.name,
+                                 plane_only ? "in the plane " : ""),
+                     fmt::format("Use 1, or grains.adapter: {}.", others)};
 }
 
 /// Grains may have changed their rank by the end of the window that is to be repeated.
@@ -190,7 +196,8 @@ KeyGroup adapter_keys() {
                   .fallback = "1",
                   .range = {.lower = 1.0},
                   .help =
-                      "MPI ranks of the grains program; more than one with lammps-md and external"},
+                      "MPI ranks of the grains program; more than one with lammps-md, external, and "
+                      "in space standalone-nscd"},
                  {.name = "grains.command",
                   .type = KeyType::text,
                   .need = Need::conditional,
@@ -210,7 +217,7 @@ KeyGroup adapter_keys() {
                   {"grains.script", {}, script_is_python},
                   {"grains.command", {}, command_has_words},
                   {"grains.command", {}, command_is_one_program},
-                  {"grains.ranks", {"grains.adapter"}, ranks_are_supported},
+                  {"grains.ranks", {"grains.adapter", "dimension"}, ranks_are_supported},
                   {"grains.ranks", {"grains.adapter", "coupling.scheme"}, repeats_on_one_rank},
                   {"contact.law", {"grains.adapter"}, law_is_known},
                   {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},

@@ -281,6 +281,11 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
               1);
 }
 
+TEST_F(CaseFile, TheContactEngineRunsOnRanksInSpace) {
+    const std::vector<std::string> engine = {"grains.adapter=standalone-nscd", "grains.ranks=2"};
+    EXPECT_SAYS(refusal("", engine), "standalone-nscd runs on one rank in the plane");
+}
+
 TEST_F(CaseFile, VariantsOfLaterVersions) {
     EXPECT_SAYS(refusal("", {"grains.ranks=2"}), "one rank in this version");
 }

@@ -121,7 +121,7 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_SAYS(text, "output.fields = vorticity");
     EXPECT_SAYS(text, "output.probes = [1, 1]");
     EXPECT_SAYS(text, "nothing flows in through a side");
-    EXPECT_SAYS(with({"fluid.cells_per_diameter=8.3"}), "the mesh needs whole ones");
+    EXPECT_SAYS(with({"domain.size=[12, 10, 6.1]"}), "6.1 D are 48.8 cells");
     EXPECT_SAYS(with({"fluid.surface_shift=1.5"}), "fluid.surface_shift = 1.5");
     // Without the fluid's responses a sphere must be denser than what it displaces: (1 + 0.6/8)^3.
     EXPECT_SAYS(with({"coupling.scheme=split", "grains.density_ratio=1.2"}), "a ratio above 1.24");

@@ -88,7 +88,7 @@ TEST(SpaceStatics, APackingComesToRest) {
     const double start = scenes::kinetic_energy(engine.bodies());
     EXPECT_EQ(start, 0.0);
     double fastest = 0.0, deepest = 0.0;
-    for (int n = 0; n < 1000; ++n) {
+    for (int n = 0; n < 1250; ++n) {
         const StepReport report = engine.step(0.01);
         ASSERT_TRUE(report.converged) << n << " " << report.residual;
         ASSERT_LE(report.residual, 1e-3);

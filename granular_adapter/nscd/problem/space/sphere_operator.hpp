@@ -25,7 +25,8 @@ class SphereOperator {
 
     /// Keeps a reference to the problem, which must be one of space and outlive it.
     explicit SphereOperator(const ContactProblem& problem)
-        : contacts_(problem.contacts),
+        : problem_(problem),
+          contacts_(problem.contacts),
           bodies_(std::get<std::vector<SpaceMobility>>(problem.bodies)) {}
 
     const std::vector<SpaceMobility>& bodies() const { return bodies_; }
@@ -41,25 +42,30 @@ class SphereOperator {
     /// Whether some contact has a bias along its tangents: with a moving wall, or in an impact with
     /// tangential restitution.
     bool has_tangential_bias() const {
-        return std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) {
-            return contact.bias.t != 0.0 || contact.bias.s != 0.0;
-        });
+        return some(
+            [](const Contact& contact) { return contact.bias.t != 0.0 || contact.bias.s != 0.0; });
     }
 
     /// Whether some contact resists rolling or torsion.
     bool has_moments() const {
-        return std::any_of(contacts_.begin(), contacts_.end(), [](const Contact& contact) {
-            return contact.rolling > 0.0 || contact.torsion > 0.0;
-        });
+        return some(
+            [](const Contact& contact) { return contact.rolling > 0.0 || contact.torsion > 0.0; });
     }
 
  private:
+    /// Of the contacts of all ranks.
+    template <class Test>
+    bool some(const Test& test) const {
+        return on_any_rank(problem_, std::any_of(contacts_.begin(), contacts_.end(), test));
+    }
+
     static void add(SphereBlock& w, const SpaceMobility& body, const Vec3& arm) {
         w.nn += body.linear;
         w.tt += body.linear + body.angular * dot(arm, arm);
         w.rr += body.angular;
     }
 
+    const ContactProblem& problem_;
     const std::vector<Contact>& contacts_;
     const std::vector<SpaceMobility>& bodies_;
 };

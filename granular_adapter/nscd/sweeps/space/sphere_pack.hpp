@@ -52,6 +52,16 @@ inline SphereBody packed_body(const Twist& v, const SpaceMobility& mobility) {
             v.spin[0],     v.spin[1],     v.spin[2],     mobility.angular};
 }
 
+/// Velocity and spin as six doubles, for other ranks.
+inline void copy_rates(const SphereBody& from, double* to) {
+    to[0] = from.vx, to[1] = from.vy, to[2] = from.vz;
+    to[3] = from.wx, to[4] = from.wy, to[5] = from.wz;
+}
+inline void set_rates(SphereBody& to, const double* from) {
+    to.vx = from[0], to.vy = from[1], to.vz = from[2];
+    to.wx = from[3], to.wy = from[4], to.wz = from[5];
+}
+
 /// The rows for the contacts of an operator.
 template <class Use>
 auto with_rows(const SphereOperator& w, const Use& use) {
