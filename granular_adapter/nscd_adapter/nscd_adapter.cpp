@@ -133,8 +133,8 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
     agree([&] {
         if (!answered_ && light_) refuse_light_grain(*light_);
         if (answered_)
-            free = free_motion(bodies(), responses, in_window(window),
-                               engine().settings().dimension);
+            free =
+                free_motion(bodies(), responses, in_window(window), engine().settings().dimension);
     });
     if (broken_) return {};
     if (!answered_) return engine().step(window.step);

@@ -11,9 +11,10 @@
 // velocity, or follow run.grain_motions. For the materials of grains and their pairs see
 // contact_settings.hpp.
 //
-// On several ranks (share_with) grains go to the ranks of their cells (nscd/ranks): what initialise,
-// advance and apply_kick return are the grains that this rank has then. A check that fails on one
-// rank is known to all, which go on without exchanging anything until the coupler ends the run.
+// On several ranks (share_with) grains go to the ranks of their cells (nscd/ranks): what
+// initialise, advance and apply_kick return are the grains that this rank has then. A check that
+// fails on one rank is known to all, which go on without exchanging anything until the coupler ends
+// the run.
 //
 // Reads: contact.*, coupling.positions, domain.{left,right,bottom,top,front,back}, fluid.enabled,
 // fluid.hydrodynamic_radius, run.*. Gravity acts along -y; sides as in borders.hpp.
@@ -46,7 +47,8 @@ class NscdAdapter final : public GrainsAdapter {
     /// initialise().
     void set_run_folder(std::filesystem::path folder) { run_folder_ = std::move(folder); }
 
-    /// The ranks of the run; to be called before initialise(). The exchange must outlive the adapter.
+    /// The ranks of the run; to be called before initialise(). The exchange must outlive the
+    /// adapter.
     void share_with(nscd::RankExchange& ranks) { ranks_ = &ranks; }
 
     Hello describe() const override;
@@ -117,8 +119,8 @@ class NscdAdapter final : public GrainsAdapter {
     std::vector<Twist> contact_twists_;  ///< U^{n+4/5} of this window
     std::vector<GrainId> removed_;
     std::vector<GrainId> removed_anywhere_;  ///< the same on all ranks
-    std::optional<GrainId> light_;  ///< the first grain that is not denser than the fluid
-    ContactReport report_;          ///< of this window
+    std::optional<GrainId> light_;           ///< the first grain that is not denser than the fluid
+    ContactReport report_;                   ///< of this window
 };
 
 }  // namespace turbidite

@@ -122,8 +122,7 @@ void PhaseWindow::post(std::size_t) {
 }
 
 void PhaseWindow::await(std::size_t) {
-    for (const int partner : partners_)
-        wait_for(parts_[static_cast<std::size_t>(partner)], count_);
+    for (const int partner : partners_) wait_for(parts_[static_cast<std::size_t>(partner)], count_);
 }
 
 const double* PhaseWindow::incoming(std::size_t phase, int from) {

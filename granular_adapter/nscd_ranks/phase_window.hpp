@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Phases through memory that the ranks of a node share. Every rank writes what it sends into its own
-// part and counts its phases there; the others read it when the count is theirs. A rank waits for
-// all with whom it exchanges anything in any phase, so that nobody is a whole phase ahead and
+// Phases through memory that the ranks of a node share. Every rank writes what it sends into its
+// own part and counts its phases there; the others read it when the count is theirs. A rank waits
+// for all with whom it exchanges anything in any phase, so that nobody is a whole phase ahead and
 // overwrites what has not been read.
 #pragma once
 
@@ -36,9 +36,9 @@ class PhaseWindow final : public PhaseTransport {
     MPI_Comm communicator_;
     int rank_ = 0, ranks_ = 1;
     MPI_Win window_ = MPI_WIN_NULL;
-    std::size_t capacity_ = 0;          ///< doubles of each rank
-    std::vector<double*> parts_;        ///< by rank; the first line of the cache is its count
-    std::vector<std::size_t> sent_at_;  ///< by phase and receiver, in the own part
+    std::size_t capacity_ = 0;              ///< doubles of each rank
+    std::vector<double*> parts_;            ///< by rank; the first line of the cache is its count
+    std::vector<std::size_t> sent_at_;      ///< by phase and receiver, in the own part
     std::vector<std::size_t> received_at_;  ///< by phase and sender, in their parts
     std::vector<int> partners_;
     std::uint64_t count_ = 0;  ///< of posted phases

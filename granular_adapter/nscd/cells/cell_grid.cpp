@@ -88,10 +88,7 @@ double CellGrid::Axis::middle(std::uint64_t index) const {
 }
 
 CellGrid::CellGrid(const CellSizes& sizes, const PeriodicBox& box, double reach, double share)
-    : sizes_(sizes),
-      box_(box),
-      reach_(reach),
-      share_(share) {
+    : sizes_(sizes), box_(box), reach_(reach), share_(share) {
     const double distance = 2.0 * (1.0 + share) * sizes.largest + reach;
     wide_ = margin * distance;
     const double least = std::max(edge_over_distance * distance, sizes.span / largest_index);

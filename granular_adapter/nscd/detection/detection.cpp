@@ -121,8 +121,8 @@ OrderedPoints Detection::ordered_points(const Search& search, const CellGrid& gr
     const Bodies& bodies = search.bodies;
     const Look look{bodies, search.walls, search.reach, search.share, narrow_.place(bodies)};
     const double band = one_height * grid.sizes().smallest;
-    CellOrder order(
-        {bodies, search.walls, box_, search.gravity, search.reach, search.share, band}, grid);
+    CellOrder order({bodies, search.walls, box_, search.gravity, search.reach, search.share, band},
+                    grid);
     const auto is_large = [&](std::int32_t body) { return grid.is_large(bodies.radius[body]); };
     const auto wanted = [&](const Near& near) {
         if (near.wall >= 0) return static_cast<std::size_t>(near.b) < own;

@@ -131,7 +131,8 @@ void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
     reach_ = std::max({bound(free, dt), bound(bodies_.twist, dt), laws_.law().range()});
 }
 
-/// Gives bodies that have crossed cells to other ranks, and gets copies of those near the own cells.
+/// Gives bodies that have crossed cells to other ranks, and gets copies of those near the own
+/// cells.
 void Engine::gather_bodies(std::vector<Twist>& free, Mobilities& mobilities) {
     grid_ = std::make_unique<CellGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, reach_,
                                        alert_share);
@@ -268,8 +269,8 @@ void Engine::move(double dt, const std::vector<Twist>& velocities) {
 double Engine::max_penetration() {
     if (!ranks_) return detection_.deepest_overlap(bodies_, placed_walls(0.0));
     forget_step();
-    grid_ = std::make_unique<CellGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, 0.0,
-                                       0.0);
+    grid_ =
+        std::make_unique<CellGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, 0.0, 0.0);
     ranks_->settle(*grid_, share({}, nullptr));
     present_ = bodies_;
     ranks_->add_copies(*grid_, present_, {}, nullptr);

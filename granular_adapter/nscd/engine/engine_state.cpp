@@ -85,9 +85,8 @@ void append_entries(std::vector<Entry>& all, const std::vector<Entry>& more) {
 
 /// Each once, in the order of the keys.
 void sort_by_key(std::vector<RememberedState>& states) {
-    std::sort(states.begin(), states.end(), [](const RememberedState& a, const RememberedState& b) {
-        return a.key < b.key;
-    });
+    std::sort(states.begin(), states.end(),
+              [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
 }
 
 }  // namespace

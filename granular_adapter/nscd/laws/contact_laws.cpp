@@ -145,7 +145,7 @@ ContactSituation ContactLaws::situation(const DetectedContacts& contacts,
 ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::vector<Twist>& free,
                                  Mobilities mobilities, ContactPlaces places, double step) {
     check_materials(contacts);
-    ContactProblem problem{std::move(mobilities),   free, {}, 0.0,
+    ContactProblem problem{std::move(mobilities),   free,        {}, 0.0,
                            std::move(places.cells), places.ranks};
     problem.contacts.reserve(contacts.points.size());
     situations_.clear();

@@ -11,8 +11,8 @@
 
 namespace turbidite::nscd {
 
-/// Adds what the cells of all ranks have, given one entry per cell of this rank. Sums: plain numbers
-/// with add(Sums); collective.
+/// Adds what the cells of all ranks have, given one entry per cell of this rank. Sums: plain
+/// numbers with add(Sums); collective.
 template <class Sums>
 Sums sum_over_cells(const ContactProblem& problem, const std::vector<Sums>& of_cells) {
     struct Entry {

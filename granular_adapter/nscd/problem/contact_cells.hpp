@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The cells of a problem's contacts (cells/cell_order.hpp): contacts of one cell follow each other.
-// Sums over contacts are made cell by cell and then over the cells in their order, so that any number
-// of ranks finds the same.
+// Sums over contacts are made cell by cell and then over the cells in their order, so that any
+// number of ranks finds the same.
 #pragma once
 
 #include <cstdint>

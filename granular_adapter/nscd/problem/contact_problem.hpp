@@ -81,8 +81,8 @@ inline bool on_any_rank(const ContactProblem& problem, bool here) {
     return problem.ranks ? problem.ranks->any(here) : here;
 }
 
-/// Calls visit(k) for the contacts of a problem in their order. `values`, one per body, are those of
-/// all ranks before the contacts of each phase, and at the end.
+/// Calls visit(k) for the contacts of a problem in their order. `values`, one per body, are those
+/// of all ranks before the contacts of each phase, and at the end.
 template <class Visit>
 void each_contact(const ContactProblem& problem, std::vector<Twist>& values, const Visit& visit) {
     if (problem.ranks) return problem.ranks->each_contact(values, visit);

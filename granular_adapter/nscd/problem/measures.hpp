@@ -85,9 +85,11 @@ struct PlainSum {
 template <ContactOperator W>
 double rounding_floor(const ContactProblem& problem, const W& w) {
     const RoundingFloor floor(problem);
-    return sum_over_contacts<PlainSum>(problem, [&](PlainSum& sum, std::size_t k) {
-               sum.value += floor.term(problem.contacts[k], w.block(k).nn);
-           })
+    return sum_over_contacts<PlainSum>(problem,
+                                       [&](PlainSum& sum, std::size_t k) {
+                                           sum.value +=
+                                               floor.term(problem.contacts[k], w.block(k).nn);
+                                       })
         .value;
 }
 
@@ -95,9 +97,12 @@ double rounding_floor(const ContactProblem& problem, const W& w) {
 template <ContactOperator W>
 double natural_map_residual(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
                             const Impulses& r, double floor) {
-    return sum_over_contacts<MapSums>(problem, [&](MapSums& map, std::size_t k) {
-               map.add(map_terms_of(problem, w, v, r, k, biased_velocity(problem.contacts[k], v)));
-           })
+    return sum_over_contacts<MapSums>(
+               problem,
+               [&](MapSums& map, std::size_t k) {
+                   map.add(
+                       map_terms_of(problem, w, v, r, k, biased_velocity(problem.contacts[k], v)));
+               })
         .residual(floor);
 }
 
@@ -112,12 +117,13 @@ struct MeasureSums {
 template <ContactOperator W>
 Measures measures(const ContactProblem& problem, const W& w, const std::vector<Twist>& v,
                   const Impulses& r, double floor) {
-    const auto sums = sum_over_contacts<MeasureSums>(problem, [&](MeasureSums& cell, std::size_t k) {
-        const Contact& contact = problem.contacts[k];
-        const ContactVector u = biased_velocity(contact, v);
-        cell.map.add(map_terms_of(problem, w, v, r, k, u));
-        cell.change.add(contact, w.block(k), r[k], u);
-    });
+    const auto sums =
+        sum_over_contacts<MeasureSums>(problem, [&](MeasureSums& cell, std::size_t k) {
+            const Contact& contact = problem.contacts[k];
+            const ContactVector u = biased_velocity(contact, v);
+            cell.map.add(map_terms_of(problem, w, v, r, k, u));
+            cell.change.add(contact, w.block(k), r[k], u);
+        });
     return {sums.map.residual(floor), sums.change.measures(contacts_in_all(problem))};
 }
 

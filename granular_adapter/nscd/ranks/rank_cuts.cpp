@@ -13,18 +13,18 @@ int longest_axis(const std::vector<CellLoad>& loads) {
     int longest = 0;
     double length = -1.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = std::minmax_element(
-            loads.begin(), loads.end(), [axis](const CellLoad& a, const CellLoad& b) {
-                return a.centre[axis] < b.centre[axis];
-            });
+        const auto [low, high] = std::minmax_element(loads.begin(), loads.end(),
+                                                     [axis](const CellLoad& a, const CellLoad& b) {
+                                                         return a.centre[axis] < b.centre[axis];
+                                                     });
         const double own = high->centre[axis] - low->centre[axis];
         if (own > length) length = own, longest = axis;
     }
     return longest;
 }
 
-/// Where the work up to a load, in order, is nearest to a share of all; between two layers of cells,
-/// or the end.
+/// Where the work up to a load, in order, is nearest to a share of all; between two layers of
+/// cells, or the end.
 std::size_t best_cut(const std::vector<CellLoad>& loads, int axis, double share) {
     double all = 0.0, below = 0.0, best = INFINITY;
     for (const CellLoad& load : loads) all += load.work;

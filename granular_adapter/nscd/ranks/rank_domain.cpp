@@ -55,9 +55,8 @@ void send_on(RankExchange& ranks, std::vector<Entry>& entries, const Destination
 }
 
 void sort_by_key(std::vector<RememberedState>& states) {
-    std::sort(
-        states.begin(), states.end(),
-        [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
+    std::sort(states.begin(), states.end(),
+              [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
 }
 
 template <class Destination>
@@ -341,8 +340,8 @@ const RankPlan& RankDomain::plan(const CellGrid& grid, const Bodies& bodies,
         const std::int32_t first = found.cells.first(cell), end = found.cells.end[cell];
         const ContactPoint& point = found.points[static_cast<std::size_t>(first)];
         const auto body = static_cast<std::size_t>(point.a >= 0 ? point.a : point.b);
-        loads_.push_back({grid.centre(grid.cell(bodies.position[body])),
-                          static_cast<double>(end - first)});
+        loads_.push_back(
+            {grid.centre(grid.cell(bodies.position[body])), static_cast<double>(end - first)});
     }
     const std::vector<double> counts =
         gathered(ranks_, std::vector<double>{static_cast<double>(found.points.size())});

@@ -3,9 +3,9 @@
 // The part of a configuration that a rank works on. A body belongs to the rank of its cell
 // (rank_cuts.hpp), large ones to the first rank. Before a step
 //
-//     settle   bodies that have left their cells go to other ranks, with all that is kept about them
-//     copies   every rank gets copies of the bodies within the distance d of its cells
-//     plan     which velocities go from rank to rank while the contacts are swept
+//     settle   bodies that have left their cells go to other ranks, with all that is kept about
+//     them copies   every rank gets copies of the bodies within the distance d of its cells plan
+//     which velocities go from rank to rank while the contacts are swept
 //
 // All functions that are not const are called by all ranks in the same order.
 #pragma once
@@ -52,8 +52,8 @@ class RankDomain {
     void settle(const CellGrid& grid, const RankShare& share);
 
     /// Appends copies of the bodies of other ranks; `share.bodies` are the own ones before.
-    void add_copies(const CellGrid& grid, Bodies& bodies, const std::vector<std::vector<Twist>*>& twists,
-                    Mobilities* mobilities);
+    void add_copies(const CellGrid& grid, Bodies& bodies,
+                    const std::vector<std::vector<Twist>*>& twists, Mobilities* mobilities);
     std::size_t own() const { return own_; }
 
     /// Positions and velocities of the copies as their owners have them now.
@@ -84,13 +84,14 @@ class RankDomain {
         Vec3 position{};
         double radius = 0.0;
     };
-    std::vector<Large> large_;  ///< of all ranks
+    std::vector<Large> large_;    ///< of all ranks
     std::int64_t since_cut_ = 0;  ///< steps
     std::size_t own_ = 0;
     std::vector<std::vector<std::int32_t>> lent_;  ///< by rank: own bodies of which it has copies
     std::vector<std::size_t> borrowed_;            ///< by rank: the number of its bodies here
     std::vector<std::vector<int>> holders_;        ///< by body: other ranks that have it
-    std::unordered_map<GrainId, std::int32_t> shared_;  ///< places of bodies that others have as well
+    std::unordered_map<GrainId, std::int32_t>
+        shared_;  ///< places of bodies that others have as well
     std::unique_ptr<RankPlan> plan_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// How the ranks of a contact engine exchange data; the engine knows no MPI. Every function is called
-// by all ranks in the same order.
+// How the ranks of a contact engine exchange data; the engine knows no MPI. Every function is
+// called by all ranks in the same order.
 #pragma once
 
 #include <cstddef>

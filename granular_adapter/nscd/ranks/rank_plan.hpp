@@ -15,16 +15,16 @@
 
 namespace turbidite::nscd {
 
-/// Bodies, by index into those of the problem, that go from rank to rank after a phase; by rank, and
-/// in an order that both sides know.
+/// Bodies, by index into those of the problem, that go from rank to rank after a phase; by rank,
+/// and in an order that both sides know.
 struct PhaseWays {
     std::vector<std::vector<std::int32_t>> sent, received;
 };
 
 class RankPlan {
  public:
-    /// `contact_ends`, `cell_ends`: the numbers of contacts and of cells of this rank up to the end of
-    /// each phase. `contacts`: of all ranks. Collective.
+    /// `contact_ends`, `cell_ends`: the numbers of contacts and of cells of this rank up to the end
+    /// of each phase. `contacts`: of all ranks. Collective.
     RankPlan(RankExchange& ranks, std::vector<PhaseWays> ways,
              std::vector<std::int32_t> contact_ends, std::vector<std::size_t> cell_ends,
              std::size_t contacts);

@@ -162,7 +162,8 @@ class NlgsIteration {
 
     SweepCheck check() const {
         const Schedule& schedule = layout_->schedule;
-        if (!schedule.by_cells) return check_of({0, schedule.active}, {schedule.active, schedule.all}, 0);
+        if (!schedule.by_cells)
+            return check_of({0, schedule.active}, {schedule.active, schedule.all}, 0);
         std::vector<SweepCheck> of_cells(schedule.cell_ends.size());
         for (std::size_t cell = 0, s = 0; cell < of_cells.size(); ++cell)
             for (; s < schedule.cell_ends[cell]; ++s)
@@ -180,12 +181,12 @@ class NlgsIteration {
             return layout_->awake.begin() + (group - layout_->schedule.active);
         };
         const std::int32_t moving = active.last - active.first;
-        return {total(in_active.error) + total(in_resting.error),
-                total(in_active.size) + total(in_resting.size),
-                total(in_active.loaded) + total(in_resting.loaded),
-                static_cast<double>(
-                    moving + std::count(awake(resting.first), awake(resting.last), 1)),
-                static_cast<double>(moving + resting.last - resting.first)};
+        return {
+            total(in_active.error) + total(in_resting.error),
+            total(in_active.size) + total(in_resting.size),
+            total(in_active.loaded) + total(in_resting.loaded),
+            static_cast<double>(moving + std::count(awake(resting.first), awake(resting.last), 1)),
+            static_cast<double>(moving + resting.last - resting.first)};
     }
 
     bool looks_good(const SweepCheck& found) const {

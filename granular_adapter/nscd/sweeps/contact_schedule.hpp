@@ -54,9 +54,9 @@ struct Schedule {
     std::int32_t all = 0;             ///< number of groups
     std::vector<Stretch> stretches;
 
-    bool by_cells = false;               ///< of cell_schedule.hpp
-    std::vector<std::size_t> cell_ends;  ///< by cell, the number of stretches up to its end
-    std::vector<std::size_t> phase_ends; ///< the same by phase; empty if there is one
+    bool by_cells = false;                ///< of cell_schedule.hpp
+    std::vector<std::size_t> cell_ends;   ///< by cell, the number of stretches up to its end
+    std::vector<std::size_t> phase_ends;  ///< the same by phase; empty if there is one
 };
 
 /// Assigns the contacts to groups; `active[k]` is non-zero if contact k is expected to have an
@@ -64,8 +64,8 @@ struct Schedule {
 Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<std::uint8_t>& active,
                        std::size_t bodies, const ScheduleSettings& settings);
 
-/// Adds the lanes of groups at rest to a schedule that has all others and its stretches, whose ranges
-/// of groups at rest begin at 0, and sets Stretch::after.
+/// Adds the lanes of groups at rest to a schedule that has all others and its stretches, whose
+/// ranges of groups at rest begin at 0, and sets Stretch::after.
 void complete(Schedule& schedule, const std::vector<std::int32_t>& resting,
               const std::vector<MovedPair>& pairs, std::size_t bodies, int width);
 

@@ -40,7 +40,8 @@ class SweepPipeline {
         team.run([&](int thread) { drive(share(thread), share(thread + 1)); });
     }
 
-    /// The same, sweep after sweep, in the phases of the schedule; `after(phase)` ends each of them.
+    /// The same, sweep after sweep, in the phases of the schedule; `after(phase)` ends each of
+    /// them.
     template <class After>
     void run_in_phases(std::size_t sweeps, const After& after) {
         prepare_sums();

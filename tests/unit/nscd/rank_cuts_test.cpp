@@ -77,8 +77,8 @@ Contacts contacts() {
     return result;
 }
 
-// Every contact is in one lane, groups share no body and stay apart, and no group has contacts of two
-// cells or of both kinds.
+// Every contact is in one lane, groups share no body and stay apart, and no group has contacts of
+// two cells or of both kinds.
 TEST(CellSchedule, GroupsAreOfOneCell) {
     const Contacts given = contacts();
     const Schedule schedule =

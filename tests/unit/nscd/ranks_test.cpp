@@ -57,18 +57,18 @@ ContactKey key_of(const Engine& engine, const ContactPoint& point) {
 void add_result(const Engine& engine, Played& result) {
     const Bodies& bodies = engine.bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        EXPECT_TRUE(result.grains
-                        .emplace(bodies.id[i],
-                                 Played::Grain{bodies.position[i], bodies.orientation[i],
-                                               bodies.twist[i], bodies.contact_impulse[i],
-                                               bodies.contact_angular_impulse[i]})
-                        .second);
+        EXPECT_TRUE(
+            result.grains
+                .emplace(bodies.id[i], Played::Grain{bodies.position[i], bodies.orientation[i],
+                                                     bodies.twist[i], bodies.contact_impulse[i],
+                                                     bodies.contact_angular_impulse[i]})
+                .second);
     for (std::size_t k = 0; k < engine.points().size(); ++k)
-        EXPECT_TRUE(result.impulses
-                        .emplace(key_of(engine, engine.points()[k]),
-                                 std::pair(engine.impulses()[k],
-                                           world_moment(engine.impulses(), k)))
-                        .second);
+        EXPECT_TRUE(
+            result.impulses
+                .emplace(key_of(engine, engine.points()[k]),
+                         std::pair(engine.impulses()[k], world_moment(engine.impulses(), k)))
+                .second);
     for (const RememberedContact& contact : engine.memory().contacts())
         EXPECT_TRUE(result.memory.emplace(contact.key, contact.force).second);
 }
@@ -108,8 +108,8 @@ Played play(const Scene& scene, int ranks) {
         }
         const std::lock_guard lock(mutex);
         add_result(engine, result);
-        for (auto [all, own] : {std::pair{&result.overlaps, &overlaps},
-                                std::pair{&result.violations, &violations}}) {
+        for (auto [all, own] :
+             {std::pair{&result.overlaps, &overlaps}, std::pair{&result.violations, &violations}}) {
             all->resize(own->size());
             for (std::size_t i = 0; i < own->size(); ++i)
                 (*all)[i] = std::max((*all)[i], (*own)[i]);
@@ -180,9 +180,9 @@ TEST(Ranks, HaveTheBitsOfOneRankWithLargeAndFixedBodies) {
         scene.bodies.add(large);
     }
     const Played one = play(scene, 1);
-    const auto of_large = std::count_if(one.impulses.begin(), one.impulses.end(), [](const auto& x) {
-        return x.first.second >= 5000 && x.second.first.n > 0.0;
-    });
+    const auto of_large = std::count_if(
+        one.impulses.begin(), one.impulses.end(),
+        [](const auto& x) { return x.first.second >= 5000 && x.second.first.n > 0.0; });
     ASSERT_GT(of_large, 3);
     for (const int ranks : {2, 3}) expect_equal(one, play(scene, ranks));
 }
@@ -220,7 +220,8 @@ TEST(Ranks, MayBeEmpty) {
     Scene scene;
     scene.settings = scenes::exact_in_space(0.4);
     scene.walls = {scenes::floor(0.4)};
-    for (int i = 0; i < 3; ++i) scene.bodies.add(scenes::sphere(i + 1, {0.3 * i, 0.5 + 1.0 * i, 0}));
+    for (int i = 0; i < 3; ++i)
+        scene.bodies.add(scenes::sphere(i + 1, {0.3 * i, 0.5 + 1.0 * i, 0}));
     const Played one = play(scene, 1), many = play(scene, 3);
     expect_equal(one, many);
     EXPECT_GE(many.empty_ranks, 1u);

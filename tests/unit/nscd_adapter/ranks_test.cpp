@@ -30,7 +30,8 @@ Settings box_in_space() {
     s.set("run.size_z", 6.0);
     s.set("run.acceleration_z", 0.0);
     s.set("contact.tolerance", 1e-5);
-    for (const char* side : {"front", "back"}) s.set(std::string("domain.") + side, std::string("wall"));
+    for (const char* side : {"front", "back"})
+        s.set(std::string("domain.") + side, std::string("wall"));
     s.set("domain.right", std::string("free"));
     return s;
 }
@@ -42,7 +43,8 @@ std::vector<GrainState> heap() {
         for (int z = 0; z < 5; ++z)
             for (int x = 0; x < 14; ++x) {
                 GrainState grain = grain_at(static_cast<GrainId>(grains.size()), 0, 0);
-                grain.position = {0.6 + 1.08 * x + 0.03 * y, 0.55 + 1.02 * y, 0.6 + 1.05 * z + 0.05 * y};
+                grain.position = {0.6 + 1.08 * x + 0.03 * y, 0.55 + 1.02 * y,
+                                  0.6 + 1.05 * z + 0.05 * y};
                 grain.velocity = {9.0, -0.5, 0.4};
                 grains.push_back(grain);
             }
@@ -59,7 +61,8 @@ FreeResponse answer(const GrainState& grain, const GrainState& start, int round,
         response.angular_velocity[axis] = 0.98 * start.angular_velocity[axis];
         if (round > 0) response.velocity[axis] += 1e-3 * grain.velocity[axis];
     }
-    for (std::size_t i = 0; i < 6; ++i) response.inertia[upper_entry(i, i)] = i < 3 ? mass : inertia;
+    for (std::size_t i = 0; i < 6; ++i)
+        response.inertia[upper_entry(i, i)] = i < 3 ? mass : inertia;
     return response;
 }
 
@@ -219,7 +222,8 @@ TEST(NscdAdapterOnRanks, AFaultOfOneIsThatOfOne) {
     nscd::on_ranks(2, [](MemoryExchange& exchange) {
         NscdAdapter adapter;
         adapter.share_with(exchange);
-        std::vector<GrainState> mine = {grain_at(exchange.rank(), 3.0 + 8.0 * exchange.rank(), 5.0)};
+        std::vector<GrainState> mine = {
+            grain_at(exchange.rank(), 3.0 + 8.0 * exchange.rank(), 5.0)};
         mine[0].position[2] = 3.0;
         const Motion state = adapter.initialise(box_in_space(), spheres, mine);
         std::vector<FreeResponse> responses;

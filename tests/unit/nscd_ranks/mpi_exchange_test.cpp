@@ -22,7 +22,8 @@ TEST_P(Exchange, GathersInTheOrderOfTheRanks) {
     // Rank r gives r numbers.
     const std::vector<int> found = gathered(ranks, std::vector<int>(std::size_t(me), 10 + me));
     std::vector<int> expected;
-    for (int rank = 0; rank < all; ++rank) expected.insert(expected.end(), std::size_t(rank), 10 + rank);
+    for (int rank = 0; rank < all; ++rank)
+        expected.insert(expected.end(), std::size_t(rank), 10 + rank);
     EXPECT_EQ(found, expected);
     EXPECT_EQ(largest(ranks, 0.5 * me), 0.5 * (all - 1));
     EXPECT_EQ(any(ranks, me == all - 1), true);
@@ -31,10 +32,12 @@ TEST_P(Exchange, GathersInTheOrderOfTheRanks) {
 
 TEST_P(Exchange, SwapsParts) {
     std::vector<std::vector<int>> parts(static_cast<std::size_t>(all));
-    for (int to = 0; to < all; ++to) parts[std::size_t(to)].assign(std::size_t(me + 2 * to), 100 * me + to);
+    for (int to = 0; to < all; ++to)
+        parts[std::size_t(to)].assign(std::size_t(me + 2 * to), 100 * me + to);
     const auto got = swapped(ranks, parts);
     for (int from = 0; from < all; ++from)
-        EXPECT_EQ(got[std::size_t(from)], std::vector<int>(std::size_t(from + 2 * me), 100 * from + me));
+        EXPECT_EQ(got[std::size_t(from)],
+                  std::vector<int>(std::size_t(from + 2 * me), 100 * from + me));
 }
 
 /// Doubles from one rank to another in a phase; in phase 1 only to the next rank, in phase 2 none.

@@ -42,9 +42,8 @@ class SphereOperator {
     /// Whether some contact has a bias along its tangents: with a moving wall, or in an impact with
     /// tangential restitution.
     bool has_tangential_bias() const {
-        return some([](const Contact& contact) {
-            return contact.bias.t != 0.0 || contact.bias.s != 0.0;
-        });
+        return some(
+            [](const Contact& contact) { return contact.bias.t != 0.0 || contact.bias.s != 0.0; });
     }
 
     /// Whether some contact resists rolling or torsion.
