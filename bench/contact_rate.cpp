@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/site.hpp"
+#include "launcher/job/launch_line.hpp"
 
 namespace turbidite::bench {
 namespace {
@@ -85,6 +86,20 @@ Measured rate(Site& site, const Order& order, int repeats) {
     return measured;
 }
 
+/// Whole windows of spheres on ranks.
+Sample sphere_windows(Site& site, double width, int ranks) {
+    const std::filesystem::path result = site.folder() / "ranks.json";
+    std::vector<std::string> words = mpirun_options(this_site());
+    words.insert(words.end(), {"-n", std::to_string(ranks),
+                               site.programs().folder / "turbidite-bench-sphere-ranks", "--width",
+                               fmt::format("{}", width), "--warm-up", site.quick() ? "1" : "10",
+                               "--steps", site.quick() ? "2" : "10", "--result", result});
+    site.run(words, "ranks.log");
+    const Sample sample = read_sample(result);
+    fmt::print(stderr, "  {} ranks: {:.4g} s per window\n", ranks, sample.wall);
+    return sample;
+}
+
 double cost(const Sample& sample) {
     return 1.0 / sample.counts.at("rate");
 }
@@ -126,6 +141,22 @@ Measured contact_cost_growth(Site& site) {
     for (const auto* samples : {&duel.first, &duel.second})
         measured.notes.push_back(
             fmt::format("{}: {:.4g} ns", scene(*samples), 1e9 * median_of(*samples, cost)));
+    return measured;
+}
+
+// 1e5 spheres, begun as an agitated lattice.
+Measured grains_speedup_2_ranks(Site& site) {
+    const double width = site.quick() ? 8.0 : 32.9;
+    const Duel duel = alternate(
+        site.quick() ? 1 : 3, [&] { return sphere_windows(site, width, 1); },
+        [&] { return sphere_windows(site, width, 2); });
+    Measured measured = ratio(duel, [](const Sample& sample) { return sample.wall; });
+    measured.notes = {fmt::format(
+        "{} spheres, {:.0f} sweeps: {:.4g} s on one rank, {:.4g} on two; {:.3g} us for an exchange",
+        count(duel.first, "grains"), count(duel.first, "sweeps"),
+        median_of(duel.first, [](const Sample& sample) { return sample.wall; }),
+        median_of(duel.second, [](const Sample& sample) { return sample.wall; }),
+        1e6 * seconds(duel.second, "phase"))};
     return measured;
 }
 

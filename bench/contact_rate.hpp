@@ -13,4 +13,7 @@ Measured contact_rate_50000(Site& site);
 Measured contact_rate_spheres(Site& site);
 Measured contact_cost_growth(Site& site);
 
+/// Wall time of whole windows of spheres on one rank over that on two.
+Measured grains_speedup_2_ranks(Site& site);
+
 }  // namespace turbidite::bench

@@ -111,7 +111,8 @@ RunStatus couple(const std::string& directory, const std::string& set,
     const RunFolder folder{directory};
     MaybeRecorded grains(meeting.grains.get(), resolved, folder, Role::grains);
     MaybeRecorded fluid(meeting.fluid.get(), resolved, folder, Role::fluid);
-    Hub hub({resolved.settings, resolved.shapes, resolved.population, resumption(directory, set, resolved.settings)},
+    Hub hub({resolved.settings, resolved.shapes, resolved.population,
+             resumption(directory, set, resolved.settings)},
             hub_files(folder), *grains.channel(), fluid.channel(),
             find_scheme(resolved.settings.text("run.scheme")));
     std::signal(SIGTERM, [](int) { ended_from_outside = 1; });

@@ -10,7 +10,7 @@ namespace turbidite {
 namespace {
 
 const std::string one_report_per_contact =
-    "Every contact is reported once, by the rank that has its second grain, and only those of "
+    "Every contact is reported once, by one of the ranks that have its grains, and only those of "
     "grains of the state.";
 const std::string all_or_none =
     "In a window either all ranks report their contacts, those without any an empty list, or none.";

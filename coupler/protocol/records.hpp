@@ -127,7 +127,7 @@ struct ContactStatus {
 /// in the last sub-step for others.
 ///
 /// A pair that touches along an edge has several records, distinguished by `feature`. With several
-/// grains ranks, the one that owns b reports the contact. Attraction (cohesion) has impulse .
+/// grains ranks, one of them reports the contact. Attraction (cohesion) has impulse .
 /// normal < 0.
 struct ContactRecord {
     GrainId a = 0;           ///< the smaller id; undefined at a wall

@@ -167,7 +167,7 @@ class ContactEngine {
         return python::make_tuple(pair->first, pair->second, pair->depth, pair->share);
     }
 
-    double max_penetration() const { return host_.engine().max_penetration(); }
+    double max_penetration() { return host_.max_penetration(); }
 
     python::object memory() const {
         const std::vector<char> bytes = host_.memory();

@@ -71,6 +71,7 @@ class ContactHost {
     nscd::StepReport step(double dt, const Loads& loads);
 
     const nscd::Engine& engine() const { return *engine_; }
+    double max_penetration() { return engine_->max_penetration(); }  ///< [m]
 
     /// Largest overlap in the scene as it was laid out.
     std::optional<Overlap> overlap() const;

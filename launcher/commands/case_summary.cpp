@@ -116,7 +116,8 @@ std::string case_summary(const ResolvedCase& resolved) {
     text += forecast_line(resolved);
     text += md_line(settings);
     text += checkpoint_line(settings);
-    for (const std::string& warning : {courant_warning(resolved), ranks_warning(resolved)})
+    for (const std::string& warning :
+         {courant_warning(resolved), ranks_warning(resolved), grains_ranks_warning(resolved)})
         if (!warning.empty()) text += "  warning: " + warning + "\n";
     for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
     return text;

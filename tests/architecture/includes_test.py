@@ -40,6 +40,8 @@ RULES = [
     ("coupler/participant/*.hpp", [MPI], "an MPI of the host's choice must not leak in"),
     ("coupler/shapes/*.[hc]pp", [MPI, YAML, PYTHON, OPENFOAM], "shared by fluid and grains"),
     ("granular_adapter/nscd/**/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
+    ("granular_adapter/nscd_ranks/*.[hc]pp", [TRANSPORT, YADE, LAMMPS, PYTHON], "ranks exchange bytes, whatever the host"),
+    ("granular_adapter/nscd_adapter/*.[hc]pp", [MPI], "the engine's adapter knows ranks, and no MPI"),
     ("granular_adapter/*/*.[hc]pp", [SICONOS], "Siconos stays in tests and one contender"),
     ("fluid_adapter/multiplier/**/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),

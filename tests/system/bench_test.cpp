@@ -43,7 +43,7 @@ TEST_F(Bench, QuickGivesEveryFigureOfTheContactSolver) {
     EXPECT_EQ(answer.code, 0) << answer.err;
     const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
     for (const char* name : {"contact_rate_1397", "contact_rate_50000", "contact_rate_spheres",
-                             "contact_cost_growth"}) {
+                             "contact_cost_growth", "grains_speedup_2_ranks"}) {
         ASSERT_TRUE(figures.contains(name)) << answer.err;
         ASSERT_TRUE(figures.at(name).at("value").is_number()) << figures.at(name) << answer.err;
         EXPECT_GT(figures.at(name).at("value").get<double>(), 0.0);

@@ -48,6 +48,9 @@ constexpr double external_code = 20e-6;   // nothing is known of it
 constexpr double spring_step = 0.4e-6;    // and per sub-step
 constexpr double checks = 1.5e-6;         // of the coupler
 
+// Spheres from which several ranks of the contact engine pay.
+constexpr double grains_for_ranks = 5000.0;
+
 constexpr double handover = 0.15e-3;  // [s] from program to program of one host, asleep on arrival
 
 constexpr double seconds_to_start = 0.5;
@@ -171,6 +174,25 @@ std::string ranks_warning(const ResolvedCase& resolved, double cores) {
         ranks, cores,
         forecast_window(resolved, cores).seconds() / forecast_window(fewer, cores).seconds(), cores,
         cores);
+}
+
+std::string grains_ranks_warning(const ResolvedCase& resolved, double cores) {
+    const Settings& settings = resolved.settings;
+    const auto ranks = static_cast<double>(settings.integer("grains.ranks"));
+    if (ranks < 2.0 || grains_adapter(settings).contacts != Contacts::rigid) return "";
+    const std::string begin = fmt::format(
+        "grains.ranks = {:.0f} for {:.0f} grains on {:.0f} cores: ", ranks, count(resolved), cores);
+    if (ranks > cores)
+        return begin +
+               fmt::format(
+                   "ranks wait for each other eight times per sweep, and those beyond the "
+                   "cores make all the others wait. Use grains.ranks = {:.0f} or fewer here.",
+                   cores);
+    if (count(resolved) >= grains_for_ranks) return "";
+    return begin + fmt::format(
+                       "ranks wait for each other eight times per sweep, which pays from about "
+                       "{:.0f} grains on. Use grains.ranks = 1 here.",
+                       grains_for_ranks);
 }
 
 WindowForecast forecast_window(const ResolvedCase& resolved, double cores) {

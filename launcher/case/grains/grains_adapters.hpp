@@ -43,9 +43,9 @@ struct GrainsAdapter {
     bool materials = false;          ///< more than the first, contact.pairs
     bool prescribed_grains = false;  ///< fixed and driven ones
     bool moved_grains = false;       ///< that follow a motion of domain.motions
-    int most_ranks = 1;           ///< in the plane
-    int most_ranks_in_space = 1;  ///< at least as many
-    double disc_substep = 0.4e-6;  ///< of springs: time per disc and sub-step [s]
+    int most_ranks = 1;              ///< in the plane
+    int most_ranks_in_space = 1;     ///< at least as many
+    double disc_substep = 0.4e-6;    ///< of springs: time per disc and sub-step [s]
 
     /// False: planned for a later version.
     bool available() const { return !file.empty() || host == GrainsHost::command; }

@@ -149,8 +149,9 @@ Ruling ranks_are_supported(const Settings& s) {
     if (s.integer("grains.ranks") <= most) return std::nullopt;
     const bool plane_only = adapter.most_ranks_in_space > 1;
     const std::string others =
-        in_space(s) ? adapters_that([](const GrainsAdapter& a) { return a.most_ranks_in_space > 1; })
-                    : adapters_that([](const GrainsAdapter& a) { return a.most_ranks > 1; });
+        in_space(s)
+            ? adapters_that([](const GrainsAdapter& a) { return a.most_ranks_in_space > 1; })
+            : adapters_that([](const GrainsAdapter& a) { return a.most_ranks > 1; });
     return Objection{fmt::format("{} runs on one rank {}in this version.", adapter.name,
                                  plane_only ? "in the plane " : ""),
                      fmt::format("Use 1, or grains.adapter: {}.", others)};
@@ -186,27 +187,27 @@ void notes(const Settings& s, std::vector<std::string>& notes) {
 
 KeyGroup adapter_keys() {
     return {
-        .keys = {{.name = "grains.adapter",
-                  .type = KeyType::choice,
-                  .fallback = grains_adapters().front().name,
-                  .choices = adapter_choices(),
-                  .help = "the program that moves the grains"},
-                 {.name = "grains.ranks",
-                  .type = KeyType::integer,
-                  .fallback = "1",
-                  .range = {.lower = 1.0},
-                  .help =
-                      "MPI ranks of the grains program; more than one with lammps-md, external, and "
-                      "in space standalone-nscd"},
-                 {.name = "grains.command",
-                  .type = KeyType::text,
-                  .need = Need::conditional,
-                  .help =
-                      "program of your own and its arguments; the run folder is appended. Files "
+        .keys =
+            {{.name = "grains.adapter",
+              .type = KeyType::choice,
+              .fallback = grains_adapters().front().name,
+              .choices = adapter_choices(),
+              .help = "the program that moves the grains"},
+             {.name = "grains.ranks",
+              .type = KeyType::integer,
+              .fallback = "1",
+              .range = {.lower = 1.0},
+              .help =
+                  "MPI ranks of the grains program; more than one with lammps-md, external, and "
+                  "in space standalone-nscd"},
+             {.name = "grains.command",
+              .type = KeyType::text,
+              .need = Need::conditional,
+              .help = "program of your own and its arguments; the run folder is appended. Files "
                       "are relative to the case file",
-                  .when = "with grains.adapter: external",
-                  .required = has_command,
-                  .idle = idle_command}},
+              .when = "with grains.adapter: external",
+              .required = has_command,
+              .idle = idle_command}},
         .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},
                   {"domain.left", {"grains.adapter"}, left_is_not_cyclic},
                   {"domain.bottom", {"grains.adapter"}, bottom_is_not_cyclic},
