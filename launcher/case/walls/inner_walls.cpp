@@ -143,6 +143,26 @@ std::string place_of(const PlacedGrain& grain, bool space) {
                  : fmt::format("({}, {})", grain.x, grain.y);
 }
 
+/// Nothing unless the images of a wall in space across a cyclic side would lie on the wall itself.
+void check_period(const InnerWall& wall, const PackingBox& box, const std::string& source,
+                  std::vector<CaseProblem>& problems) {
+    const Vec3 size = size_of(wall), period{box.width, box.height, box.depth};
+    const bool repeats[] = {box.periodic_x, box.periodic_y, box.periodic_z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (repeats[axis] && size[axis] > period[axis] + touching_tolerance)
+            problems.push_back(
+                {.source = source,
+                 .line = 0,
+                 .key = {},
+                 .value = {},
+                 .fault = fmt::format("wall {} is {:.6g} D long along {}", wall.id, size[axis],
+                                      "xyz"[axis]),
+                 .allowed = fmt::format("The box repeats there every {:.6g} D, and the wall with "
+                                        "it.",
+                                        period[axis]),
+                 .remedy = "Let it end at the sides, where its image begins."});
+}
+
 }  // namespace
 
 bool InnerWall::moves_itself() const {
@@ -196,6 +216,7 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
                                      const std::string& source, double tolerance) {
     std::vector<CaseProblem> problems;
     for (const InnerWall& wall : walls) {
+        if (wall.space) check_period(wall, box, source, problems);
         const StartGap gap_of(wall, forms, box);
         for (const PlacedGrain& grain : grains) {
             const double gap = gap_of(grain);

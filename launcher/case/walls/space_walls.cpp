@@ -288,6 +288,20 @@ double surface_gap(const InnerWall& wall, const PlacedGrain& sphere) {
     return distance - sphere.radius - 0.5 * wall.thickness;
 }
 
+Vec3 size_of(const InnerWall& wall) {
+    const SpaceForm& form = *wall.space;
+    const Vec3 axis = form.a / norm(form.a);
+    const double widest = std::max(form.radius, form.radius2);
+    Vec3 size{};
+    for (std::size_t i = 0; i < 3; ++i)
+        if (form.kind == SpaceWallKind::plate)
+            size[i] = std::abs(form.a[i]) + std::abs(form.b[i]);
+        else  // a circle normal to the unit vector e extends by R sqrt(1 - e_i^2) along axis i
+            size[i] = (form.kind == SpaceWallKind::ring ? 0.0 : std::abs(form.a[i])) +
+                      2.0 * widest * std::sqrt(std::max(0.0, 1.0 - axis[i] * axis[i]));
+    return size;
+}
+
 std::string space_walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
                                 double friction, const std::vector<std::string>& materials) {
     const double d = scales.diameter;

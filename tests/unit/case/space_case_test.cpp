@@ -138,6 +138,23 @@ TEST_F(SpaceCase, AFluidInSpaceIsForecast) {
     EXPECT_DOUBLE_EQ(space.settings.real("run.surface_shift"), 0.3 / 8.0);
 }
 
+TEST_F(SpaceCase, ExtraGrainsAreAddedToGeneratedOnes) {
+    folder.write("ball.csv", "id,x,y,z,radius,vy\n1000,6,8,3,1.5,-2\n");
+    const std::vector<std::string> with = {"grains.extra_file=ball.csv",
+                                           "grains.region=[12, 6, 6]"};
+    const ResolvedCase resolved = load("", with);
+    ASSERT_EQ(resolved.population.size(), 101u);
+    EXPECT_EQ(resolved.population.back().id, 1000);
+    EXPECT_EQ(resolved.population.back().radius, 1.5);
+    EXPECT_EQ(resolved.population.back().velocity[1], -2.0);
+    EXPECT_SAYS(resolved.grains_csv, "1000,");
+    folder.write("ball.csv", "id,x,y,z,radius\n7,6,8,3,1.5\n");
+    EXPECT_SAYS(refusal("", with), "7");
+    folder.write("ball.csv", "id,x,y,z,radius\n1000,6,8,5,1.5\n1001,6,8,3,1.5\n");
+    EXPECT_SAYS(refusal("", with), "overlap");
+    EXPECT_SAYS(refusal("", {"grains.extra_file=gone.csv"}), "There is no file");
+}
+
 TEST_F(SpaceCase, TheForecastCountsSpheres) {
     const auto window = [&](const char* count) {
         return forecast_window(load("", {std::string("grains.count=") + count}), 64.0).grains;

@@ -122,6 +122,20 @@ TEST_F(SpaceWallsCase, GrainsThatAWallCutsAreRefused) {
     EXPECT_EQ(refusal_of("0,plate,11,5.2,9,2,0,0,0,0,2,,,,,,,,,\n"), "");
 }
 
+/// It would lie on its own images.
+TEST_F(SpaceWallsCase, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
+    walls("0,cylinder,10,0,0,0,0,21,,,,8,,,,,,,,\n");
+    EXPECT_EQ(refusal(""), "");
+    const std::vector<std::string> cyclic = {"domain.front=cyclic", "domain.back=cyclic"};
+    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 21 D long along z");
+    walls("0,cylinder,10,0,0,0,0,20,,,,8,,,,,,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
+    walls("0,cylinder,10,0,10,0,9,0,,,,10.1,,,,,,,,\n");
+    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.2 D long along z");
+    walls("0,plate,1,2,1,4,0,0,0,0,22,,,,,,,,,\n");
+    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 22 D long along z");
+}
+
 class CylinderCase : public CaseTest {
  protected:
     CylinderCase()

@@ -161,26 +161,28 @@ TEST(SpaceWalls, AJointIsTouchedOnceOrNotAtAll) {
     EXPECT_GT(dropped, 100);
 }
 
-/// A sphere slides along a cylinder of two pieces: without the rule of joints the rim of the next
-/// piece would lift it.
+/// A sphere slides along a cylinder of two pieces, given in either order: without the rule of
+/// joints the rim of the next piece would lift it.
 TEST(SpaceWalls, ASphereSlidesOverAJointUnhindered) {
     const Vec3 z{0, 0, 1};
-    Engine engine(scenes::exact_in_space(0.0), scenes::spheres,
-                  {scenes::round_wall(6, {}, z, {4.0, 0.0}, {4.0, 3.0}),
-                   scenes::round_wall(7, {}, z, {4.0, 6.0}, {4.0, 3.0})});
-    Body sphere = scenes::sphere(1, {0.0, -3.5, 1.0});
-    sphere.twist.velocity = {0.0, 0.0, 1.0};
-    engine.bodies().add(sphere);
-    int steps_with_one = 0;
-    for (int n = 0; n < 400; ++n) {
-        const StepReport report = engine.step(0.01);
-        engine.move(0.01);
-        steps_with_one += report.contacts == 1;
+    std::vector<Wall> pieces = {scenes::round_wall(6, {}, z, {4.0, 0.0}, {4.0, 3.0}),
+                                scenes::round_wall(7, {}, z, {4.0, 6.0}, {4.0, 3.0})};
+    for (int order = 0; order < 2; ++order, std::swap(pieces[0], pieces[1])) {
+        Engine engine(scenes::exact_in_space(0.0), scenes::spheres, pieces);
+        Body sphere = scenes::sphere(1, {0.0, -3.5, 1.0});
+        sphere.twist.velocity = {0.0, 0.0, 1.0};
+        engine.bodies().add(sphere);
+        int held = 0;
+        for (int n = 0; n < 400; ++n) {
+            const StepReport report = engine.step(0.01);
+            engine.move(0.01);
+            held += report.contacts >= 1;  // two right at the joint
+        }
+        EXPECT_EQ(held, 400) << order;
+        EXPECT_NEAR(engine.bodies().position[0][2], 5.0, 1e-12) << order;
+        EXPECT_NEAR(engine.bodies().position[0][1], -3.5, 1e-12) << order;
+        EXPECT_NEAR(engine.bodies().twist[0].velocity[2], 1.0, 1e-12) << order;
     }
-    EXPECT_EQ(steps_with_one, 400);
-    EXPECT_NEAR(engine.bodies().position[0][2], 5.0, 1e-12);
-    EXPECT_NEAR(engine.bodies().position[0][1], -3.5, 1e-12);
-    EXPECT_NEAR(engine.bodies().twist[0].velocity[2], 1.0, 1e-12);
 }
 
 TEST(SpaceWalls, AFilledSiloHoldsItsSpheres) {
