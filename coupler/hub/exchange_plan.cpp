@@ -179,6 +179,10 @@ std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ran
     const std::vector<int> rank = even_shares(population, ranks);
     for (std::size_t i = 0; i < population.size(); ++i)
         shares[static_cast<std::size_t>(rank[i])].grains.push_back(population[i]);
+    for (Motion& share : shares)
+        std::stable_sort(
+            share.grains.begin(), share.grains.end(),
+            [](const GrainState& a, const GrainState& b) { return a.position[0] < b.position[0]; });
     return shares;
 }
 

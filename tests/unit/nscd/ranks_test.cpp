@@ -215,6 +215,29 @@ TEST(Ranks, HaveTheBitsOfOneRankWithEveryLaw) {
     }
 }
 
+// A heap that rests, and as many spheres that fall far from each other: first half of the bodies
+// each, then half of the contacts.
+TEST(Ranks, AreCutAnewWhereTheWorkIsUneven) {
+    Scene scene;
+    scene.settings = scenes::exact_in_space(0.4, 1e-4);
+    scene.walls = {scenes::floor(0.4)};
+    scene.steps = 30;
+    GrainId id = 0;
+    for (int x = 0; x < 12; ++x)
+        for (int z = 0; z < 6; ++z)
+            for (int y = 0; y < 3; ++y)
+                scene.bodies.add(scenes::sphere(++id, {0.5 + x, 0.5 + y, 0.5 + z}));
+    const GrainId of_heap = id;
+    for (int i = 0; i < of_heap; ++i)
+        scene.bodies.add(scenes::sphere(++id, {30.0 + 2.0 * (i % 20), 50.0, 2.0 * (i / 20)}));
+    const Played one = play(scene, 1), many = play(scene, 2);
+    expect_equal(one, many);
+    ASSERT_GT(one.contacts, 1000);
+    const auto moved = std::count_if(many.moved.begin(), many.moved.end(),
+                                     [of_heap](GrainId moved) { return moved <= of_heap; });
+    EXPECT_GT(moved, 50);
+}
+
 // One rank has nothing.
 TEST(Ranks, MayBeEmpty) {
     Scene scene;
