@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "coupler/protocol/run_files.hpp"
@@ -74,8 +75,11 @@ std::vector<CaseText> starting_cases() {
         std::ifstream in(file.path());
         std::stringstream text;
         text << in.rdbuf();
-        if (file.path().extension() == ".yaml" && text.str().find("domain:") != std::string::npos)
-            cases.push_back({text.str(), grains_csv, walls_csv, {}});
+        // To place tens of thousands of grains takes seconds.
+        static const std::regex many("count: [0-9]{5,}");
+        const std::string yaml = std::regex_replace(text.str(), many, "count: 300");
+        if (file.path().extension() == ".yaml" && yaml.find("domain:") != std::string::npos)
+            cases.push_back({yaml, grains_csv, walls_csv, {}});
     }
     return cases;
 }
