@@ -157,11 +157,12 @@ TEST_F(Space, CheckForecastsAndRefusesInWords) {
     EXPECT_SAYS(good.out + good.err, "forecast:");
     const Answer bad = turbidite(
         "check case.yaml --set \"domain.size=[16, 9]\" --set grains.shape=disc "
-        "--set grains.adapter=yade-md --set fluid.enabled=true --set fluid.reynolds=10");
+        "--set grains.adapter=yade-md --set fluid.enabled=true --set fluid.reynolds=10 "
+        "--set fluid.points=interior+boundary");
     EXPECT_EQ(bad.code, 2);
     for (const char* part :
          {"In space length, height and depth", "In space grains are spheres",
-          "yade-md does not support cyclic sides", "In space there is no fluid in this version"})
+          "yade-md does not support cyclic sides", "In space there are no points on surfaces"})
         EXPECT_SAYS(bad.err + bad.out, part);
 }
 
