@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The order of contacts by global cells (parity_grid.hpp), in which Gauss-Seidel can be divided among
-// ranks without changing a bit. A contact belongs to the cell of its body with the lower id.
+// The order of contacts by global cells (parity_grid.hpp), in which Gauss-Seidel can be divided
+// among ranks without changing a bit. A contact belongs to the cell of its body with the lower id.
 // Contacts of different cells of one parity share no body: these cells may be swept in any order or
 // at the same time.
 //
