@@ -120,8 +120,9 @@ CaseProblem refused(const StartGrains& start, std::size_t i, const GrainRule& ru
 }  // namespace
 
 double displaced_share(const Settings& settings, double radius) {
-    if (!settings.has("fluid.surface_shift") || !settings.has("fluid.cells_per_diameter"))
-        return 1.0;
+    for (const char* key :
+         {"fluid.surface_shift", "fluid.cells_per_diameter", "fluid.hydrodynamic_radius"})
+        if (!settings.has(key)) return 1.0;  // of the plane, or refused
     const double cells = settings.real("fluid.cells_per_diameter") * radius;  // of its radius
     const double seen =
         settings.real("fluid.hydrodynamic_radius") + settings.real("fluid.surface_shift") / cells;
