@@ -18,23 +18,6 @@ BoxFluid fluid_of(const ArrayBox& box) {
     return fluid;
 }
 
-/// The step's arrays are all there is; every side is at rest.
-class NoFields final : public RowFields {
- public:
-    explicit NoFields(const CellGrid& grid) : sides_(sides_at_rest(grid)) {}
-
-    bool stay_in_rows() const override { return true; }
-    int first_row() const override { return 0; }
-    void read_velocity(const VelocityPointers&) override {}
-    void write_velocity(const VelocityPointers&) override {}
-    void read_pressure(double*) override {}
-    void write_pressure(const double*, bool) override {}
-    VelocityOnSides side_velocity() const override { return sides_; }
-
- private:
-    VelocityOnSides sides_;
-};
-
 }  // namespace
 
 CellGrid grid_of_cubes(const std::array<int, 3>& cells, double edge,
@@ -46,6 +29,8 @@ CellGrid grid_of_cubes(const std::array<int, 3>& cells, double edge,
     for (int axis = 0; axis < grid.dimension; ++axis) grid.sides[axis].fill(sides[axis]);
     return grid;
 }
+
+ArrayRows::ArrayRows(const CellGrid& grid) : sides_(sides_at_rest(grid)) {}
 
 ArrayField::ArrayField(const ArrayBox& box)
     : grid_(box.grid),
@@ -76,11 +61,14 @@ FluidMomentum ArrayField::momentum() const {
     return of;
 }
 
-ArrayStore::ArrayStore(const ArrayBox& box) : density_(box.density), field_(box) {
+ArrayStore::ArrayStore(const ArrayBox& box)
+    : ArrayStore(box, std::make_unique<ArrayRows>(box.grid)) {}
+
+ArrayStore::ArrayStore(const ArrayBox& box, std::unique_ptr<RowFields> rows)
+    : density_(box.density), field_(box) {
     const BoxFluid fluid = fluid_of(box);
     step_ = std::make_unique<BoxFluidStep>(fluid, std::make_unique<AllRows>(fluid.pressure),
-                                           std::make_unique<NoFields>(box.grid), ranks_,
-                                           box.rigid_grains);
+                                           std::move(rows), ranks_, box.rigid_grains);
     field_.work_on(*step_);
 }
 

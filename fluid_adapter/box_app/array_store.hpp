@@ -29,6 +29,23 @@ struct ArrayBox {
 CellGrid grid_of_cubes(const std::array<int, 3>& cells, double edge,
                        const std::array<Side, 3>& sides);
 
+/// The step's arrays are all there is; every side is at rest.
+class ArrayRows : public RowFields {
+ public:
+    explicit ArrayRows(const CellGrid& grid);
+
+    bool stay_in_rows() const override { return true; }
+    int first_row() const override { return 0; }
+    void read_velocity(const VelocityPointers&) override {}
+    void write_velocity(const VelocityPointers&) override {}
+    void read_pressure(double*) override {}
+    void write_pressure(const double*, bool) override {}
+    VelocityOnSides side_velocity() const override { return sides_; }
+
+ private:
+    VelocityOnSides sides_;
+};
+
 /// The velocity is the step's own.
 class ArrayField final : public StoredField {
  public:
@@ -58,9 +75,10 @@ class ArrayField final : public StoredField {
     std::array<double*, 3> velocity_{};
 };
 
-class ArrayStore final : public FluidStore {
+class ArrayStore : public FluidStore {
  public:
     explicit ArrayStore(const ArrayBox& box);
+    ArrayStore(const ArrayBox& box, std::unique_ptr<RowFields> rows);
 
     ArrayField& field() override { return field_; }
     FluidStep& step() override { return *step_; }

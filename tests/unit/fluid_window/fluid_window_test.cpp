@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "tests/run_settings.hpp"
-#include "tests/unit/fluid_window/memory_store.hpp"
+#include "tests/unit/fluid_window/watched_store.hpp"
 
 namespace turbidite {
 namespace {
@@ -56,7 +56,7 @@ struct Scene {
         return window.impose();
     }
 
-    MemoryStore store;
+    WatchedStore store;
     FluidWindow window;
     GrainState disc = sinking_disc();
 };
@@ -113,7 +113,7 @@ TEST_P(EverySplitting, OnlyACorrectedPressureLetsTheFluidGoRound) {
 std::vector<double> carried_vortex(const std::string& splitting, int windows) {
     constexpr int n = 32;
     constexpr double h = 2.0 * M_PI / n, end = 0.6;
-    MemoryStore store(n, h, 0.01, corrects(splitting), Side::cyclic);
+    WatchedStore store(n, h, 0.01, corrects(splitting), Side::cyclic);
     FluidWindow window(store, settings(splitting), {{"disc", {}}});
     for (int c = 0; c < n * n; ++c) {
         const double x = (c % n + 0.5) * h, y = (c / n + 0.5) * h;
@@ -184,7 +184,7 @@ TEST(FluidWindow, TheLastWindowLetsTheStoreFinish) {
 }
 
 TEST(FluidWindow, AGrainThatReachesStretchedRowsIsRefused) {
-    MemoryStore store(cells, edge, 0.01, false);
+    WatchedStore store(cells, edge, 0.01, false);
     store.resolved_height = 3.0;
     Settings strict = settings("marchuk-yanenko");
     strict.set("fluid.allow_coarse", false);
