@@ -16,7 +16,9 @@ namespace turbidite {
 namespace {
 
 /// Fewer cells show neither a grain's outline nor the flow around it.
-constexpr double least_cells_across = 4.0;
+double least_cells_across(const Settings& settings) {
+    return in_space(settings) ? 6.0 : 4.0;
+}
 
 /// What no grain may be, and what is said of the first that is.
 struct GrainRule {
@@ -73,14 +75,15 @@ std::optional<double> equal_height(const Settings& settings) {
 std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     std::vector<GrainRule> rules;
     const double cells = settings.real("fluid.cells_per_diameter");
+    const double least = least_cells_across(settings);
     const auto across = [cells](const PlacedGrain& g) { return 2.0 * g.radius * cells; };
-    rules.push_back(
-        {[across](const PlacedGrain& g) { return across(g) < least_cells_across * (1.0 - 1e-12); },
-         [across](const PlacedGrain& g) {
-             return fmt::format("diameter {:.3g} D, {:.3g} cells", 2.0 * g.radius, across(g));
-         },
-         fmt::format("A grain in a fluid is at least {:.0f} cells wide.", least_cells_across),
-         "Use more fluid.cells_per_diameter or larger grains."});
+    rules.push_back({[=](const PlacedGrain& g) { return across(g) < least * (1.0 - 1e-12); },
+                     [across](const PlacedGrain& g) {
+                         return fmt::format("diameter {:.3g} D, {:.3g} cells", 2.0 * g.radius,
+                                            across(g));
+                     },
+                     fmt::format("A grain in a fluid is at least {:.0f} cells wide.", least),
+                     "Use more fluid.cells_per_diameter or larger grains."});
     if (const auto height = equal_height(settings))
         rules.push_back(
             {[top = *height](const PlacedGrain& g) { return g.y + g.radius > top * (1.0 + 1e-12); },

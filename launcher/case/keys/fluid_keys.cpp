@@ -11,6 +11,7 @@
 #include "coupler/protocol/sides.hpp"
 #include "coupler/protocol/splitting.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
+#include "launcher/case/forecast/transform_length.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 #include "launcher/case/keys/transport_schemes.hpp"
 #include "launcher/case/scales.hpp"
@@ -261,6 +262,8 @@ void notes(const Settings& s, std::vector<std::string>& notes) {
             "transport may grow beyond 2/(36 Re) = {:.3g} t_c, and time.step = {}; Gauss "
             "limitedLinearV 1 stays bounded",
             scheme, usual_peak, *limit, s.text("time.step")));
+    if (s.flag("fluid.enabled") && s.text("fluid.pressure_solver") == "FFT")
+        for (std::string& slow : slow_transforms(s)) notes.push_back(std::move(slow));
 }
 
 /// Ranks and cells.

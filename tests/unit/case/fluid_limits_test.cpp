@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "launcher/case/forecast/mesh_cost.hpp"
+#include "launcher/case/forecast/transform_length.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
@@ -126,6 +127,32 @@ TEST_F(FluidLimits, TheForecastCountsStretchedRows) {
                                           "fluid.stretch_from=8", "fluid.allow_coarse=true"};
     EXPECT_EQ(refusal("", odd), "");  // any height
     EXPECT_SAYS(refusal("", {"domain.size=[12, 24.03]"}), "the mesh needs whole ones");
+}
+
+std::string notes_of(const ResolvedCase& resolved) {
+    std::string all;
+    for (const std::string& note : resolved.notes) all += note + "\n";
+    return all;
+}
+
+TEST(TransformLength, GoodOnesHaveSmallFactors) {
+    EXPECT_EQ(largest_prime_factor(1), 1);
+    EXPECT_EQ(largest_prime_factor(107), 107);
+    EXPECT_EQ(largest_prime_factor(2 * 3 * 49), 7);
+    EXPECT_EQ(good_transform_length(107), 108);
+    EXPECT_EQ(good_transform_length(192), 192);
+}
+
+// 107 = prime; along y there is no transform.
+TEST_F(FluidLimits, SlowTransformsAreToldWithTheNextGoodLength) {
+    const auto notes = [&](const char* size, const char* more = "time.end=1") {
+        return notes_of(load("", {std::string("domain.size=") + size, "fluid.cells_per_diameter=8",
+                                  "grains.region=[10, 10]", more}));
+    };
+    EXPECT_SAYS(notes("[13.375, 24]"), "107 cells along x have the prime factor 107");
+    EXPECT_SAYS(notes("[13.375, 24]"), "13.5 D, 108 cells");
+    EXPECT_EQ(notes("[24, 13.375]").find("prime"), std::string::npos);
+    EXPECT_EQ(notes("[13.375, 24]", "fluid.enabled=false").find("prime"), std::string::npos);
 }
 
 TEST_F(FluidLimits, AGrainOfFewCellsIsRefusedByItsNumber) {

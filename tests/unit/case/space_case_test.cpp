@@ -106,6 +106,9 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     const std::vector<std::string> wet = {"fluid.enabled=true", "fluid.reynolds=10",
                                           "fluid.cells_per_diameter=8"};
     EXPECT_EQ(refusal("", wet), "");
+    EXPECT_SAYS(
+        refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=5"}),
+        "at least 6 cells wide");
     const auto with = [&](const std::vector<std::string>& more) {
         std::vector<std::string> all = wet;
         all.insert(all.end(), more.begin(), more.end());
