@@ -5,6 +5,7 @@
 #include "bench/coupling_figures.hpp"
 #include "bench/figure.hpp"
 #include "bench/fluid_figures.hpp"
+#include "bench/space_figures.hpp"
 #include "bench/splitting_figures.hpp"
 
 namespace turbidite::bench {
@@ -37,8 +38,9 @@ std::vector<Figure> joined(std::vector<Figure> all, const std::vector<Figure>& m
 
 const std::vector<Benchmark>& benchmark_list() {
     static const std::vector<Benchmark> list = {
-        {"fluid", "one core, two ranks and the memory of the fluid step; splittings",
-         joined(fluid_figures(), splitting_figures())},
+        {"fluid",
+         "one core, two ranks and the memory of the fluid step, plane and space; splittings",
+         joined(joined(fluid_figures(), splitting_figures()), space_figures())},
         {"contact",
          "contact-iterations per second, growth with size, comparison with other solvers",
          contact_figures()},

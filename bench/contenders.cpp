@@ -18,8 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int along(double size) {
-    return static_cast<int>(std::lround(size * Box2d::cells_per_diameter));
+int along(const BenchBox& box, double size) {
+    return static_cast<int>(std::lround(size * box.cells_per_diameter()));
+}
+
+int layers(const BenchBox& box) {
+    return box.in_space() ? along(box, box.depth) : 1;
 }
 
 /// Reports progress on standard error.
@@ -27,22 +31,27 @@ void say(const std::string& text) {
     fmt::print(stderr, "  {}\n", text);
 }
 
-ResolvedCase case_of(const Site& site, const Box2d& box, int ranks = 1) {
-    return load_case(site.source("fluid.yaml"),
-                     {fmt::format("domain.size=[{},{}]", box.width, box.height),
-                      fmt::format("grains.count={}", std::max(box.discs, 1)),
-                      fmt::format("fluid.ranks={}", ranks),
-                      fmt::format("fluid.cells_per_diameter={}", Box2d::cells_per_diameter)});
+ResolvedCase case_of(const Site& site, const BenchBox& box, int ranks = 1) {
+    std::vector<std::string> sets = {
+        fmt::format("grains.count={}", std::max(box.grains, 1)),
+        fmt::format("fluid.ranks={}", ranks),
+        fmt::format("fluid.cells_per_diameter={}", box.cells_per_diameter())};
+    if (box.in_space())
+        sets.insert(sets.end(), {"dimension=3", fmt::format("domain.size=[{},{},{}]", box.width,
+                                                            box.height, box.depth)});
+    else
+        sets.push_back(fmt::format("domain.size=[{},{}]", box.width, box.height));
+    return load_case(site.source("fluid.yaml"), sets);
 }
 
-RunFolder prepared_run(const Site& site, const Box2d& box, int ranks) {
+RunFolder prepared_run(const Site& site, const BenchBox& box, int ranks) {
     const std::string name = fmt::format("{}-on-{}", box.name(), ranks);
     const RunFolder folder{site.folder() / ("ours-" + name)};
     if (fs::exists(folder.root)) return folder;
     say("preparing " + name);
     const ResolvedCase resolved = case_of(site, box, ranks);
     prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});
-    if (box.discs == 0)
+    if (box.grains == 0)
         site.run({"setExprFields", "-case", folder.fluid(), "-dict",
                   site.source("icofoam/system/setExprFieldsDict")},
                  "setExprFields-" + box.name());
@@ -57,7 +66,7 @@ RunFolder prepared_mid_fall(const Site& site, const std::string& name,
     std::vector<std::string> all{
         "grains.adapter=standalone-nscd",
         "grains.file=" + fs::canonical(site.source("mid_fall.csv")).string(),
-        fmt::format("fluid.cells_per_diameter={}", site.quick() ? 4 : Box2d::cells_per_diameter)};
+        fmt::format("fluid.cells_per_diameter={}", site.quick() ? 4 : 16)};
     all.insert(all.end(), sets.begin(), sets.end());
     const ResolvedCase resolved =
         load_case(site.source("../configs/sedimentation-discs.yaml"), all);
@@ -86,14 +95,17 @@ Sample played(const Site& site, const RunFolder& folder, const std::string& name
     return sample;
 }
 
-fs::path prepared_icofoam(const Site& site, const Box2d& box, const Effort& effort) {
+fs::path prepared_icofoam(const Site& site, const BenchBox& box, const Effort& effort) {
     const fs::path folder = site.folder() / ("icofoam-" + box.name());
     if (fs::exists(folder)) return folder;
     say("preparing icoFoam " + box.name());
     fs::copy(site.source("icofoam"), folder, fs::copy_options::recursive);
     std::ofstream(folder / "system/boxSize")
-        << fmt::format("width {}; height {}; nx {}; ny {};\n", box.width, box.height,
-                       along(box.width), along(box.height));
+        << fmt::format("width {}; height {}; depth {}; nx {}; ny {}; nz {};\n", box.width,
+                       box.height, box.in_space() ? box.depth : 0.0625, along(box, box.width),
+                       along(box, box.height), layers(box))
+        << (box.in_space() ? "ends wall; velocityEnds noSlip; pressureEnds zeroGradient;\n"
+                           : "ends empty; velocityEnds empty; pressureEnds empty;\n");
     const double end =
         case_of(site, box).settings.real("time.step") * (effort.warm_up + effort.steps);
     std::ofstream(folder / "system/controlDict", std::ios::app)
@@ -114,18 +126,19 @@ std::vector<double> execution_times(const std::string& log) {
 
 }  // namespace
 
-int Box2d::cells() const {
-    return along(width) * along(height);
+double BenchBox::cells() const {
+    return static_cast<double>(along(*this, width)) * along(*this, height) * layers(*this);
 }
 
-std::string Box2d::name() const {
-    return fmt::format("{}x{}{}", along(width), along(height),
-                       discs > 0 ? fmt::format("-{}-discs", discs) : "");
+std::string BenchBox::name() const {
+    const std::string deep = in_space() ? fmt::format("x{}", layers(*this)) : "";
+    return fmt::format("{}x{}{}{}", along(*this, width), along(*this, height), deep,
+                       grains > 0 ? fmt::format("-{}-grains", grains) : "");
 }
 
-Sample our_window(Site& site, const Box2d& box, const Effort& effort, int ranks) {
+Sample our_window(Site& site, const BenchBox& box, const Effort& effort, int ranks) {
     const RunFolder folder = prepared_run(site, box, ranks);
-    return played(site, folder, box.name(), effort, ranks, box.discs > 0);
+    return played(site, folder, box.name(), effort, ranks, box.grains > 0);
 }
 
 Sample mid_fall_window(Site& site, const Effort& effort, int ranks) {
@@ -144,12 +157,28 @@ Sample mid_fall_window_in_order(Site& site, const Effort& effort, bool second) {
     return played(site, folder, name, effort, 1, true);
 }
 
-Sample array_code_step(Site& site, const Box2d& box, const Effort& effort) {
+Sample settling_window(Site& site, const SpaceCase& of, const Effort& effort) {
+    const RunFolder folder{site.folder() / fmt::format("{}-on-{}", of.name, of.ranks)};
+    if (!fs::exists(folder.root)) {
+        say("preparing " + of.name);
+        std::vector<std::string> sets{"grains.adapter=standalone-nscd",
+                                      fmt::format("fluid.ranks={}", of.ranks)};
+        if (!of.grains.empty())
+            sets.push_back("grains.file=" + fs::canonical(site.source(of.grains)).string());
+        sets.insert(sets.end(), of.sets.begin(), of.sets.end());
+        const ResolvedCase resolved =
+            load_case(site.source("../configs/settling-spheres.yaml"), sets);
+        prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});
+    }
+    return played(site, folder, of.name, effort, of.ranks, true);
+}
+
+Sample array_code_step(Site& site, const BenchBox& box, const Effort& effort) {
     const fs::path result = site.folder() / "array-code.json";
     const Settings settings = case_of(site, box).settings;
     site.run({site.programs().folder / "turbidite-bench-array-code", "--width",
               fmt::format("{}", box.width), "--height", fmt::format("{}", box.height),
-              "--cells-per-diameter", std::to_string(Box2d::cells_per_diameter), "--reynolds",
+              "--cells-per-diameter", std::to_string(box.cells_per_diameter()), "--reynolds",
               settings.text("fluid.reynolds"), "--step", settings.text("time.step"), "--warm-up",
               std::to_string(effort.warm_up), "--steps", std::to_string(effort.steps), "--result",
               result.string()},
@@ -159,7 +188,7 @@ Sample array_code_step(Site& site, const Box2d& box, const Effort& effort) {
     return sample;
 }
 
-Sample icofoam_step(Site& site, const Box2d& box, const Effort& effort) {
+Sample icofoam_step(Site& site, const BenchBox& box, const Effort& effort) {
     const fs::path folder = prepared_icofoam(site, box, effort);
     site.run({"icoFoam", "-case", folder.string()}, "icofoam.log");
     const std::vector<double> times = execution_times(site.text("icofoam.log"));

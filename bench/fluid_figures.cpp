@@ -4,26 +4,17 @@
 #include <fmt/format.h>
 
 #include "bench/contenders.hpp"
+#include "bench/fluid_samples.hpp"
 
 namespace turbidite::bench {
 namespace {
-
-double processor(const Sample& sample) {
-    return sample.processor;
-}
-double wall(const Sample& sample) {
-    return sample.wall;
-}
-double resident(const Sample& sample) {
-    return sample.resident;
-}
 
 int repeats(const Site& site) {
     return site.quick() ? 1 : 5;
 }
 
 /// The full box of 320 x 960 cells; 40 x 80 cells for trials.
-Box2d tall_box(const Site& site, bool discs) {
+BenchBox tall_box(const Site& site, bool discs) {
     if (site.quick()) return {2.5, 5.0, discs ? 3 : 0};
     return {20.0, 60.0, discs ? 300 : 0};
 }
@@ -32,24 +23,8 @@ Effort windows(const Site& site) {
     return site.quick() ? Effort{2, 3} : Effort{10, 20};
 }
 
-std::string milliseconds(const std::string& who, const std::vector<Sample>& samples) {
-    return fmt::format("{} {:.4g} ms", who, 1e3 * median_of(samples, processor));
-}
-
-/// Distribution of a window's time: medians over all repeats.
-std::string profile(const std::vector<Sample>& samples) {
-    std::string text = "our window:";
-    for (const auto& [part, unused] : samples.front().parts) {
-        const double seconds =
-            median_of(samples, [&](const Sample& s) { return s.parts.at(part); });
-        text += fmt::format(" {} {:.4g} ms,", part, 1e3 * seconds);
-    }
-    const double together = median_of(samples, wall);
-    return text + fmt::format(" together {:.4g} ms of wall time", 1e3 * together);
-}
-
 Measured icofoam_over_ours(Site& site) {
-    const Box2d box = tall_box(site, true);
+    const BenchBox box = tall_box(site, true);
     // icoFoam's clock has a resolution of 10 ms, so tiny meshes need many steps.
     const Effort steps = site.quick() ? Effort{5, 60} : Effort{3, 8};
     const Duel duel = alternate(
@@ -61,7 +36,7 @@ Measured icofoam_over_ours(Site& site) {
 }
 
 Measured ours_over_array_code(Site& site) {
-    const Box2d box = tall_box(site, false);
+    const BenchBox box = tall_box(site, false);
     const Duel duel = alternate(
         repeats(site), [&] { return our_window(site, box, windows(site)); },
         [&] { return array_code_step(site, box, windows(site)); });
@@ -71,16 +46,16 @@ Measured ours_over_array_code(Site& site) {
 }
 
 Measured cell_cost_growth(Site& site) {
-    const Box2d large = site.quick() ? Box2d{10.0, 10.0} : Box2d{100.0, 250.0};
-    const Box2d small = site.quick() ? Box2d{5.0, 5.0} : Box2d{15.0, 20.0};
+    const BenchBox large = site.quick() ? BenchBox{10.0, 10.0} : BenchBox{100.0, 250.0};
+    const BenchBox small = site.quick() ? BenchBox{5.0, 5.0} : BenchBox{15.0, 20.0};
     const Effort few = site.quick() ? Effort{2, 3} : Effort{2, 6};
     const Duel duel = alternate(
         site.quick() ? 1 : 3, [&] { return our_window(site, large, few); },
         [&] { return our_window(site, small, windows(site)); });
     Measured measured = ratio(duel, processor);
-    const double cells = static_cast<double>(large.cells()) / small.cells();
+    const double cells = large.cells() / small.cells();
     for (double* value : {&measured.value, &measured.lowest, &measured.highest}) *value /= cells;
-    const auto per_cell = [](const std::vector<Sample>& samples, const Box2d& box) {
+    const auto per_cell = [](const std::vector<Sample>& samples, const BenchBox& box) {
         return fmt::format("{}: {:.4g} ns per cell", box.name(),
                            1e9 * median_of(samples, processor) / box.cells());
     };
@@ -90,7 +65,7 @@ Measured cell_cost_growth(Site& site) {
 }
 
 Measured speedup_2_ranks(Site& site) {
-    const Box2d box = tall_box(site, true);
+    const BenchBox box = tall_box(site, true);
     const Duel duel = alternate(
         repeats(site), [&] { return our_window(site, box, windows(site), 1); },
         [&] { return our_window(site, box, windows(site), 2); });
@@ -114,7 +89,7 @@ std::string work_done(const std::vector<Sample>& samples) {
 }
 
 Measured joint_window_d16(Site& site) {
-    const Box2d box = tall_box(site, false);
+    const BenchBox box = tall_box(site, false);
     const Duel duel = alternate(
         site.quick() ? 1 : 3, [&] { return mid_fall_window(site, mid_fall(site)); },
         [&] { return our_window(site, box, windows(site)); });
@@ -146,8 +121,8 @@ Measured joint_speedup_2_ranks(Site& site) {
 }
 
 Measured bytes_per_cell(Site& site) {
-    const Box2d large = site.quick() ? Box2d{15.0, 15.0} : Box2d{40.0, 120.0};
-    const Box2d small = site.quick() ? Box2d{5.0, 5.0} : Box2d{20.0, 60.0};
+    const BenchBox large = site.quick() ? BenchBox{15.0, 15.0} : BenchBox{40.0, 120.0};
+    const BenchBox small = site.quick() ? BenchBox{5.0, 5.0} : BenchBox{20.0, 60.0};
     const Duel duel = alternate(
         site.quick() ? 1 : 3,
         [&] {
