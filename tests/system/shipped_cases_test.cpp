@@ -38,7 +38,10 @@ TEST_F(ShippedCases, PlayTheirFirstWindows) {
              << " --set output.interval=" << step;
         // Tens of thousands are poured for minutes, and a single layer rolls on.
         if (yaml.find("generator: poured") != std::string::npos)
-            line << " --set grains.count=150 --set 'grains.region=[6, 20, 5]'";
+            line << " --set grains.count=150 --set 'grains.region=[6, 20, 5]'"
+                 << (yaml.find("cells_per_diameter") == std::string::npos
+                         ? ""
+                         : " --set 'domain.size=[10, 36, 5]'");
         else if (std::regex_search(yaml, many))
             line << " --set grains.count=1000";
         const Answer answer = shell(line.str());

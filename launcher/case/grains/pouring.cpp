@@ -99,6 +99,7 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     const std::string size = list_text({ground.length, height, ground.depth});
     changes.push_back("domain.size=" + size);
     changes.push_back("grains.region=" + size);
+    changes.push_back("fluid.enabled=false");
     changes.push_back("grains.generator=random");
     changes.push_back("grains.adapter=standalone-nscd");
     changes.push_back("grains.script=~");

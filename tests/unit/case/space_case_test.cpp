@@ -195,6 +195,20 @@ TEST_F(SpaceCase, PouredGrainsHaveStandInsAndARunOfTheirOwn) {
     EXPECT_SAYS(refusal("", full), "poured packings fill 0.66 at most");
 }
 
+// Into a shaft that is higher than the equal rows of the fluid's box.
+TEST_F(SpaceCase, GrainsOfAFluidArePouredWithoutIt) {
+    std::vector<std::string> wet = {"grains.generator=poured", "grains.region=[6, 9, 6]",
+                                    "fluid.enabled=true", "fluid.reynolds=10",
+                                    "fluid.cells_per_diameter=8", "fluid.stretch_ratio=1.05",
+                                    "fluid.stretch_from=6", "coupling.scheme=joint"};
+    const ResolvedCase resolved = load("", wet);
+    const std::vector<std::string> changes = pouring_changes(resolved);
+    wet.insert(wet.end(), changes.begin(), changes.end());
+    const ResolvedCase pouring = load("", wet);
+    EXPECT_FALSE(pouring.settings.flag("fluid.enabled"));
+    EXPECT_GT(pouring.settings.real("run.size_y"), 6.0);
+}
+
 TEST_F(SpaceCase, EveryHostPlaysIt) {
     for (const std::string adapter :
          {"yade-nscd", "standalone-nscd", "yade-md", "lammps-md", "standalone-md"})
