@@ -197,10 +197,10 @@ TEST_F(SpaceCase, PouredGrainsHaveStandInsAndARunOfTheirOwn) {
 
 // Into a shaft that is higher than the equal rows of the fluid's box.
 TEST_F(SpaceCase, GrainsOfAFluidArePouredWithoutIt) {
-    std::vector<std::string> wet = {"grains.generator=poured", "grains.region=[6, 9, 6]",
-                                    "fluid.enabled=true", "fluid.reynolds=10",
+    std::vector<std::string> wet = {"grains.generator=poured",    "grains.region=[6, 9, 6]",
+                                    "fluid.enabled=true",         "fluid.reynolds=10",
                                     "fluid.cells_per_diameter=8", "fluid.stretch_ratio=1.05",
-                                    "fluid.stretch_from=6", "coupling.scheme=joint"};
+                                    "fluid.stretch_from=6",       "coupling.scheme=joint"};
     const ResolvedCase resolved = load("", wet);
     const std::vector<std::string> changes = pouring_changes(resolved);
     wet.insert(wet.end(), changes.begin(), changes.end());
