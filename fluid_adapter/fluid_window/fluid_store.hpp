@@ -72,7 +72,7 @@ class FluidStore {
     virtual void interpolate_flux() = 0;
     virtual double largest_divergence() const = 0;  ///< of that flux [1/s]
 
-    /// p/rho_f [m2/s2], u and v [m/s] of the fields at each point of output.probes.
+    /// p/rho_f [m2/s2], u, v and in space w [m/s] of the fields at each point of output.probes.
     virtual std::vector<double> probes() const = 0;
 
     /// Writes the fields, with these grains where output.fields asks for them.

@@ -63,7 +63,7 @@ void set_run_times(Settings& settings, double time_scale) {
     settings.set("run.fields_every", std::int64_t{every * std::max(1LL, std::llround(outputs))});
 }
 
-/// output.probes in run units: x and y of each point, one after the other.
+/// output.probes in run units: x and y, in space also z, of each point, one after the other.
 void set_probes(Settings& settings, double diameter) {
     if (!settings.has("output.probes") || !settings.flag("fluid.enabled")) return;
     std::string points;

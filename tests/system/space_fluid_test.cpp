@@ -3,6 +3,7 @@
 // Spheres in a liquid, from the case file to the files of the run: OpenFOAM and contact dynamics in
 // three dimensions.
 #include <cmath>
+#include <cstring>
 
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
@@ -31,6 +32,16 @@ class SpaceFluid : public ShellTest {
     }
     Columns history(const std::string& folder) const {
         return columns_of(text(scratch.path() / folder / "history.csv"));
+    }
+
+    /// The numbers of a field of all cells as OpenFOAM wrote it.
+    std::vector<double> field(const std::string& file, std::size_t count) const {
+        const std::string written = text(scratch.path() / file);
+        const std::size_t open = written.find('(', written.find("nonuniform"));
+        std::vector<double> values(count);
+        if (open == std::string::npos || written.size() < open + 1 + 8 * count) return {};
+        std::memcpy(values.data(), written.data() + open + 1, 8 * count);
+        return values;
     }
 };
 
@@ -74,6 +85,37 @@ TEST_F(SpaceFluid, AResumedRunHasEqualBits) {
     for (const char* file : {"grains/grains_00000300.vtp", "fluid/6/U", "fluid/6/p"})
         EXPECT_EQ(text(scratch.path() / "whole" / file), text(scratch.path() / "parts" / file))
             << file;
+}
+
+// At the centre of a cell a probe has the values of the written fields there, on any number of
+// ranks.
+TEST_F(SpaceFluid, AProbeHasTheValuesOfTheFields) {
+    constexpr int nx = 24, ny = 30, nz = 24, i = 9, j = 20, k = 5;
+    const auto centre = [](int layer) { return std::to_string((layer + 0.5) / 6.0); };
+    const std::string run =
+        "run case.yaml --set time.end=0.4 --set output.interval=0.2 --set "
+        "\"output.probes=[" +
+        centre(i) + ", " + centre(j) + ", " + centre(k) + ", 3.1, 2.5, 1.3]\" --set fluid.ranks=";
+    ASSERT_EQ(turbidite(run + "1 --out one").code, 0);
+    ASSERT_EQ(turbidite(run + "2 --out two").code, 0);
+    const Columns one = columns_of(text(scratch.path() / "one/probes.csv"));
+    const Columns two = columns_of(text(scratch.path() / "two/probes.csv"));
+    ASSERT_EQ(one.size(), 1u + 2 * 4u);
+    ASSERT_EQ(one.at("time"), (std::vector<double>{0.2, 0.4}));
+    for (const auto& [name, values] : one)
+        EXPECT_LT(largest_difference(values, two.at(name)), 1e-7) << name;
+    const std::vector<double> p = field("one/fluid/0.4/p", nx * ny * nz);
+    const std::vector<double> U = field("one/fluid/0.4/U", 3 * nx * ny * nz);
+    ASSERT_FALSE(p.empty() || U.empty());
+    const std::size_t cell = i + nx * (j + ny * k);  // blockMesh: x, y, z
+    const auto near = [](double value) { return 1e-4 * std::abs(value) + 1e-9; };
+    EXPECT_NEAR(one.at("pressure_1").back(), p[cell], near(p[cell]));
+    const char* const names[] = {"velocity_x_1", "velocity_y_1", "velocity_z_1"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double u = U[3 * cell + axis];
+        EXPECT_GT(std::abs(u), 1e-5);
+        EXPECT_NEAR(one.at(names[axis]).back(), u, near(u)) << names[axis];
+    }
 }
 
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {

@@ -103,8 +103,7 @@ KeyGroup space_keys() {
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},
         {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers},
-        {"output.fields", {"dimension", "fluid.enabled"}, only_in_the_plane},
-        {"output.probes", {"dimension", "fluid.enabled"}, only_in_the_plane}};
+        {"output.fields", {"dimension", "fluid.enabled"}, only_in_the_plane}};
     add_side_rules(rules, std::make_index_sequence<box_sides.size()>{});
     return {.keys = {}, .rules = std::move(rules)};
 }

@@ -37,12 +37,12 @@ TEST(CoveredShare, IsOneInsideAndZeroOutside) {
     EXPECT_EQ(shares[40 + 48 * 40], 0.0);
 }
 
-TEST(BilinearStencil, IsExactForALinearFieldAwayFromSides) {
+TEST(LinearStencil, IsExactForALinearFieldAwayFromSides) {
     const MemoryField field({0.0, 0.25, 0.5, 0.75, 1.0, 1.25}, {0.0, 0.5, 0.8, 1.0, 1.4, 2.0},
                             Side::wall);
     const auto linear = [](double x, double y) { return 1.0 + 2.0 * x - 3.0 * y; };
     double value = 0.0, weights = 0.0;
-    for (const StencilEntry& at : bilinear_stencil(field.grid(), {0.9, 1.1})) {
+    for (const StencilEntry& at : linear_stencil(field.grid(), {0.9, 1.1, 0.0})) {
         value += at.weight * linear(field.grid().centre(0, at.i), field.grid().centre(1, at.j));
         weights += at.weight;
     }
@@ -50,15 +50,38 @@ TEST(BilinearStencil, IsExactForALinearFieldAwayFromSides) {
     EXPECT_NEAR(weights, 1.0, 1e-14);
 }
 
-TEST(BilinearStencil, TakesTheNearestCentreAtAWallAndTheOtherSideOfACyclicBox) {
+TEST(LinearStencil, TakesTheNearestCentreAtAWallAndTheOtherSideOfACyclicBox) {
     const MemoryField field(8, 8, Side::wall, 0.25), cyclic(8, 8, Side::cyclic, 0.25);
     double at_corner = 0.0, across = 0.0;
-    for (const StencilEntry& at : bilinear_stencil(field.grid(), {2.0, 0.0}))
+    for (const StencilEntry& at : linear_stencil(field.grid(), {2.0, 0.0, 0.0}))
         if (at.i == 7 && at.j == 0) at_corner += at.weight;
     EXPECT_NEAR(at_corner, 1.0, 1e-14);
-    for (const StencilEntry& at : bilinear_stencil(cyclic.grid(), {2.0, 0.0}))
+    for (const StencilEntry& at : linear_stencil(cyclic.grid(), {2.0, 0.0, 0.0}))
         if (at.i == 0 && at.j == 7) across += at.weight;
     EXPECT_NEAR(across, 0.25, 1e-14);
+}
+
+TEST(LinearStencil, HasEightCellsInSpace) {
+    CellGrid grid;
+    grid.dimension = 3;
+    grid.counts = {6, 5, 4};
+    grid.spacing = {0.5, 0.4, 0.3};
+    grid.sides[2].fill(Side::cyclic);
+    const auto linear = [](double x, double y, double z) { return 1.0 + 2.0 * x - 3.0 * y + z; };
+    const auto stencil = linear_stencil(grid, {1.1, 0.9, 0.7});
+    ASSERT_EQ(stencil.size(), 8u);
+    double value = 0.0, weights = 0.0;
+    for (const StencilEntry& at : stencil) {
+        value +=
+            at.weight * linear(grid.centre(0, at.i), grid.centre(1, at.j), grid.centre(2, at.k));
+        weights += at.weight;
+    }
+    EXPECT_NEAR(value, linear(1.1, 0.9, 0.7), 1e-14);
+    EXPECT_NEAR(weights, 1.0, 1e-14);
+    double behind = 0.0;  // across the cyclic side
+    for (const StencilEntry& at : linear_stencil(grid, {1.1, 0.9, 0.0}))
+        if (at.k == 3) behind += at.weight;
+    EXPECT_NEAR(behind, 0.5, 1e-14);
 }
 
 }  // namespace
