@@ -12,11 +12,13 @@ from PIL import Image
 
 import contact_files
 import film
+import fluid_fields
 import force_network
 import grain_files
+import pictures
 import report
 import run_data
-from analysis import concentration, snapshots, weight_balance
+from analysis import concentration, energy, snapshots, weight_balance
 from space import ball_image, camera, chains, free_surface, scene, walls
 
 CASE = """dimension: 3
@@ -85,6 +87,58 @@ class SpaceRun(RunFolderTest):
 
     def grains(self, k=1):
         return grain_files.read_grains(k, self.folder / f'grains/grains_{k:08d}.vtp')
+
+
+class Liquid(SpaceRun):
+    """12 x 10 x 8 cells in 6 x 5 x 4 D; cell (i, j, k) has the velocity (i, j, k)."""
+
+    def setUp(self):
+        super().setUp()
+        self.write('case.yaml', CASE.replace('enabled: false', 'enabled: true\n  cells_per_diameter: 2'))
+        self.k, self.j, self.i = np.mgrid[0:8, 0:10, 0:12]
+        self.field(0, 0.0)
+        self.field(1, 1.0)
+        self.run_data = run_data.load_run(self.folder)
+
+    def field(self, time, factor):
+        values = factor * np.stack([self.i, self.j, self.k], axis=-1).reshape(-1, 3).astype('<f8')
+        self.write(f'fluid/{time}/U', b'format binary;\ninternalField nonuniform List<vector> \n%d\n(' % len(values)
+                   + values.tobytes() + b')\n;\n')
+
+    def test_motion_of_the_liquid_has_a_point_per_field(self):
+        self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
+        data = run_data.load_run(self.folder)
+        times, values = energy.fluid_kinetic(data)
+        self.assertEqual(times.tolist(), [0.0, 1.0])
+        whole = 0.5 * 0.5**3 * (self.i**2 + self.j**2 + self.k**2).sum() / (3 * np.pi / 6 * 2.0)
+        np.testing.assert_allclose(values, [0.0, whole - 0.5 / 2.0])
+        self.assertEqual(data.remarks, [])
+
+    def test_a_damaged_field_is_said(self):
+        self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
+        self.write('fluid/1/U', b'format binary;\ninternalField nonuniform List<vector> \n3\n(')
+        data = run_data.load_run(self.folder)
+        self.assertEqual(len(energy.fluid_kinetic(data)[0]), 1)
+        self.assertEqual(data.remarks, ['Velocity of the liquid at 1: U is cut off'])
+
+    def test_stretched_rows_count_by_their_heights(self):
+        self.write('case.yaml', CASE.replace('enabled: false', 'enabled: true\n  cells_per_diameter: 2\n'
+                                             '  stretch_ratio: 1.2'))
+        heights = np.array([0.5] * 8 + [0.6, 0.4])
+        z, y, x = np.meshgrid(np.arange(9) / 2, np.concatenate([[0], heights.cumsum()]), np.arange(13) / 2,
+                              indexing='ij')
+        points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+        self.write('fluid/constant/polyMesh/points',
+                   b'FoamFile\n{\n format binary;\n}\n\n\n%d\n(' % len(points) + points.astype('<f8').tobytes() + b')')
+        found = fluid_fields.mean_square_velocity(run_data.load_run(self.folder), 1, self.folder / 'fluid/1')
+        rows = (self.i**2 + self.j**2 + self.k**2).mean(axis=(0, 2))
+        self.assertAlmostEqual(found, (rows * heights).sum() / 5.0)
+
+    def test_grains_are_coloured_and_the_caption_says_so(self):
+        shown = [pictures.load(self.run_data, instant) for instant in pictures.instants(self.run_data)]
+        self.assertIn('Colour: speed of the grains', report.captions.sequence(self.run_data, shown))
+        self.assertNotIn('velocity of the fluid', report.captions.sequence(self.run_data, shown))
+        self.assertEqual(self.run_data.remarks, [])
 
 
 class Files(SpaceRun):
