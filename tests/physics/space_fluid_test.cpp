@@ -3,6 +3,7 @@
 // OpenFOAM in space: the windows that it hosts are those of plain arrays, and its mesh shows them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -67,14 +68,15 @@ void play(Fluid& fluid, std::vector<GrainState>& grains, std::int64_t index, boo
     }
 }
 
-/// u of every cell as OpenFOAM wrote it, in its order: x, y, z.
-std::vector<double> written_velocity(const std::filesystem::path& file) {
+/// A field of every cell as OpenFOAM wrote it, in its order: x, y, z.
+std::vector<double> written_field(const std::filesystem::path& file, std::size_t components) {
     std::ifstream in(file, std::ios::binary);
     std::stringstream all;
     all << in.rdbuf();
     const std::string text = all.str();
     const std::size_t list = text.find("nonuniform"), open = text.find('(', list);
-    std::vector<double> values(3 * static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]);
+    std::vector<double> values(components * static_cast<std::size_t>(cells[0]) * cells[1] *
+                               cells[2]);
     EXPECT_LT(open + values.size() * sizeof(double), text.size());
     std::memcpy(values.data(), text.data() + open + 1, values.size() * sizeof(double));
     return values;
@@ -118,7 +120,7 @@ TEST_P(SpaceFluid, OpenFoamsWindowsAreThoseOfPlainArrays) {
     double largest = 0.0;
     for (std::size_t g = 0; g < 2; ++g)
         EXPECT_LT(norm(in_foam[g].velocity - in_arrays[g].velocity), 1e-9);
-    const std::vector<double> written = written_velocity(folder.path() / "0.03" / "U");
+    const std::vector<double> written = written_field(folder.path() / "0.03" / "U", 3);
     for (int k = 0; k < cells[2]; ++k)
         for (int j = 0; j < cells[1]; ++j)
             for (int i = 0; i < cells[0]; ++i) {
@@ -133,6 +135,48 @@ TEST_P(SpaceFluid, OpenFoamsWindowsAreThoseOfPlainArrays) {
                 }
             }
     EXPECT_GT(largest, 0.1);
+}
+
+/// Fluid in a sphere that spins with omega has the vorticity 2 omega, and the sphere covers its
+/// volume, across a cyclic side too.
+TEST(SpaceFields, ShowASpinningSphere) {
+    Settings settings = space_settings("marchuk-yanenko");
+    settings.set("output.fields", std::string("vorticity solid"));
+    TemporaryFolder folder;
+    write_fluid_case(settings, folder.path());
+    build_fluid_mesh(folder.path(), folder.path() / "blockMesh.log");
+    FoamAdapter foam(folder.path());
+    foam.initialise(settings, {{"sphere", {}}});
+    std::vector<GrainState> sphere = {two_spheres()[0]};
+    const Vec3 spin{0.7, -0.3, 0.5};
+    sphere[0].velocity = {};
+    sphere[0].angular_velocity = spin;
+    sphere[0].prescribed = true;
+    const auto windows = [&](const Window& at, const std::vector<GrainState>& grains) {
+        foam.advance(at);
+        foam.correct(at, grains);
+        return foam.impose(at);
+    };
+    play(windows, sphere, 0, true);
+    const std::vector<double> vorticity = written_field(folder.path() / "0.01" / "vorticity", 3);
+    const std::vector<double> solid = written_field(folder.path() / "0.01" / "solid", 1);
+    double covered = 0.0;
+    int inside = 0;
+    for (std::size_t cell = 0; cell < solid.size(); ++cell) {
+        const int n = static_cast<int>(cell), i = n % cells[0], j = n / cells[0] % cells[1];
+        covered += solid[cell] * edge * edge * edge;
+        Vec3 arm = Vec3{i + 0.5, j + 0.5, n / (cells[0] * cells[1]) + 0.5};
+        arm = edge * arm - sphere[0].position;
+        if (arm[0] > 1.5) arm[0] -= 3.0;
+        if (norm(arm) > 0.5 - edge) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(vorticity[3 * cell + axis], 2.0 * spin[axis], 1e-9);
+        EXPECT_EQ(solid[cell], 1.0);
+        ++inside;
+    }
+    EXPECT_GE(inside, 20);
+    const double radius = 0.5 + 0.3 * edge;
+    EXPECT_NEAR(covered, 4.0 / 3.0 * M_PI * std::pow(radius, 3), 1e-3);
 }
 
 /// A saved state holds all that the next window needs.

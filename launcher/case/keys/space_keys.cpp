@@ -102,8 +102,7 @@ KeyGroup space_keys() {
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},
-        {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers},
-        {"output.fields", {"dimension", "fluid.enabled"}, only_in_the_plane}};
+        {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers}};
     add_side_rules(rules, std::make_index_sequence<box_sides.size()>{});
     return {.keys = {}, .rules = std::move(rules)};
 }

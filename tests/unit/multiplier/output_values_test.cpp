@@ -37,6 +37,32 @@ TEST(CoveredShare, IsOneInsideAndZeroOutside) {
     EXPECT_EQ(shares[40 + 48 * 40], 0.0);
 }
 
+CellGrid box_of_cubes(int count, double edge) {
+    CellGrid grid;
+    grid.dimension = 3;
+    grid.counts = {count, count, count};
+    grid.spacing = {edge, edge, edge};
+    return grid;
+}
+
+/// At D/8 two lines of a cell at 8 x 8 places are 1/64 D apart.
+TEST(CoveredShare, LengthsAddUpToTheVolumeOfASphere) {
+    const CellGrid grid = box_of_cubes(16, 0.125);
+    const Eigen::Vector3d centre(1.013, 0.97, 1.04);
+    for (const int along : {0, 1, 2}) {
+        double volume = 0.0;
+        for (int cell = 0; cell < 16 * 16 * 16; ++cell)
+            for (int sample = 0; sample < 64; ++sample) {
+                const double s = (sample % 8 + 0.5) / 8 - 0.5, t = (sample / 8 + 0.5) / 8 - 0.5;
+                Vec3 place{};
+                place[(along + 1) % 3] = s, place[(along + 2) % 3] = t;
+                volume += covered_length(grid, centre, 0.5, along,
+                                         {cell % 16, cell / 16 % 16, cell / 256}, place);
+            }
+        EXPECT_NEAR(volume / 64 / 512, std::numbers::pi / 6.0, 2e-4) << along;
+    }
+}
+
 TEST(LinearStencil, IsExactForALinearFieldAwayFromSides) {
     const MemoryField field({0.0, 0.25, 0.5, 0.75, 1.0, 1.25}, {0.0, 0.5, 0.8, 1.0, 1.4, 2.0},
                             Side::wall);
