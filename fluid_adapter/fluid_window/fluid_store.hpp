@@ -78,6 +78,9 @@ class FluidStore {
     /// Writes the fields, with these grains where output.fields asks for them.
     virtual void write(const std::vector<ImmersedGrain>& grains) = 0;
 
+    /// Writes planes of the fields at every output, with these grains.
+    virtual void write_slices(const std::vector<ImmersedGrain>&) {}
+
     /// Runs `work`; errors of the program become a Failure that names the activity.
     virtual void guard(const std::string& doing, const std::function<void()>& work) const = 0;
 

@@ -118,6 +118,87 @@ TEST_F(SpaceFluid, AProbeHasTheValuesOfTheFields) {
     }
 }
 
+/// The data of an array of a slice, raw float32 after the header.
+std::vector<float> slice_array(const std::string& file, const std::string& name) {
+    const std::string mark = "encoding=\"raw\">\n_";
+    const std::size_t begin = file.find(mark), at = file.find("Name=\"" + name + "\"");
+    if (begin == std::string::npos || at == std::string::npos) return {};
+    const std::size_t word = file.find("offset=\"", at) + 8;
+    const char* data = file.data() + begin + mark.size() + std::stoul(file.substr(word));
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, data, sizeof bytes);
+    std::vector<float> values(bytes / sizeof(float));
+    std::memcpy(values.data(), data + sizeof bytes, bytes);
+    return values;
+}
+
+// Between two layers of cells a slice is the mean of both; on any number of ranks it is the same,
+// and after a resumption none is there twice.
+TEST_F(SpaceFluid, SlicesAreThoseOfTheFields) {
+    constexpr std::size_t nx = 24, ny = 30, nz = 24;
+    const std::string run =
+        "run case.yaml --set time.end=0.4 --set output.interval=0.2 --set "
+        "\"output.slices=z = 2, y = 2.5, x = 0.75\" --set fluid.ranks=";
+    ASSERT_EQ(turbidite(run + "1 --out one").code, 0);
+    ASSERT_EQ(turbidite(run + "2 --out two").code, 0);
+    const std::vector<double> U = field("one/fluid/0.4/U", 3 * nx * ny * nz);
+    const std::vector<double> p = field("one/fluid/0.4/p", nx * ny * nz);
+    ASSERT_FALSE(p.empty() || U.empty());
+    const auto cell = [&](std::size_t i, std::size_t j, std::size_t k) {
+        return i + nx * (j + ny * k);
+    };
+    const auto of = [&](const std::string& folder, const std::string& name, const char* array) {
+        return slice_array(text(scratch.path() / folder / "fluid/slices" / name), array);
+    };
+    const std::vector<float> z = of("one", "z2_00000020.vtr", "U"),
+                             y = of("one", "y2.5_00000020.vtr", "p"),
+                             x = of("one", "x0.75_00000020.vtr", "U");
+    ASSERT_EQ(z.size(), 3 * nx * ny);
+    ASSERT_EQ(y.size(), nx * nz);
+    ASSERT_EQ(x.size(), 3 * ny * nz);
+    double largest = 0.0;
+    for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double mean =
+                    0.5 * (U[3 * cell(i, j, 11) + axis] + U[3 * cell(i, j, 12) + axis]);
+                ASSERT_NEAR(z[3 * (i + nx * j) + axis], mean, 1e-6) << i << ' ' << j;
+                largest = std::max(largest, std::abs(mean));
+            }
+    EXPECT_GT(largest, 0.05);
+    for (std::size_t k = 0; k < nz; ++k)
+        for (std::size_t i = 0; i < nx; ++i)
+            ASSERT_NEAR(y[i + nx * k], 0.5 * (p[cell(i, 14, k)] + p[cell(i, 15, k)]), 1e-6);
+    for (std::size_t k = 0; k < nz; ++k)  // x = 0.75 is the centre of a cell
+        for (std::size_t j = 0; j < ny; ++j)
+            ASSERT_NEAR(x[3 * (j + ny * k) + 1], U[3 * cell(4, j, k) + 1], 1e-6);
+    for (const char* name : {"z2_00000020.vtr", "y2.5_00000020.vtr", "x0.75_00000020.vtr"})
+        for (const char* array : {"p", "U", "covered"}) {
+            const std::vector<float> one = of("one", name, array), two = of("two", name, array);
+            ASSERT_EQ(one.size(), two.size());
+            double highest = 0.0;
+            for (std::size_t n = 0; n < one.size(); ++n) {
+                ASSERT_NEAR(one[n], two[n], 1e-5) << name << ' ' << array;
+                highest = std::max(highest, static_cast<double>(one[n]));
+            }
+            if (std::string(array) == "covered") EXPECT_EQ(highest, 1.0);
+        }
+    const auto entries = [&] {
+        const std::string series = text(scratch.path() / "one/fluid/slices/slices.pvd");
+        std::size_t count = 0;
+        for (std::size_t at = series.find("DataSet "); at != std::string::npos;
+             at = series.find("DataSet ", at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(entries(), 2u * 3u);
+    // As if the run had gone on after its last checkpoint.
+    std::ofstream(scratch.path() / "one/fluid/slices/z2_00000050.vtr") << "later";
+    ASSERT_EQ(turbidite("resume one --set time.end=0.6").code, 0);
+    EXPECT_EQ(entries(), 3u * 3u);
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "one/fluid/slices/z2_00000050.vtr"));
+}
+
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {
     const std::string short_run = "run case.yaml --set time.end=2 --out ";
     ASSERT_EQ(turbidite(short_run + "shifted").code, 0);

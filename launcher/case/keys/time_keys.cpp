@@ -7,6 +7,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "launcher/case/keys/key_groups.hpp"
+#include "launcher/case/slices.hpp"
 
 namespace turbidite {
 namespace {
@@ -52,6 +53,22 @@ Ruling probes_are_inside(const Settings& s) {
             return Objection{fmt::format("Point {} is outside the box of {}.", k / axes + 1,
                                          s.text("domain.size")),
                              "Use points inside."};
+    return std::nullopt;
+}
+
+Ruling slices_are_inside(const Settings& s) {
+    const std::string& text = s.text("output.slices");
+    if (text == "auto") return std::nullopt;
+    const auto planes = read_slices(text);
+    if (!planes)
+        return Objection{"Planes are an axis and a place in D each, with commas between.",
+                         "Write for example slices: z = 6.4, x = 3, or auto, or none."};
+    const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
+    for (const SlicePlane& plane : *planes)
+        if (plane.place < 0.0 || plane.place > size.at(plane.axis))
+            return Objection{fmt::format("The plane {} = {} is outside the box of {}.",
+                                         "xyz"[plane.axis], plane.place, s.text("domain.size")),
+                             "Use planes inside."};
     return std::nullopt;
 }
 
@@ -123,6 +140,16 @@ KeyGroup time_keys() {
                      .entries = 0,
                      .idle = without_fluid,
                      .in_space = {.allowed = "A list of numbers, three for each point."}},
+                    of_space({.name = "output.slices",
+                              .type = KeyType::text,
+                              .unit = "D",
+                              .fallback = "auto",
+                              .help = "planes at which the fluid's pressure and velocity are "
+                                      "written at every output, for ParaView and the report: z = "
+                                      "6.4, x = 3. auto: one through the middle of the depth; "
+                                      "none",
+                              .allowed = "auto, none, or planes: an axis and a place each.",
+                              .idle = without_fluid}),
                     {.name = "output.timeline",
                      .type = KeyType::flag,
                      .fallback = "false",
@@ -155,6 +182,7 @@ KeyGroup time_keys() {
             .rules = {{"time.end", {"time.step"}, at_least_one_window},
                       {"time.step", {"time.end"}, countable_windows},
                       {"output.fields", {}, fields_are_known},
+                      {"output.slices", {"domain.size"}, slices_are_inside},
                       {"output.probes", {"domain.size", "dimension"}, probes_are_inside}},
             .notes = notes};
 }

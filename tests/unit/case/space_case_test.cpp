@@ -128,6 +128,30 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
 }
 
+TEST_F(SpaceCase, SlicesArePlanesInside) {
+    const auto with = [](const std::string& slices) {
+        return std::vector<std::string>{"fluid.enabled=true", "fluid.reynolds=10",
+                                        "fluid.cells_per_diameter=8", "output.slices=" + slices};
+    };
+    const auto planes = [&](const std::string& slices) {
+        const Settings settings = load("", with(slices)).settings;
+        return settings.has("run.slices") ? settings.text("run.slices") : "";
+    };
+    EXPECT_EQ(planes("auto"), "2 3");
+    EXPECT_EQ(planes("none"), "");
+    EXPECT_EQ(planes("z = 1.5, x=12"), "2 1.5 0 12");
+    EXPECT_EQ(planes("y=0 x=3"), "1 0 0 3");
+    EXPECT_EQ(planes("y=1e0,x=3"), "1 1 0 3");
+    for (const char* text : {"w = 3", "z", "z = ", "3", "z = 1-2", "z = 1; x = 2", "z = 1 x"})
+        EXPECT_SAYS(refusal("", with(text)), "an axis and a place in D each") << text;
+    EXPECT_SAYS(refusal("", with("x = 3, z = 6.5")), "The plane z = 6.5 is outside the box");
+    EXPECT_SAYS(refusal("", with("z = -1")), "The plane z = -1 is outside the box");
+    EXPECT_FALSE(load().settings.has("run.slices")) << "without a fluid";
+    const double none = predicted_disk(load("", with("none")));
+    const double cells = 12 * 10 * 64;  // of a plane at D/8; 2 outputs in 1 t_c
+    EXPECT_NEAR(predicted_disk(load("", with("auto"))) - none, 2 * cells * 20e-9, 1e-9);
+}
+
 TEST_F(SpaceCase, AFluidInSpaceIsForecast) {
     const std::vector<std::string> wet = {"fluid.enabled=true", "fluid.reynolds=10",
                                           "fluid.cells_per_diameter=8"};
