@@ -179,6 +179,135 @@ TEST(SpaceFields, ShowASpinningSphere) {
     EXPECT_NEAR(covered, 4.0 / 3.0 * M_PI * std::pow(radius, 3), 1e-3);
 }
 
+/// These sides normal to an axis; the others are cyclic.
+Settings box_with_sides(int axis, const std::string& lower, const std::string& upper) {
+    Settings settings = space_settings("marchuk-yanenko");
+    for (const BoxSide& side : box_sides) {
+        const std::string& own = side.inward > 0.0 ? lower : upper;
+        settings.set(side.key, side.axis == axis ? own : std::string("cyclic"));
+    }
+    return settings;
+}
+
+std::string moved(int side, const Vec3& v) {
+    std::ostringstream text;
+    text << side << " constant " << v[0] << ' ' << v[1] << ' ' << v[2] << " 0 0 0";
+    return text.str();
+}
+
+struct SpaceRun {
+    explicit SpaceRun(const Settings& settings) : foam(prepared(folder.path(), settings)) {
+        foam.initialise(settings, {{"sphere", {}}});
+    }
+
+    static std::filesystem::path prepared(const std::filesystem::path& path,
+                                          const Settings& settings) {
+        write_fluid_case(settings, path);
+        build_fluid_mesh(path, path / "blockMesh.log");
+        return path;
+    }
+
+    Kicks advance(double step, const std::vector<GrainState>& grains = {}) {
+        const Window window{index, static_cast<double>(index) * step, step, false};
+        ++index;
+        foam.advance(window);
+        foam.correct(window, grains);
+        return foam.impose(window);
+    }
+
+    TemporaryFolder folder;
+    FoamAdapter foam;
+    std::int64_t index = 0;
+};
+
+/// `expected` of the place {i, j, k} of every cell.
+template <class Expected>
+void expect_velocity(SpaceRun& run, Expected expected, double tolerance) {
+    for (int k = 0; k < cells[2]; ++k)
+        for (int j = 0; j < cells[1]; ++j)
+            for (int i = 0; i < cells[0]; ++i)
+                ASSERT_LT(norm(run.foam.velocity(i, j, k) - expected(std::array{i, j, k})),
+                          tolerance)
+                    << i << ' ' << j << ' ' << k;
+}
+
+/// Between walls that slide in both directions along themselves u = V s is a solution of the
+/// discrete equations, whatever axis the walls are normal to.
+TEST(SpaceSides, CouetteFlowIsLinearExactly) {
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 below{-0.5, 0.25, 0.75}, above{1.5, -1.0, 0.5};
+        below[axis] = above[axis] = 0.0;
+        Settings settings = box_with_sides(axis, "wall", "wall");
+        settings.set("run.wall_motions", moved(2 * axis, below) + ";" + moved(2 * axis + 1, above));
+        settings.set("run.viscosity", 10.0);
+        SpaceRun run(settings);
+        EXPECT_LT(run.advance(0.1).report.momentum_defect, 1e-9);
+        for (int n = 0; n < 60; ++n) run.advance(0.1);
+        expect_velocity(
+            run,
+            [&](const std::array<int, 3>& at) {
+                const double s = (at[axis] + 0.5) / cells[axis];
+                return (1.0 - s) * below + s * above;
+            },
+            1e-11);
+    }
+}
+
+GrainState sphere_inside() {
+    GrainState sphere = two_spheres()[0];
+    sphere.position = {1.31, 1.73, 1.24};
+    sphere.velocity = {};
+    sphere.prescribed = true;
+    return sphere;
+}
+
+/// A stream that enters and leaves through a free side, or through another inflow, is uniform, and
+/// a sphere that moves with it does not disturb it (Galilei).
+TEST(SpaceSides, AStreamCarriesASphere) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const std::string outlet : {"free", "inflow"}) {
+            Vec3 stream{};
+            stream[axis] = 0.8;
+            Settings settings = box_with_sides(axis, "inflow", outlet);
+            std::string motions = moved(2 * axis, stream);
+            if (outlet == "inflow") motions += ";" + moved(2 * axis + 1, stream);
+            settings.set("run.inflow_motions", motions);
+            settings.set("run.viscosity", 1.0);
+            SpaceRun run(settings);
+            for (int n = 0; n < 150; ++n)
+                ASSERT_LT(run.advance(0.05).report.divergence, 1e-10) << axis << outlet;
+            const auto uniform = [&](const std::array<int, 3>&) { return stream; };
+            expect_velocity(run, uniform, 1e-11);
+            GrainState sphere = sphere_inside();
+            sphere.velocity = stream;
+            for (int n = 0; n < 5; ++n) {
+                const Kicks kicks = run.advance(0.01, {sphere});
+                EXPECT_LT(norm(kicks.kicks.at(0).multiplier_impulse), 1e-10);
+                sphere.position = sphere.position + 0.01 * stream;
+            }
+            expect_velocity(run, uniform, 1e-10);
+        }
+}
+
+/// Past a sphere at rest, too, every window is free of divergence and its momentum closed, and as
+/// much leaves as enters, up to what step 5 changes.
+TEST(SpaceSides, WhatEntersLeaves) {
+    Settings settings = box_with_sides(0, "inflow", "free");
+    settings.set("run.inflow_motions", moved(0, {0.8, 0.0, 0.0}));
+    SpaceRun run(settings);
+    Kicks kicks;
+    for (int n = 0; n < 50; ++n) {
+        kicks = run.advance(0.02, {sphere_inside()});
+        ASSERT_LT(kicks.report.divergence, 1e-10);
+        ASSERT_LT(kicks.report.momentum_defect, 1e-9);
+    }
+    EXPECT_GT(kicks.kicks[0].multiplier_impulse[0], 1e-4);
+    double flux = 0.0;
+    for (int k = 0; k < cells[2]; ++k)
+        for (int j = 0; j < cells[1]; ++j) flux += run.foam.velocity(cells[0] - 1, j, k)[0];
+    EXPECT_NEAR(flux / (cells[1] * cells[2]), 0.8, 0.02);
+}
+
 /// A saved state holds all that the next window needs.
 TEST_P(SpaceFluid, GoesOnFromASavedState) {
     const Settings settings = space_settings(GetParam());

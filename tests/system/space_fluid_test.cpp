@@ -199,6 +199,26 @@ TEST_F(SpaceFluid, SlicesAreThoseOfTheFields) {
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "one/fluid/slices/z2_00000050.vtr"));
 }
 
+// A stream between lids that slide across it drags spheres along; two ranks of layers as one.
+TEST_F(SpaceFluid, SidesMoveTheFluidOnAnyNumberOfRanks) {
+    const std::string run =
+        "run case.yaml --set time.end=0.6 --set output.interval=0.2 --set domain.left=inflow --set "
+        "domain.right=free --set domain.front=wall --set domain.back=wall --set "
+        "domain.motions.in.kind=constant --set \"domain.motions.in.velocity=[0.5, 0, 0]\" --set "
+        "domain.motions.lid.kind=constant --set \"domain.motions.lid.velocity=[0.2, 0, 1]\" --set "
+        "domain.left_motion=in --set domain.top_motion=lid --set domain.bottom_motion=lid --set "
+        "fluid.ranks=";
+    const Answer one = turbidite(run + "1 --out one"), two = turbidite(run + "2 --out two");
+    ASSERT_EQ(one.code, 0) << one.err;
+    ASSERT_EQ(two.code, 0) << two.err;
+    const Columns first = history("one"), second = history("two");
+    for (const char* name : {"mean_velocity_x", "mean_velocity_z", "flow_x", "flow_z"})
+        EXPECT_NEAR(first.at(name).back(), second.at(name).back(), 1e-7) << name;
+    EXPECT_GT(first.at("flow_x").back(), 0.3);
+    EXPECT_GT(first.at("flow_z").back(), 0.01);
+    EXPECT_GT(first.at("mean_velocity_x").back(), 0.05);
+}
+
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {
     const std::string short_run = "run case.yaml --set time.end=2 --out ";
     ASSERT_EQ(turbidite(short_run + "shifted").code, 0);
