@@ -12,7 +12,8 @@ void ProbeSeries::begin(std::size_t points) {
     out_.open(file_, std::ios::trunc);
     out_ << "time";
     for (std::size_t k = 1; k <= points; ++k)
-        out_ << fmt::format(",pressure_{0},velocity_x_{0},velocity_y_{0}", k);
+        out_ << fmt::format(",pressure_{0},velocity_x_{0},velocity_y_{0}", k)
+             << (run_.dimension == 3 ? fmt::format(",velocity_z_{}", k) : "");
     out_ << std::endl;
 }
 
@@ -27,11 +28,12 @@ std::int64_t ProbeSeries::length() {
 
 void ProbeSeries::append(double time, const std::vector<double>& values) {
     if (values.empty()) return;
-    if (!out_.is_open()) begin(values.size() / 3);
+    const std::size_t per_point = 1 + static_cast<std::size_t>(run_.dimension);
+    if (!out_.is_open()) begin(values.size() / per_point);
     const double u = run_.velocity;
     out_ << fmt::format("{:.10g}", time / run_.time);
     for (std::size_t k = 0; k < values.size(); ++k)
-        out_ << fmt::format(",{:.10g}", values[k] / (k % 3 == 0 ? u * u : u));
+        out_ << fmt::format(",{:.10g}", values[k] / (k % per_point == 0 ? u * u : u));
     out_ << std::endl;
     if (!out_)
         throw Failure(ExitCode::participant_failed,

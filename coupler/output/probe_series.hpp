@@ -26,7 +26,8 @@ class ProbeSeries {
     /// Bytes written so far; -1: there is no file.
     std::int64_t length();
 
-    /// `values`: p/rho_f [m2/s2], u, v [m/s] at each point. Throws Failure when the disk is full.
+    /// `values`: p/rho_f [m2/s2], u, v, in space w [m/s] at each point. Throws Failure when the
+    /// disk is full.
     void append(double time, const std::vector<double>& values);
 
  private:

@@ -186,7 +186,8 @@ struct FluidReport {
     std::optional<SplittingReport> splitting = {};  ///< empty with marchuk-yanenko
     Vec3 mean_velocity{};       ///< of the whole box, cells in grains included [m/s]
     double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
-    /// p/rho_f [m2/s2], u and v [m/s] at each point of output.probes, in windows with output.
+    /// p/rho_f [m2/s2], u, v, in space w [m/s] at each point of output.probes, in windows with
+    /// output.
     std::vector<double> probes = {};
 };
 

@@ -20,7 +20,10 @@
 //     run.slip_tolerance                      rms slip at which step 5 is solved [u_c]
 //     run.hash      run.walls  run.md_*     of the resolved case; inner_walls.hpp, soft_contact.hpp
 //     run.wall_motions  run.inflow_motions  prescribed_motion.hpp
-//     run.probes                            output.probes: x y x y ... [m]; missing without any
+//     run.slices                            output.slices: axis (0 to 2) and place [m] of each;
+//                                           missing without any
+//     run.probes                            output.probes: x y x y ... [m], in space x y z;
+//                                           missing without any
 //     run.materials                         names of materials 1, 2, ..., separated by spaces;
 //                                           coefficients are contact.materials.NAME.*
 //     run.side_material                     index of the material of the sides; missing: 0

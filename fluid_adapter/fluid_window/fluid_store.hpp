@@ -72,11 +72,14 @@ class FluidStore {
     virtual void interpolate_flux() = 0;
     virtual double largest_divergence() const = 0;  ///< of that flux [1/s]
 
-    /// p/rho_f [m2/s2], u and v [m/s] of the fields at each point of output.probes.
+    /// p/rho_f [m2/s2], u, v and in space w [m/s] of the fields at each point of output.probes.
     virtual std::vector<double> probes() const = 0;
 
     /// Writes the fields, with these grains where output.fields asks for them.
     virtual void write(const std::vector<ImmersedGrain>& grains) = 0;
+
+    /// Writes planes of the fields at every output, with these grains.
+    virtual void write_slices(const std::vector<ImmersedGrain>&) {}
 
     /// Runs `work`; errors of the program become a Failure that names the activity.
     virtual void guard(const std::string& doing, const std::function<void()>& work) const = 0;

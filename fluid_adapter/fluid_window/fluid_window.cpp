@@ -242,6 +242,7 @@ void FluidWindow::write_fields() {
          << " m/s";
     store_.log(line.str());
     report_.probes = store_.probes();
+    store_.write_slices(multipliers_.grains());
     if (fields_due()) store_.write(multipliers_.grains());
 }
 

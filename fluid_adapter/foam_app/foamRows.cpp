@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/foamRows.hpp"
 
-#include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
 
 namespace turbidite {
@@ -44,7 +43,7 @@ void FoamRows::write_pressure(const double* rows, bool floating) {
 }
 
 VelocityOnSides FoamRows::side_velocity() const {
-    return grid_ ? sides_at_rest(*grid_) : held_on_sides(fields_, box_);
+    return grid_ ? held_on_sides(fields_, *grid_) : held_on_sides(fields_, box_);
 }
 
 }  // namespace turbidite

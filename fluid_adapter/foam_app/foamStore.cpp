@@ -16,7 +16,8 @@ FoamStore::FoamStore(const std::filesystem::path& directory, const RankGroup& ra
       sides_(side_motions(settings), fields_),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       output_(fields_, settings),
-      probes_(settings) {
+      probes_(settings),
+      slices_(settings, field_.grid(), directory) {
     field_.work_on(*step_);
 }
 
@@ -25,6 +26,7 @@ double FoamStore::equal_height() const {
 }
 
 bool FoamStore::begin(const Window& window) {
+    windows_ = window.index + 1;
     fields_.time.setDeltaT(window.step);
     const bool moved = sides_.set(window.time, window.step);
     if (!fields_.time.loop())
@@ -37,6 +39,10 @@ bool FoamStore::begin(const Window& window) {
 void FoamStore::write(const std::vector<ImmersedGrain>& grains) {
     output_.compute(field_, grains);
     fields_.time.writeNow();
+}
+
+void FoamStore::write_slices(const std::vector<ImmersedGrain>& grains) {
+    slices_.write(fields_, field_, grains, windows_);
 }
 
 void FoamStore::guard(const std::string& doing, const std::function<void()>& work) const {

@@ -12,6 +12,7 @@
 #include "fluid_adapter/foam_app/outputFields.hpp"
 #include "fluid_adapter/foam_app/probes.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
+#include "fluid_adapter/foam_app/slices.hpp"
 
 namespace turbidite {
 
@@ -34,6 +35,7 @@ class FoamStore final : public FluidStore {
     double largest_divergence() const override { return fields_.largest_divergence(); }
     std::vector<double> probes() const override { return probes_.values(fields_, field_); }
     void write(const std::vector<ImmersedGrain>& grains) override;
+    void write_slices(const std::vector<ImmersedGrain>& grains) override;
     void guard(const std::string& doing, const std::function<void()>& work) const override;
     void log(const std::string& line) const override;
 
@@ -47,6 +49,8 @@ class FoamStore final : public FluidStore {
     std::unique_ptr<FluidStep> step_;
     OutputFields output_;
     Probes probes_;
+    Slices slices_;
+    std::int64_t windows_ = 0;  // of the run, with the present one
 };
 
 }  // namespace turbidite

@@ -18,28 +18,39 @@ bool wanted(const Settings& settings, const std::string& field) {
     return false;
 }
 
-std::unique_ptr<Foam::volScalarField> written(FluidFields& fields, const char* name,
-                                              const Foam::dimensionSet& unit) {
-    return std::make_unique<Foam::volScalarField>(
+/// Zero, on the mesh, of this unit; written with the others.
+template <class Field>
+std::unique_ptr<Field> written(FluidFields& fields, const char* name,
+                               const Foam::dimensionSet& unit) {
+    return std::make_unique<Field>(
         Foam::IOobject(name, fields.time.timeName(), fields.mesh, Foam::IOobject::NO_READ,
                        Foam::IOobject::AUTO_WRITE),
-        fields.mesh, Foam::dimensionedScalar(unit, Foam::Zero));
+        fields.mesh, Foam::dimensioned<typename Field::value_type>(unit, Foam::Zero));
 }
 
 }  // namespace
 
 OutputFields::OutputFields(FluidFields& fields, const Settings& settings) : fields_(fields) {
-    if (fields.mesh.nSolutionD() == 3) return;
-    if (wanted(settings, "vorticity"))
-        vorticity_ = written(fields, "vorticity", Foam::dimless / Foam::dimTime);
-    if (wanted(settings, "solid")) solid_ = written(fields, "solid", Foam::dimless);
+    const Foam::dimensionSet rate = Foam::dimless / Foam::dimTime;
+    const bool in_space = fields.mesh.nSolutionD() == 3;
+    if (wanted(settings, "vorticity") && in_space)
+        curl_ = written<Foam::volVectorField>(fields, "vorticity", rate);
+    if (wanted(settings, "vorticity") && !in_space)
+        vorticity_ = written<Foam::volScalarField>(fields, "vorticity", rate);
+    if (wanted(settings, "solid"))
+        solid_ = written<Foam::volScalarField>(fields, "solid", Foam::dimless);
 }
 
 void OutputFields::compute(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains) {
     if (vorticity_) *vorticity_ = Foam::fvc::curl(fields_.U)().component(Foam::vector::Z);
-    if (!solid_) return;
+    if (curl_) *curl_ = Foam::fvc::curl(fields_.U);
+    if (solid_) cover(field, grains);
+}
+
+void OutputFields::cover(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains) {
     const std::vector<double> shares = covered_share(field, grains);
-    std::copy(shares.begin(), shares.end(), solid_->primitiveFieldRef().begin());
+    for (std::size_t cell = 0; cell < shares.size(); ++cell)
+        solid_->primitiveFieldRef()[field.mesh_cell(static_cast<int>(cell))] = shares[cell];
     solid_->correctBoundaryConditions();
 }
 

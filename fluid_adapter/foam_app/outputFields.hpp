@@ -2,7 +2,7 @@
 //
 // Fields that are written with U, p and lambda when output.fields names them:
 //
-//     vorticity   dv/dx - du/dy [1/s]
+//     vorticity   dv/dx - du/dy, in space the vector curl u [1/s]
 //     solid       share of the cell covered by grains, where the multipliers found them
 #pragma once
 
@@ -22,8 +22,11 @@ class OutputFields {
     void compute(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains);
 
  private:
+    void cover(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains);
+
     FluidFields& fields_;
     std::unique_ptr<Foam::volScalarField> vorticity_, solid_;
+    std::unique_ptr<Foam::volVectorField> curl_;  // the vorticity in space
 };
 
 }  // namespace turbidite

@@ -3,32 +3,33 @@
 
 #include <sstream>
 
+#include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/multiplier/cell_stencil.hpp"
 
 namespace turbidite {
-namespace {
-
-constexpr int per_point = 3;  // p, u, v
-
-}  // namespace
-
-Probes::Probes(const Settings& settings) {
+Probes::Probes(const Settings& settings) : dimension_(run_values(settings).dimension) {
     if (!settings.has("run.probes")) return;
     std::istringstream numbers(settings.text("run.probes"));
-    for (std::array<double, 2> point; numbers >> point[0] >> point[1];) points_.push_back(point);
+    const auto read = [&](Vec3& point) {
+        for (int axis = 0; axis < dimension_; ++axis) numbers >> point[axis];
+        return !numbers.fail();
+    };
+    for (Vec3 point{}; read(point);) points_.push_back(point);
 }
 
 /// Each rank adds the shares of its own cells.
 std::vector<double> Probes::values(const FluidFields& fields, const FoamFluidField& field) const {
+    const std::size_t per_point = 1 + dimension_;
     std::vector<double> values(per_point * points_.size(), 0.0);
     for (std::size_t k = 0; k < points_.size(); ++k)
-        for (const StencilEntry& at : bilinear_stencil(field.grid(), points_[k])) {
-            const int cell = field.cell(at.i, at.j, 0);
+        for (const StencilEntry& at : linear_stencil(field.grid(), points_[k])) {
+            const int cell = field.cell(at.i, at.j, at.k);
             if (cell < 0 || !field.owns(cell)) continue;
             double* value = &values[per_point * k];
-            value[0] += at.weight * fields.p[cell];
-            value[1] += at.weight * fields.U[cell].x();
-            value[2] += at.weight * fields.U[cell].y();
+            const int place = field.mesh_cell(cell);
+            value[0] += at.weight * fields.p[place];
+            for (int axis = 0; axis < dimension_; ++axis)
+                value[1 + axis] += at.weight * fields.U[place][axis];
         }
     if (!values.empty()) fields.ranks.sum(values.data(), static_cast<int>(values.size()));
     return values;

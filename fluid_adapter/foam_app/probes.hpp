@@ -3,7 +3,6 @@
 // Pressure and velocity at the points of output.probes.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
@@ -13,14 +12,16 @@ namespace turbidite {
 
 class Probes {
  public:
-    /// Reads run.probes: x and y of each point, one after the other [m].
+    /// Reads run.probes: x and y, in space also z, of each point, one after the other [m].
     explicit Probes(const Settings& settings);
 
-    /// p/rho_f [m2/s2], u and v [m/s] at each point, from the fields; the same on all ranks.
+    /// p/rho_f [m2/s2], u, v and in space w [m/s] at each point, from the fields; the same on all
+    /// ranks.
     std::vector<double> values(const FluidFields& fields, const FoamFluidField& field) const;
 
  private:
-    std::vector<std::array<double, 2>> points_;  // [m]
+    int dimension_;
+    std::vector<Vec3> points_;  // [m]
 };
 
 }  // namespace turbidite

@@ -4,20 +4,25 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/foam_case/fluid_domain.hpp"
 
 namespace turbidite {
 namespace {
 
-/// 0 to 3 for a face that looks left, right, down, up out of the box.
+/// 0 to 5 for a face that looks left, right, down, up, to the front, to the back out of the box.
 int side_of(const Foam::vector& outward) {
-    if (std::abs(outward.x()) > std::abs(outward.y())) return outward.x() < 0.0 ? 0 : 1;
-    return outward.y() < 0.0 ? 2 : 3;
+    int axis = 0;
+    for (const int other : {1, 2})
+        if (std::abs(outward[other]) > std::abs(outward[axis])) axis = other;
+    return 2 * axis + (outward[axis] < 0.0 ? 0 : 1);
 }
 
-/// Shares of the profile on the faces of a patch along an axis of the box.
-std::vector<double> shares_of(const Foam::fvPatch& patch, int axis, const SideMotion& motion,
-                              const FluidFields& fields) {
+/// Shares of the profile on the faces of a patch along the side; in space it is uniform.
+std::vector<double> shares_of(const Foam::fvPatch& patch, const BoxSide& side,
+                              const SideMotion& motion, const FluidFields& fields) {
+    if (fields.mesh.nSolutionD() == 3) return std::vector<double>(patch.size(), 1.0);
+    const int axis = 1 - side.axis;
     const Foam::boundBox& box = fields.mesh.bounds();
     const Foam::scalar origin = box.min()[axis], length = box.span()[axis];
     std::vector<double> shares;
@@ -37,10 +42,6 @@ SideVelocity::SideVelocity(const std::array<SideMotion, box_sides.size()>& motio
     for (std::size_t side = 0; side < box_sides.size(); ++side) {
         const BoxSide& at = box_sides[side];
         if (!motions_[side].motion) continue;
-        if (fields.mesh.nSolutionD() == 3)
-            throw Failure(ExitCode::bad_input, std::string(at.key) +
-                                                   "_motion: in space the sides of the fluid are "
-                                                   "at rest; let grains or body forces move it");
         const Foam::label patch = fields.mesh.boundary().findPatchID(at.name);
         if (patch < 0 || !fields.U.boundaryField()[patch].fixesValue())
             throw Failure(ExitCode::bad_input,
@@ -48,17 +49,15 @@ SideVelocity::SideVelocity(const std::array<SideMotion, box_sides.size()>& motio
                               "_motion prescribes a velocity, but 0/U of the fluid case holds no "
                               "value on patch " +
                               at.name + "; use type fixedValue there");
-        const int along = 1 - at.axis;
-        patches_.push_back(
-            {patch, &motions_[side],
-             shares_of(fields.mesh.boundary()[patch], along, motions_[side], fields)});
+        patches_.push_back({patch, &motions_[side],
+                            shares_of(fields.mesh.boundary()[patch], at, motions_[side], fields)});
     }
 }
 
 bool SideVelocity::set(double time, double step) {
     for (const MovedPatch& moved : patches_) {
-        const auto [x, y] = moved.motion->velocity(time, step);
-        const Foam::vector v(x, y, 0.0);
+        const auto [x, y, z] = moved.motion->velocity(time, step);
+        const Foam::vector v(x, y, z);
         Foam::fvPatchVectorField& side = fields_.U.boundaryFieldRef()[moved.patch];
         Foam::vectorField values(side.size());
         forAll(values, face) values[face] = moved.shares[face] * v;
@@ -92,6 +91,27 @@ VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box) {
             const auto from = values.begin() + axis * per_component + first(side);
             sides[axis][side].assign(from, from + length[side / 2]);
         }
+    return sides;
+}
+
+VelocityOnSides held_on_sides(const FluidFields& fields, const CellGrid& grid) {
+    VelocityOnSides sides = sides_at_rest(grid);
+    const int nx = grid.counts[0], nz = grid.counts[2];
+    for (const auto& condition : fields.U.boundaryField()) {
+        if (condition.coupled() || !condition.fixesValue()) continue;
+        const Foam::labelUList& cells = condition.patch().faceCells();
+        forAll(cells, face) {
+            const Foam::point& centre = fields.mesh.cellCentres()[cells[face]];
+            const int i = grid.layer(0, centre.x()), j = grid.layer(1, centre.y()),
+                      k = grid.layer(2, centre.z());
+            const int side = side_of(condition.patch().Sf()[face]);
+            const int place = side < 2 ? k + nz * j : side < 4 ? i + nx * k : i + nx * j;
+            for (int axis = 0; axis < 3; ++axis) sides[axis][side][place] = condition[face][axis];
+        }
+    }
+    for (SideValues& of : sides)
+        for (std::vector<double>& values : of)
+            fields.ranks.sum(values.data(), static_cast<int>(values.size()));
     return sides;
 }
 

@@ -11,6 +11,7 @@
 #include "fluid_adapter/foam_app/createFields.hpp"
 #include "fluid_adapter/foam_case/side_motion.hpp"
 #include "fluid_adapter/foam_solver/boxCells.hpp"
+#include "fluid_adapter/multiplier/cell_grid.hpp"
 
 namespace turbidite {
 
@@ -38,5 +39,9 @@ class SideVelocity {
 /// The values that U holds on the sides of a box, by component, along whole sides: left and right
 /// by row of the box, bottom and top by column. Every rank calls it and has the same result.
 VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box);
+
+/// The same in space: left and right by k + nz j, bottom and top by i + nx k, front and back by
+/// i + nx j.
+VelocityOnSides held_on_sides(const FluidFields& fields, const CellGrid& grid);
 
 }  // namespace turbidite

@@ -211,8 +211,8 @@ std::string boundary_field(const FluidDomain& domain, Closed closed, const std::
 /// profile.
 std::string side_velocity(const SideMotion& side, double step) {
     if (!side.motion) return "type noSlip;";
-    const auto [x, y] = side.velocity(0.0, step);
-    return fmt::format("type fixedValue; value uniform ({:.17g} {:.17g} 0);", x, y);
+    const auto [x, y, z] = side.velocity(0.0, step);
+    return fmt::format("type fixedValue; value uniform ({:.17g} {:.17g} {:.17g});", x, y, z);
 }
 
 std::string initial_velocity(const FluidDomain& domain, const Settings& settings) {

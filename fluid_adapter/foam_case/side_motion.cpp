@@ -24,10 +24,8 @@ double integrated_parabola(double s) {
 
 }  // namespace
 
-std::array<double, 2> SideMotion::velocity(double time, double step) const {
-    if (!motion) return {0.0, 0.0};
-    const Vec3 rate = motion->rate(time, step).velocity;
-    return {rate[0], rate[1]};
+Vec3 SideMotion::velocity(double time, double step) const {
+    return motion ? motion->rate(time, step).velocity : Vec3{};
 }
 
 double SideMotion::share(double from, double to) const {
@@ -37,9 +35,10 @@ double SideMotion::share(double from, double to) const {
 
 std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings) {
     std::array<SideMotion, box_sides.size()> sides;
+    const std::int32_t plates = first_plate(dimension_of(settings));
     for (const char* key : {"run.wall_motions", "run.inflow_motions"})
         for (const Moved& moved : motions_of(settings, key))
-            if (moved.what < first_plate(2)) sides[moved.what].motion = moved.motion;
+            if (moved.what < plates) sides[moved.what].motion = moved.motion;
     for (std::size_t side = 0; side < sides.size(); ++side)
         sides[side].parabolic = parabolic(settings, box_sides[side]);
     return sides;

@@ -5,7 +5,7 @@
 // profile across the side (domain.SIDE_profile):
 //
 //     uniform     v                  v: rate of the motion over a window, prescribed_motion.hpp
-//     parabolic   6 v s (1 - s)      s: place along the side, 0 to 1; v is the mean
+//     parabolic   6 v s (1 - s)      s: place along the side, 0 to 1; v is the mean; in the plane
 //
 // Faces take the mean of the profile over their length, so that the flux through the side does not
 // depend on the mesh. Valid C++17.
@@ -25,7 +25,7 @@ struct SideMotion {
     bool parabolic = false;
 
     /// v of the window [time, time + step] [m/s].
-    std::array<double, 2> velocity(double time, double step) const;
+    Vec3 velocity(double time, double step) const;
 
     /// Mean of the profile over [from, to], places along the side, in units of v.
     double share(double from, double to) const;

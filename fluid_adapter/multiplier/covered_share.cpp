@@ -2,6 +2,7 @@
 #include "fluid_adapter/multiplier/covered_share.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace turbidite {
 namespace {
@@ -21,22 +22,86 @@ double share_of_cell(const CellGrid& grid, const ImmersedGrain& grain, int i, in
     return static_cast<double>(inside) / (samples * samples);
 }
 
+/// Distances of a cell's nearest and farthest points from a sphere's centre.
+struct Reach {
+    double nearest, farthest;
+};
+
+Reach reach_of(const CellGrid& grid, const Eigen::Vector3d& centre, const CellIndex& cell) {
+    double near = 0.0, far = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double off = std::abs(grid.centre(axis, cell[axis]) - centre[axis]);
+        const double half = 0.5 * grid.size(axis, cell[axis]);
+        near += std::pow(std::max(0.0, off - half), 2);
+        far += std::pow(off + half, 2);
+    }
+    return {std::sqrt(near), std::sqrt(far)};
+}
+
+/// The same of a sphere: the mean over lines along x of the part of them that is inside.
+double share_of_cell_in_space(const CellGrid& grid, const ImmersedGrain& grain,
+                              const CellIndex& cell) {
+    const Reach reach = reach_of(grid, grain.position, cell);
+    if (reach.farthest <= grain.radius) return 1.0;
+    if (reach.nearest >= grain.radius) return 0.0;
+    double sum = 0.0;
+    for (int a = 0; a < samples; ++a)
+        for (int b = 0; b < samples; ++b)
+            sum += covered_length(grid, grain.position, grain.radius, 0, cell,
+                                  {0.0, (a + 0.5) / samples - 0.5, (b + 0.5) / samples - 0.5});
+    return sum / (samples * samples);
+}
+
+double share_of(const CellGrid& grid, const ImmersedGrain& grain, const CellIndex& cell) {
+    return grid.dimension == 3 ? share_of_cell_in_space(grid, grain, cell)
+                               : share_of_cell(grid, grain, cell[0], cell[1]);
+}
+
+/// Layers between which a grain reaches; they may lie beyond a cyclic side.
+struct Layers {
+    CellIndex first{}, last{};
+};
+
+Layers layers_of(const CellGrid& grid, const ImmersedGrain& grain) {
+    Layers layers;
+    for (int axis = 0; axis < grid.dimension; ++axis) {
+        layers.first[axis] = grid.layer(axis, grain.position[axis] - grain.radius);
+        layers.last[axis] = grid.layer(axis, grain.position[axis] + grain.radius);
+    }
+    return layers;
+}
+
 void cover(const FluidField& field, const ImmersedGrain& grain, std::vector<double>& shares) {
     const CellGrid& grid = field.grid();
-    int first[2], last[2];
-    for (int axis = 0; axis < 2; ++axis) {
-        first[axis] = grid.layer(axis, grain.position[axis] - grain.radius);
-        last[axis] = grid.layer(axis, grain.position[axis] + grain.radius);
-    }
+    const auto [first, last] = layers_of(grid, grain);
     for (int j = first[1]; j <= last[1]; ++j)
-        for (int i = first[0]; i <= last[0]; ++i) {
-            const int cell = field.cell(grid.wrapped(0, i), grid.wrapped(1, j), 0);
-            if (cell < 0 || !field.owns(cell)) continue;
-            shares[cell] = std::min(1.0, shares[cell] + share_of_cell(grid, grain, i, j));
-        }
+        for (int k = first[2]; k <= last[2]; ++k)
+            for (int i = first[0]; i <= last[0]; ++i) {
+                const int cell =
+                    field.cell(grid.wrapped(0, i), grid.wrapped(1, j), grid.wrapped(2, k));
+                if (cell < 0 || !field.owns(cell)) continue;
+                shares[cell] = std::min(1.0, shares[cell] + share_of(grid, grain, {i, j, k}));
+            }
 }
 
 }  // namespace
+
+/// Half a chord of the sphere is sqrt(R^2 - d^2), d the distance of the line from its centre.
+double covered_length(const CellGrid& grid, const Eigen::Vector3d& centre, double radius, int along,
+                      const CellIndex& cell, const Vec3& place) {
+    double square = radius * radius;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis == along) continue;
+        const double at = grid.centre(axis, cell[axis]) + place[axis] * grid.size(axis, cell[axis]);
+        square -= (at - centre[axis]) * (at - centre[axis]);
+    }
+    if (square <= 0.0) return 0.0;
+    const double half = std::sqrt(square), size = grid.size(along, cell[along]);
+    const double off = grid.centre(along, cell[along]) - centre[along];
+    const double lower = std::max(off - 0.5 * size, -half),
+                 upper = std::min(off + 0.5 * size, half);
+    return std::max(0.0, upper - lower) / size;
+}
 
 std::vector<double> covered_share(const FluidField& field,
                                   const std::vector<ImmersedGrain>& grains) {

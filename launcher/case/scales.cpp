@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/case/scales.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +10,7 @@
 
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
+#include "launcher/case/slices.hpp"
 
 namespace turbidite {
 namespace {
@@ -63,13 +66,22 @@ void set_run_times(Settings& settings, double time_scale) {
     settings.set("run.fields_every", std::int64_t{every * std::max(1LL, std::llround(outputs))});
 }
 
-/// output.probes in run units: x and y of each point, one after the other.
+/// output.probes in run units: x and y, in space also z, of each point, one after the other.
 void set_probes(Settings& settings, double diameter) {
     if (!settings.has("output.probes") || !settings.flag("fluid.enabled")) return;
     std::string points;
     for (const double x : real_list("output.probes", settings.text("output.probes")))
         points += (points.empty() ? "" : " ") + real_text(x * diameter);
     settings.set("run.probes", points);
+}
+
+/// output.slices in run units: axis and place of each plane, one after the other.
+void set_slices(Settings& settings, double diameter) {
+    std::string planes;
+    for (const SlicePlane& plane : slices_of(settings))
+        planes += (planes.empty() ? "" : " ") +
+                  fmt::format("{} {}", plane.axis, real_text(plane.place * diameter));
+    if (!planes.empty()) settings.set("run.slices", planes);
 }
 
 }  // namespace
@@ -118,6 +130,7 @@ void set_run_values(Settings& settings, const Scales& scales) {
                                                   settings.real("fluid.cells_per_diameter"));
     }
     set_probes(settings, scales.diameter);
+    set_slices(settings, scales.diameter);
     set_run_times(settings, scales.time);
 }
 

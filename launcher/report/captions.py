@@ -9,7 +9,7 @@ def sequence(run, pictures):
     fastest, quickest = fastest_fluid(pictures), fastest_grain(pictures)
     times = ', '.join(f'{p.time / run.scale("t_c"):.3g}' for p in pictures)
     text = ['Lengths in D.']
-    if quickest and not run.is_wet():
+    if quickest and (run.in_space() or not run.is_wet()):
         text.append('Colour: speed of the grains on one scale for all pictures. Fastest here: '
                     f'{quickest[0] / run.scale("u_c"):.3g} u_c at t = '
                     f'{quickest[1] / run.scale("t_c"):.3g} t_c.')

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The fluid's velocity in a run folder: the times at which it was written, and the field at one of them as 2-D
-arrays. Only this file depends on how OpenFOAM stores it (format, folders)."""
+"""The fluid's fields in a run folder: the times at which they were written, and in the plane a field at one of them as
+2-D arrays; in space they are only summed up, and slices.py has what is drawn. Only this file depends on how OpenFOAM stores it (format, folders)."""
 import gzip
 import re
 from dataclasses import dataclass
@@ -51,24 +51,45 @@ def pressure_at(run, time, folder):
     return _field(run, folder, 'p', read_scalars)
 
 
+def mean_square_velocity(run, time, folder):
+    """Mean of |u|^2 over the volume of the box, in the plane over its area; ValueError if the field is damaged."""
+    if not run.in_space():
+        velocity = velocity_at(run, time, folder)
+        return float((velocity.vertical**2 + velocity.horizontal**2).mean())
+    of_rows = (_cells(run, folder, 'U', read_vectors)**2).sum(axis=-1).mean(axis=(0, 2))
+    heights = np.diff(row_edges(run)) if is_stretched(run) else None
+    return float(np.average(of_rows, weights=heights))
+
+
 def _field(run, folder, name, read):
-    """(rows, columns, ...) with equally high rows."""
-    columns, rows = mesh_cells(run)
+    """(rows, columns, ...) with equally high rows, in the plane."""
+    grid = _cells(run, folder, name, read)[0]
+    return grid[rows_at_equal_heights(row_edges(run))] if is_stretched(run) else grid
+
+
+def _cells(run, folder, name, read):
+    """(depth, rows, columns, ...) of all cells; x runs fastest, then y."""
+    shape = mesh_cells(run)[::-1]
     values = processor_fields.whole_field(
-        folder, columns * rows, lambda part, n: read(_contents(part / name), n))
-    if len(values) != columns * rows:
-        raise ValueError(f'{folder.name}/{name} has {len(values)} cells, the case {columns} x {rows}')
-    grid = values.reshape(rows, columns, *values.shape[1:])  # x runs fastest
-    if is_stretched(run):
-        grid = grid[rows_at_equal_heights(row_edges(run, columns))]
-    return grid
+        folder, int(np.prod(shape)), lambda part, n: read(_contents(part / name), n))
+    if len(values) != np.prod(shape):
+        told = ' x '.join(str(count) for count in mesh_cells(run) if count > 1)
+        raise ValueError(f'{folder.name}/{name} has {len(values)} cells, the case {told}')
+    return values.reshape(*shape, *values.shape[1:])
 
 
 def mesh_cells(run):
-    """Columns and rows of the one block: domain size in D times cells per diameter, unless rows are stretched."""
+    """Columns, rows and layers along z (1 in the plane) of the one block: domain size in D times cells per diameter,
+    unless rows are stretched."""
+    columns, rows, depth = _equal_cells(run)
+    return columns, len(row_edges(run)) - 1 if is_stretched(run) else rows, depth
+
+
+def _equal_cells(run):
+    """As many as there are if no row is stretched."""
     per_diameter = float(run.case['fluid.cells_per_diameter'])
     columns, rows = (int(round(length * per_diameter)) for length in run.size())
-    return columns, len(row_edges(run, columns)) - 1 if is_stretched(run) else rows
+    return columns, rows, int(round(run.depth() * per_diameter)) if run.in_space() else 1
 
 
 def is_stretched(run):
@@ -76,11 +97,12 @@ def is_stretched(run):
     return float(run.case.get('fluid.stretch_ratio', 1)) > 1
 
 
-def row_edges(run, columns):
+def row_edges(run):
     """Heights at which rows of the mesh begin and end, from the points of its left side; ValueError if the mesh is
     damaged."""
+    columns, _, depth = _equal_cells(run)
     points = read_points(_contents(run.folder / 'fluid/constant/polyMesh/points'))
-    edges = points[:len(points) // 2:columns + 1, 1]  # x runs fastest, then y
+    edges = points[:len(points) // (depth + 1):columns + 1, 1]  # x runs fastest, then y
     if len(edges) < 2 or (np.diff(edges) <= 0).any():
         raise ValueError('fluid/constant/polyMesh/points does not hold rows of cells')
     return edges

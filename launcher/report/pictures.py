@@ -78,7 +78,7 @@ def load(run, instant):
     try:
         if grains_file is not None:
             picture.grains = grain_files.read_grains(time, grains_file)
-        if field_folder is not None:
+        if field_folder is not None and not run.in_space():
             picture.velocity = fluid_fields.velocity_at(run, time, field_folder)
     except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
         run.remarks.append(f'Picture at {time:g}: {error}')

@@ -21,7 +21,7 @@ import run_data
 import wall_shares
 from analysis import panels
 from page import Page, write_whole
-from space import chains, sequence
+from space import chains, sequence, slices
 from working import Progress
 
 
@@ -155,8 +155,9 @@ def make_page(run):
     add_status(page, run)
     page.table(facts(run))
     working = Progress('report')
-    for what, add in (('pictures', add_sequence), ('force network', add_contacts), ('curves', add_curves),
-                      ('analysis', panels.add_all), ('wall time', add_wall_time), ('remarks', add_remarks)):
+    for what, add in (('pictures', add_sequence), ('slices', slices.add), ('force network', add_contacts),
+                      ('curves', add_curves), ('analysis', panels.add_all), ('wall time', add_wall_time),
+                      ('remarks', add_remarks)):
         working(what)
         add(page, run)
     working.end()

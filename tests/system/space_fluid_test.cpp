@@ -3,6 +3,7 @@
 // Spheres in a liquid, from the case file to the files of the run: OpenFOAM and contact dynamics in
 // three dimensions.
 #include <cmath>
+#include <cstring>
 
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
@@ -31,6 +32,16 @@ class SpaceFluid : public ShellTest {
     }
     Columns history(const std::string& folder) const {
         return columns_of(text(scratch.path() / folder / "history.csv"));
+    }
+
+    /// The numbers of a field of all cells as OpenFOAM wrote it.
+    std::vector<double> field(const std::string& file, std::size_t count) const {
+        const std::string written = text(scratch.path() / file);
+        const std::size_t open = written.find('(', written.find("nonuniform"));
+        std::vector<double> values(count);
+        if (open == std::string::npos || written.size() < open + 1 + 8 * count) return {};
+        std::memcpy(values.data(), written.data() + open + 1, 8 * count);
+        return values;
     }
 };
 
@@ -74,6 +85,138 @@ TEST_F(SpaceFluid, AResumedRunHasEqualBits) {
     for (const char* file : {"grains/grains_00000300.vtp", "fluid/6/U", "fluid/6/p"})
         EXPECT_EQ(text(scratch.path() / "whole" / file), text(scratch.path() / "parts" / file))
             << file;
+}
+
+// At the centre of a cell a probe has the values of the written fields there, on any number of
+// ranks.
+TEST_F(SpaceFluid, AProbeHasTheValuesOfTheFields) {
+    constexpr int nx = 24, ny = 30, nz = 24, i = 9, j = 20, k = 5;
+    const auto centre = [](int layer) { return std::to_string((layer + 0.5) / 6.0); };
+    const std::string run =
+        "run case.yaml --set time.end=0.4 --set output.interval=0.2 --set "
+        "\"output.probes=[" +
+        centre(i) + ", " + centre(j) + ", " + centre(k) + ", 3.1, 2.5, 1.3]\" --set fluid.ranks=";
+    ASSERT_EQ(turbidite(run + "1 --out one").code, 0);
+    ASSERT_EQ(turbidite(run + "2 --out two").code, 0);
+    const Columns one = columns_of(text(scratch.path() / "one/probes.csv"));
+    const Columns two = columns_of(text(scratch.path() / "two/probes.csv"));
+    ASSERT_EQ(one.size(), 1u + 2 * 4u);
+    ASSERT_EQ(one.at("time"), (std::vector<double>{0.2, 0.4}));
+    for (const auto& [name, values] : one)
+        EXPECT_LT(largest_difference(values, two.at(name)), 1e-7) << name;
+    const std::vector<double> p = field("one/fluid/0.4/p", nx * ny * nz);
+    const std::vector<double> U = field("one/fluid/0.4/U", 3 * nx * ny * nz);
+    ASSERT_FALSE(p.empty() || U.empty());
+    const std::size_t cell = i + nx * (j + ny * k);  // blockMesh: x, y, z
+    const auto near = [](double value) { return 1e-4 * std::abs(value) + 1e-9; };
+    EXPECT_NEAR(one.at("pressure_1").back(), p[cell], near(p[cell]));
+    const char* const names[] = {"velocity_x_1", "velocity_y_1", "velocity_z_1"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double u = U[3 * cell + axis];
+        EXPECT_GT(std::abs(u), 1e-5);
+        EXPECT_NEAR(one.at(names[axis]).back(), u, near(u)) << names[axis];
+    }
+}
+
+/// The data of an array of a slice, raw float32 after the header.
+std::vector<float> slice_array(const std::string& file, const std::string& name) {
+    const std::string mark = "encoding=\"raw\">\n_";
+    const std::size_t begin = file.find(mark), at = file.find("Name=\"" + name + "\"");
+    if (begin == std::string::npos || at == std::string::npos) return {};
+    const std::size_t word = file.find("offset=\"", at) + 8;
+    const char* data = file.data() + begin + mark.size() + std::stoul(file.substr(word));
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, data, sizeof bytes);
+    std::vector<float> values(bytes / sizeof(float));
+    std::memcpy(values.data(), data + sizeof bytes, bytes);
+    return values;
+}
+
+// Between two layers of cells a slice is the mean of both; on any number of ranks it is the same,
+// and after a resumption none is there twice.
+TEST_F(SpaceFluid, SlicesAreThoseOfTheFields) {
+    constexpr std::size_t nx = 24, ny = 30, nz = 24;
+    const std::string run =
+        "run case.yaml --set time.end=0.4 --set output.interval=0.2 --set "
+        "\"output.slices=z = 2, y = 2.5, x = 0.75\" --set fluid.ranks=";
+    ASSERT_EQ(turbidite(run + "1 --out one").code, 0);
+    ASSERT_EQ(turbidite(run + "2 --out two").code, 0);
+    const std::vector<double> U = field("one/fluid/0.4/U", 3 * nx * ny * nz);
+    const std::vector<double> p = field("one/fluid/0.4/p", nx * ny * nz);
+    ASSERT_FALSE(p.empty() || U.empty());
+    const auto cell = [&](std::size_t i, std::size_t j, std::size_t k) {
+        return i + nx * (j + ny * k);
+    };
+    const auto of = [&](const std::string& folder, const std::string& name, const char* array) {
+        return slice_array(text(scratch.path() / folder / "fluid/slices" / name), array);
+    };
+    const std::vector<float> z = of("one", "z2_00000020.vtr", "U"),
+                             y = of("one", "y2.5_00000020.vtr", "p"),
+                             x = of("one", "x0.75_00000020.vtr", "U");
+    ASSERT_EQ(z.size(), 3 * nx * ny);
+    ASSERT_EQ(y.size(), nx * nz);
+    ASSERT_EQ(x.size(), 3 * ny * nz);
+    double largest = 0.0;
+    for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double mean =
+                    0.5 * (U[3 * cell(i, j, 11) + axis] + U[3 * cell(i, j, 12) + axis]);
+                ASSERT_NEAR(z[3 * (i + nx * j) + axis], mean, 1e-6) << i << ' ' << j;
+                largest = std::max(largest, std::abs(mean));
+            }
+    EXPECT_GT(largest, 0.05);
+    for (std::size_t k = 0; k < nz; ++k)
+        for (std::size_t i = 0; i < nx; ++i)
+            ASSERT_NEAR(y[i + nx * k], 0.5 * (p[cell(i, 14, k)] + p[cell(i, 15, k)]), 1e-6);
+    for (std::size_t k = 0; k < nz; ++k)  // x = 0.75 is the centre of a cell
+        for (std::size_t j = 0; j < ny; ++j)
+            ASSERT_NEAR(x[3 * (j + ny * k) + 1], U[3 * cell(4, j, k) + 1], 1e-6);
+    for (const char* name : {"z2_00000020.vtr", "y2.5_00000020.vtr", "x0.75_00000020.vtr"})
+        for (const char* array : {"p", "U", "covered"}) {
+            const std::vector<float> one = of("one", name, array), two = of("two", name, array);
+            ASSERT_EQ(one.size(), two.size());
+            double highest = 0.0;
+            for (std::size_t n = 0; n < one.size(); ++n) {
+                ASSERT_NEAR(one[n], two[n], 1e-5) << name << ' ' << array;
+                highest = std::max(highest, static_cast<double>(one[n]));
+            }
+            if (std::string(array) == "covered") EXPECT_EQ(highest, 1.0);
+        }
+    const auto entries = [&] {
+        const std::string series = text(scratch.path() / "one/fluid/slices/slices.pvd");
+        std::size_t count = 0;
+        for (std::size_t at = series.find("DataSet "); at != std::string::npos;
+             at = series.find("DataSet ", at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(entries(), 2u * 3u);
+    // As if the run had gone on after its last checkpoint.
+    std::ofstream(scratch.path() / "one/fluid/slices/z2_00000050.vtr") << "later";
+    ASSERT_EQ(turbidite("resume one --set time.end=0.6").code, 0);
+    EXPECT_EQ(entries(), 3u * 3u);
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "one/fluid/slices/z2_00000050.vtr"));
+}
+
+// A stream between lids that slide across it drags spheres along; two ranks of layers as one.
+TEST_F(SpaceFluid, SidesMoveTheFluidOnAnyNumberOfRanks) {
+    const std::string run =
+        "run case.yaml --set time.end=0.6 --set output.interval=0.2 --set domain.left=inflow --set "
+        "domain.right=free --set domain.front=wall --set domain.back=wall --set "
+        "domain.motions.in.kind=constant --set \"domain.motions.in.velocity=[0.5, 0, 0]\" --set "
+        "domain.motions.lid.kind=constant --set \"domain.motions.lid.velocity=[0.2, 0, 1]\" --set "
+        "domain.left_motion=in --set domain.top_motion=lid --set domain.bottom_motion=lid --set "
+        "fluid.ranks=";
+    const Answer one = turbidite(run + "1 --out one"), two = turbidite(run + "2 --out two");
+    ASSERT_EQ(one.code, 0) << one.err;
+    ASSERT_EQ(two.code, 0) << two.err;
+    const Columns first = history("one"), second = history("two");
+    for (const char* name : {"mean_velocity_x", "mean_velocity_z", "flow_x", "flow_z"})
+        EXPECT_NEAR(first.at(name).back(), second.at(name).back(), 1e-7) << name;
+    EXPECT_GT(first.at("flow_x").back(), 0.3);
+    EXPECT_GT(first.at("flow_z").back(), 0.01);
+    EXPECT_GT(first.at("mean_velocity_x").back(), 0.05);
 }
 
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {

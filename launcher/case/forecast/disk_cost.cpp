@@ -7,9 +7,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "coupler/keys/key_spec.hpp"
+#include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
+#include "launcher/case/slices.hpp"
 
 namespace turbidite {
 namespace {
@@ -20,7 +23,8 @@ namespace fs = std::filesystem;
 constexpr double of_mesh = 150.0;
 constexpr double of_shared_mesh = 180.0;  // the same again in processor*, with addressing
 constexpr double of_field_set = 56.0;     // velocity and multipliers 24 each, pressure 8
-constexpr double of_scalar_field = 8.0;
+constexpr double of_scalar_field = 8.0, of_vector_field = 24.0;
+constexpr double of_slice = 20.0;  // p, U and covered, 4 bytes each
 constexpr double of_fluid_checkpoint = 60.0;
 
 // Bytes per grain: of one output (grains and contacts, base64), of one checkpoint.
@@ -43,7 +47,19 @@ double bytes_of_mesh(const Settings& settings) {
 
 double bytes_of_fields(const Settings& settings) {
     const std::string more = settings.has("output.fields") ? settings.text("output.fields") : "";
-    return of_field_set + of_scalar_field * words(more);
+    const bool vectors = in_space(settings) && more.find("vorticity") != std::string::npos;
+    return of_field_set + of_scalar_field * words(more) +
+           (vectors ? of_vector_field - of_scalar_field : 0.0);
+}
+
+/// Of one output.
+double bytes_of_slices(const Settings& settings) {
+    const std::vector<double> size = real_list("domain.size", settings.text("domain.size"));
+    const auto per_diameter = static_cast<double>(settings.integer("fluid.cells_per_diameter"));
+    double cells = 0.0;
+    for (const SlicePlane& plane : slices_of(settings))
+        cells += fluid_cells(settings) / (size.at(plane.axis) * per_diameter);
+    return of_slice * cells;
 }
 
 /// Those of every so many windows, and of the last one.
@@ -67,7 +83,8 @@ double fluid_bytes(const Settings& settings, const RunValues& run, double sets) 
     const double per_cell = bytes_of_mesh(settings) +
                             bytes_of_fields(settings) * outputs(run.windows, run.fields_every) +
                             of_fluid_checkpoint * sets;
-    return per_cell * fluid_cells(settings);
+    return per_cell * fluid_cells(settings) +
+           bytes_of_slices(settings) * outputs(run.windows, run.output_every);
 }
 
 double grain_bytes(const ResolvedCase& resolved, const RunValues& run, double sets) {

@@ -13,17 +13,11 @@
 namespace turbidite {
 namespace {
 
-std::vector<Choice> side_choices(const BoxSide& side) {
-    std::vector<Choice> choices = {
-        {"wall", "no slip; grains stay inside"},
-        {"free", "zero gradient of velocity, pressure 0; grains that leave are removed"},
-        {"cyclic", "joined to the opposite side"}};
-    if (is_planar(side))
-        choices.push_back(
-            {"inflow",
-             "fluid enters with the velocity of the side's motion; for grains a plate at rest"});
-    return choices;
-}
+const std::vector<Choice> side_choices = {
+    {"wall", "no slip; grains stay inside"},
+    {"free", "zero gradient of velocity, pressure 0; grains that leave are removed"},
+    {"cyclic", "joined to the opposite side"},
+    {"inflow", "fluid enters with the velocity of the side's motion; for grains a plate at rest"}};
 
 std::string side_help(const BoxSide& side) {
     const std::string help = std::string(side.name) + " side of the box";
@@ -35,7 +29,7 @@ KeySpec side_type(const BoxSide& side) {
     KeySpec key{.name = side.key,
                 .type = KeyType::choice,
                 .fallback = "wall",
-                .choices = side_choices(side),
+                .choices = side_choices,
                 .help = side_help(side)};
     return is_planar(side) ? key : of_space(key);
 }
@@ -57,7 +51,7 @@ Ruling both_are_cyclic(const Settings& s) {
 template <std::size_t side>
 Ruling inflow_has_a_velocity(const Settings& s) {
     const std::string key = box_sides[side].key;
-    if (s.text(key) != "inflow") return std::nullopt;
+    if (!is(s, key.c_str(), "inflow")) return std::nullopt;
     if (!s.flag("fluid.enabled"))
         return Objection{"Without a fluid nothing enters.",
                          "Use wall, which an inflow is for the grains."};
@@ -65,8 +59,8 @@ Ruling inflow_has_a_velocity(const Settings& s) {
     return Objection{
         fmt::format("The fluid enters with the velocity of the motion that {}_motion names.", key),
         fmt::format("Describe one below domain.motions, for example stream: {{kind: constant, "
-                    "velocity: [1, 0]}}, and set {}_motion: stream.",
-                    key)};
+                    "velocity: {}}}, and set {}_motion: stream.",
+                    in_space(s) ? "[1, 0, 0]" : "[1, 0]", key)};
 }
 
 template <std::size_t side>
@@ -193,7 +187,7 @@ std::vector<Rule> inflow_rules(std::index_sequence<side...>) {
 
 std::vector<Rule> side_rules() {
     std::vector<Rule> rules = pair_rules(every_side);
-    for (Rule& rule : inflow_rules(every_planar_side)) rules.push_back(std::move(rule));
+    for (Rule& rule : inflow_rules(every_side)) rules.push_back(std::move(rule));
     rules.push_back({"domain.size",
                      {"fluid.enabled", "fluid.cells_per_diameter", "fluid.stretch_ratio"},
                      whole_cells});

@@ -4,7 +4,6 @@
 // in its own sentence.
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 
 #include "coupler/protocol/sides.hpp"
@@ -40,31 +39,19 @@ Ruling only_in_the_plane(const Settings& s) {
                      "Remove it, or use dimension: 2."};
 }
 
-/// domain.SIDE_motion of every side.
-const std::array<std::string, box_sides.size()>& motion_keys() {
-    static const auto keys = [] {
-        std::array<std::string, box_sides.size()> all;
-        for (std::size_t side = 0; side < all.size(); ++side)
-            all[side] = std::string(box_sides[side].key) + "_motion";
-        return all;
-    }();
-    return keys;
-}
+constexpr const char* profile_keys[] = {"domain.left_profile", "domain.right_profile",
+                                        "domain.bottom_profile", "domain.top_profile"};
 
+/// A parabola across one direction of a side leaves open what it is across the other.
 template <std::size_t side>
-Ruling side_lets_nothing_in(const Settings& s) {
-    if (!is_wet_space(s) || s.text(box_sides[side].key) != "inflow") return std::nullopt;
-    return Objection{"With a fluid in space nothing flows in through a side in this version.",
-                     "Use free, cyclic or wall."};
+Ruling uniform_profile(const Settings& s) {
+    if (!is_wet_space(s) || s.text(profile_keys[side]) == "uniform") return std::nullopt;
+    return Objection{"In space the fluid enters uniformly in this version.", "Use uniform."};
 }
 
 template <std::size_t... side>
-void add_side_rules(std::vector<Rule>& rules, std::index_sequence<side...>) {
-    (rules.push_back(
-         {motion_keys()[side].c_str(), {"dimension", "fluid.enabled"}, only_in_the_plane}),
-     ...);
-    (rules.push_back(
-         {box_sides[side].key, {"dimension", "fluid.enabled"}, side_lets_nothing_in<side>}),
+void add_profile_rules(std::vector<Rule>& rules, std::index_sequence<side...>) {
+    (rules.push_back({profile_keys[side], {"dimension", "fluid.enabled"}, uniform_profile<side>}),
      ...);
 }
 
@@ -102,10 +89,8 @@ KeyGroup space_keys() {
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},
-        {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers},
-        {"output.fields", {"dimension", "fluid.enabled"}, only_in_the_plane},
-        {"output.probes", {"dimension", "fluid.enabled"}, only_in_the_plane}};
-    add_side_rules(rules, std::make_index_sequence<box_sides.size()>{});
+        {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers}};
+    add_profile_rules(rules, std::make_index_sequence<planar_sides>{});
     return {.keys = {}, .rules = std::move(rules)};
 }
 

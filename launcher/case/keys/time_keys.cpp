@@ -7,6 +7,7 @@
 
 #include "coupler/keys/key_value.hpp"
 #include "launcher/case/keys/key_groups.hpp"
+#include "launcher/case/slices.hpp"
 
 namespace turbidite {
 namespace {
@@ -41,14 +42,33 @@ Ruling fields_are_known(const Settings& s) {
 Ruling probes_are_inside(const Settings& s) {
     const std::vector<double> points = real_list("output.probes", s.text("output.probes"));
     const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
-    if (points.empty() || points.size() % 2 != 0)
-        return Objection{"A list of numbers, two for each point.",
-                         "Write for example probes: [1, 2, 3, 2]."};
+    const std::size_t axes = in_space(s) ? 3 : 2;
+    if (points.empty() || points.size() % axes != 0)
+        return Objection{
+            fmt::format("A list of numbers, {} for each point.", in_space(s) ? "three" : "two"),
+            fmt::format("Write for example probes: [{}].",
+                        in_space(s) ? "1, 2, 1, 3, 2, 1" : "1, 2, 3, 2")};
     for (std::size_t k = 0; k < points.size(); ++k)
-        if (points[k] < 0.0 || points[k] > size.at(k % 2))
-            return Objection{
-                fmt::format("Point {} is outside the box of {}.", k / 2 + 1, s.text("domain.size")),
-                "Use points inside."};
+        if (points[k] < 0.0 || points[k] > size.at(k % axes))
+            return Objection{fmt::format("Point {} is outside the box of {}.", k / axes + 1,
+                                         s.text("domain.size")),
+                             "Use points inside."};
+    return std::nullopt;
+}
+
+Ruling slices_are_inside(const Settings& s) {
+    const std::string& text = s.text("output.slices");
+    if (text == "auto") return std::nullopt;
+    const auto planes = read_slices(text);
+    if (!planes)
+        return Objection{"Planes are an axis and a place in D each, with commas between.",
+                         "Write for example slices: z = 6.4, x = 3, or auto, or none."};
+    const std::vector<double> size = real_list("domain.size", s.text("domain.size"));
+    for (const SlicePlane& plane : *planes)
+        if (plane.place < 0.0 || plane.place > size.at(plane.axis))
+            return Objection{fmt::format("The plane {} = {} is outside the box of {}.",
+                                         "xyz"[plane.axis], plane.place, s.text("domain.size")),
+                             "Use planes inside."};
     return std::nullopt;
 }
 
@@ -114,11 +134,22 @@ KeyGroup time_keys() {
                      .type = KeyType::real_list,
                      .unit = "D",
                      .need = Need::optional,
-                     .help = "points x, y, one after the other, at which probes.csv gives the "
-                             "fluid's pressure and velocity",
+                     .help = "points x, y, in space x, y, z, one after the other, at which "
+                             "probes.csv gives the fluid's pressure and velocity",
                      .allowed = "A list of numbers, two for each point.",
                      .entries = 0,
-                     .idle = without_fluid},
+                     .idle = without_fluid,
+                     .in_space = {.allowed = "A list of numbers, three for each point."}},
+                    of_space({.name = "output.slices",
+                              .type = KeyType::text,
+                              .unit = "D",
+                              .fallback = "auto",
+                              .help = "planes at which the fluid's pressure and velocity are "
+                                      "written at every output, for ParaView and the report: z = "
+                                      "6.4, x = 3. auto: one through the middle of the depth; "
+                                      "none",
+                              .allowed = "auto, none, or planes: an axis and a place each.",
+                              .idle = without_fluid}),
                     {.name = "output.timeline",
                      .type = KeyType::flag,
                      .fallback = "false",
@@ -151,7 +182,8 @@ KeyGroup time_keys() {
             .rules = {{"time.end", {"time.step"}, at_least_one_window},
                       {"time.step", {"time.end"}, countable_windows},
                       {"output.fields", {}, fields_are_known},
-                      {"output.probes", {"domain.size"}, probes_are_inside}},
+                      {"output.slices", {"domain.size"}, slices_are_inside},
+                      {"output.probes", {"domain.size", "dimension"}, probes_are_inside}},
             .notes = notes};
 }
 

@@ -213,7 +213,7 @@ std::optional<Objection> bad_side(const Settings& s, const BoxSide& side) {
         return Objection{
             fmt::format("In a fluid a side slides along itself only: the {} component of its "
                         "motion must be 0.",
-                        side.axis == 0 ? "x" : "y"),
+                        "xyz"[side.axis]),
             fmt::format("Set it to 0, set fluid.enabled: false, or let fluid in with {}: inflow.",
                         side.key)};
     if (grains_adapter(s).moving_sides) return std::nullopt;
@@ -255,7 +255,7 @@ bool has_free_side(const Settings& s) {
                        [&](const BoxSide& side) { return is(s, side.key, "free"); });
 }
 
-/// The volumes that have entered and left through inflows by a time [D2].
+/// The volumes that have entered and left through inflows by a time [D2], in space [D3].
 struct Exchanged {
     double net = 0.0, either_way = 0.0;
 };
@@ -266,7 +266,9 @@ Exchanged exchanged(const std::vector<Moved>& inflows, const std::vector<double>
     for (const Moved& inflow : inflows) {
         const BoxSide& side = box_sides.at(static_cast<std::size_t>(inflow.what));
         const double depth = side.inward * inflow.motion->at(time).displacement[side.axis];
-        const double volume = depth * size[1 - side.axis];
+        double volume = depth;
+        for (std::size_t axis = 0; axis < size.size(); ++axis)
+            if (static_cast<int>(axis) != side.axis) volume *= size[axis];
         sum.net += volume;
         sum.either_way += std::abs(volume);
     }
@@ -279,6 +281,7 @@ std::optional<double> first_imbalance(const Settings& s) {
     Settings in_diameters;
     Scales unit;
     unit.diameter = unit.velocity = unit.time = 1.0;
+    in_diameters.set("run.dimension", static_cast<std::int64_t>(dimension(s)));
     in_diameters.set("run.inflow_motions", side_motions(s, unit, true));
     const auto inflows = motions_of(in_diameters, "run.inflow_motions");
     const auto size = real_list("domain.size", s.text("domain.size"));

@@ -103,15 +103,17 @@ def fluid_kinetic(run):
     there = snapshots.snapshots(run)
     if not run.is_wet() or not there or not len(grains) or 'domain.size' not in run.case:
         return None
-    mass = there[0].areas.sum() * ratio  # in rho_f D^2
+    box = np.prod(run.size()) * (run.depth() if run.in_space() else 1.0)
+    mass = there[0].areas.sum() * ratio  # in rho_f D^2, in space rho_f D^3
     times, fields = [], fluid_fields.field_times(run)
     for moment, folder in [fields[i] for i in snapshots.evenly(len(fields), MOST_FIELDS)]:
         try:
-            velocity = fluid_fields.velocity_at(run, moment, folder)
-        except (ValueError, KeyError, OSError):
-            continue  # the pictures note it
-        area = np.prod(run.size()) / velocity.vertical.size
-        whole = 0.5 * area * (velocity.vertical**2 + velocity.horizontal**2).sum() / run.scale('u_c')**2 / mass
+            square = fluid_fields.mean_square_velocity(run, moment, folder)
+        except (ValueError, KeyError, OSError) as error:
+            if run.in_space():  # the pictures of the plane note it
+                run.remarks.append(f'Velocity of the liquid at {moment:g}: {error}')
+            continue
+        whole = 0.5 * box * square / run.scale('u_c')**2 / mass
         now = moment / run.scale('t_c')
         times.append((now, whole - np.interp(now, time, grains) / ratio))
     return tuple(np.array(times).T) if times else None

@@ -21,7 +21,7 @@ def add_all(page, run):
     """In the order of the page. A closed box has neither heap nor slip plane; a suspension has a concentration. What is
     measured on triangles of the plane has no meaning in space."""
     in_plane = (add_deposit, add_shear, add_pores, add_pressure, add_weight, add_energy, add_rheology, add_concentration)
-    in_space = (add_deposit, add_weight, add_energy, add_concentration)
+    in_space = (add_deposit, add_pressure, add_weight, add_energy, add_concentration)
     for add in in_space if run.in_space() else in_plane:
         or_remark(run, add.__name__.removeprefix('add_').capitalize(), lambda: add(page, run))
 
@@ -101,9 +101,13 @@ def add_pressure(page, run):
     for k, (name, values) in enumerate(zip(found.names, found.values.T)):
         axes.plot(found.time, values, label=name, linewidth=1.3, marker=MARKERS[k % len(MARKERS)], markersize=3)
     axes.legend(fontsize=8)
+    told = ('Reduced pressure in submerged weights of a layer of solid one D high; negative: it holds the packing '
+            'together.')
+    if run.in_space():
+        level = '' if pore_pressure.has_level(run) else ' No side of the box fixes its level.'
+        return page.panels([(figure, 'pressure_probes')], told + level)
     page.panels([(figure, 'pressure_probes'), *pressure_maps(run)],
-                'Reduced pressure in submerged weights of a layer of solid one D high; negative: it holds the packing '
-                'together.' + ('' if pore_pressure.has_level(run) else ' Relative to the upper right corner.'))
+                told + ('' if pore_pressure.has_level(run) else ' Relative to the upper right corner.'))
 
 
 def pressure_maps(run):

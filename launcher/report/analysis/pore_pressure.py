@@ -25,7 +25,7 @@ class Probes:
     """Pressures at fixed places [(rho_s - rho_f) g D]."""
 
     names: list         # of the places, for a legend
-    places: np.ndarray  # (k, 2) [D]
+    places: np.ndarray  # (k, 2), in space (k, 3) [D]
     time: np.ndarray    # (n,) [t_c]
     values: np.ndarray  # (n, k)
 
@@ -38,7 +38,7 @@ def unit(run):
 
 def has_level(run):
     """Whether some side of the box fixes a pressure."""
-    return any(run.case.get(f'domain.{side}') == 'free' for side in ('left', 'right', 'bottom', 'top'))
+    return any(run.case.get(f'domain.{side}') == 'free' for side in ('left', 'right', 'bottom', 'top', 'front', 'back'))
 
 
 def field(run, time, folder):
@@ -74,18 +74,21 @@ def probes(run):
         return None
     if (run.folder / 'probes.csv').exists() and run.case.get('output.probes', '~') not in ('~', ''):
         return written_probes(run)
+    if run.in_space():
+        return None
     return field_probes(run) if run.is_avalanche() and snapshots.snapshots(run) else None
 
 
 def written_probes(run):
     with open(run.folder / 'probes.csv', newline='') as file:
         rows = list(csv.DictReader(file))
-    places = np.array([float(v) for v in run.case['output.probes'].strip('[]').split(',')]).reshape(-1, 2)
+    places = np.array([float(v) for v in run.case['output.probes'].strip('[]').split(',')])
+    places = places.reshape(-1, 3 if run.in_space() else 2)
     if not rows:
         return None
     speed = run.scale('u_c')
     values = np.array([[float(row[f'pressure_{k + 1}']) for k in range(len(places))] for row in rows]) * speed**2 / unit(run)
-    names = [f'({x:g}, {y:g}) D' for x, y in places]
+    names = [f'({", ".join(f"{x:g}" for x in place)}) D' for place in places]
     return Probes(names, places, np.array([float(row['time']) for row in rows]), values)
 
 

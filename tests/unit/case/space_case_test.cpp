@@ -114,21 +114,68 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
         all.insert(all.end(), more.begin(), more.end());
         return refusal("", all);
     };
-    const std::string text =
-        with({"fluid.points=interior+boundary", "fluid.pressure_solver=PCG",
-              "fluid.decomposition=columns", "output.fields=vorticity", "output.probes=[1, 1]",
-              "domain.top=inflow", "domain.motions.m.velocity=[1, 0, 0]"});
+    const std::string text = with({"fluid.points=interior+boundary", "fluid.pressure_solver=PCG",
+                                   "fluid.decomposition=columns", "output.probes=[1, 1]",
+                                   "domain.top=inflow", "domain.top_profile=parabolic"});
     EXPECT_SAYS(text, "In space there are no points on surfaces in this version.");
     EXPECT_SAYS(text, "In space the fluid is solved on rows of its box only.");
     EXPECT_SAYS(text, "In space every rank has whole layers of cells of one y.");
-    EXPECT_SAYS(text, "output.fields = vorticity");
-    EXPECT_SAYS(text, "output.probes = [1, 1]");
-    EXPECT_SAYS(text, "nothing flows in through a side");
+    EXPECT_SAYS(text, "A list of numbers, three for each point.");
+    EXPECT_SAYS(text, "the motion that domain.top_motion names");
+    EXPECT_SAYS(text, "velocity: [1, 0, 0]");
+    EXPECT_SAYS(text, "In space the fluid enters uniformly");
     EXPECT_SAYS(with({"domain.size=[12, 10, 6.1]"}), "6.1 D are 48.8 cells");
+    EXPECT_SAYS(with({"output.probes=[1, 1, 1, 1, 1, 7]"}), "Point 2 is outside the box");
+    EXPECT_EQ(with({"output.fields=vorticity solid"}), "");
     EXPECT_SAYS(with({"fluid.surface_shift=1.5"}), "fluid.surface_shift = 1.5");
     // Without the fluid's responses a sphere must be denser than what it displaces: (1 + 0.6/8)^3.
     EXPECT_SAYS(with({"coupling.scheme=split", "grains.density_ratio=1.2"}), "a ratio above 1.24");
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
+}
+
+TEST_F(SpaceCase, SidesOfAFluidSlideAndLetItIn) {
+    std::vector<std::string> sets = {"fluid.enabled=true",
+                                     "fluid.reynolds=10",
+                                     "fluid.cells_per_diameter=8",
+                                     "domain.front=wall",
+                                     "domain.back=wall",
+                                     "domain.motions.m.kind=constant",
+                                     "domain.motions.m.velocity=[0.5, 0, -1]",
+                                     "domain.top_motion=m"};
+    EXPECT_SAYS(load("", sets).settings.text("run.wall_motions"), "3 constant 0.5 0 -1");
+    sets.push_back("domain.back_motion=m");
+    EXPECT_SAYS(refusal("", sets), "the z component of its motion must be 0");
+    sets[4] = "domain.back=inflow";
+    EXPECT_SAYS(refusal("", sets), "The box has no free side");
+    sets[3] = "domain.front=inflow";
+    sets.push_back("domain.front_motion=m");
+    const std::string inflows = load("", sets).settings.text("run.inflow_motions");
+    EXPECT_SAYS(inflows, "4 constant 0.5 0 -1");
+    EXPECT_SAYS(inflows, "5 constant 0.5 0 -1");
+}
+
+TEST_F(SpaceCase, SlicesArePlanesInside) {
+    const auto with = [](const std::string& slices) {
+        return std::vector<std::string>{"fluid.enabled=true", "fluid.reynolds=10",
+                                        "fluid.cells_per_diameter=8", "output.slices=" + slices};
+    };
+    const auto planes = [&](const std::string& slices) {
+        const Settings settings = load("", with(slices)).settings;
+        return settings.has("run.slices") ? settings.text("run.slices") : "";
+    };
+    EXPECT_EQ(planes("auto"), "2 3");
+    EXPECT_EQ(planes("none"), "");
+    EXPECT_EQ(planes("z = 1.5, x=12"), "2 1.5 0 12");
+    EXPECT_EQ(planes("y=0 x=3"), "1 0 0 3");
+    EXPECT_EQ(planes("y=1e0,x=3"), "1 1 0 3");
+    for (const char* text : {"w = 3", "z", "z = ", "3", "z = 1-2", "z = 1; x = 2", "z = 1 x"})
+        EXPECT_SAYS(refusal("", with(text)), "an axis and a place in D each") << text;
+    EXPECT_SAYS(refusal("", with("x = 3, z = 6.5")), "The plane z = 6.5 is outside the box");
+    EXPECT_SAYS(refusal("", with("z = -1")), "The plane z = -1 is outside the box");
+    EXPECT_FALSE(load().settings.has("run.slices")) << "without a fluid";
+    const double none = predicted_disk(load("", with("none")));
+    const double cells = 12 * 10 * 64;  // of a plane at D/8; 2 outputs in 1 t_c
+    EXPECT_NEAR(predicted_disk(load("", with("auto"))) - none, 2 * cells * 20e-9, 1e-9);
 }
 
 TEST_F(SpaceCase, AFluidInSpaceIsForecast) {
@@ -222,7 +269,7 @@ TEST_F(SpaceCase, EveryHostPlaysIt) {
 
 TEST_F(SpaceCase, SidesComeInPairsAndRegionsInTheBox) {
     EXPECT_SAYS(refusal("", {"domain.back=wall"}), "Cyclic sides come in pairs");
-    EXPECT_SAYS(refusal("", {"domain.front=inflow"}), "Available: wall, free, cyclic.");
+    EXPECT_SAYS(refusal("", {"domain.front=inflow"}), "Without a fluid nothing enters.");
     EXPECT_SAYS(refusal("", {"grains.region=[12, 10, 7]"}), "The region lies in the box");
     EXPECT_SAYS(refusal("", {"grains.region=[12, 10]"}), "Length, height and depth in D");
     EXPECT_SAYS(refusal("", {"domain.size=[12, 10, 1.5]", "grains.count=4"}),

@@ -319,6 +319,17 @@ class WrittenProbes(RunFolderTest):
         np.testing.assert_allclose(found.values, [[2, -4], [6, 8]])  # over (1.5 - 1) g D
         self.assertEqual(found.places.tolist(), [[1, 2], [3, 0.5]])
 
+    def test_have_three_coordinates_in_space(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('dimension: 2', 'dimension: 3').replace(
+            'grains:', 'output:\n  probes: [1, 2, 3, 4, 5, 6]  # D\ngrains:\n  density_ratio: 1.5'))
+        self.write('probes.csv', 'time,pressure_1,velocity_x_1,velocity_y_1,velocity_z_1,pressure_2,velocity_x_2,'
+                   'velocity_y_2,velocity_z_2\n0.5,1,0,0,9,-2,0,0,9\n')
+        found = pore_pressure.probes(run_data.load_run(self.folder))
+        np.testing.assert_allclose(found.values, [[2, -4]])
+        self.assertEqual(found.places.tolist(), [[1, 2, 3], [4, 5, 6]])
+        self.assertEqual(found.names, ['(1, 2, 3) D', '(4, 5, 6) D'])
+
     def test_damaged_ones_are_said(self):
         self.write_all()
         self.write('case.yaml', CASE.replace('grains:', 'output:\n  probes: [1, 2]\ngrains:\n  density_ratio: 1.5'))

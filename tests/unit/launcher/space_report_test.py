@@ -12,12 +12,14 @@ from PIL import Image
 
 import contact_files
 import film
+import fluid_fields
 import force_network
 import grain_files
+import pictures
 import report
 import run_data
-from analysis import concentration, snapshots, weight_balance
-from space import ball_image, camera, chains, free_surface, scene, walls
+from analysis import concentration, energy, snapshots, weight_balance
+from space import ball_image, camera, chains, free_surface, scene, slices, walls
 
 CASE = """dimension: 3
 domain:
@@ -85,6 +87,123 @@ class SpaceRun(RunFolderTest):
 
     def grains(self, k=1):
         return grain_files.read_grains(k, self.folder / f'grains/grains_{k:08d}.vtp')
+
+
+class Liquid(SpaceRun):
+    """12 x 10 x 8 cells in 6 x 5 x 4 D; cell (i, j, k) has the velocity (i, j, k)."""
+
+    def setUp(self):
+        super().setUp()
+        self.write('case.yaml', CASE.replace('enabled: false', 'enabled: true\n  cells_per_diameter: 2'))
+        self.k, self.j, self.i = np.mgrid[0:8, 0:10, 0:12]
+        self.field(0, 0.0)
+        self.field(1, 1.0)
+        self.run_data = run_data.load_run(self.folder)
+
+    def field(self, time, factor):
+        values = factor * np.stack([self.i, self.j, self.k], axis=-1).reshape(-1, 3).astype('<f8')
+        self.write(f'fluid/{time}/U', b'format binary;\ninternalField nonuniform List<vector> \n%d\n(' % len(values)
+                   + values.tobytes() + b')\n;\n')
+
+    def test_motion_of_the_liquid_has_a_point_per_field(self):
+        self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
+        data = run_data.load_run(self.folder)
+        times, values = energy.fluid_kinetic(data)
+        self.assertEqual(times.tolist(), [0.0, 1.0])
+        whole = 0.5 * 0.5**3 * (self.i**2 + self.j**2 + self.k**2).sum() / (3 * np.pi / 6 * 2.0)
+        np.testing.assert_allclose(values, [0.0, whole - 0.5 / 2.0])
+        self.assertEqual(data.remarks, [])
+
+    def test_a_damaged_field_is_said(self):
+        self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
+        self.write('fluid/1/U', b'format binary;\ninternalField nonuniform List<vector> \n3\n(')
+        data = run_data.load_run(self.folder)
+        self.assertEqual(len(energy.fluid_kinetic(data)[0]), 1)
+        self.assertEqual(data.remarks, ['Velocity of the liquid at 1: U is cut off'])
+
+    def test_stretched_rows_count_by_their_heights(self):
+        self.write('case.yaml', CASE.replace('enabled: false', 'enabled: true\n  cells_per_diameter: 2\n'
+                                             '  stretch_ratio: 1.2'))
+        heights = np.array([0.5] * 8 + [0.6, 0.4])
+        z, y, x = np.meshgrid(np.arange(9) / 2, np.concatenate([[0], heights.cumsum()]), np.arange(13) / 2,
+                              indexing='ij')
+        points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+        self.write('fluid/constant/polyMesh/points',
+                   b'FoamFile\n{\n format binary;\n}\n\n\n%d\n(' % len(points) + points.astype('<f8').tobytes() + b')')
+        found = fluid_fields.mean_square_velocity(run_data.load_run(self.folder), 1, self.folder / 'fluid/1')
+        rows = (self.i**2 + self.j**2 + self.k**2).mean(axis=(0, 2))
+        self.assertAlmostEqual(found, (rows * heights).sum() / 5.0)
+
+    def test_grains_are_coloured_and_the_caption_says_so(self):
+        shown = [pictures.load(self.run_data, instant) for instant in pictures.instants(self.run_data)]
+        self.assertIn('Colour: speed of the grains', report.captions.sequence(self.run_data, shown))
+        self.assertNotIn('velocity of the fluid', report.captions.sequence(self.run_data, shown))
+        self.assertEqual(self.run_data.remarks, [])
+
+
+EDGES = [np.arange(13) / 2, np.arange(11) / 2, np.arange(9) / 2]  # of 6 x 5 x 4 D at two cells per D
+
+
+def slice_file(axis, place):
+    """As the fluid program writes it: p is the number of the cell, x fastest, and U = (x, y, z) of its centre."""
+    edges = [np.array([place]) if other == axis else EDGES[other] for other in range(3)]
+    middles = [along if len(along) == 1 else 0.5 * (along[1:] + along[:-1]) for along in edges]
+    z, y, x = np.meshgrid(*middles[::-1], indexing='ij')
+    places = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+    arrays = {'x': edges[0], 'y': edges[1], 'z': edges[2], 'p': np.arange(len(places)), 'U': places,
+              'covered': np.zeros(len(places))}
+    head, data = '', b''
+    for name, values in arrays.items():
+        head += f'<DataArray type="Float32" Name="{name}" NumberOfComponents="1" format="appended" offset="{len(data)}"/>\n'
+        raw = np.asarray(values).astype('<f4').tobytes()
+        data += len(raw).to_bytes(8, 'little') + raw
+    return (f'<VTKFile>{head}<AppendedData encoding="raw">\n_'.encode() + data + b'\n</AppendedData>\n</VTKFile>\n')
+
+
+class Slices(SpaceRun):
+    """Planes z = 1.25 and x = 2 at t = 1."""
+
+    def setUp(self):
+        super().setUp()
+        self.write('case.yaml', CASE.replace('enabled: false', 'enabled: true\n  cells_per_diameter: 2'))
+        self.write('fluid/slices/z1.25_00000010.vtr', slice_file(2, 1.25))
+        self.write('fluid/slices/x2_00000010.vtr', slice_file(0, 2.0))
+        entries = ''.join(f'<DataSet timestep="1" part="{k}" file="{name}_00000010.vtr"/>'
+                          for k, name in enumerate(('z1.25', 'x2')))
+        self.write('fluid/slices/slices.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
+        self.run_data = run_data.load_run(self.folder)
+        self.z, self.x = (slices.read(*plane[0]) for plane in slices.series(self.run_data))
+
+    def test_rows_are_upwards_whatever_the_axis(self):
+        self.assertEqual((self.z.axis, self.z.place, self.z.pressure.shape), (2, 1.25, (10, 12)))
+        self.assertEqual((self.x.axis, self.x.place, self.x.pressure.shape), (0, 2.0, (10, 8)))
+        self.assertEqual(self.z.pressure[3, 5], 3 * 12 + 5)
+        self.assertEqual(self.x.pressure[3, 5], 3 + 10 * 5)  # y runs fastest in the file
+        np.testing.assert_allclose(self.z.velocity[3, 5], [2.75, 1.75, 1.25])
+        np.testing.assert_allclose(self.x.velocity[3, 5], [2.0, 1.75, 2.75])
+
+    def test_spheres_are_cut(self):
+        cut = slices.cut_grains(self.run_data, self.z, self.grains())
+        np.testing.assert_allclose(cut.centres, [[1.0, 0.5], [1.0, 1.5]])
+        np.testing.assert_allclose(cut.radii, np.sqrt(0.25 - 0.0625))
+        self.x.place = 2.3
+        np.testing.assert_allclose(slices.cut_grains(self.run_data, self.x, self.grains()).centres, [[3.0, 0.5]])
+        self.z.place = 3.9  # a cyclic side lies between this plane and a sphere at z = 0.1
+        grains = self.grains()
+        grains.z = np.array([0.1, 2.0, 2.0])
+        np.testing.assert_allclose(slices.cut_grains(self.run_data, self.z, grains).radii, np.sqrt(0.25 - 0.04))
+
+    def test_the_report_has_a_picture_of_each_plane(self):
+        self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
+        names = [path.name for path in sorted((self.folder / 'pictures').glob('slice*'))]
+        self.assertEqual(names, ['slice-0.png', 'slice-1.png', 'slice-pressure-0.png'])
+        self.assertIn('Planes x = 2 D, z = 1.25 D', (self.folder / 'report.html').read_text())
+
+    def test_a_damaged_one_is_said(self):
+        whole = slice_file(2, 1.25)
+        self.write('fluid/slices/z1.25_00000010.vtr', whole[:-400])
+        report.make_page(self.run_data)
+        self.assertIn('Slice at 1: z1.25_00000010.vtr is cut off', self.run_data.remarks)
 
 
 class Files(SpaceRun):

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Planes of the fluid in space at every output, fluid/slices (output.slices):
+//
+//     p        pressure over rho_f, linear between the cell centres on both sides [m2/s2]
+//     U        velocity, the same [m/s]
+//     covered  share of the cell's cut by the plane that spheres cover, with their hydrodynamic
+//              radii
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupler/protocol/run_values.hpp"
+#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/sliceFile.hpp"
+#include "fluid_adapter/multiplier/cell_stencil.hpp"
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+
+namespace turbidite {
+
+class Slices {
+ public:
+    /// Reads run.slices: axis (0 to 2) and place [m] of each plane, one after the other.
+    Slices(const Settings& settings, const CellGrid& grid, std::filesystem::path fluid_case);
+
+    /// After so many windows; by all ranks. Throws Failure when the disk is full.
+    void write(const FluidFields& fields, const FoamFluidField& field,
+               const std::vector<ImmersedGrain>& grains, std::int64_t windows) const;
+
+ private:
+    struct Plane {
+        int normal, across, up;  ///< axes: cells lie `across` fastest, then `up`
+        double place;            ///< [m]
+        AxisStencil stencil;     ///< the layers of cells on both sides
+        int layer;               ///< the one that the plane cuts
+        std::string name;        ///< "z6.4", in D
+    };
+
+    Plane plane(const CellGrid& grid, int normal, double place) const;
+    std::vector<double> sampled(const Plane& plane, const FluidFields& fields,
+                                const FoamFluidField& field) const;
+    void cover(const Plane& plane, const FoamFluidField& field, const ImmersedGrain& grain,
+               std::vector<double>& values) const;
+    SliceEdges edges(const Plane& plane, const CellGrid& grid) const;
+
+    RunValues run_;
+    std::filesystem::path folder_;
+    std::vector<Plane> planes_;
+};
+
+}  // namespace turbidite

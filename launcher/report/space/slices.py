@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Planes of the fluid in space (output.slices): the files in fluid/slices, and their pictures: the vertical velocity in
+colour as in the plane (red up, blue down, white at rest), the pressure, and the spheres where the plane cuts them."""
+import re
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import grain_drawing
+import grain_files
+import pictures
+from analysis.snapshots import evenly
+
+AXES = 'xyz'
+PANEL_WIDTH = 420
+MOST_TIMES = 6
+PRESSURES = 2
+INCHES = 5.6           # width of a picture, its text readable at 420 pixels
+TALLEST = 7.0
+MARGIN = 0.55          # of the labels
+COLOURED_PART = pictures.COLOURED_PART
+
+
+@dataclass
+class Slice:
+    """One plane at one time, in the units of the run. Arrays are (rows, columns) of a picture: `up` by `across`."""
+
+    time: float
+    axis: int               # that the plane is normal to
+    place: float            # along it
+    across: int             # axis to the right
+    up: int                 # axis upwards
+    edges: list             # of the cells, [across, up]
+    pressure: np.ndarray    # over rho_f
+    velocity: np.ndarray    # (rows, columns, 3)
+    covered: np.ndarray     # share that spheres cover
+
+    def name(self, run):
+        return f'{AXES[self.axis]} = {self.place / run.scale("D"):.4g} D'
+
+
+def series(run):
+    """[[(time, path), ...] of each plane], in the order of output.slices; empty without any."""
+    index = run.folder / 'fluid' / 'slices' / 'slices.pvd'
+    if not index.exists():
+        return []
+    planes = {}
+    for entry in ElementTree.parse(index).iter('DataSet'):
+        path = index.parent / entry.get('file')
+        if path.exists():
+            planes.setdefault(int(entry.get('part')), []).append((float(entry.get('timestep')), path))
+    return [planes[part] for part in sorted(planes)]
+
+
+def read(time, path):
+    """A file of the fluid program: VTK RectilinearGrid, float32 as raw appended data; ValueError if it is damaged."""
+    head, mark, data = path.read_bytes().partition(b'<AppendedData encoding="raw">\n_')
+    if not mark:
+        raise ValueError(f'{path.name} has no appended data')
+    arrays = {}
+    for name, offset in re.findall(rb'<DataArray[^>]*Name="(\w+)"[^>]*offset="(\d+)"', head):
+        start = int(offset)
+        size = int.from_bytes(data[start:start + 8], 'little')
+        if len(data) < start + 8 + size:
+            raise ValueError(f'{path.name} is cut off')
+        arrays[name.decode()] = np.frombuffer(data, dtype='<f4', count=size // 4, offset=start + 8).astype(float)
+    edges = [arrays[name] for name in AXES]
+    axis = int(np.argmin([len(along) for along in edges]))
+    across, up = [other for other in range(3) if other != axis]  # the first runs fastest
+    shape = len(edges[up]) - 1, len(edges[across]) - 1
+    pressure, covered = (arrays[name].reshape(shape) for name in ('p', 'covered'))
+    velocity = arrays['U'].reshape(*shape, 3)
+    if axis == 0:  # y upwards, z to the right
+        across, up = up, across
+        pressure, covered, velocity = pressure.T, covered.T, velocity.transpose(1, 0, 2)
+    return Slice(time, axis, float(edges[axis][0]), across, up, [edges[across], edges[up]], pressure, velocity, covered)
+
+
+def cut_grains(run, one, grains):
+    """The spheres as discs where the plane cuts them; images beyond cyclic sides of its axis are not forgotten."""
+    positions = grains.positions()
+    length = [*run.size(), run.depth()][one.axis] * run.scale('D')
+    off = positions[:, one.axis] - one.place
+    sides = {0: 'left', 1: 'bottom', 2: 'front'}
+    if run.case.get(f'domain.{sides[one.axis]}') == 'cyclic':
+        off -= length * np.round(off / length)
+    there = np.abs(off) < grains.radii
+    return grain_files.Grains(grains.time, positions[there][:, [one.across, one.up]],
+                              np.sqrt(grains.radii[there]**2 - off[there]**2))
+
+
+def add(page, run):
+    """A section of the report; nothing for runs without slices."""
+    planes = series(run)
+    if not planes:
+        return
+    wanted = [(0, i) for i in evenly(len(planes[0]), MOST_TIMES)]
+    wanted += [(plane, len(planes[plane]) - 1) for plane in range(1, len(planes))]
+    loaded = [load(run, *planes[plane][i]) for plane, i in wanted]
+    shown = [one for one in loaded if one is not None]
+    if not shown:
+        return
+    limit = velocity_limit(run, shown)
+    figures = [(velocity_panel(run, one, grains, limit), f'slice-{k}') for k, (one, grains) in enumerate(shown)]
+    of_first = [pair for pair in shown if (pair[0].axis, pair[0].place) == (shown[0][0].axis, shown[0][0].place)]
+    chosen = [of_first[i] for i in evenly(len(of_first), PRESSURES)]
+    highest = pressure_limit(run, chosen)
+    figures += [(pressure_panel(run, one, grains, highest), f'slice-pressure-{k}')
+                for k, (one, grains) in enumerate(chosen)]
+    page.heading('Fluid in slices')
+    page.panels(figures, caption(run, shown), PANEL_WIDTH)
+
+
+def load(run, time, path):
+    """(slice, grains or None); None if the file cannot be read, which is noted."""
+    try:
+        found = read(time, path)
+        near = [(t, grains) for t, grains in grain_files.quiet_series(run) if abs(t - time) <= 1e-6 * abs(time)]
+        return found, grain_files.read_grains(*near[0]) if near else None
+    except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
+        run.remarks.append(f'Slice at {time:g}: {error}')
+        return None
+
+
+def velocity_limit(run, shown):
+    """Symmetric limit of the colours [u_c]."""
+    return float(max([0.05] + [np.quantile(np.abs(one.velocity[..., 1]), COLOURED_PART) / run.scale('u_c')
+                               for one, _ in shown]))
+
+
+def level_free(one):
+    """The pressure without its mean outside spheres: no side of the box need fix a level."""
+    free = one.covered < 0.5
+    return one.pressure - (one.pressure[free].mean() if free.any() else 0.0)
+
+
+def pressure_limit(run, shown):
+    """Symmetric limit of the colours [rho_f u_c^2]."""
+    return float(max([1e-3] + [np.quantile(np.abs(level_free(one)[one.covered < 0.5]), 0.995) / run.scale('u_c')**2
+                               for one, _ in shown if (one.covered < 0.5).any()]))
+
+
+def velocity_panel(run, one, grains, limit):
+    return panel(run, one, grains, one.velocity[..., 1] / run.scale('u_c'), limit, 'RdBu_r', r'fluid, $v\,/\,u_c$')
+
+
+def pressure_panel(run, one, grains, limit):
+    return panel(run, one, grains, level_free(one) / run.scale('u_c')**2, limit, 'PuOr_r',
+                 r'pressure, $p\,/\,\rho_f u_c^2$')
+
+
+def panel(run, one, grains, values, limit, colours, label):
+    """One picture with its colour bar."""
+    diameter = run.scale('D')
+    x, y = (edges / diameter for edges in one.edges)
+    aspect = (y[-1] - y[0]) / (x[-1] - x[0])
+    width = min(INCHES - 2 * MARGIN, TALLEST / aspect)
+    below, above = 1.05, 0.35
+    total = width * aspect + below + above
+    figure = plt.figure(figsize=(INCHES, total))
+    left = 0.5 * (INCHES - width) / INCHES
+    axes = figure.add_axes((left, below / total, width / INCHES, width * aspect / total))
+    bar = figure.add_axes((0.25, 0.42 / total, 0.5, 0.12 / total))
+    image = coloured(axes, x, y, values, cmap=colours, vmin=-limit, vmax=limit)
+    if grains is not None:
+        grain_drawing.draw(axes, cut_grains(run, one, grains), diameter)
+    axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), aspect='equal')
+    axes.set_xlabel(rf'${AXES[one.across]}\,/\,D$', fontsize=8, labelpad=1)
+    axes.set_ylabel(rf'${AXES[one.up]}\,/\,D$', fontsize=8, labelpad=1)
+    axes.set_title(rf'{one.name(run)}, $t = {one.time / run.scale("t_c"):.3g}\,t_c$', fontsize=10)
+    axes.tick_params(labelsize=7)
+    pictures.bar_below(figure, image, bar, label, 'both')
+    return figure
+
+
+def coloured(axes, x, y, values, **how):
+    """Between the centres of equal cells colours change gradually, as in the plane; stretched rows are drawn as they
+    are."""
+    if np.allclose(np.diff(y), y[1] - y[0], rtol=1e-3):
+        return axes.imshow(values, origin='lower', extent=(x[0], x[-1], y[0], y[-1]), interpolation='bilinear', **how)
+    return axes.pcolormesh(x, y, values, rasterized=True, **how)
+
+
+def caption(run, shown):
+    fastest = max((float(np.sqrt((one.velocity**2).sum(axis=-1)).max()), one.time) for one, _ in shown)
+    planes = ', '.join(sorted({one.name(run) for one, _ in shown}))
+    return (f'Planes {planes} (output.slices; files for ParaView: fluid/slices/slices.pvd). Colour: vertical velocity of the '
+            'fluid on one scale, red up, blue down; then its reduced pressure, the mean outside spheres taken off. Spheres '
+            f'where the plane cuts them. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
+            f'{fastest[1] / run.scale("t_c"):.3g} t_c.')
