@@ -185,13 +185,13 @@ class Slices(SpaceRun):
     def test_spheres_are_cut(self):
         cut = slices.cut_grains(self.run_data, self.z, self.grains())
         np.testing.assert_allclose(cut.centres, [[1.0, 0.5], [1.0, 1.5]])
-        np.testing.assert_allclose(cut.radii, np.sqrt(0.25 - 0.0625))
+        np.testing.assert_allclose(cut.radii, [np.sqrt(0.25 - 0.0625)] * 2)
         self.x.place = 2.3
         np.testing.assert_allclose(slices.cut_grains(self.run_data, self.x, self.grains()).centres, [[3.0, 0.5]])
         self.z.place = 3.9  # a cyclic side lies between this plane and a sphere at z = 0.1
         grains = self.grains()
         grains.z = np.array([0.1, 2.0, 2.0])
-        np.testing.assert_allclose(slices.cut_grains(self.run_data, self.z, grains).radii, np.sqrt(0.25 - 0.04))
+        np.testing.assert_allclose(slices.cut_grains(self.run_data, self.z, grains).radii, [np.sqrt(0.25 - 0.04)])
 
     def test_the_report_has_a_picture_of_each_plane(self):
         self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
