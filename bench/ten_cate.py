@@ -4,12 +4,11 @@
 
     bench/ten_cate.py RUN... [--figure FILE.png]
 
-RUN are folders of the parts ten-cate* of configs/spheres-in-liquid.yaml, whose names begin with the experiment's. Prints
+RUN are folders of the parts ten-cate* of configs/spheres-in-liquid.yaml; the density of the oil tells the experiment. Prints
 the largest speed, the time of arrival (gap to the floor below 0.05 D) and, where points of the published trajectory are
 known, the time between two of its gaps: the published one starts 0.16 D higher than its text says. --figure draws speed
 and gap against time."""
 import argparse
-import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,6 +40,7 @@ EXPERIMENTS = {
                                     (1.188, 0.045)),
                      ((0.068, 0.0379), (0.152, 0.0678), (0.262, 0.0941), (1.0, 0.1233), (1.177, 0.1088))),
 }
+OILS = {970: 'E1', 965: 'E2', 962: 'E3', 960: 'E4'}  # density [kg/m3]
 WAYS = {'E1': (7.10, 0.986), 'E4': (6.79, 0.590)}  # gaps between which the time is compared [D]
 
 
@@ -49,7 +49,7 @@ class Fall:
 
     def __init__(self, folder):
         self.run = run_data.load_run(folder)
-        self.name = re.match(r'E\d', folder.name)[0]
+        self.name = OILS[round(self.run.scale('rho'))]
         time, velocity = self.run.column('mean_velocity_y')
         height = self.run.column('mean_position_y')[1]
         self.time = time * self.run.scale('t_c')
