@@ -13,7 +13,8 @@ ImmersedBody immersed_body(const Shape& shape, double radius, double density, do
     body.displaced_inertia = fluid_density * shape.inertia_per_density(wet_radius);
     body.effective_mass = body.mass - body.displaced_mass;
     body.effective_inertia = body.inertia - body.displaced_inertia;
-    body.submerged_mass = body.mass - fluid_density * shape.volume(radius);
+    body.fluid_mass = fluid_density * shape.volume(radius);
+    body.submerged_mass = body.mass - body.fluid_mass;
     return body;
 }
 

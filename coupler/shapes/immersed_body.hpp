@@ -24,6 +24,7 @@ struct ImmersedBody {
     double effective_mass = 0.0;  ///< M - rho_f V(R_h) [kg]
     Eigen::Matrix3d effective_inertia;
     double submerged_mass = 0.0;  ///< M - rho_f V(R): weight over g [kg]
+    double fluid_mass = 0.0;      ///< rho_f V(R) [kg]
     double displaced_mass = 0.0;  ///< rho_f V(R_h): what F_h adds to the multipliers [kg]
     Eigen::Matrix3d displaced_inertia;
 };

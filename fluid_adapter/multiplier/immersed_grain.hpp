@@ -33,14 +33,18 @@ struct ImmersedGrain {
     bool prescribed = false;          ///< keeps contact_motion, whatever acts on it
     Impulse announced_impulse{};      ///< J_h and its moment
     Impulse given_impulse{};          ///< (M - m_f) g dt + J^n, unless U^{n+4/5} has them
+    /// rho_f (V(R) - V(R_h)) a dt: a body force a on the fluid acts on all cells of V(R_h), the
+    /// mean pressure gradient that it stands for on V(R). None where the motion is prescribed.
+    Vec3 driving_impulse{};
 
-    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h. J_h is
+    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, and that of
+    /// the driving. J_h is
     /// already contained in U^{n+4/5} and is subtracted, since the multipliers include it. Finite
     /// also where cM <= 0.
     Impulse momentum() const {
         const Impulse own{effective_mass * contact_motion.velocity,
                           effective_inertia * contact_motion.spin};
-        return own + given_impulse - announced_impulse;
+        return own + given_impulse + Impulse{driving_impulse, {}} - announced_impulse;
     }
 };
 

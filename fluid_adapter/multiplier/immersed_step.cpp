@@ -78,12 +78,19 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     return grain;
 }
 
+Vec3 ImmersedStep::driving(const GrainState& state, double step) const {
+    if (state.prescribed) return {};
+    const ImmersedBody body = bodies_(state);
+    return (body.fluid_mass - body.displaced_mass) * step * run_.acceleration;
+}
+
 void ImmersedStep::take(const std::vector<GrainState>& states, const Window& window) {
     grains_.clear();
     index_.clear();
     for (const GrainState& state : states) {
         index_.emplace(state.id, grains_.size());
         grains_.push_back(immersed(state));
+        grains_.back().driving_impulse = driving(state, window.step);
     }
     states_ = grains_.size();
     prescribe(window);
@@ -219,7 +226,7 @@ std::vector<Kick> ImmersedStep::kicks() const {
         kick.id = grains_[g].id;
         kick.velocity = motion.velocity;
         kick.angular_velocity = motion.spin;
-        kick.multiplier_impulse = impulse.linear;
+        kick.multiplier_impulse = impulse.linear + grains_[g].driving_impulse;
         kick.multiplier_angular_impulse = impulse.moment;
         kicks.push_back(kick);
     }

@@ -70,6 +70,7 @@ class ImmersedStep {
 
  private:
     ImmersedGrain immersed(const GrainState& state) const;
+    Vec3 driving(const GrainState& state, double step) const;
     void take(const std::vector<GrainState>& states, const Window& window);
     void prescribe(const Window& window);
     CellVelocity velocity() const;
