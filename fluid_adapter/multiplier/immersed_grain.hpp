@@ -37,10 +37,9 @@ struct ImmersedGrain {
     /// mean pressure gradient that it stands for on V(R). None where the motion is prescribed.
     Vec3 driving_impulse{};
 
-    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, and that of
-    /// the driving. J_h is
-    /// already contained in U^{n+4/5} and is subtracted, since the multipliers include it. Finite
-    /// also where cM <= 0.
+    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, and the
+    /// driving impulse. J_h is already contained in U^{n+4/5} and is subtracted, since the
+    /// multipliers include it. Finite also where cM <= 0.
     Impulse momentum() const {
         const Impulse own{effective_mass * contact_motion.velocity,
                           effective_inertia * contact_motion.spin};

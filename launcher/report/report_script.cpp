@@ -2,22 +2,33 @@
 #include "launcher/report/report_script.hpp"
 
 #include <fmt/format.h>
+#include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
-#include <cstdlib>
-
-#include "launcher/job/launch_line.hpp"
+#include <cerrno>
+#include <cstdio>
 
 namespace turbidite {
 namespace {
 
-/// Exit status of a script; -1 when it did not end by itself.
+/// Exit status of a script; -1 when it did not end by itself. A signal to stop ends this program
+/// too: std::system would ignore it, and a study would go on with its next run.
 int run_script(const Programs& programs, const std::filesystem::path& script,
                const std::vector<std::string>& arguments) {
     // -B: no __pycache__ in the source tree.
     std::vector<std::string> line{programs.python(), "-B", script};
     line.insert(line.end(), arguments.begin(), arguments.end());
-    const int status = std::system(shell_line(line).c_str());
+    std::vector<char*> words;
+    for (std::string& word : line) words.push_back(word.data());
+    words.push_back(nullptr);
+    std::fflush(nullptr);
+    pid_t child = 0;
+    if (::posix_spawnp(&child, words.front(), nullptr, nullptr, words.data(), environ) != 0)
+        return -1;
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

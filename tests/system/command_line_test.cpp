@@ -156,6 +156,11 @@ TEST_F(CommandLine, WetRunWithYade) {
     EXPECT_EQ(record().at("ranks").size(), 2u);
     EXPECT_TRUE(fs::exists(run_folder() / "logs/fluid.log"));
     EXPECT_EQ(turbidite("report " + run_folder().string()).code, 0);
+    // A signal to stop that comes while pictures are drawn, for seconds.
+    const Answer stopped =
+        shell("timeout --preserve-status -s INT 0.3 " TURBIDITE_PROGRAM " report " +
+              run_folder().string());
+    EXPECT_EQ(stopped.code, 130) << stopped.err;
 }
 
 TEST_F(CommandLine, AFolderInUseIsRefused) {

@@ -115,12 +115,15 @@ TEST_F(HeldGrains, ABodyForceIsAllThatFluidAndGrainTake) {
 TEST_F(HeldGrains, ANeutralGrainFollowsADrivenFluid) {
     scratch.write("grains.csv", "id,x,y\n1,1.5,1\n");
     scratch.write("case.yaml", in_a_cyclic_box);
-    const Columns run = play(
-        " --set grains.density_ratio=1 --set coupling.scheme=joint --set "
-        "\"fluid.acceleration=[0.5, 0]\"");
-    EXPECT_NEAR(run.at("mean_velocity_x").back(), 0.2, 1e-12);
-    EXPECT_NEAR(run.at("flow_x").back(), 0.2, 1e-12);
-    EXPECT_NEAR(run.at("fluid_force_x").back(), 0.5 * std::numbers::pi / 4.0, 1e-9);
+    for (const char* radius : {"1", "0.8"}) {
+        const Columns run =
+            play(std::string(" --set grains.density_ratio=1 --set coupling.scheme=joint --set "
+                             "\"fluid.acceleration=[0.5, 0]\" --set fluid.hydrodynamic_radius=") +
+                 radius);
+        EXPECT_NEAR(run.at("mean_velocity_x").back(), 0.2, 1e-12) << radius;
+        EXPECT_NEAR(run.at("flow_x").back(), 0.2, 1e-12) << radius;
+        EXPECT_NEAR(run.at("fluid_force_x").back(), 0.5 * std::numbers::pi / 4.0, 1e-9) << radius;
+    }
 }
 
 // The probe in the grain shows its velocity; the others show the same on any number of ranks.

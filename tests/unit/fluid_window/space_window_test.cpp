@@ -123,6 +123,37 @@ TEST_P(SpaceWindows, GoOnFromWhatWasSaved) {
                       whole.store.field().velocity(axis)[c]);
 }
 
+/// u = a t everywhere, whatever volume of cells the sphere holds: the force on it is that of the
+/// mean pressure gradient, rho_f V a.
+TEST_P(SpaceWindows, ANeutralSphereMovesWithADrivenStream) {
+    ArrayBox cyclic = fluid_box(GetParam());
+    cyclic.grid = grid_of_cubes(box, edge, {Side::cyclic, Side::cyclic, Side::cyclic});
+    Settings driven = settings(GetParam());
+    for (const char* side : {"bottom", "top", "front", "back"})
+        driven.set(std::string("domain.") + side, std::string("cyclic"));
+    const Vec3 a{0.5, -0.2, 0.1};
+    driven.set("run.acceleration_x", a[0]);
+    driven.set("run.acceleration_y", a[1]);
+    driven.set("run.acceleration_z", a[2]);
+    ArrayStore store(cyclic);
+    FluidWindow window(store, driven, {{"sphere", {}}});
+    GrainState ball = Scene(GetParam()).ball;
+    ball.density = 1.0;
+    ball.velocity = {};
+    for (int index = 0; index < 4; ++index) {
+        window.advance({index, index * step, step, false});
+        window.let_fall({ball});
+        const Kicks kicks = window.impose();
+        ball.velocity = kicks.kicks.at(0).velocity;
+        EXPECT_LT(kicks.report.momentum_defect, 1e-9);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(ball.velocity[axis], a[axis] * (index + 1) * step, 1e-12);
+            EXPECT_NEAR(kicks.report.mean_velocity[axis], a[axis] * (index + 1) * step, 1e-12);
+        }
+        EXPECT_LT(kicks.kicks[0].multiplier_impulse[0], 0.0) << "V(R_h) is larger than V";
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Splittings, SpaceWindows,
                          testing::Values("marchuk-yanenko", "explicit-multiplier",
                                          "implicit-multiplier"),
