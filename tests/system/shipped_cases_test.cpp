@@ -36,14 +36,14 @@ TEST_F(ShippedCases, PlayTheirFirstWindows) {
              << " timeout 100 " TURBIDITE_PROGRAM " run " << file.string() << " --force --out run"
              << std::setprecision(12) << " --set time.end=" << 3.0 * std::stod(step)
              << " --set output.interval=" << step;
+        const auto says = [&](const char* words) { return yaml.find(words) != std::string::npos; };
+        const bool poured = says("generator: poured"), wet = says("cells_per_diameter");
+        const bool space = says("dimension: 3");
         // Tens of thousands are poured for minutes, and a single layer rolls on.
-        if (yaml.find("generator: poured") != std::string::npos)
-            line << " --set grains.count=150 --set 'grains.region=[6, 20, 5]'"
-                 << (yaml.find("cells_per_diameter") == std::string::npos
-                         ? ""
-                         : " --set 'domain.size=[10, 36, 5]'");
-        else if (std::regex_search(yaml, many))
-            line << " --set grains.count=1000";
+        if (poured) line << " --set grains.count=150 --set 'grains.region=[6, 20, 5]'";
+        if (poured && wet) line << " --set 'domain.size=[10, 36, 5]'";
+        if (!poured && wet && space) line << " --set fluid.cells_per_diameter=6";  // for time
+        if (!poured && std::regex_search(yaml, many)) line << " --set grains.count=1000";
         const Answer answer = shell(line.str());
         EXPECT_EQ(answer.code, 0) << file << "\n" << answer.out << answer.err;
         EXPECT_EQ(rows_of_history(), 4) << file;
