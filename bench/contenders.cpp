@@ -66,7 +66,8 @@ RunFolder prepared_mid_fall(const Site& site, const std::string& name,
     std::vector<std::string> all{
         "grains.adapter=standalone-nscd",
         "grains.file=" + fs::canonical(site.source("mid_fall.csv")).string(),
-        fmt::format("fluid.cells_per_diameter={}", site.quick() ? 4 : 16)};
+        fmt::format("fluid.cells_per_diameter={}",
+                    site.quick() ? 4 : BenchBox{}.cells_per_diameter())};
     all.insert(all.end(), sets.begin(), sets.end());
     const ResolvedCase resolved =
         load_case(site.source("../configs/sedimentation-discs.yaml"), all);
@@ -157,15 +158,20 @@ Sample mid_fall_window_in_order(Site& site, const Effort& effort, bool second) {
     return played(site, folder, name, effort, 1, true);
 }
 
+std::vector<std::string> SpaceCase::changes(const Site& site) const {
+    std::vector<std::string> all = sets;
+    if (!grains.empty())
+        all.push_back("grains.file=" + fs::canonical(site.source(grains)).string());
+    return all;
+}
+
 Sample settling_window(Site& site, const SpaceCase& of, const Effort& effort) {
     const RunFolder folder{site.folder() / fmt::format("{}-on-{}", of.name, of.ranks)};
     if (!fs::exists(folder.root)) {
         say("preparing " + of.name);
         std::vector<std::string> sets{"grains.adapter=standalone-nscd",
                                       fmt::format("fluid.ranks={}", of.ranks)};
-        if (!of.grains.empty())
-            sets.push_back("grains.file=" + fs::canonical(site.source(of.grains)).string());
-        sets.insert(sets.end(), of.sets.begin(), of.sets.end());
+        for (std::string& change : of.changes(site)) sets.push_back(std::move(change));
         const ResolvedCase resolved =
             load_case(site.source("../configs/settling-spheres.yaml"), sets);
         prepare_run(resolved, make_run_folder({.out = folder.root}, resolved.name), {});

@@ -44,6 +44,9 @@ struct SpaceCase {
     std::string grains;  ///< "mid_fall_spheres.csv"
     std::vector<std::string> sets;
     int ranks = 1;
+
+    /// The changed keys, with the file of the grains among them.
+    std::vector<std::string> changes(const Site& site) const;
 };
 
 /// Windows of configs/settling-spheres.yaml, from rest with the spheres where they were in mid-run.

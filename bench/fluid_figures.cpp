@@ -53,14 +53,9 @@ Measured cell_cost_growth(Site& site) {
         site.quick() ? 1 : 3, [&] { return our_window(site, large, few); },
         [&] { return our_window(site, small, windows(site)); });
     Measured measured = ratio(duel, processor);
-    const double cells = large.cells() / small.cells();
-    for (double* value : {&measured.value, &measured.lowest, &measured.highest}) *value /= cells;
-    const auto per_cell = [](const std::vector<Sample>& samples, const BenchBox& box) {
-        return fmt::format("{}: {:.4g} ns per cell", box.name(),
-                           1e9 * median_of(samples, processor) / box.cells());
-    };
-    measured.notes = {per_cell(duel.first, large), per_cell(duel.second, small),
-                      profile(duel.first)};
+    divide(measured, large.cells() / small.cells());
+    measured.notes = {per_cell(large.name(), large.cells(), duel.first),
+                      per_cell(small.name(), small.cells(), duel.second), profile(duel.first)};
     return measured;
 }
 

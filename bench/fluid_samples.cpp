@@ -19,6 +19,14 @@ std::string milliseconds(const std::string& who, const std::vector<Sample>& samp
     return fmt::format("{} {:.4g} ms", who, 1e3 * median_of(samples, processor));
 }
 
+std::string per_cell(const std::string& box, double cells, const std::vector<Sample>& samples) {
+    return fmt::format("{}: {:.4g} ns per cell", box, 1e9 * median_of(samples, processor) / cells);
+}
+
+void divide(Measured& measured, double by) {
+    for (double* value : {&measured.value, &measured.lowest, &measured.highest}) *value /= by;
+}
+
 std::string profile(const std::vector<Sample>& samples) {
     std::string text = "our window:";
     for (const auto& [part, unused] : samples.front().parts) {

@@ -17,6 +17,12 @@ double resident(const Sample& sample);   ///< [bytes]
 /// "icoFoam 812 ms"
 std::string milliseconds(const std::string& who, const std::vector<Sample>& samples);
 
+/// "320x960: 42 ns per cell"
+std::string per_cell(const std::string& box, double cells, const std::vector<Sample>& samples);
+
+/// The value and its spread over `by`.
+void divide(Measured& measured, double by);
+
 /// Distribution of a window's time: medians over all repeats.
 std::string profile(const std::vector<Sample>& samples);
 

@@ -23,15 +23,6 @@ BenchBox box(const Site& site, int spheres) {
     return {10.0, 20.0, spheres, 10.0};
 }
 
-std::string per_cell(const BenchBox& box, const std::vector<Sample>& samples) {
-    return fmt::format("{}: {:.4g} ns per cell", box.name(),
-                       1e9 * median_of(samples, processor) / box.cells());
-}
-
-void divide(Measured& measured, double by) {
-    for (double* value : {&measured.value, &measured.lowest, &measured.highest}) *value /= by;
-}
-
 Measured icofoam_over_ours(Site& site) {
     const Effort steps = site.quick() ? Effort{5, 60} : Effort{1, 2};
     const Effort windows = site.quick() ? Effort{2, 3} : Effort{5, 10};
@@ -52,8 +43,8 @@ Measured cells_over_plane(Site& site) {
         [&] { return our_window(site, plane, windows); });
     Measured measured = ratio(duel, processor);
     divide(measured, space.cells() / plane.cells());
-    measured.notes = {per_cell(space, duel.first), per_cell(plane, duel.second),
-                      profile(duel.first)};
+    measured.notes = {per_cell(space.name(), space.cells(), duel.first),
+                      per_cell(plane.name(), plane.cells(), duel.second), profile(duel.first)};
     return measured;
 }
 
@@ -71,7 +62,8 @@ Measured cell_cost_growth(Site& site) {
         });
     Measured measured = ratio(duel, processor);
     divide(measured, large.cells() / small.cells());
-    measured.notes = {per_cell(large, duel.first), per_cell(small, duel.second)};
+    measured.notes = {per_cell(large.name(), large.cells(), duel.first),
+                      per_cell(small.name(), small.cells(), duel.second)};
     return measured;
 }
 
@@ -145,11 +137,7 @@ Measured speedup_2_ranks(Site& site) {
 }
 
 Measured settling_coupling_share(Site& site) {
-    const SpaceCase of = shipped(site, "share");
-    std::vector<std::string> changes = of.sets;
-    if (!of.grains.empty())
-        changes.push_back("grains.file=" +
-                          std::filesystem::canonical(site.source(of.grains)).string());
+    std::vector<std::string> changes = shipped(site, "share").changes(site);
     changes.insert(changes.end(),
                    {"output.interval=0.1", site.quick() ? "time.end=0.3" : "time.end=2"});
     const RunHistory history =
