@@ -33,6 +33,10 @@ std::optional<double> largest_given(std::optional<double> a, std::optional<doubl
     return a && b ? largest(*a, *b) : a ? a : b;
 }
 
+std::optional<double> sum_given(std::optional<double> a, std::optional<double> b) {
+    return a && b ? *a + *b : a ? a : b;
+}
+
 void add(ContactReport& total, const ContactReport& share) {
     total.contacts += share.contacts;
     total.iterations = std::max(total.iterations, share.iterations);
@@ -40,6 +44,7 @@ void add(ContactReport& total, const ContactReport& share) {
     total.quad = largest_given(total.quad, share.quad);
     total.max = largest_given(total.max, share.max);
     total.contact_violation = largest_given(total.contact_violation, share.contact_violation);
+    total.film_work = sum_given(total.film_work, share.film_work);
     total.converged = total.converged && share.converged;
     total.max_penetration = largest(total.max_penetration, share.max_penetration);
     total.removed += share.removed;

@@ -13,6 +13,11 @@ bool same_pair(const ContactRecord& x, const ContactRecord& y) {
     return x.b == y.b && x.wall == y.wall && (x.wall >= 0 || x.a == y.a);
 }
 
+/// A film of liquid: it transmits a force, but the surfaces do not touch.
+bool is_film(const ContactRecord& contact) {
+    return (contact.status & ContactStatus::film) != 0;
+}
+
 /// Sums over the links.
 class Sums {
  public:
@@ -27,6 +32,7 @@ class Sums {
         network_.virial.zz += p[2] * l[2] / step_;
         network_.virial.xz += 0.5 * (p[0] * l[2] + p[2] * l[0]) / step_;
         network_.virial.yz += 0.5 * (p[1] * l[2] + p[2] * l[1]) / step_;
+        if (is_film(contact)) return;
         ++points_;
         sliding_ += (contact.status & ContactStatus::sliding) != 0 ? 1 : 0;
         if (contact.wall < 0) force_ += dot(p, contact.normal) / step_;
@@ -93,6 +99,7 @@ ContactNetwork contact_network(const std::vector<ContactRecord>& contacts, std::
     Sums sums(step, dimension);
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         sums.add_point(contacts[k]);
+        if (is_film(contacts[k])) continue;
         if (k == 0 || !same_pair(contacts[k - 1], contacts[k])) sums.add_link(contacts[k]);
     }
     return sums.finished(grains);

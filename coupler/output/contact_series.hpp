@@ -39,7 +39,8 @@ class ContactSeries {
     ///     torsion_moment       on b, in space: along the normal
     ///     force                on b
     ///     normal, point, gap
-    ///     status               bits: 1 sliding, 2 rolling; 0 sticking
+    ///     status               bits: 1 sliding, 2 rolling, 4 a film between surfaces that do not
+    ///                          touch; 0 sticking
     ///
     /// per cell, and also normal_force per point. `step` is the time over which the impulses acted.
     /// Writes nothing if the state carries no contacts. Throws Failure when the disk is full.

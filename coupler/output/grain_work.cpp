@@ -16,6 +16,7 @@ struct MeanMotion : Twist {
 GrainWork& GrainWork::operator+=(const GrainWork& other) {
     contacts += other.contacts;
     fluid += other.fluid;
+    films += other.films;
     return *this;
 }
 
@@ -32,6 +33,7 @@ GrainWork WorkOnGrains::operator()(const Motion& before, const WindowResult& res
                 !from.prescribed};
     };
     GrainWork work;
+    work.films = result.state.report.film_work.value_or(0.0);
     const bool dry = result.motion.grains.empty();  // contacts are then told with the state
     for (const GrainState& grain : dry ? result.state.grains : result.motion.grains)
         if (const MeanMotion m = motion_of(grain.id); m.free)

@@ -20,6 +20,7 @@ namespace turbidite {
 struct GrainWork {
     double contacts = 0.0;
     double fluid = 0.0;
+    double films = 0.0;  ///< part of `contacts`, as the grains' program tells it
 
     GrainWork& operator+=(const GrainWork& other);
 };

@@ -228,6 +228,10 @@ const std::vector<Column> columns = {
      [](Cell c) {
          return of_space(c, [&] { return fluid(c, [](Cell r) { return force(r, 2); }); });
      }},
+    {"film_work",
+     [](Cell c) {
+         return c.row.state->report.film_work ? work(c, &GrainWork::films) : std::string();
+     }},
 };
 
 template <class Part>

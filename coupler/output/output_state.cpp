@@ -18,7 +18,7 @@ void visit_wall(Code& code, WallTimes& wall) {
 template <class Code>
 void visit_since(Code& code, SinceRow& since) {
     code(since.windows), code(since.unconverged), visit_wall(code, since.wall);
-    code(since.work.contacts), code(since.work.fluid);
+    code(since.work.contacts), code(since.work.fluid), code(since.work.films);
 }
 
 template <class Code>

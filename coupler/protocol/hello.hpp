@@ -13,7 +13,7 @@ namespace turbidite {
 /// Major versions must be equal; the smaller of the two minor versions applies, down to
 /// `oldest_minor`.
 inline constexpr std::int32_t protocol_major = 1;
-inline constexpr std::int32_t protocol_minor = 9;
+inline constexpr std::int32_t protocol_minor = 10;
 
 /// The oldest supported minor version: since then a ContactReport has the contact violation.
 inline constexpr std::int32_t oldest_minor = 8;

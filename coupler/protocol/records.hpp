@@ -115,12 +115,16 @@ struct ContactReport {
     /// With the state: how far the velocities at the end of the window are from the contact
     /// conditions, max |min(u_n + b_n, W_nn r_n)| over the contact points [m/s].
     std::optional<double> contact_violation = {};
+    /// With the state: work of films of liquid between surfaces that the cells of the fluid do not
+    /// resolve, on the grains over the window; it is part of that of the contact impulses [J].
+    std::optional<double> film_work = {};
 };
 
 /// Bits of ContactRecord::status; none set: sticking.
 struct ContactStatus {
     static constexpr std::int32_t sliding = 1;  ///< friction is at its limit
     static constexpr std::int32_t rolling = 2;  ///< the rolling moment is at its limit
+    static constexpr std::int32_t film = 4;     ///< a film of liquid keeps the surfaces apart
 };
 
 /// One contact point with an impulse, as found in the window: at q^n for adapters that solve once,

@@ -81,6 +81,18 @@ void maybe(Reader& code, std::optional<Value>& value, Visit visit) {
     if (given) visit(code, value.emplace());
 }
 
+/// A value at the end of a payload, which older programs do not know: nothing stands for none.
+template <class Value>
+void trailing(Writer& code, const std::optional<Value>& value) {
+    if (value) code(*value);
+}
+
+template <class Value>
+void trailing(Reader& code, std::optional<Value>& value) {
+    value.reset();
+    if (!code.at_end()) code(value.emplace());
+}
+
 // Records of a fixed number of numbers, of which there may be millions: one check of the length,
 // then each record in one go.
 
@@ -196,6 +208,7 @@ constexpr auto visit_motion = [](auto& code, auto& motion) {
     table(code, motion.grains, visit_grain);
     visit_contact_report(code, motion.report);
     maybe(code, motion.contacts, visit_contacts);
+    trailing(code, motion.report.film_work);
 };
 
 constexpr auto visit_kick = [](auto& code, auto& k) {

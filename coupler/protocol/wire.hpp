@@ -76,6 +76,9 @@ class Reader {
     /// The next `size` bytes. Throws MalformedPayload if there are fewer.
     const char* take(std::size_t size);
 
+    /// Whether there is nothing left to read.
+    bool at_end() const { return at_ == in_.size; }
+
     /// Throws MalformedPayload unless the whole payload was read.
     void finish() const;
 

@@ -63,6 +63,7 @@ NumberTable contact_report(const ContactReport& report) {
     entry("converged", report.converged ? 1.0 : 0.0);
     entry("largest overlap", report.max_penetration);
     entry("contact violation", report.contact_violation);
+    entry("film work", report.film_work);
     entry("removed grains", static_cast<double>(report.removed));
     entry("Quad", report.quad);
     entry("Max", report.max);

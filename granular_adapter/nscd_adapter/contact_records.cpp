@@ -13,8 +13,8 @@ namespace {
 // The local solution of a sliding contact lies on the cone to rounding.
 constexpr double at_limit = 1.0 - 1e-9;
 
-/// Status from the solution of the contact problem: its cone is that of the law, also with
-/// attraction. A contact under traction neither slides nor rolls.
+/// Status from the solution of the contact problem without what films carry: its cone is that of
+/// the law, also with attraction. A contact under traction neither slides nor rolls.
 std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& solution,
                        const Vec3& moment) {
     std::int32_t status = 0;
@@ -39,7 +39,9 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     else
         record.a = bodies.id[point.a];
     record.feature = point.feature;
-    record.status = status_of(contact, engine.solution()[k], world_moment(engine.solution(), k));
+    record.status = status_of(contact, engine.carried()[k], world_moment(engine.solution(), k));
+    if (!(engine.carried()[k].n > 0.0) && engine.solution()[k].n != 0.0)
+        record.status |= ContactStatus::film;
     record.gap = point.gap;
     record.length = point.length;
     record.point = bodies.position[point.b] + point.arm_b;

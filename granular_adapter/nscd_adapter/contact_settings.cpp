@@ -99,6 +99,17 @@ void take_adhesion(const Settings& settings, nscd::EngineSettings& result) {
         settings.real("run.grain_weight") * settings.real("contact.adhesion_force");
 }
 
+/// Films of liquid, in space with a fluid; run.viscosity is nu.
+void take_film(const Settings& settings, nscd::EngineSettings& result) {
+    if (!settings.has("run.film_cutoff")) return;
+    take(settings, "contact.film", result.law.film);
+    if (result.law.film == "none") return;
+    nscd::LawSettings& laws = result.law_settings;
+    laws.viscosity = settings.real("run.fluid_density") * settings.real("run.viscosity");
+    laws.film_cutoff = settings.real("run.film_cutoff");
+    laws.film_roughness = settings.real("run.diameter") * settings.real("contact.film_roughness");
+}
+
 }  // namespace
 
 nscd::EngineSettings contact_settings(const Settings& settings) {
@@ -108,6 +119,7 @@ nscd::EngineSettings contact_settings(const Settings& settings) {
     take(settings, "contact.law", result.law.friction);
     take(settings, "contact.impact", result.law.impact);
     take_adhesion(settings, result);
+    take_film(settings, result);
     take_materials(settings, result);
     take(settings, "contact.recovery_fraction", 1.0, result.law_settings.recovery_fraction);
     take(settings, "contact.recovery_speed", velocity, result.law_settings.recovery_speed);

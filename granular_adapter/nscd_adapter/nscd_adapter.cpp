@@ -155,6 +155,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     std::optional<std::vector<ContactRecord>> contacts;
     if (window.write_output) contacts = contact_records(engine());
     report_.contact_violation = engine().contact_violation();
+    if (engine().settings().law.film != "none") report_.film_work = engine().film_work();
     const bool with_contact = answered_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());

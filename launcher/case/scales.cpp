@@ -124,10 +124,14 @@ void set_run_values(Settings& settings, const Scales& scales) {
     if (space) {
         settings.set("run.dimension", std::int64_t{3});
         settings.set("run.acceleration_z", acceleration.at(2) * scales.velocity / scales.time);
-        if (wet)
-            settings.set("run.surface_shift", settings.real("fluid.surface_shift") *
-                                                  scales.diameter /
-                                                  settings.real("fluid.cells_per_diameter"));
+        if (wet) {
+            const auto length = [&](const char* key) {
+                return settings.real(key) * scales.diameter /
+                       settings.real("fluid.cells_per_diameter");
+            };
+            settings.set("run.surface_shift", length("fluid.surface_shift"));
+            settings.set("run.film_cutoff", length("contact.film_cutoff"));
+        }
     }
     set_probes(settings, scales.diameter);
     set_slices(settings, scales.diameter);

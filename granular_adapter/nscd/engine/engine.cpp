@@ -307,6 +307,7 @@ void Engine::forget_step() {
     problem_ = {};
     solution_.clear();
     impulses_.clear();
+    approach_.clear();
 }
 
 std::vector<char> Engine::save() const {
@@ -378,9 +379,10 @@ ContactKey Engine::key(const ContactPoint& point) const {
 /// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
     remember(result.impulses, dt);
-    laws_.find_states({points_, keys_, bodies_of_points(), placed_walls_}, result.impulses);
+    look_at_films(result.impulses, result.velocities);
     impulses_ = laws_.felt(result.impulses);
     solution_ = std::move(result.impulses);
+    laws_.find_states({points_, keys_, bodies_of_points(), placed_walls_}, carried());
     if (ranks_) {
         const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
         bodies_.twist.assign(result.velocities.begin(), result.velocities.begin() + own);
@@ -390,12 +392,38 @@ StepReport Engine::hand_out(SolverResult result, double dt) {
     }
     sum_impulses();
     return {static_cast<std::int64_t>(points_.size()),
-            static_cast<std::int64_t>(memory_.contacts().size()),
+            loaded_contacts(),
             result.iterations,
             result.residual,
             result.change,
             result.converged,
             deepest_};
+}
+
+/// What films carry, and how fast their surfaces approached each other.
+void Engine::look_at_films(const Impulses& found, const std::vector<Twist>& velocities) {
+    approach_.clear();
+    if (problem_.films.empty()) return;
+    pressing_ = carried_by_contacts(problem_, found, velocities);
+    for (const Contact& contact : problem_.contacts)
+        approach_.push_back(contact_velocity(contact, bodies_of_points().twist).n);
+}
+
+/// Contacts that press, those of films alone not among them.
+std::int64_t Engine::loaded_contacts() const {
+    if (problem_.films.empty()) return static_cast<std::int64_t>(memory_.contacts().size());
+    return std::count_if(pressing_.begin(), pressing_.end(),
+                         [](const ContactVector& r) { return r.n > 0.0; });
+}
+
+double Engine::film_work() {
+    follow_bodies();
+    double work = 0.0;
+    for (std::size_t k = 0; k < approach_.size(); ++k) {
+        const double now = contact_velocity(problem_.contacts[k], bodies_of_points().twist).n;
+        work += (solution_[k].n - pressing_[k].n) * 0.5 * (approach_[k] + now);
+    }
+    return work;
 }
 
 /// Sums contact impulses and their moments by body.

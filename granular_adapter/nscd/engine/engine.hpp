@@ -136,10 +136,17 @@ class Engine {
     /// (residual.hpp) [m/s].
     double contact_violation();
 
+    /// Work of the films on the bodies in the last step, with the mean of the velocities at its
+    /// start and of their present ones; of several ranks that of their own contacts [J].
+    double film_work();
+
     /// Contact points of the last step, and the impulses on the bodies there. With an attractive
     /// law a normal impulse may be negative.
     const std::vector<ContactPoint>& points() const { return points_; }
     const Impulses& impulses() const { return impulses_; }
+
+    /// solution() without what films of liquid carry of it.
+    const Impulses& carried() const { return problem_.films.empty() ? solution_ : pressing_; }
 
     /// The problem of the last step and its solution r~ of law.hpp: the impulses without the
     /// attraction of a law, which is included in the problem's free velocities.
@@ -179,6 +186,8 @@ class Engine {
     SolverResult solve(double dt);
     StepReport hand_out(SolverResult result, double dt);
     void sum_impulses();
+    void look_at_films(const Impulses& found, const std::vector<Twist>& velocities);
+    std::int64_t loaded_contacts() const;
     void follow_bodies();
     double take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                       double dt);
@@ -214,6 +223,9 @@ class Engine {
     Impulses guess_;
     Impulses solution_;
     Impulses impulses_;
+    // With films only, as long as the problem.
+    Impulses pressing_;
+    std::vector<double> approach_;  ///< n.(v_b - v_a) at the start of the step [m/s]
 };
 
 }  // namespace turbidite::nscd

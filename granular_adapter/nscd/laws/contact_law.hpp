@@ -18,6 +18,7 @@ struct LawChoice {
     std::string adhesion = "none";
     std::string impact = "newton";
     std::string rolling = "resistance";
+    std::string film = "none";
 };
 
 /// The state of a contact's parts, by slot; all zero means no state.

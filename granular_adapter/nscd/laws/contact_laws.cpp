@@ -41,6 +41,13 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
     contact.torsion = terms.torsion;
 }
 
+/// The film of a contact whose bias is set, as the problem has it.
+Film film_in(const FilmTerms& terms, double normal_bias, double step) {
+    if (terms.coefficient == 0.0) return {};
+    const double gap = terms.gap / step;
+    return {terms.coefficient, gap, terms.cutoff / step, gap - normal_bias};
+}
+
 const Wall& wall_of(const DetectedContacts& contacts, const ContactPoint& point) {
     return contacts.walls[static_cast<std::size_t>(point.wall)];
 }
@@ -168,6 +175,8 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         const ContactState past = law_.remembers() ? states_.of(contacts.keys[k]) : ContactState{};
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
+        if (law_.has(LawSlot::film))
+            problem.films.push_back(film_in(terms.film, terms.normal_bias, step));
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         if (terms.attraction != 0.0) {
             attraction_.resize(contacts.points.size(), 0.0);

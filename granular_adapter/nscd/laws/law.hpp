@@ -10,6 +10,8 @@
 // bodies feel r = r~ - dt c n, whose known second term is included in the free velocities, so that
 // the problem keeps this form and the law is exact. Inside the solver's loop a law costs nothing.
 //
+// A film of liquid joins the problem as a second relation between u_n and r_n (problem/film.hpp).
+//
 // The law of a contact consists of parts, one per slot, which add to the terms in turn. Parts see
 // velocities and impulses as normal component and tangential magnitude, (x_n, |x_t|), and are
 // therefore the same in the plane and in space.
@@ -60,6 +62,13 @@ inline bool touching(const ContactSituation& s) {
     return s.gap <= 1e-9 * s.radius_b;
 }
 
+/// A film of liquid; zero: none.
+struct FilmTerms {
+    double coefficient = 0.0;  ///< C: the force is C (1/gap - 1/cutoff) u_n [N s]
+    double gap = 0.0;          ///< g_h at the start of the step, > 0 [m]
+    double cutoff = 0.0;       ///< g_c: the film acts below this gap [m]
+};
+
 struct LawTerms {
     double friction = 0.0;                ///< mu
     double normal_bias = 0.0;             ///< b_n [m/s]
@@ -67,12 +76,13 @@ struct LawTerms {
     double attraction = 0.0;              ///< c, acts on the pair whatever the solver finds [N]
     double rolling = 0.0;                 ///< lever of the rolling resistance [m]
     double torsion = 0.0;                 ///< lever of the torsional resistance [m]
+    FilmTerms film;                       ///< of liquid, between round surfaces in space
 };
 
 /// Result of the step for the contact.
 struct ContactOutcome {
     LawTerms terms;
-    Magnitudes impulse;  ///< r~ [N s]
+    Magnitudes impulse;  ///< r~, without that of a film [N s]
     /// Relative, of |r_t|: what shortening a vector to mu r_n may have lost.
     double rounding = 0.0;
 
@@ -94,7 +104,10 @@ struct LawSettings {
     double adhesion_shear = 0.0;  ///< shear strength of a bond over its tensile strength
     /// Of the discs or spheres to which Surface::adhesion refers [m]
     double reference_diameter = 1.0;
-    int dimension = 2;  ///< of the contacts
+    double viscosity = 0.0;       ///< eta of the liquid [Pa s]
+    double film_cutoff = 0.0;     ///< g_c: films act at smaller gaps [m]
+    double film_roughness = 0.0;  ///< thickness of a film between surfaces that touch [m]
+    int dimension = 2;            ///< of the contacts
 };
 
 /// What a law does in one slot; its functions hold its parameters.

@@ -4,8 +4,8 @@
 namespace turbidite::nscd {
 
 std::string slot_name(LawSlot slot) {
-    static const char* const names[law_slots] = {"gap", "friction", "adhesion", "impact",
-                                                 "rolling"};
+    static const char* const names[law_slots] = {"gap",    "friction", "adhesion",
+                                                 "impact", "rolling",  "film"};
     return names[static_cast<std::size_t>(slot)];
 }
 

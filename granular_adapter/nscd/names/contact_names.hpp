@@ -11,8 +11,8 @@
 namespace turbidite::nscd {
 
 /// The slots of a contact law, in the order in which their parts are applied.
-enum class LawSlot { gap, friction, adhesion, impact, rolling };
-inline constexpr std::size_t law_slots = 5;
+enum class LawSlot { gap, friction, adhesion, impact, rolling, film };
+inline constexpr std::size_t law_slots = 6;
 
 /// "gap", "friction", …
 std::string slot_name(LawSlot slot);

@@ -16,7 +16,9 @@
 // and zero wherever `rolling` is zero. In space m and w are vectors: their parts in the tangent
 // plane obey this law, and their parts along the normal the same with `torsion` as the lever. The
 // mobilities M^-1 are those of a kind of contact (contact_kind.hpp); everything else is the same in
-// the plane and in space. This file does not depend on shapes, laws or solvers.
+// the plane and in space. With films of liquid r_n may be negative, and mu r_n, rolling r_n and
+// torsion r_n are limits by the part of r_n that the contact carries (film.hpp). This file does not
+// depend on shapes, laws or solvers.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +27,7 @@
 #include "granular_adapter/nscd/problem/bodies.hpp"
 #include "granular_adapter/nscd/problem/contact_cells.hpp"
 #include "granular_adapter/nscd/problem/contact_vector.hpp"
+#include "granular_adapter/nscd/problem/film.hpp"
 #include "granular_adapter/nscd/problem/mobilities.hpp"
 #include "granular_adapter/nscd/ranks/rank_plan.hpp"
 
@@ -69,7 +72,14 @@ struct ContactProblem {
     ContactCells cells = {};  ///< of the contacts; empty in the plane
     /// Where other ranks have contacts of the same problem, then those of this rank are in phases.
     const RankPlan* ranks = nullptr;
+    /// One per contact, or empty: no contact of this rank has a film.
+    std::vector<Film> films = {};
 };
+
+/// The films, or none, of contact k.
+inline const Film* film_of(const ContactProblem& problem, std::size_t k) {
+    return problem.films.empty() ? nullptr : &problem.films[k];
+}
 
 /// Contacts of all ranks.
 inline std::size_t contacts_in_all(const ContactProblem& problem) {

@@ -23,6 +23,12 @@ auto with_operator(const ContactProblem& problem, const Use& use) {
                       problem.bodies);
 }
 
+/// |W_nn (r_n* - r_n)|, r_n* of the contact alone with u_n the velocity in the problem.
+double violation(const Film* film, double nn, double rn, double un) {
+    if (!film) return std::abs(std::min(un, nn * rn));
+    return nn * std::abs(solve_film(*film, nn, un - nn * rn).impulse - rn);
+}
+
 }  // namespace
 
 double rounding_floor(const ContactProblem& problem) {
@@ -55,10 +61,23 @@ double contact_violation(const ContactProblem& problem, const Impulses& r,
         double largest = 0.0;
         for (std::size_t k = 0; k < r.size(); ++k) {
             const double u = biased_velocity(problem.contacts[k], v).n;
-            largest = std::max(largest, std::abs(std::min(u, w.block(k).nn * r[k].n)));
+            largest = std::max(largest, violation(film_of(problem, k), w.block(k).nn, r[k].n, u));
         }
         return largest;
     });
+}
+
+Impulses carried_by_contacts(const ContactProblem& problem, const Impulses& r,
+                             const std::vector<Twist>& v) {
+    Impulses carried = r;
+    if (problem.films.empty()) return carried;
+    with_operator(problem, [&](const auto& w) {
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            const double nn = w.block(k).nn, u = biased_velocity(problem.contacts[k], v).n;
+            carried[k].n = solve_film(problem.films[k], nn, u - nn * r[k].n).contact;
+        }
+    });
+    return carried;
 }
 
 ChangeMeasures change_measures(const ContactProblem& problem, const Impulses& r) {

@@ -22,7 +22,9 @@
 //
 //     max |min(u_n, W_nn r_n)|,    u = H^T v + b
 //
-// which for a loaded contact is |u_n| and for any other what closes it too fast, -u_n.
+// which for a loaded contact is |u_n| and for any other what closes it too fast, -u_n. With a film
+// (film.hpp) it is |W_nn (r_n* - r_n)|, r_n* the impulse of the contact alone: without one the
+// same.
 //
 // With rolling resistance the natural map projects n, t and roll on |r_t| <= mu r_n, |m| <= rho r_n
 // (plane/rolling_contact.hpp, space/turning_contact.hpp). Moments are divided, and spins
@@ -41,6 +43,11 @@ double natural_map_residual(const ContactProblem& problem, const Impulses& r);
 /// How far v is from the Signorini condition with the impulses r [m/s].
 double contact_violation(const ContactProblem& problem, const Impulses& r,
                          const std::vector<Twist>& v);
+
+/// r without the parts that films carry: what presses on surfaces, which friction sees. `v`:
+/// body_velocities(problem, r) [N s].
+Impulses carried_by_contacts(const ContactProblem& problem, const Impulses& r,
+                             const std::vector<Twist>& v);
 
 /// The part of sum |r|^2 due to rounding alone [(N s)^2].
 double rounding_floor(const ContactProblem& problem);

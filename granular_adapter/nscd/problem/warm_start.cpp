@@ -43,7 +43,7 @@ void ContactMemory::remember(const std::vector<ContactKey>& keys,
     std::vector<RememberedContact> contacts;
     contacts.reserve(contacts_.size());
     for (std::size_t k = 0; k < keys.size(); ++k)
-        if (impulses[k].n > 0.0) contacts.push_back({keys[k], (1.0 / step) * impulses[k]});
+        if (impulses[k].n != 0.0) contacts.push_back({keys[k], (1.0 / step) * impulses[k]});
     replace(std::move(contacts));
 }
 

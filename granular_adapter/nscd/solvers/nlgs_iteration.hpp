@@ -79,9 +79,9 @@ class NlgsIteration {
     }
 
  private:
-    static void leave_out_unloaded(Impulses& r) {
+    void leave_out_unloaded(Impulses& r) const {
         for (std::size_t k = 0; k < r.size(); ++k) {
-            if (r[k].n > 0.0) continue;
+            if (r[k].n > 0.0 || (r[k].n < 0.0 && film_of(problem_, k))) continue;
             r[k] = {};
             if (!r.moments.empty()) r.moments[k] = {};
         }
@@ -123,11 +123,14 @@ class NlgsIteration {
             problem_.ranks ? problem_.ranks->cell_ends() : std::vector<std::size_t>());
     }
 
-    /// The contact has an impulse, or closes at the velocities of the initial guess.
+    /// The contact has an impulse, or closes, or its film acts, at the velocities of the initial
+    /// guess.
     bool is_active(std::size_t k) const {
-        if (result_.impulses[k].n > 0.0) return true;
+        if (result_.impulses[k].n != 0.0) return true;
         const Contact& c = problem_.contacts[k];
-        return contact_velocity(c, result_.velocities).n + c.bias.n < 0.0;
+        const double u = contact_velocity(c, result_.velocities).n + c.bias.n;
+        const Film* const film = film_of(problem_, k);
+        return u < 0.0 || (film && film->acts(u));
     }
 
     void sweep_until_check() {

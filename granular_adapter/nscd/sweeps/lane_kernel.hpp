@@ -67,9 +67,9 @@ TURBIDITE_INLINE bool any(const Four& x) {
     return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0 || x[3] != 0.0;
 }
 
-/// Counts contacts whose new impulse is not zero.
+/// Counts contacts whose new impulse is not zero; that of a film may be negative.
 template <int width, class R>
 TURBIDITE_INLINE void count_loaded(PassSums<width>& sums, const R& rn) {
     const R one = R{} + 1.0;
-    store(sums.loaded, R(load(sums.loaded) + (rn > R{} ? one : R{})));
+    store(sums.loaded, R(load(sums.loaded) + (magnitude(rn) > R{} ? one : R{})));
 }

@@ -168,7 +168,7 @@ struct SweepLayout {
     std::vector<std::uint8_t> loaded(std::size_t contacts) const {
         std::vector<std::uint8_t> result(contacts);
         each_contact([&](std::size_t k, const Rows& row, int lane) {
-            result[k] = row.rn.v[lane] > 0.0 ? 1 : 0;
+            result[k] = row.rn.v[lane] != 0.0 ? 1 : 0;
         });
         return result;
     }

@@ -16,6 +16,7 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .shapes = {"disc", "triangle", "polygon", "sphere"},
             .takes_inertia = true,
             .adhesion_and_rolling = true,
+            .films = true,
             .cyclic_sides = true,
             .inner_walls = true,
             .moving_sides = true,
@@ -33,6 +34,7 @@ GrainsAdapter external_program(const char* name, const char* help) {
     GrainsAdapter adapter = contact_engine(name, help, GrainsHost::command, "");
     adapter.contacts = Contacts::any;
     adapter.repeats_windows = true;
+    adapter.films = false;
     adapter.moved_grains = false;
     adapter.most_ranks = adapter.most_ranks_in_space = any_number;
     return adapter;

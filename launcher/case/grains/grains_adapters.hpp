@@ -37,6 +37,7 @@ struct GrainsAdapter {
     bool repeats_windows = false;          ///< goes back to the start of a window
     std::vector<std::string> laws = {};    ///< contact.law; empty: all
     bool adhesion_and_rolling = false;     ///< contact.adhesion, contact.rolling_friction
+    bool films = false;                    ///< contact.film
     bool cyclic_sides = false;
     bool inner_walls = false;        ///< domain.walls_file
     bool moving_sides = false;       ///< domain.SIDE_motion

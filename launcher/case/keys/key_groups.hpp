@@ -12,6 +12,7 @@ KeyGroup domain_keys();
 KeyGroup grains_keys();
 KeyGroup adapter_keys();  ///< grains.adapter, and the capabilities of the adapters
 KeyGroup fluid_keys();
+KeyGroup film_keys();  ///< contact.film*, which need a fluid
 KeyGroup coupling_keys();
 KeyGroup time_keys();
 KeyGroup scales_keys();

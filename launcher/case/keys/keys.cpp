@@ -28,9 +28,19 @@ KeyTable all_keys() {
 
 const std::vector<KeyGroup>& key_groups() {
     static const std::vector<KeyGroup> groups = {
-        domain_keys(),          adapter_keys(),     grains_keys(),   fluid_keys(),
-        contact_problem_keys(), contact_law_keys(), material_keys(), molecular_dynamics_keys(),
-        coupling_keys(),        time_keys(),        scales_keys(),   limit_keys(),
+        domain_keys(),
+        adapter_keys(),
+        grains_keys(),
+        fluid_keys(),
+        contact_problem_keys(),
+        contact_law_keys(),
+        film_keys(),
+        material_keys(),
+        molecular_dynamics_keys(),
+        coupling_keys(),
+        time_keys(),
+        scales_keys(),
+        limit_keys(),
         space_keys(),
     };
     return groups;

@@ -156,6 +156,25 @@ TEST(Ranks, HaveTheBitsOfOneRank) {
     }
 }
 
+TEST(Ranks, HaveTheBitsOfOneRankWithFilms) {
+    Scene scene = slide(9, 3);
+    scene.settings.law.film = "lubrication";
+    scene.settings.law_settings.viscosity = 0.01;
+    scene.settings.law_settings.film_cutoff = 0.1;
+    scene.settings.law_settings.film_roughness = 0.001;
+    const Played one = play(scene, 1);
+    ASSERT_GT(one.contacts, 500);
+    EXPECT_GT(std::count_if(one.impulses.begin(), one.impulses.end(),
+                            [](const auto& entry) { return entry.second.first.n < 0.0; }),
+              20)
+        << "films that part";
+    for (const int ranks : {2, 3}) {
+        const Played many = play(scene, ranks);
+        expect_equal(one, many);
+        EXPECT_GT(many.moved.size(), 10u);
+    }
+}
+
 TEST(Ranks, HaveTheBitsOfOneRankInAPeriodicBox) {
     Scene scene = slide(14, 3);
     scene.settings.box.length = {15.4, 0.0, 15.4};

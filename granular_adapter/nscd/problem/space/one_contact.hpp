@@ -9,12 +9,15 @@
 // are uncoupled, and both tangents are alike.
 //
 //     r_n = max(0, -b_n/W_nn),   r_t = -b_t/W_tt, shortened to mu r_n where it is longer
+//
+// With a film r_n is that of film.hpp, and the limit mu times what the contact carries of it.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
 #include "granular_adapter/nscd/problem/contact_vector.hpp"
+#include "granular_adapter/nscd/problem/film.hpp"
 
 namespace turbidite::nscd {
 
@@ -23,6 +26,7 @@ struct SphereBlock {
     double nn = 0.0;
     double tt = 0.0;
     double rr = 0.0;
+    const Film* film = nullptr;  ///< none: the contact has no film
 };
 
 /// The tangential part of x, not longer than `most`.
@@ -32,11 +36,18 @@ inline ContactVector clipped(const ContactVector& x, double most) {
     return {0.0, factor * x.t, factor * x.s, 0.0};
 }
 
+/// The normal part; without a film all of it is the contact's.
+inline FilmedNormal solve_normal(const SphereBlock& w, double b) {
+    if (w.film) return solve_film(*w.film, w.nn, b);
+    const double n = std::max(0.0, -b / w.nn);
+    return {n, n};
+}
+
 /// r with u = W r + b that solves the contact.
 inline ContactVector solve_contact(const SphereBlock& w, const ContactVector& b, double friction) {
-    const double n = std::max(0.0, -b.n / w.nn);
-    ContactVector r = clipped((-1.0 / w.tt) * b, friction * n);
-    r.n = n;
+    const FilmedNormal n = solve_normal(w, b.n);
+    ContactVector r = clipped((-1.0 / w.tt) * b, friction * n.contact);
+    r.n = n.impulse;
     return r;
 }
 

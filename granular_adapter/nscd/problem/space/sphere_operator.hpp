@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/contact_kind.hpp"
+#include "granular_adapter/nscd/problem/space/filmed_contact.hpp"
 #include "granular_adapter/nscd/problem/space/mobility.hpp"
-#include "granular_adapter/nscd/problem/space/turning_contact.hpp"
 
 namespace turbidite::nscd {
 
@@ -34,6 +34,7 @@ class SphereOperator {
     SphereBlock block(std::size_t contact) const {
         const Contact& c = contacts_[contact];
         SphereBlock w;
+        w.film = film_of(problem_, contact);
         add(w, bodies_[static_cast<std::size_t>(c.b)], c.arm_b);
         if (c.a >= 0) add(w, bodies_[static_cast<std::size_t>(c.a)], c.arm_a);
         return w;
@@ -51,6 +52,9 @@ class SphereOperator {
         return some(
             [](const Contact& contact) { return contact.rolling > 0.0 || contact.torsion > 0.0; });
     }
+
+    /// Whether some contact, of any rank, has a film.
+    bool has_films() const { return on_any_rank(problem_, !problem_.films.empty()); }
 
  private:
     /// Of the contacts of all ranks.
@@ -79,13 +83,16 @@ inline SphereOperator operator_of(const ContactProblem& problem,
 
 inline MapTerms map_terms(const Contact& contact, const SphereBlock& w, const ContactVector& r,
                           const ContactVector& u) {
+    if (w.film) return filmed_terms(contact, w, r, u);
     const ContactVector f = natural_map(r, u, contact.friction, 1.0 / w.nn);
     return {f.n * f.n + f.t * f.t + f.s * f.s, r.n * r.n + r.t * r.t + r.s * r.s};
 }
 
 inline MapTerms map_terms(const Contact& contact, const SphereBlock& w, const ContactVector& r,
                           const ContactVector& u, const Turning& turning) {
-    return w.rr > 0.0 ? turning_terms(contact, w, r, u, turning) : map_terms(contact, w, r, u);
+    if (w.rr == 0.0) return map_terms(contact, w, r, u);
+    return w.film ? filmed_terms(contact, w, r, u, turning)
+                  : turning_terms(contact, w, r, u, turning);
 }
 
 inline ContactVector solution(const Contact& contact, const SphereBlock& w,

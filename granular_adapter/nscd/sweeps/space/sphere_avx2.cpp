@@ -48,5 +48,7 @@ template Sweeps<BiasedSphereRows<4>> avx2_sweeps();
 template Sweeps<BiasedSphereRows<1>> avx2_sweeps();
 template Sweeps<TurningSphereRows<4>> avx2_sweeps();
 template Sweeps<TurningSphereRows<1>> avx2_sweeps();
+template Sweeps<FilmSphereRows<4>> avx2_sweeps();
+template Sweeps<FilmSphereRows<1>> avx2_sweeps();
 
 }  // namespace turbidite::nscd

@@ -15,7 +15,8 @@
 //     m' = m - (w_b - w_a)/W_rr, its part along n shortened to torsion r_n', the other to rolling
 //     r_n' w_b += 1/I_b (m' - m),  w_a -= 1/I_a (m' - m)
 //
-// which is exact for a contact alone where r_a/I_a = r_b/I_b: there m does not change u_t.
+// which is exact for a contact alone where r_a/I_a = r_b/I_b: there m does not change u_t. With a
+// film r_n' is that of film.hpp, and the limits are times the part of it that the contact carries.
 
 template <class R>
 struct Vector {
@@ -190,18 +191,65 @@ TURBIDITE_INLINE void add_turning_map(const Rows& row, PassSums<Rows::width>& su
     store(sums.size, R(load(sums.size) + all));
 }
 
-/// The new moment at the spins of the bodies, and its effect on them.
+/// The new moment at the relative spin w.
+template <class Rows, class R>
+TURBIDITE_INLINE Vector<R> next_moment(const Rows& row, const Vector<R>& normal, const R& n,
+                                       const Vector<R>& w) {
+    const Vector<R> old = load(row.mx, row.my, row.mz);
+    const Parts<R> wanted = parts(old - load(row.inverse_rr) * w, normal);
+    return clipped(wanted.across, R(load(row.rolling) * n)) +
+           clipped(wanted.along, R(load(row.torsion) * n));
+}
+
+/// The new moment, and its effect on the spins of the bodies.
 template <class Rows, class R>
 TURBIDITE_INLINE void turn(Rows& row, const Vector<R>& normal, const R& n, Motion<R>& wa,
                            Motion<R>& wb) {
-    const Vector<R> old = load(row.mx, row.my, row.mz);
-    const Parts<R> wanted = parts(old - load(row.inverse_rr) * (wb.rate - wa.rate), normal);
-    const Vector<R> moment = clipped(wanted.across, R(load(row.rolling) * n)) +
-                             clipped(wanted.along, R(load(row.torsion) * n));
-    const Vector<R> change = moment - old;
+    const Vector<R> moment = next_moment(row, normal, n, Vector<R>(wb.rate - wa.rate));
+    const Vector<R> change = moment - load(row.mx, row.my, row.mz);
     wa.rate = wa.rate - wa.inverse * change;
     wb.rate = wb.rate + wb.inverse * change;
     store(row.mx, moment.x), store(row.my, moment.y), store(row.mz, moment.z);
+}
+
+/// A normal impulse, and the part of it that the contact carries.
+template <class R>
+struct Normal {
+    R impulse, contact;
+};
+
+/// The r_n of the contact alone, at the velocity u_n.
+template <class Rows, class R>
+TURBIDITE_INLINE Normal<R> solve_normal(const Rows& row, const R& rn, const R& un) {
+    const R zero{};
+    if constexpr (requires { row.film_cutoff; }) {
+        const R offset = load(row.film_offset), q = load(row.film_q), a = load(row.film_a);
+        const R b = un - load(row.nn) * rn, free = b + offset;  // sigma_b
+        const R p = load(row.film_p) - free;
+        const R size = root(larger(R(p * p + 4.0 * a * q), zero));
+        const R filmed = p >= zero ? 2.0 * q / (p + size) : (size - p) / (2.0 * a);
+        const R sigma = free < load(row.film_cutoff) ? filmed : free;
+        const R n = (larger(R(sigma - offset), zero) - b) * load(row.inverse_nn);
+        const R carried = larger(R(n - load(row.film_closed)), zero);
+        return {n, sigma < offset ? carried : zero};
+    } else {
+        const R n = larger(R(rn - un * load(row.inverse_nn)), zero);
+        return {n, n};
+    }
+}
+
+/// Adds |r - r*|^2 and |r|^2 (problem/space/filmed_contact.hpp); `next`, `t`: of r*.
+template <class Rows, class R>
+TURBIDITE_INLINE void add_filmed_map(const Rows& row, PassSums<Rows::width>& sums,
+                                     const Vector<R>& normal, const Normal<R>& next,
+                                     const Vector<R>& t, const Vector<R>& w) {
+    const R one = R{} + 1.0, shorter = one / load(row.length), rn = load(row.rn);
+    const Vector<R> rt = load(row.rx, row.ry, row.rz), moment = load(row.mx, row.my, row.mz);
+    const Vector<R> held = next_moment(row, normal, next.contact, w);
+    const R fn = rn - next.impulse;
+    const Vector<R> ft = rt - t, fm = shorter * (moment - held), m = shorter * moment;
+    store(sums.error, R(load(sums.error) + (fn * fn + product(ft, ft) + product(fm, fm))));
+    store(sums.size, R(load(sums.size) + (rn * rn + product(rt, rt) + product(m, m))));
 }
 
 template <bool measure, class Rows>
@@ -222,32 +270,43 @@ TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width
     constexpr bool turns = requires {
         row.mx;
     };
-    if constexpr (measure && turns) add_turning_map(row, sums, normal, un, ut, wb.rate - wa.rate);
+    constexpr bool filmed = requires {
+        row.film_cutoff;
+    };
+    if constexpr (measure && turns && !filmed)
+        add_turning_map(row, sums, normal, un, ut, wb.rate - wa.rate);
     if constexpr (measure && !turns) add_map(sums, rn, rt, un, ut, mu, inverse_nn);
 
-    const R n = larger(R(rn - un * inverse_nn), R{});
-    const Vector<R> t = clipped(rt - load(row.inverse_tt) * ut, R(mu * n));
-    if constexpr (measure) count_loaded(sums, n);
+    const Normal<R> n = solve_normal(row, rn, un);
+    const Vector<R> t = clipped(rt - load(row.inverse_tt) * ut, R(mu * n.contact));
+    if constexpr (measure && filmed)
+        add_filmed_map(row, sums, normal, n, t, Vector<R>(wb.rate - wa.rate));
+    if constexpr (measure) count_loaded(sums, n.impulse);
 
     const Vector<R> dt = t - rt;
-    const Vector<R> push = R(n - rn) * normal + dt, twist = cross(normal, dt);
+    const Vector<R> push = R(n.impulse - rn) * normal + dt, twist = cross(normal, dt);
     va.rate = va.rate - va.inverse * push;
     vb.rate = vb.rate + vb.inverse * push;
     wa.rate = wa.rate - R(wa.inverse * arm_a) * twist;
     wb.rate = wb.rate - R(wb.inverse * arm_b) * twist;
-    if constexpr (turns) turn(row, normal, n, wa, wb);
-    store(row.rn, n);
+    if constexpr (turns) turn(row, normal, n.contact, wa, wb);
+    store(row.rn, n.impulse);
     store(row.rx, t.x), store(row.ry, t.y), store(row.rz, t.z);
     scatter(bodies, row.a, velocity_of, va), scatter(bodies, row.a, spin_of, wa);
     scatter(bodies, row.b, velocity_of, vb), scatter(bodies, row.b, spin_of, wb);
 }
 
-/// Whether some contact of the group has an impulse or closes.
+/// Whether some contact of the group has an impulse, closes, or has a film that acts.
 template <class Rows>
 TURBIDITE_INLINE bool needs_update(const Rows& row, const SphereBody* bodies) {
     using R = Real<Rows::width>;
     const Motion<R> va = gather(bodies, row.a, velocity_of);
     const Motion<R> vb = gather(bodies, row.b, velocity_of);
     const R un = product(load(row.nx, row.ny, row.nz), vb.rate - va.rate) + load(row.bias_n);
-    return any(larger(load(row.rn), R(-smaller(un, R{}))));
+    const R closing = -smaller(un, R{});
+    if constexpr (requires { row.film_cutoff; }) {
+        const R zero{}, reach = load(row.film_cutoff) - (un + load(row.film_offset));
+        return any(larger(larger(magnitude(load(row.rn)), closing), larger(reach, zero)));
+    }
+    return any(larger(load(row.rn), closing));
 }

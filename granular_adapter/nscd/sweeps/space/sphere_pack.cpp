@@ -54,6 +54,28 @@ void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed) 
     rows.length.v[lane] = rotates ? turning_length(packed.w) : 1.0;
 }
 
+template <int lanes>
+void fill_film(FilmSphereRows<lanes>& rows, int lane, const Film& film, double nn) {
+    const FilmEquation equation(film, nn);
+    rows.nn.v[lane] = nn;
+    rows.film_a.v[lane] = equation.a;
+    rows.film_p.v[lane] = equation.p;
+    rows.film_q.v[lane] = equation.q;
+    rows.film_cutoff.v[lane] = film.cutoff;
+    rows.film_offset.v[lane] = film.offset;
+    rows.film_closed.v[lane] = film.closed();
+}
+
+template <int lanes>
+void fill(FilmSphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
+    fill(static_cast<TurningSphereRows<lanes>&>(rows), lane, packed);
+    fill_film(rows, lane, *packed.w.film, packed.w.nn);
+}
+
+template void fill_film(FilmSphereRows<4>&, int, const Film&, double);
+template void fill_film(FilmSphereRows<1>&, int, const Film&, double);
+template void fill(FilmSphereRows<4>&, int, const SphereToPack&);
+template void fill(FilmSphereRows<1>&, int, const SphereToPack&);
 template void fill(SphereRows<4>&, int, const SphereToPack&);
 template void fill(SphereRows<1>&, int, const SphereToPack&);
 template void fill(BiasedSphereRows<4>&, int, const SphereToPack&);

@@ -24,12 +24,20 @@ void fill(BiasedSphereRows<lanes>& rows, int lane, const SphereToPack& packed);
 template <int lanes>
 void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed);
 
+template <int lanes>
+void fill(FilmSphereRows<lanes>& rows, int lane, const SphereToPack& packed);
+
+/// The film's lanes; `nn`: W_nn.
+template <int lanes>
+void fill_film(FilmSphereRows<lanes>& rows, int lane, const Film& film, double nn);
+
 /// A lane without a contact.
 template <SphereKind Rows>
 void fill_empty(Rows& rows, int lane, std::int32_t slot) {
     rows.a[lane] = rows.b[lane] = slot;
     rows.bias_n.v[lane] = 1.0;
     if constexpr (requires { rows.length; }) rows.length.v[lane] = 1.0;
+    if constexpr (requires { rows.film_cutoff; }) fill_film(rows, lane, Film(), 1.0);
 }
 
 template <SphereKind Rows>
@@ -66,6 +74,7 @@ inline void set_rates(SphereBody& to, const double* from) {
 template <class Use>
 auto with_rows(const SphereOperator& w, const Use& use) {
     using std::type_identity;
+    if (w.has_films()) return use(type_identity<FilmSphereRows<4>>());
     if (w.has_moments()) return use(type_identity<TurningSphereRows<4>>());
     return w.has_tangential_bias() ? use(type_identity<BiasedSphereRows<4>>())
                                    : use(type_identity<SphereRows<4>>());

@@ -27,5 +27,7 @@ template Sweeps<BiasedSphereRows<4>> portable_sweeps();
 template Sweeps<BiasedSphereRows<1>> portable_sweeps();
 template Sweeps<TurningSphereRows<4>> portable_sweeps();
 template Sweeps<TurningSphereRows<1>> portable_sweeps();
+template Sweeps<FilmSphereRows<4>> portable_sweeps();
+template Sweeps<FilmSphereRows<1>> portable_sweeps();
 
 }  // namespace turbidite::nscd

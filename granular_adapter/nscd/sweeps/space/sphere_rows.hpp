@@ -56,4 +56,14 @@ struct alignas(32) TurningSphereRows : BiasedSphereRows<lanes> {
     Values length;            ///< turning_length()
 };
 
+/// The same with films of liquid (film.hpp).
+template <int lanes>
+struct alignas(32) FilmSphereRows : TurningSphereRows<lanes> {
+    using Values = Lanes<lanes>;
+    Values nn;                      ///< W_nn
+    Values film_a, film_p, film_q;  ///< FilmEquation
+    Values film_cutoff, film_offset;
+    Values film_closed;  ///< r_f where the surfaces touch
+};
+
 }  // namespace turbidite::nscd

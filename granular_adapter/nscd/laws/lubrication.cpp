@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Lubrication below the grid: the film of liquid between two spheres, or a sphere and a wall, whose
+// gap the cells of the fluid no longer resolve, resists approaching and parting with
+//
+//     F = -C (1/g_h - 1/g_c) u_n,   C = 6 pi eta R*^2,   R* = R1 R2/(R1 + R2),   g_h < g_c
+//
+// g_h = g + roughness: surfaces touch when their asperities meet, at a film of that thickness. The
+// cut-off g_c is where the cells begin to resolve the film. The force is taken at the gap at the
+// end of the step, inside the contact problem (problem/film.hpp), so that any step is stable.
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+#include "granular_adapter/nscd/laws/adhesion_settings.hpp"
+#include "granular_adapter/nscd/laws/law_list.hpp"
+
+namespace turbidite::nscd {
+
+std::optional<LawPart> make_lubrication(const LawSettings& settings, const SurfaceTable&) {
+    const double viscosity = settings.viscosity, cutoff = settings.film_cutoff;
+    const double roughness = settings.film_roughness;
+    demand_positive("lubrication", "viscosity of the liquid", viscosity);
+    demand_positive("lubrication", "cut-off", cutoff);
+    demand_positive("lubrication", "roughness", roughness);
+    if (settings.dimension != 3)
+        throw std::invalid_argument("contact law \"lubrication\" is of spheres in space");
+    return LawPart{
+        .add =
+            [=](const ContactSituation& s, LawTerms& terms) {
+                const double gap = std::max(s.gap, 0.0) + roughness;
+                if (gap >= cutoff) return;
+                const double radius = reduced_radius(s);
+                terms.film = {6.0 * std::numbers::pi * viscosity * radius * radius, gap, cutoff};
+            },
+        .range = cutoff};
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Films of liquid between grains, below the size of the fluid's cells: a law of contacts that only
+// a case with a fluid has.
+#include <fmt/format.h>
+
+#include "granular_adapter/nscd/names/contact_names.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/keys/key_groups.hpp"
+
+namespace turbidite {
+namespace {
+
+std::vector<Choice> laws() {
+    std::vector<Choice> choices;
+    for (const auto& law : nscd::law_choices(nscd::LawSlot::film))
+        choices.push_back({law.name, law.description});
+    return choices;
+}
+
+bool has_films(const Settings& s) {
+    return in_space(s) && s.flag("fluid.enabled") && s.text("contact.film") != "none";
+}
+
+Ruling adapter_has_films(const Settings& s) {
+    if (!has_films(s) || grains_adapter(s).films) return std::nullopt;
+    return Objection{
+        fmt::format("{} has no films of liquid between grains: none.", s.text("grains.adapter")),
+        fmt::format("Use none, or grains.adapter: {}.",
+                    adapters_that([](const GrainsAdapter& a) { return a.films; }))};
+}
+
+/// Between surfaces that touch there is a film as thick as they are rough.
+Ruling rough_film_is_below_the_cutoff(const Settings& s) {
+    if (!has_films(s)) return std::nullopt;
+    const double cutoff = s.real("contact.film_cutoff") / s.real("fluid.cells_per_diameter");
+    if (s.real("contact.film_roughness") < cutoff) return std::nullopt;
+    return Objection{
+        fmt::format("Films act below contact.film_cutoff = {} cells = {:.3g} D, and "
+                    "rough surfaces come no closer than {} D.",
+                    s.text("contact.film_cutoff"), cutoff, s.text("contact.film_roughness")),
+        "Use a smaller roughness, for example 0.001."};
+}
+
+std::string without_films(const Settings& s) {
+    if (const std::string why = without_fluid(s); !why.empty()) return why;
+    return is(s, "contact.film", "none") ? "with contact.film: none" : "";
+}
+
+}  // namespace
+
+KeyGroup film_keys() {
+    return {
+        .keys =
+            {of_space({.name = "contact.film",
+                       .type = KeyType::choice,
+                       .fallback = "none",
+                       .choices = laws(),
+                       .help = "forces of the liquid between grains, and grains and walls, that "
+                               "the cells do not resolve",
+                       .idle = without_fluid}),
+             of_space({.name = "contact.film_cutoff",
+                       .type = KeyType::real,
+                       .unit = "cells",
+                       .fallback = "1.2",
+                       .range = {.lower = 0.0, .upper = 4.0, .lower_open = true},
+                       .help =
+                           "gap from which on the cells resolve the force of a film; measured with "
+                           "fluid.surface_shift: 0.3, without a shift it is 2",
+                       .allowed = "Above 0, and at most 4 cells.",
+                       .remedy = "Leave it out: bench/film.py measures it.",
+                       .idle = without_films}),
+             of_space({.name = "contact.film_roughness",
+                       .type = KeyType::real,
+                       .unit = "D",
+                       .fallback = "0.001",
+                       .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
+                       .help = "thickness of the film between surfaces that touch: the height "
+                               "of their asperities",
+                       .allowed = "Above 0, since smooth spheres would never touch, and at most "
+                                  "0.1 D.",
+                       .remedy = "Use 0.001; glass beads have 0.0001 to 0.001.",
+                       .idle = without_films})},
+        .rules = {
+            {"contact.film", {"grains.adapter", "dimension", "fluid.enabled"}, adapter_has_films},
+            {"contact.film_roughness",
+             {"contact.film", "contact.film_cutoff", "dimension", "fluid.enabled",
+              "fluid.cells_per_diameter"},
+             rough_film_is_below_the_cutoff}}};
+}
+
+}  // namespace turbidite
