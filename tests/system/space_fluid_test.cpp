@@ -219,6 +219,33 @@ TEST_F(SpaceFluid, SidesMoveTheFluidOnAnyNumberOfRanks) {
     EXPECT_GT(first.at("mean_velocity_x").back(), 0.05);
 }
 
+/// A sphere that falls on the floor slows down in the film, whose work is told, and a run in two
+/// parts has the bits of one.
+TEST_F(SpaceFluid, FilmsSlowWhatLands) {
+    scratch.write("one.csv", "id,x,y,z,vy\n1,2,0.72,2,-0.5\n");
+    const std::string one =
+        "run case.yaml --set grains.file=one.csv --set time.end=0.8 --set "
+        "checkpoint.interval=0.4 --set output.interval=0.02 --out ";
+    ASSERT_EQ(turbidite(one + "bare").code, 0);
+    const std::string film = " --set contact.film=lubrication";
+    const Answer answer = turbidite(one + "filmed" + film);
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const Columns bare = history("bare"), filmed = history("filmed");
+    EXPECT_TRUE(std::isnan(bare.at("film_work").back())) << "empty without films";
+    double work = 0.0;
+    for (const double part : filmed.at("film_work")) work += std::isnan(part) ? 0.0 : part;
+    EXPECT_LT(work, -1e-3);
+    const auto lands = [](const Columns& run) {
+        const std::vector<double>& y = run.at("mean_position_y");
+        return std::find_if(y.begin(), y.end(), [](double at) { return at < 0.51; }) - y.begin();
+    };
+    EXPECT_GT(lands(filmed), lands(bare) + 2);
+    ASSERT_EQ(turbidite(one + "parts --set time.end=0.4" + film).code, 0);
+    ASSERT_EQ(turbidite("resume parts --set time.end=0.8").code, 0);
+    EXPECT_EQ(lines_without_wall_times(text(scratch.path() / "parts/history.csv")),
+              lines_without_wall_times(text(scratch.path() / "filmed/history.csv")));
+}
+
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {
     const std::string short_run = "run case.yaml --set time.end=2 --out ";
     ASSERT_EQ(turbidite(short_run + "shifted").code, 0);

@@ -133,6 +133,33 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
 }
 
+TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
+    const std::vector<std::string> wet{"fluid.enabled=true", "fluid.reynolds=10",
+                                       "fluid.cells_per_diameter=8", "contact.film=lubrication"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), wet.begin(), wet.end());
+        return more;
+    };
+    EXPECT_EQ(refusal("", wet), "");
+    const Settings s = load("", wet).settings;
+    EXPECT_DOUBLE_EQ(s.real("run.film_cutoff"), 1.2 / 8.0);
+    EXPECT_SAYS(refusal("", with({"grains.adapter=standalone-md"})),
+                "standalone-md has no films of liquid between grains");
+    EXPECT_SAYS(refusal("", with({"grains.adapter=external", "grains.command=my-code"})),
+                "yade-nscd or standalone-nscd");
+    EXPECT_SAYS(refusal("", with({"contact.film_cutoff=0.5", "contact.film_roughness=0.07"})),
+                "Films act below contact.film_cutoff = 0.5 cells = 0.0625 D");
+    EXPECT_SAYS(refusal("", with({"contact.film_cutoff=5"})), "at most 4 cells");
+    EXPECT_SAYS(refusal("", with({"contact.film_roughness=0"})),
+                "smooth spheres would never touch");
+    EXPECT_SAYS(refusal("", with({"contact.film=stokes"})), "lubrication");
+}
+
+TEST_F(PlaneCase, FilmsAreOfSpace) {
+    EXPECT_SAYS(refusal("", {"contact.film=lubrication"}),
+                "This key exists with dimension: 3 only.");
+}
+
 TEST_F(SpaceCase, SidesOfAFluidSlideAndLetItIn) {
     std::vector<std::string> sets = {"fluid.enabled=true",
                                      "fluid.reynolds=10",

@@ -134,6 +134,19 @@ TEST(ContactNetwork, WallsCountOnceAndGrainsWithoutContactsDoNotCount) {
     EXPECT_FALSE(network.normal_force);
 }
 
+// What is held apart by a film transmits a force, but does not touch.
+TEST(ContactNetwork, FilmsAreNoContacts) {
+    std::vector<ContactRecord> contacts = {push(1, 2, 0.0, 1.0), push(2, 3, 0.0, 2.0)};
+    contacts[0].status = ContactStatus::sliding;
+    contacts[1].status = ContactStatus::film;
+    const ContactNetwork network = contact_network(contacts, 3, step);
+    EXPECT_EQ(network.grain_links, 1);
+    EXPECT_EQ(network.loose_grains, 1);
+    EXPECT_DOUBLE_EQ(*network.sliding_share, 1.0);
+    EXPECT_NEAR(*network.normal_force, 1.0, 1e-13);
+    EXPECT_NEAR(network.virial.xx, 3.0, 1e-13);
+}
+
 TEST(ContactNetwork, WithoutContactsHasNoMeans) {
     const ContactNetwork network = contact_network({}, 3, step);
     EXPECT_EQ(network.loose_grains, 3);

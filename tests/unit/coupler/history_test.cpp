@@ -133,10 +133,11 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
     row.state = &state;
     auto cells = written(row, test_settings());
     for (const char* name :
-         {"contacts", "contact_iterations", "contact_residual", "contact_quad", "contact_max",
-          "unconverged", "coordination", "loose_grains", "fabric_anisotropy", "fabric_angle",
-          "sigma_xx", "sigma_xy", "sigma_yy", "mean_normal_force", "sliding_share", "contact_work",
-          "fluid_work", "contact_violation", "motion_defect"})
+         {"contacts",          "contact_iterations", "contact_residual", "contact_quad",
+          "contact_max",       "unconverged",        "coordination",     "loose_grains",
+          "fabric_anisotropy", "fabric_angle",       "sigma_xx",         "sigma_xy",
+          "sigma_yy",          "mean_normal_force",  "sliding_share",    "contact_work",
+          "fluid_work",        "contact_violation",  "motion_defect",    "film_work"})
         EXPECT_EQ(cells.at(name), "") << name;
     EXPECT_EQ(cells["pore_volume"], "0") << "grains, but no pores between them";
     ContactReport report;
@@ -152,6 +153,9 @@ TEST(History, WhatDoesNotApplyIsEmpty) {
     EXPECT_EQ(cells["contact_violation"], "");
     state.report.contact_violation = 0.25;
     EXPECT_EQ(written(row, test_settings())["contact_violation"], "0.25");
+    EXPECT_EQ(cells["film_work"], "") << "no films";
+    state.report.film_work = 0.0;
+    EXPECT_EQ(written(row, test_settings())["film_work"], "0");
     EXPECT_EQ(cells["contacts"], "0");
     EXPECT_EQ(cells["unconverged"], "1");
     EXPECT_EQ(cells["wall_step"], "0.375000");

@@ -108,6 +108,20 @@ TEST(Wire, WhatAnAdapterDoesNotHaveStaysEmpty) {
     EXPECT_EQ(back.report.max, 0.5);
 }
 
+// A program that knows no films sends what it always sent.
+TEST(Wire, TheWorkOfFilmsIsAtTheEndOrNotThere) {
+    Motion motion;
+    motion.grains = {grain()};
+    motion.contacts.emplace();
+    const Bytes without = encode(motion);
+    EXPECT_FALSE(decode<Motion>(without).report.film_work);
+    motion.report.film_work = -tiny;
+    const Bytes with = encode(motion);
+    EXPECT_EQ(with.size(), without.size() + sizeof(double));
+    EXPECT_TRUE(std::equal(without.begin(), without.end(), with.begin()));
+    EXPECT_EQ(decode<Motion>(with).report.film_work, -tiny);
+}
+
 TEST(Wire, KicksComeBack) {
     Kicks kicks;
     kicks.kicks.push_back({7, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 2}, {3, 5, 8}, {13, 21, 34}});
