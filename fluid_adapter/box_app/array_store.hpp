@@ -88,7 +88,7 @@ class ArrayStore : public FluidStore {
     bool begin(const Window&) override { return false; }
     bool finished() const override { return false; }
     bool observed() const override { return false; }
-    void end() override {}
+    void show(const std::vector<ImmersedGrain>&) override {}
     void interpolate_flux() override {}
     double largest_divergence() const override { return 0.0; }
     std::vector<double> probes() const override { return {}; }

@@ -62,11 +62,12 @@ class FluidStore {
     /// Whether the present window is the last of the run.
     virtual bool finished() const = 0;
 
-    /// Somebody looks at the fields between windows without an output.
+    /// Somebody looks at the fields after every window (`show`).
     virtual bool observed() const = 0;
 
-    /// Lets those who look at the fields finish; after the last window.
-    virtual void end() = 0;
+    /// Shows the fields, with these grains, to those who look at them: they are those of the end of
+    /// the window, which is over but for that.
+    virtual void show(const std::vector<ImmersedGrain>& grains) = 0;
 
     /// The flux of the fields from their velocity.
     virtual void interpolate_flux() = 0;

@@ -85,20 +85,20 @@ std::vector<FreeResponse> FluidWindow::responses() {
 
 Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
-        if (window_.write_output) step_.put_unconstrained();  // u3, for lambda
+        if (fields_are_seen()) step_.put_unconstrained();  // u3, for lambda
         multipliers_.impose();
         for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
-        if (window_.write_output) field_.put_force_density(multipliers_.constraint());
+        if (fields_are_seen()) field_.put_force_density(multipliers_.constraint());
         field_.store(multipliers_.constraint());
         close_ledger();
     });
     check_finite(ledger_.finite(), "step 5 (multipliers)");
     if (window_.write_output) watch_.play("output", timings_.output, [&] { write_fields(); });
-    if (store_.finished())
-        store_.guard("ending function objects", [&] {
-            if (store_.observed()) put_fields();
-            store_.end();
+    if (store_.observed())
+        watch_.play("function objects", timings_.output, [&] {
+            put_fields();
+            store_.show(multipliers_.grains());
         });
     report_.wall_seconds = timings_.together();
     return {multipliers_.kicks(), report_};
@@ -110,11 +110,15 @@ void FluidWindow::begin(const Window& window) {
     timings_ = {};
     report_ = {};
     grains_taken_ = false;
-    if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(window.write_output);
-    if (store_.observed()) put_fields();
+    if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(fields_are_seen());
     if (store_.begin(window)) step_.sides_changed();
     step_.begin(window.step);
     fields_follow_ = false;
+}
+
+/// At the end of the present window.
+bool FluidWindow::fields_are_seen() const {
+    return window_.write_output || store_.observed();
 }
 
 void FluidWindow::project() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/createFields.hpp"
 
-#include <IOdictionary.H>
 #include <fvcFlux.H>
 #include <fvcSurfaceIntegrate.H>
 
@@ -47,18 +46,15 @@ Foam::IOobject stored(const Foam::fvMesh& mesh, const char* name, Foam::IOobject
     return Foam::IOobject(name, mesh.time().timeName(), mesh, read, write);
 }
 
-Foam::IOdictionary transport_properties(const Foam::fvMesh& mesh) {
-    return Foam::IOdictionary(Foam::IOobject("transportProperties", mesh.time().constant(), mesh,
-                                             Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE));
-}
-
 }  // namespace
 
 FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup& group)
     : ranks(group),
-      time(Foam::Time::controlDictName, parent_of(directory), name_of(directory, group)),
+      time(parent_of(directory), name_of(directory, group)),
       mesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time.timeName(), time,
                           Foam::IOobject::MUST_READ)),
+      transport(Foam::IOobject("transportProperties", time.constant(), mesh,
+                               Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE)),
       p(stored(mesh, "p", Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE), mesh),
       U(stored(mesh, "U", Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE), mesh),
       lambda(stored(mesh, "lambda", Foam::IOobject::NO_READ, Foam::IOobject::AUTO_WRITE), mesh,
@@ -67,9 +63,8 @@ FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup
           Foam::fvc::flux(U)),
       excess(stored(mesh, "excess", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE), 0.0 * phi),
       thickness(in_the_plane(mesh) ? mesh.bounds().span().z() : 1.0) {
-    const Foam::IOdictionary properties = transport_properties(mesh);
-    nu = Foam::dimensionedScalar("nu", Foam::dimViscosity, properties).value();
-    rho = Foam::dimensionedScalar("rho", Foam::dimDensity, properties).value();
+    nu = Foam::dimensionedScalar("nu", Foam::dimViscosity, transport).value();
+    rho = Foam::dimensionedScalar("rho", Foam::dimDensity, transport).value();
 }
 
 bool FluidFields::finished() const {

@@ -9,6 +9,7 @@
 //     lambda  force density of the fluid on the grains in the last window [N/m3], output only
 #pragma once
 
+#include <IOdictionary.H>
 #include <fvMesh.H>
 #include <surfaceFields.H>
 #include <volFields.H>
@@ -16,6 +17,7 @@
 #include <filesystem>
 
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
+#include "fluid_adapter/foam_app/caseTime.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
@@ -25,8 +27,9 @@ struct FluidFields {
     FluidFields(const std::filesystem::path& directory, const RankGroup& ranks);
 
     RankGroup ranks;
-    Foam::Time time;
+    CaseTime time;
     Foam::fvMesh mesh;
+    Foam::IOdictionary transport;  ///< constant/transportProperties, where `forces` looks for nu
     Foam::volScalarField p;
     Foam::volVectorField U;
     Foam::volVectorField lambda;

@@ -16,6 +16,7 @@ FoamStore::FoamStore(const std::filesystem::path& directory, const RankGroup& ra
       sides_(side_motions(settings), fields_),
       step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
       output_(fields_, settings),
+      functions_(fields_.time),
       probes_(settings),
       slices_(settings, field_.grid(), directory) {
     field_.work_on(*step_);
@@ -27,13 +28,21 @@ double FoamStore::equal_height() const {
 
 bool FoamStore::begin(const Window& window) {
     windows_ = window.index + 1;
-    fields_.time.setDeltaT(window.step);
-    const bool moved = sides_.set(window.time, window.step);
-    if (!fields_.time.loop())
+    fields_.time.readModifiedObjects();
+    fields_.time.setDeltaT(window.step, false);
+    with_foam_errors("starting function objects", [&] { functions_.begin(); });
+    if (finished())
         throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +
                                                         " begins at or after endTime of " +
                                                         "the fluid case's system/controlDict");
-    return moved;
+    ++fields_.time;
+    return sides_.set(window.time, window.step);
+}
+
+void FoamStore::show(const std::vector<ImmersedGrain>& grains) {
+    output_.compute(field_, grains);
+    functions_.execute();
+    if (finished()) functions_.end();
 }
 
 void FoamStore::write(const std::vector<ImmersedGrain>& grains) {

@@ -9,6 +9,7 @@
 
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
 #include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/functionObjects.hpp"
 #include "fluid_adapter/foam_app/outputFields.hpp"
 #include "fluid_adapter/foam_app/probes.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
@@ -29,8 +30,8 @@ class FoamStore final : public FluidStore {
     double equal_height() const override;
     bool begin(const Window& window) override;
     bool finished() const override { return fields_.finished(); }
-    bool observed() const override { return !fields_.time.functionObjects().empty(); }
-    void end() override { fields_.time.run(); }
+    bool observed() const override { return functions_.any(); }
+    void show(const std::vector<ImmersedGrain>& grains) override;
     void interpolate_flux() override { fields_.interpolate_flux(); }
     double largest_divergence() const override { return fields_.largest_divergence(); }
     std::vector<double> probes() const override { return probes_.values(fields_, field_); }
@@ -48,6 +49,7 @@ class FoamStore final : public FluidStore {
     SideVelocity sides_;
     std::unique_ptr<FluidStep> step_;
     OutputFields output_;
+    FunctionObjects functions_;
     Probes probes_;
     Slices slices_;
     std::int64_t windows_ = 0;  // of the run, with the present one

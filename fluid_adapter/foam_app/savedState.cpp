@@ -182,7 +182,7 @@ void restore_fields(const SavedState& state, const FluidRank& rank) {
     rank.step.set_memory(parts.memory);
     fields.U.correctBoundaryConditions();
     fields.p.correctBoundaryConditions();
-    fields.time.setTime(header.time, static_cast<Foam::label>(header.time_index));
+    fields.time.go_on_from(header.time, static_cast<Foam::label>(header.time_index));
     fields.interpolate_flux();
 }
 

@@ -35,7 +35,12 @@ void write(const std::filesystem::path& directory, const std::string& location,
         throw Failure(ExitCode::participant_failed, "cannot write " + (folder / name).string());
 }
 
-std::string control_dict(const RunValues& run) {
+/// The function objects are a file of its own, which the program that makes the run folder writes.
+std::string functions_of(const Settings& settings) {
+    return settings.has("fluid.functions") ? "functions\n{\n    #include \"functions\"\n}\n" : "";
+}
+
+std::string control_dict(const Settings& settings, const RunValues& run) {
     const double end = run.step * static_cast<double>(run.windows);
     // The coupler decides when fields are written; OpenFOAM's own write interval is set beyond the
     // end.
@@ -54,8 +59,9 @@ std::string control_dict(const RunValues& run) {
         "writeCompression off;\n"
         "timeFormat      general;\n"
         "timePrecision   10;\n"
-        "runTimeModifiable no;\n",
-        end, run.step);
+        "runTimeModifiable no;\n"
+        "{}",
+        end, run.step, functions_of(settings));
 }
 
 /// The flux between rows of different heights weighs velocities by volumes (reverseLinear): then
@@ -265,7 +271,7 @@ void extend_fluid_case(const Settings& settings, const std::filesystem::path& di
 void write_fluid_case(const Settings& settings, const std::filesystem::path& directory) {
     const FluidDomain domain = fluid_domain(settings);
     const RunValues run = run_values(settings);
-    write(directory, "system", "controlDict", "dictionary", control_dict(run));
+    write(directory, "system", "controlDict", "dictionary", control_dict(settings, run));
     write(directory, "system", "fvSchemes", "dictionary", schemes(settings, domain));
     write(directory, "system", "fvSolution", "dictionary", solution(settings));
     write(directory, "system", "blockMeshDict", "dictionary", block_mesh(domain));

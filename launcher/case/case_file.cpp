@@ -54,13 +54,15 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
     Packing& grains = placed.start.grains;
     ResolvedCase result;
     result.script = std::move(placed.script);
+    result.functions = std::move(placed.functions);
     result.scales = make_scales(settings);
     result.grains_csv = population_csv(grains, forms, material_names(settings));
     if (!placed.walls.empty())
         result.walls_csv =
             in_space(settings) ? space_walls_csv(placed.walls) : walls_csv(placed.walls);
     result.yaml =
-        resolved_text(settings, grains.size(), result.grains_csv, result.walls_csv, result.script);
+        resolved_text(settings, grains.size(),
+                      {result.grains_csv, result.walls_csv, result.script, result.functions.text});
     for (const auto& notes : {placed.start.notes, forms.notes, rule_notes(settings, entries)})
         result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     result.shapes = used_shapes(grains, forms);

@@ -12,6 +12,7 @@
 #include "coupler/keys/case_error.hpp"
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "launcher/case/files/function_objects.hpp"
 #include "launcher/case/grains/packing.hpp"
 #include "launcher/case/scales.hpp"
 
@@ -26,6 +27,7 @@ struct ResolvedCase {
     std::string grains_csv;              ///< the same grains as a grains file
     std::string walls_csv;               ///< walls inside the box; empty if there are none
     std::string script;                  ///< text of grains.script; empty if there is none
+    FunctionObjectsFile functions;       ///< fluid.functions; empty if there is none
     std::string yaml;                    ///< resolved case; loads to itself
     std::vector<std::string> notes;      ///< notes for the user, one sentence each
     Scales scales;

@@ -17,6 +17,7 @@ namespace turbidite {
 namespace {
 
 constexpr auto copied_walls = "grains/walls.csv";
+constexpr auto copied_functions = "fluid/system/functions";
 
 std::filesystem::path copied_script(const std::string& script) {
     return std::filesystem::path("grains") / std::filesystem::path(script).filename();
@@ -61,6 +62,21 @@ InnerWalls walls_of(const Settings& settings, const CaseEntries& entries, const 
     return read;
 }
 
+/// A dry case has none to keep.
+bool has_functions(const Settings& settings) {
+    return settings.has("fluid.functions") && is(settings, "fluid.enabled", "true");
+}
+
+void place_functions(const Settings& settings, const CaseEntries& entries,
+                     const std::filesystem::path& folder, PlacedCase& placed) {
+    const auto file = folder / settings.text("fluid.functions");
+    if (is_file(file))
+        placed.functions = read_function_objects(file);
+    else
+        placed.problems.push_back(missing_file(entries, "fluid.functions", file));
+    append(placed.problems, placed.functions.problems);
+}
+
 }  // namespace
 
 PlacedCase place(const Settings& settings, const CaseEntries& entries,
@@ -95,6 +111,7 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
         else
             placed.problems.push_back(missing_file(entries, "grains.script", file));
     }
+    if (has_functions(settings)) place_functions(settings, entries, folder, placed);
     check([&] { return check_motions(settings, placed.walls, entries); });
     return placed;
 }
@@ -105,6 +122,7 @@ void name_copies(Settings& settings) {
         settings.set("domain.walls_file", std::string(copied_walls));
     if (settings.has("grains.script"))
         settings.set("grains.script", copied_script(settings.text("grains.script")).string());
+    if (has_functions(settings)) settings.set("fluid.functions", std::string(copied_functions));
 }
 
 }  // namespace turbidite

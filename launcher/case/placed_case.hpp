@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "launcher/case/files/function_objects.hpp"
 #include "launcher/case/grains/start_grains.hpp"
 #include "launcher/case/walls/inner_walls.hpp"
 
@@ -17,7 +18,8 @@ struct PlacedCase {
     std::optional<GrainForms> forms;  ///< none if the keys that define them were refused
     StartGrains start;
     std::vector<InnerWall> walls;
-    std::string script;  ///< text of grains.script; empty if there is none
+    std::string script;             ///< text of grains.script; empty if there is none
+    FunctionObjectsFile functions;  ///< fluid.functions; empty if there is none
     CaseProblems problems;
 };
 
@@ -27,8 +29,8 @@ struct PlacedCase {
 PlacedCase place(const Settings& settings, const CaseEntries& entries,
                  const std::filesystem::path& folder, const GivenGrains& given, bool faults);
 
-/// The run folder contains copies of the grains, walls and script, and the resolved case names
-/// these copies, so that the folder can be moved to another machine.
+/// The run folder contains copies of the grains, walls, script and function objects, and the
+/// resolved case names these copies, so that the folder can be moved to another machine.
 inline constexpr auto copied_grains = "grains/initial.csv";
 void name_copies(Settings& settings);
 

@@ -48,16 +48,16 @@ bool is_written(const KeySpec& key, const Settings& settings) {
 
 }  // namespace
 
-std::string resolved_text(const Settings& settings, std::size_t grains,
-                          const std::string& grains_csv, const std::string& walls_csv,
-                          const std::string& script) {
+std::string resolved_text(const Settings& settings, std::size_t grains, const NamedTexts& texts) {
     std::string text = fmt::format(
         "# Resolved case: every key, defaults filled in.\n# {} grains, fingerprint {}\n", grains,
-        case_hash(grains_csv));
-    if (!walls_csv.empty())
-        text += fmt::format("# Walls inside the box, fingerprint {}\n", case_hash(walls_csv));
-    if (!script.empty())
-        text += fmt::format("# Script of the grains, fingerprint {}\n", case_hash(script));
+        case_hash(texts.grains));
+    const auto fingerprint = [&](const char* of, const std::string& file) {
+        if (!file.empty()) text += fmt::format("# {}, fingerprint {}\n", of, case_hash(file));
+    };
+    fingerprint("Walls inside the box", texts.walls);
+    fingerprint("Script of the grains", texts.script);
+    fingerprint("Function objects of the fluid", texts.functions);
     std::string group;
     for (const KeySpec& key : key_table()) {
         if (!is_written(key, settings)) continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The resolved case as YAML: every key in the order of the table, with its unit, and a fingerprint
-// of the grains, of the walls inside the box and of grains.script. Equal cases give equal text, and
-// loading it gives the same case.
+// of the grains, of the walls inside the box, of grains.script and of fluid.functions. Equal cases
+// give equal text, and loading it gives the same case.
 #pragma once
 
 #include <string>
@@ -11,9 +11,11 @@
 
 namespace turbidite {
 
-/// `walls_csv` and `script` (text of grains.script) are empty if there are none.
-std::string resolved_text(const Settings& settings, std::size_t grains,
-                          const std::string& grains_csv, const std::string& walls_csv,
-                          const std::string& script);
+/// What stands in the files that a case names; all but the grains may be empty.
+struct NamedTexts {
+    const std::string &grains, &walls, &script, &functions;
+};
+
+std::string resolved_text(const Settings& settings, std::size_t grains, const NamedTexts& texts);
 
 }  // namespace turbidite

@@ -41,6 +41,14 @@ std::string fluid_line(const ResolvedCase& resolved) {
            rows_text(settings, size[1]) + "  scheme: " + settings.text("coupling.scheme") + "\n";
 }
 
+std::string functions_line(const FunctionObjectsFile& functions) {
+    if (functions.text.empty()) return "";
+    std::string names;
+    for (const std::string& name : functions.names) names += (names.empty() ? "" : ", ") + name;
+    if (functions.from_elsewhere) names += names.empty() ? "by directives" : ", more by directives";
+    return fmt::format("  function objects: {}\n", names);
+}
+
 /// "fluid 22, grains 1.2, coupler 0.5, messages 7"
 std::string parts_text(const WindowForecast& window) {
     std::string text = window.fluid > 0.0 ? fmt::format("fluid {:.3g}, ", 1e3 * window.fluid) : "";
@@ -110,6 +118,7 @@ std::string case_summary(const ResolvedCase& resolved) {
                     settings.text("grains.adapter"), settings.text("domain.size"));
     text += command_line(settings);
     text += fluid_line(resolved);
+    text += functions_line(resolved.functions);
     text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
                         settings.integer("run.windows"), settings.text("time.step"),
                         resolved.scales.time, resolved.scales.velocity);

@@ -27,8 +27,8 @@ int check_study(const CheckOptions& options) {
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     std::vector<const PlannedRun*> all;
     for (const PlannedRun& run : plan) {
-        const Settings settings = run.resolve().settings;
-        require_programs(settings, needed_programs(settings, find_programs()));
+        const ResolvedCase resolved = run.resolve();
+        require_programs(resolved, needed_programs(resolved.settings, find_programs()));
         fmt::print("  {:>7}  {}\n", rough_time(run.seconds), run.path());
         all.push_back(&run);
     }
@@ -39,7 +39,7 @@ int check_study(const CheckOptions& options) {
 int check(const CheckOptions& options) {
     if (is_study(options.file)) return check_study(options);
     const ResolvedCase resolved = load_case(options.file, options.overrides);
-    require_programs(resolved.settings, needed_programs(resolved.settings, find_programs()));
+    require_programs(resolved, needed_programs(resolved.settings, find_programs()));
     fmt::print("{}valid\n", for_stdout(case_summary(resolved)));
     return static_cast<int>(ExitCode::done);
 }

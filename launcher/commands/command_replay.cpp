@@ -85,7 +85,7 @@ int replay(const ReplayOptions& options) {
         checkpoint ? kept_checkpoint(recordings, *checkpoint) : std::filesystem::path();
     const ResolvedCase resolved = load_run_folder(recorded.root);
     const LaunchSite site = this_site();
-    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    require_programs(resolved, needed_programs(resolved.settings, site.programs));
     const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
     const auto line = replay_arguments(resolved.settings, folder, site, side, recording);
     prepare_run(resolved, folder, line);

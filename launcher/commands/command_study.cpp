@@ -112,7 +112,7 @@ void say(const std::string& text) {
 /// What was there stays, under another name, unless nothing has been played in it.
 PreparedRun prepare_afresh(const PlannedRun& run, const fs::path& folder, const LaunchSite& site) {
     const ResolvedCase resolved = run.resolve();
-    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (has_windows(folder))
         say(fmt::format("{}: the run that was there is now {}", run.path(),
                         set_aside(folder).string()));

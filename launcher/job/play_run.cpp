@@ -97,7 +97,7 @@ class Overdue {
 }  // namespace
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
-    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    require_programs(resolved, needed_programs(resolved.settings, site.programs));
     const auto [folder, lock] = own_run_folder(order, resolved.name);
     const auto line = launch_arguments(resolved.settings, folder, site);
     prepare_run(resolved, folder, line);

@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -190,6 +191,11 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     if (!resolved.walls_csv.empty()) write_text(folder.walls(), resolved.walls_csv);
     if (resolved.settings.has("grains.script"))
         write_text(folder.root / resolved.settings.text("grains.script"), resolved.script);
+    if (const std::string& functions = resolved.functions.text; !functions.empty()) {
+        const fs::path file = folder.root / resolved.settings.text("fluid.functions");
+        fs::create_directories(file.parent_path());
+        write_text(file, functions);
+    }
     // After the files that it names: a folder with a case can be read, whenever this program ends.
     write_text(folder.resolved_case(), resolved.yaml);
     write_run_json(folder.record(), first_record(resolved, command));
@@ -212,10 +218,29 @@ void require_command(const Settings& settings) {
                     settings.text("grains.command"), program, named ? "" : " in PATH"));
 }
 
+/// OpenFOAM starts wmake for what it compiles, and refuses to do so for root.
+void require_compiler(const ResolvedCase& resolved) {
+    if (resolved.functions.compiled.empty()) return;
+    const bool root = ::geteuid() == 0;
+    if (!root && !find_program_file("wmake").empty()) return;
+    const CompiledPart& part = resolved.functions.compiled.front();
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{} line {}: fluid.functions has {}, which OpenFOAM compiles {}\n  Compile the "
+                    "code yourself and name the library: libs (\"/path/to/libmine.so\"); "
+                    "(docs/function-objects.md){}.\nNothing was started. Exit code 2.",
+                    part.source, part.line, part.what,
+                    root ? "for nobody with the rights of root"
+                         : "with wmake, and there is none in PATH (Debian's OpenFOAM has none)",
+                    root ? ", or run as another user" : ", or put a wmake into PATH"));
+}
+
 }  // namespace
 
-void require_programs(const Settings& settings, const std::vector<fs::path>& needed) {
+void require_programs(const ResolvedCase& resolved, const std::vector<fs::path>& needed) {
+    const Settings& settings = resolved.settings;
     require_command(settings);
+    require_compiler(resolved);
     for (const fs::path& program : needed) {
         if (fs::exists(program)) continue;
         throw Failure(ExitCode::bad_input,

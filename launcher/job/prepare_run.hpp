@@ -40,7 +40,9 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
 /// The present time, as strftime writes it.
 std::string local_time(const char* form);
 
-/// Throws Failure (exit code 2) naming a program of the job that is not built or not installed.
-void require_programs(const Settings& settings, const std::vector<std::filesystem::path>& needed);
+/// Throws Failure (exit code 2) naming a program of the job, or the compiler of its function
+/// objects, that is not built or not installed.
+void require_programs(const ResolvedCase& resolved,
+                      const std::vector<std::filesystem::path>& needed);
 
 }  // namespace turbidite

@@ -287,7 +287,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     sets.remove_unfinished();
     const std::optional<Chosen> chosen = choose(folder, sets, say);
     const ResolvedCase resolved = load_run_folder(folder.root, overrides);
-    require_programs(resolved.settings, needed_programs(resolved.settings, site.programs));
+    require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (chosen) check_changes(folder, resolved, *chosen, overrides);
     if (is_complete(folder, resolved)) return std::nullopt;
     if (!chosen) require_no_windows(folder);

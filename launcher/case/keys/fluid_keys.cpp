@@ -447,6 +447,12 @@ std::vector<KeySpec> scheme_keys() {
                       "the window; viscosity in its stages, or L-stable"}},
          .help = "time integration of transport and viscosity",
          .idle = without_fluid},
+        {.name = "fluid.functions",
+         .type = KeyType::text,
+         .need = Need::optional,
+         .help = "file of OpenFOAM function objects, as between the braces of functions in "
+                 "controlDict (path relative to the case file; docs/function-objects.md)",
+         .idle = without_fluid},
         {.name = "fluid.pressure_solver",
          .type = KeyType::choice,
          .fallback = "FFT",

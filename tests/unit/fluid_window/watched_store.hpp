@@ -40,9 +40,11 @@ class WatchedStore final : public ArrayStore {
         ++windows;
         return false;
     }
-    bool finished() const override { return windows == last; }
     bool observed() const override { return looks; }
-    void end() override { ended = true; }
+    void show(const std::vector<ImmersedGrain>&) override {
+        ++shown;
+        shown_x = rows_->seen_x;
+    }
     void interpolate_flux() override { ++fluxes; }
     void write(const std::vector<ImmersedGrain>& grains) override { written = grains.size(); }
     void log(const std::string& line) const override { lines.push_back(line); }
@@ -50,8 +52,9 @@ class WatchedStore final : public ArrayStore {
     const WatchedRows& rows() const { return *rows_; }
 
     double resolved_height = std::numeric_limits<double>::infinity();
-    bool looks = false, ended = false;
-    int windows = 0, last = -1, fluxes = 0;
+    bool looks = false;
+    double shown_x = 0.0;  ///< u_x of the first cell, as those who look saw it
+    int windows = 0, fluxes = 0, shown = 0;
     std::size_t written = 0;
     mutable std::vector<std::string> lines;
 

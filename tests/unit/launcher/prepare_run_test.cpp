@@ -128,7 +128,7 @@ TEST(PrepareRun, TheDiskHasCaseGrainsAndMesh) {
 TEST(PrepareRun, MissingProgramsAreNamed) {
     const ScratchFolder scratch;
     try {
-        require_programs(dry_case(scratch).settings, {scratch.path() / "turbidite-nothing"});
+        require_programs(dry_case(scratch), {scratch.path() / "turbidite-nothing"});
         FAIL() << "a missing program was accepted";
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code(), ExitCode::bad_input);
