@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite test: ctest in the folder this program was built in.
+// turbidite test: ctest in the folder this program was built in, on all cores.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <thread>
 
 #include "coupler/protocol/failure.hpp"
 #include "launcher/commands/command.hpp"
@@ -17,8 +19,9 @@ namespace {
 constexpr auto slow_labels = "system|physics|protocol";
 
 int test(bool unit_only) {
-    std::vector<std::string> line{"ctest", "--test-dir", find_programs().build(),
-                                  "--output-on-failure"};
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::string> line{"ctest",      "--test-dir",          find_programs().build(),
+                                  "--parallel", std::to_string(cores), "--output-on-failure"};
     if (unit_only) line.insert(line.end(), {"-LE", slow_labels});
     std::fflush(nullptr);
     const bool passed = std::system(shell_line(line).c_str()) == 0;

@@ -11,45 +11,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Cases, that is files with a time step, in configs and configs/validation.
+/// Cases, that is files with a time step, in configs and configs/validation; other files are
+/// studies.
 std::vector<fs::path> shipped_cases() {
     std::vector<fs::path> found;
     for (const char* folder : {"configs", "configs/validation"})
-        for (const auto& entry : fs::directory_iterator(fs::path(TURBIDITE_SOURCE_DIR) / folder))
-            if (entry.path().extension() == ".yaml") found.push_back(entry.path());
+        for (const auto& entry : fs::directory_iterator(fs::path(TURBIDITE_SOURCE_DIR) / folder)) {
+            if (entry.path().extension() != ".yaml") continue;
+            std::ifstream input(entry.path());
+            const std::string yaml{std::istreambuf_iterator<char>(input), {}};
+            if (yaml.find("\n  step:") != std::string::npos) found.push_back(entry.path());
+        }
     std::sort(found.begin(), found.end());
     return found;
 }
 
-class ShippedCases : public ShellTest {};
+class ShippedCase : public ShellTest, public ::testing::WithParamInterface<fs::path> {};
 
-TEST_F(ShippedCases, PlayTheirFirstWindows) {
+TEST_P(ShippedCase, PlaysItsFirstWindows) {
     static const std::regex time_step("\n  step: +([0-9.e-]+)"), many("count: [0-9]{5,}");
-    int cases = 0;
-    for (const fs::path& file : shipped_cases()) {
-        const std::string yaml = text(file);
-        std::smatch match;
-        if (!std::regex_search(yaml, match, time_step)) continue;  // a study
-        const std::string step = match[1].str();
-        std::ostringstream line;
-        line << "XDG_CACHE_HOME=" << scratch.path().string()
-             << " timeout 100 " TURBIDITE_PROGRAM " run " << file.string() << " --force --out run"
-             << std::setprecision(12) << " --set time.end=" << 3.0 * std::stod(step)
-             << " --set output.interval=" << step;
-        const auto says = [&](const char* words) { return yaml.find(words) != std::string::npos; };
-        const bool poured = says("generator: poured"), wet = says("cells_per_diameter");
-        const bool space = says("dimension: 3");
-        // Tens of thousands are poured for minutes, and a single layer rolls on.
-        if (poured) line << " --set grains.count=150 --set 'grains.region=[6, 20, 5]'";
-        if (poured && wet) line << " --set 'domain.size=[10, 36, 5]'";
-        if (!poured && wet && space) line << " --set fluid.cells_per_diameter=6";  // for time
-        if (!poured && std::regex_search(yaml, many)) line << " --set grains.count=1000";
-        const Answer answer = shell(line.str());
-        EXPECT_EQ(answer.code, 0) << file << "\n" << answer.out << answer.err;
-        EXPECT_EQ(rows_of_history(), 4) << file;
-        ++cases;
-    }
-    EXPECT_GE(cases, 20);
+    const std::string yaml = text(GetParam());
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(yaml, match, time_step));
+    const std::string step = match[1].str();
+    std::ostringstream line;
+    line << "XDG_CACHE_HOME=" << scratch.path().string()
+         << " timeout 100 " TURBIDITE_PROGRAM " run " << GetParam().string() << " --out run"
+         << std::setprecision(12) << " --set time.end=" << 3.0 * std::stod(step)
+         << " --set output.interval=" << step;
+    const auto says = [&](const char* words) { return yaml.find(words) != std::string::npos; };
+    const bool poured = says("generator: poured"), wet = says("cells_per_diameter");
+    const bool space = says("dimension: 3");
+    // Tens of thousands are poured for minutes, and a single layer rolls on.
+    if (poured) line << " --set grains.count=150 --set 'grains.region=[6, 20, 5]'";
+    if (poured && wet) line << " --set 'domain.size=[10, 36, 5]'";
+    if (!poured && wet && space) line << " --set fluid.cells_per_diameter=6";  // for time
+    if (!poured && std::regex_search(yaml, many)) line << " --set grains.count=1000";
+    const Answer answer = shell(line.str());
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_EQ(rows_of_history(), 4);
+}
+
+std::string name_of(const ::testing::TestParamInfo<fs::path>& info) {
+    std::string name = info.param.stem();
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, ShippedCase, ::testing::ValuesIn(shipped_cases()), name_of);
+
+TEST(ShippedCases, AreMany) {
+    EXPECT_GE(shipped_cases().size(), 20u);
 }
 
 }  // namespace
