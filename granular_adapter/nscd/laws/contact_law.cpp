@@ -8,8 +8,8 @@ namespace turbidite::nscd {
 ContactLaw::ContactLaw(const LawChoice& choice, const LawSettings& settings,
                        const SurfaceTable& surfaces, LawList laws) {
     const std::array<const std::string*, law_slots> names = {&choice.gap,      &choice.friction,
-                                                             &choice.adhesion, &choice.impact,
-                                                             &choice.rolling,  &choice.film};
+                                                             &choice.adhesion, &choice.film,
+                                                             &choice.impact,   &choice.rolling};
     for (std::size_t slot = 0; slot < law_slots; ++slot) {
         std::optional<LawPart> law =
             make_law_part(static_cast<LawSlot>(slot), *names[slot], settings, surfaces, laws);

@@ -16,9 +16,9 @@ struct LawChoice {
     std::string gap = "signorini";
     std::string friction = "coulomb";
     std::string adhesion = "none";
+    std::string film = "none";
     std::string impact = "newton";
     std::string rolling = "resistance";
-    std::string film = "none";
 };
 
 /// The state of a contact's parts, by slot; all zero means no state.

@@ -159,6 +159,7 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
     terms_.clear();
     attraction_.clear();
     const std::vector<double> share = shares(contacts.points);
+    const bool filmed = law_.has(LawSlot::film);
     for (std::size_t k = 0; k < contacts.points.size(); ++k) {
         const ContactPoint& point = contacts.points[k];
         Contact& contact = problem.contacts.emplace_back(bare_contact(point));
@@ -171,12 +172,12 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
             approach = contact_velocity(contact, contacts.bodies.twist) - drive;
             now.approach = magnitudes(approach);
             now.free = magnitudes(contact_velocity(contact, free) - drive);
+            if (filmed) now.mobility = normal_mobility(problem.bodies, contact);
         }
         const ContactState past = law_.remembers() ? states_.of(contacts.keys[k]) : ContactState{};
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
-        if (law_.has(LawSlot::film))
-            problem.films.push_back(film_in(terms.film, terms.normal_bias, step));
+        if (filmed) problem.films.push_back(film_in(terms.film, terms.normal_bias, step));
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         if (terms.attraction != 0.0) {
             attraction_.resize(contacts.points.size(), 0.0);

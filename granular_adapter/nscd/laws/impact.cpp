@@ -2,16 +2,28 @@
 #include "granular_adapter/nscd/laws/impact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace turbidite::nscd {
 
-bool in_impact(const ContactSituation& s, double threshold) {
-    return s.approach.n < -threshold && (touching(s) || s.gap + s.step * s.free.n <= 0.0);
+double approach_at_touch(const ContactSituation& s, const FilmTerms& film) {
+    if (film.coefficient == 0.0) return s.approach.n;
+    const double closed = film.gap - std::max(s.gap, 0.0), from = std::min(film.gap, film.cutoff);
+    if (from <= closed) return s.approach.n;
+    // W C (ln(g/g_closed) - (g - g_closed)/g_c)
+    const double lost =
+        s.mobility * film.coefficient * (std::log(from / closed) - (from - closed) / film.cutoff);
+    return s.approach.n < 0.0 ? std::min(s.approach.n + lost, 0.0) : s.approach.n;
+}
+
+bool in_impact(const ContactSituation& s, const LawTerms& terms, double threshold) {
+    return approach_at_touch(s, terms.film) < -threshold &&
+           (touching(s) || s.gap + s.step * s.free.n <= 0.0);
 }
 
 void demand_rebound(const ContactSituation& s, double restitution, LawTerms& terms) {
-    terms.normal_bias = std::min(terms.normal_bias, restitution * s.approach.n);
+    terms.normal_bias = std::min(terms.normal_bias, restitution * approach_at_touch(s, terms.film));
 }
 
 bool never_bounces(const SurfaceTable& surfaces) {

@@ -25,15 +25,12 @@ std::optional<LawPart> make_lubrication(const LawSettings& settings, const Surfa
     demand_positive("lubrication", "roughness", roughness);
     if (settings.dimension != 3)
         throw std::invalid_argument("contact law \"lubrication\" is of spheres in space");
-    return LawPart{
-        .add =
-            [=](const ContactSituation& s, LawTerms& terms) {
-                const double gap = std::max(s.gap, 0.0) + roughness;
-                if (gap >= cutoff) return;
-                const double radius = reduced_radius(s);
-                terms.film = {6.0 * std::numbers::pi * viscosity * radius * radius, gap, cutoff};
-            },
-        .range = cutoff};
+    const auto add = [=](const ContactSituation& s, LawTerms& terms) {
+        const double radius = reduced_radius(s);
+        terms.film = {6.0 * std::numbers::pi * viscosity * radius * radius,
+                      std::max(s.gap, 0.0) + roughness, cutoff};
+    };
+    return LawPart{.add = add, .range = cutoff};
 }
 
 }  // namespace turbidite::nscd

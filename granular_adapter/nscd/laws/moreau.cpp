@@ -25,7 +25,7 @@ std::optional<LawPart> make_moreau(const LawSettings& settings, const SurfaceTab
     return LawPart{.add =
                        [=](const ContactSituation& s, LawTerms& terms) {
                            const double restitution = s.surface.restitution;
-                           if (restitution == 0.0 || !in_impact(s, threshold)) return;
+                           if (restitution == 0.0 || !in_impact(s, terms, threshold)) return;
                            demand_rebound(s, restitution, terms);
                            terms.tangential_restitution = restitution;  // b_t = e u_t^-
                        },

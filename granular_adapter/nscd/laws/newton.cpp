@@ -17,7 +17,7 @@ std::optional<LawPart> make_newton(const LawSettings& settings, const SurfaceTab
     if (never_bounces(surfaces)) return std::nullopt;
     return LawPart{.add =
                        [=](const ContactSituation& s, LawTerms& terms) {
-                           if (!in_impact(s, threshold)) return;
+                           if (!in_impact(s, terms, threshold)) return;
                            if (s.surface.restitution > 0.0)
                                demand_rebound(s, s.surface.restitution, terms);
                            terms.tangential_restitution = s.surface.restitution_tangential;

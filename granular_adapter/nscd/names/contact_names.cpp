@@ -4,8 +4,8 @@
 namespace turbidite::nscd {
 
 std::string slot_name(LawSlot slot) {
-    static const char* const names[law_slots] = {"gap",    "friction", "adhesion",
-                                                 "impact", "rolling",  "film"};
+    static const char* const names[law_slots] = {"gap",  "friction", "adhesion",
+                                                 "film", "impact",   "rolling"};
     return names[static_cast<std::size_t>(slot)];
 }
 

@@ -11,7 +11,7 @@
 namespace turbidite::nscd {
 
 /// The slots of a contact law, in the order in which their parts are applied.
-enum class LawSlot { gap, friction, adhesion, impact, rolling, film };
+enum class LawSlot { gap, friction, adhesion, film, impact, rolling };
 inline constexpr std::size_t law_slots = 6;
 
 /// "gap", "friction", …

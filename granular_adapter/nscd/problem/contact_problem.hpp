@@ -148,6 +148,9 @@ inline Vec3 relative_spin(const Contact& contact, const std::vector<Twist>& v) {
 /// v_free + M^-1 H r.
 std::vector<Twist> body_velocities(const ContactProblem& problem, const Impulses& r);
 
+/// W_nn of a contact [1/kg].
+double normal_mobility(const Mobilities& bodies, const Contact& contact);
+
 /// The same for these mobilities, whatever the problem's.
 template <class Mobility>
 std::vector<Twist> body_velocities(const ContactProblem& problem,
