@@ -256,6 +256,16 @@ TEST(Film, AHeapSettlesAndResumesBitForBit) {
     }
 }
 
+// Films that pull are part of the initial guess.
+TEST(Film, RemembersWhatPulls) {
+    Engine engine = scenes::settling_spheres(5, 5, filmed(0.01, 0.4, 1e-6));
+    settled(engine, 60);
+    engine.step(0.01);
+    const auto pulls = std::count_if(engine.guess().begin(), engine.guess().end(),
+                                     [](const ContactVector& r) { return r.n < 0.0; });
+    EXPECT_GT(pulls, 5);
+}
+
 // A film that is left out changes nothing: the same heap with a viscosity of next to nothing.
 TEST(Film, AThinFilmIsNoFilm) {
     EngineSettings settings = filmed(1e-14, 0.4, 1e-12);
