@@ -130,13 +130,13 @@ InteriorConstraint::Six InteriorConstraint::moved(std::size_t grain, const Six& 
 }
 
 /// sum m (u ; r x u) of every grain, over all ranks.
-std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(const CellVelocity& u) const {
+std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(const VelocityPointers& u) const {
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> sums(grains_->size());
     for (std::size_t g = 0; g < sums.size(); ++g) {
         Vector sum = Vector::Zero(), moment = Vector::Zero();
         for (const CellRun& run : cells_.runs(g)) {
-            const double *ux = u.x + run.cell, *uy = u.y + run.cell, *uz = u.z + run.cell;
+            const double *ux = u[0] + run.cell, *uy = u[1] + run.cell, *uz = u[2] + run.cell;
             Vector of_run = Vector::Zero(), along = Vector::Zero();
             for (int c = 0; c < run.count; ++c) {
                 const Vector v(ux[c], uy[c], uz[c]);
@@ -156,7 +156,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(const Cell
 /// Sets this rank's cells to the motions of their grains; returns the impulses, of all ranks, that
 /// the fluid loses by it.
 std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
-    const CellVelocity& u, const std::vector<Six>& motions) const {
+    const VelocityPointers& u, const std::vector<Six>& motions) const {
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> lost(grains_->size());
     for (std::size_t g = 0; g < lost.size(); ++g) {
@@ -165,7 +165,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
         Vector sum = Vector::Zero(), moment = Vector::Zero();
         for (const CellRun& run : cells_.runs(g)) {
             const Vector first = motions[g].head<3>() + spin.cross(run.first);
-            double *ux = u.x + run.cell, *uy = u.y + run.cell, *uz = u.z + run.cell;
+            double *ux = u[0] + run.cell, *uy = u[1] + run.cell, *uz = u[2] + run.cell;
             Vector of_run = Vector::Zero(), along = Vector::Zero();
             for (int c = 0; c < run.count; ++c) {
                 const Vector now = first + c * step;
@@ -183,7 +183,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
     return lost;
 }
 
-MultiplierResult InteriorConstraint::solve(const CellVelocity& u) {
+MultiplierResult InteriorConstraint::solve(const VelocityPointers& u) {
     velocity_ = u;
     impulses_.assign(grains_->size(), Six::Zero());
     motions_ = sum_velocity(u);
@@ -239,7 +239,7 @@ void InteriorConstraint::clear_covered(double* values) const {
 }
 
 /// What it does to grains: motions, then impulses.
-MultiplierResult InteriorConstraint::make_rigid(const CellVelocity& change, double,
+MultiplierResult InteriorConstraint::make_rigid(const VelocityPointers& change, double,
                                                 GrainChange& of_grains) {
     std::vector<Six> motions = sum_velocity(change);
     for (std::size_t g = 0; g < motions.size(); ++g) motions[g] = moved(g, motions[g]);
