@@ -32,10 +32,9 @@ std::unique_ptr<Field> written(FluidFields& fields, const char* name,
 
 OutputFields::OutputFields(FluidFields& fields, const Settings& settings) : fields_(fields) {
     const Foam::dimensionSet rate = Foam::dimless / Foam::dimTime;
-    const bool in_space = fields.mesh.nSolutionD() == 3;
-    if (wanted(settings, "vorticity") && in_space)
+    if (wanted(settings, "vorticity") && fields.in_space)
         curl_ = written<Foam::volVectorField>(fields, "vorticity", rate);
-    if (wanted(settings, "vorticity") && !in_space)
+    if (wanted(settings, "vorticity") && !fields.in_space)
         vorticity_ = written<Foam::volScalarField>(fields, "vorticity", rate);
     if (wanted(settings, "solid"))
         solid_ = written<Foam::volScalarField>(fields, "solid", Foam::dimless);
