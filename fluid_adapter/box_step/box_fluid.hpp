@@ -23,9 +23,6 @@ struct BoxFluid {
     bool second_order = false;  ///< in time (second_order.hpp)
 };
 
-/// Arrays of the components of a velocity.
-using VelocityPointers = Components<double*>;
-
 /// Components of a velocity over a rank's cells, an array each: a kernel reads one at a time [m/s].
 class VelocityRows {
  public:

@@ -29,7 +29,7 @@
 // Valid C++17.
 #pragma once
 
-#include "fluid_adapter/box_step/components.hpp"
+#include "fluid_adapter/multiplier/components.hpp"
 
 namespace turbidite {
 

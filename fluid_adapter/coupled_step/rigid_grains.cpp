@@ -4,16 +4,9 @@
 #include <utility>
 
 namespace turbidite {
-namespace {
-
-CellVelocity cells_of(const VelocityPointers& u) {
-    return {u[0], u[1], u.size() > 2 ? u[2] : nullptr};
-}
-
-}  // namespace
 
 void RigidGrains::make_rigid(RigidChange& change, double reduction) {
-    note(constraint_.make_rigid(cells_of(change.u.pointers()), reduction, change.grains));
+    note(constraint_.make_rigid(change.u.pointers(), reduction, change.grains));
 }
 
 MultiplierResult RigidGrains::settle() {

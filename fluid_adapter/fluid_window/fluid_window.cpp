@@ -166,9 +166,7 @@ void FluidWindow::correct_fluid(const CoupledLimits& limits) {
     if (!coupled) return;
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         multipliers_.impose();
-        VelocityPointers u(run_.dimension);
-        for (int axis = 0; axis < u.size(); ++axis) u[axis] = step_.velocity(axis);
-        RigidGrains grains(multipliers_.constraint(), u, field_.owned_cells());
+        RigidGrains grains(multipliers_.constraint(), field_.velocities(), field_.owned_cells());
         note(coupled->correct(grains, limits));
         report_.multiplier_iterations += grains.iterations();
         report_.multipliers_converged = report_.multipliers_converged && grains.converged();

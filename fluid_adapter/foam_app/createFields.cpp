@@ -25,10 +25,6 @@ FluidMomentum momentum_of(const FluidFields& fields, X x, Y y) {
     return {density * Vec3{sum[0], sum[1], 0.0}, density * sum[2]};
 }
 
-bool in_the_plane(const Foam::polyMesh& mesh) {
-    return mesh.nSolutionD() == 2;
-}
-
 Foam::fileName parent_of(const std::filesystem::path& directory) {
     return Foam::fileName(
         std::filesystem::absolute(directory).lexically_normal().parent_path().string());
@@ -53,6 +49,7 @@ FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup
       time(parent_of(directory), name_of(directory, group)),
       mesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time.timeName(), time,
                           Foam::IOobject::MUST_READ)),
+      in_space(mesh.nSolutionD() == 3),
       transport(Foam::IOobject("transportProperties", time.constant(), mesh,
                                Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE)),
       p(stored(mesh, "p", Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE), mesh),
@@ -62,7 +59,7 @@ FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup
       phi(stored(mesh, "phi", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
           Foam::fvc::flux(U)),
       excess(stored(mesh, "excess", Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE), 0.0 * phi),
-      thickness(in_the_plane(mesh) ? mesh.bounds().span().z() : 1.0) {
+      thickness(in_space ? 1.0 : mesh.bounds().span().z()) {
     nu = Foam::dimensionedScalar("nu", Foam::dimViscosity, transport).value();
     rho = Foam::dimensionedScalar("rho", Foam::dimDensity, transport).value();
 }

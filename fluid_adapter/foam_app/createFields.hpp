@@ -29,6 +29,7 @@ struct FluidFields {
     RankGroup ranks;
     CaseTime time;
     Foam::fvMesh mesh;
+    const bool in_space;           ///< or one layer of cells, between empty patches
     Foam::IOdictionary transport;  ///< constant/transportProperties, where `forces` looks for nu
     Foam::volScalarField p;
     Foam::volVectorField U;

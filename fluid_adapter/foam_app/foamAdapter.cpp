@@ -110,13 +110,13 @@ void FoamAdapter::add_velocity(double x, double y) {
 }
 
 Vec3 FoamAdapter::velocity(int i, int j, int k) const {
-    const FoamFluidField& field = store_->field();
+    const FoamField& field = store_->field();
     return field.velocity_of(field.cell(i, j, k));
 }
 
 double FoamAdapter::pressure(int i, int j, int k) const {
     window_->put_fields();
-    const FoamFluidField& field = store_->field();
+    const FoamField& field = store_->field();
     return store_->fields().p[field.mesh_cell(field.cell(i, j, k))];
 }
 

@@ -5,14 +5,6 @@
 
 namespace turbidite {
 
-FoamRows::FoamRows(FluidFields& fields, const BoxCells& box)
-    : fields_(fields), box_(box), rows_(fields.ranks, box.cells[0], box.cells[1], box.place) {}
-
-FoamRows::FoamRows(FluidFields& fields, const CellGrid& grid, const std::vector<int>& cells)
-    : fields_(fields),
-      grid_(&grid),
-      rows_(fields.ranks, grid.counts[0] * grid.counts[2], grid.counts[1], cells) {}
-
 int FoamRows::first_row() const {
     return rows_.rows_of_rank()[fields_.ranks.rank()].first;
 }
@@ -42,8 +34,20 @@ void FoamRows::write_pressure(const double* rows, bool floating) {
     fields_.p.correctBoundaryConditions();
 }
 
-VelocityOnSides FoamRows::side_velocity() const {
-    return grid_ ? held_on_sides(fields_, *grid_) : held_on_sides(fields_, box_);
+PlaneRows::PlaneRows(FluidFields& fields, const BoxCells& box)
+    : FoamRows(fields, CellRows(fields.ranks, box.cells[0], box.cells[1], box.place)), box_(box) {}
+
+VelocityOnSides PlaneRows::side_velocity() const {
+    return held_on_sides(fields_, box_);
+}
+
+SpaceRows::SpaceRows(FluidFields& fields, const CellGrid& grid, const std::vector<int>& cells)
+    : FoamRows(fields,
+               CellRows(fields.ranks, grid.counts[0] * grid.counts[2], grid.counts[1], cells)),
+      grid_(grid) {}
+
+VelocityOnSides SpaceRows::side_velocity() const {
+    return held_on_sides(fields_, grid_);
 }
 
 }  // namespace turbidite

@@ -10,28 +10,47 @@
 
 namespace turbidite {
 
-class FoamRows final : public RowFields {
+class FoamRows : public RowFields {
  public:
-    FoamRows(FluidFields& fields, const BoxCells& box);
-
-    /// In space, with the number i + nx (k + nz j) of every cell of this rank. Sides are at rest.
-    FoamRows(FluidFields& fields, const CellGrid& grid, const std::vector<int>& cells);
-
-    bool stay_in_rows() const override { return grid_ ? rows_.stays() : rows_.in_cell_order(); }
     int first_row() const override;
     void read_velocity(const VelocityPointers& u) override;
     void write_velocity(const VelocityPointers& u) override;
     void read_pressure(double* p) override;
     void write_pressure(const double* p, bool floating) override;
-    VelocityOnSides side_velocity() const override;
 
     const CellRows& rows() const { return rows_; }
 
- private:
+ protected:
+    FoamRows(FluidFields& fields, const CellRows& rows) : fields_(fields), rows_(rows) {}
+
     FluidFields& fields_;
-    BoxCells box_;                    // in the plane
-    const CellGrid* grid_ = nullptr;  // in space
+
+ private:
     CellRows rows_;
+};
+
+class PlaneRows final : public FoamRows {
+ public:
+    PlaneRows(FluidFields& fields, const BoxCells& box);
+
+    /// Halos of step 5 count cells in their order.
+    bool stay_in_rows() const override { return rows().in_cell_order(); }
+    VelocityOnSides side_velocity() const override;
+
+ private:
+    BoxCells box_;
+};
+
+class SpaceRows final : public FoamRows {
+ public:
+    /// `cells`: the number i + nx (k + nz j) of every cell of this rank.
+    SpaceRows(FluidFields& fields, const CellGrid& grid, const std::vector<int>& cells);
+
+    bool stay_in_rows() const override { return rows().stays(); }
+    VelocityOnSides side_velocity() const override;
+
+ private:
+    const CellGrid& grid_;
 };
 
 }  // namespace turbidite

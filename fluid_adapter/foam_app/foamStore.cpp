@@ -12,14 +12,14 @@ FoamStore::FoamStore(const std::filesystem::path& directory, const RankGroup& ra
                      const Settings& settings)
     : domain_(fluid_domain(settings)),
       fields_(directory, ranks),
-      field_(fields_, domain_),
+      field_(make_foam_field(fields_, domain_)),
       sides_(side_motions(settings), fields_),
-      step_(make_fluid_step(settings, fields_, field_.grid(), field_.cell_numbers())),
+      step_(make_fluid_step(settings, fields_, field_->grid(), field_->cell_numbers())),
       output_(fields_, settings),
       functions_(fields_.time),
       probes_(settings),
-      slices_(settings, field_.grid(), directory) {
-    field_.work_on(*step_);
+      slices_(settings, field_->grid(), directory) {
+    field_->work_on(*step_);
 }
 
 double FoamStore::equal_height() const {
@@ -40,18 +40,18 @@ bool FoamStore::begin(const Window& window) {
 }
 
 void FoamStore::show(const std::vector<ImmersedGrain>& grains) {
-    output_.compute(field_, grains);
+    output_.compute(*field_, grains);
     functions_.execute();
     if (finished()) functions_.end();
 }
 
 void FoamStore::write(const std::vector<ImmersedGrain>& grains) {
-    output_.compute(field_, grains);
+    output_.compute(*field_, grains);
     fields_.time.writeNow();
 }
 
 void FoamStore::write_slices(const std::vector<ImmersedGrain>& grains) {
-    slices_.write(fields_, field_, grains, windows_);
+    slices_.write(fields_, *field_, grains, windows_);
 }
 
 void FoamStore::guard(const std::string& doing, const std::function<void()>& work) const {

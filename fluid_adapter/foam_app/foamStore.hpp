@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
-#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/foamField.hpp"
 #include "fluid_adapter/foam_app/functionObjects.hpp"
 #include "fluid_adapter/foam_app/outputFields.hpp"
 #include "fluid_adapter/foam_app/probes.hpp"
@@ -23,7 +23,7 @@ class FoamStore final : public FluidStore {
     FoamStore(const std::filesystem::path& directory, const RankGroup& ranks,
               const Settings& settings);
 
-    FoamFluidField& field() override { return field_; }
+    FoamField& field() override { return *field_; }
     FluidStep& step() override { return *step_; }
     const RankGroup& ranks() const override { return fields_.ranks; }
     double density() const override { return fields_.rho; }
@@ -34,7 +34,7 @@ class FoamStore final : public FluidStore {
     void show(const std::vector<ImmersedGrain>& grains) override;
     void interpolate_flux() override { fields_.interpolate_flux(); }
     double largest_divergence() const override { return fields_.largest_divergence(); }
-    std::vector<double> probes() const override { return probes_.values(fields_, field_); }
+    std::vector<double> probes() const override { return probes_.values(fields_, *field_); }
     void write(const std::vector<ImmersedGrain>& grains) override;
     void write_slices(const std::vector<ImmersedGrain>& grains) override;
     void guard(const std::string& doing, const std::function<void()>& work) const override;
@@ -45,7 +45,7 @@ class FoamStore final : public FluidStore {
  private:
     const FluidDomain domain_;
     FluidFields fields_;
-    FoamFluidField field_;
+    std::unique_ptr<FoamField> field_;
     SideVelocity sides_;
     std::unique_ptr<FluidStep> step_;
     OutputFields output_;

@@ -20,12 +20,10 @@ namespace {
 /// |div phi| D / u_c required of the projection: half of what the run accepts.
 constexpr double divergence_goal = 5e-5;
 
-/// Transport on rows of a box (box_step.hpp).
+/// Transport on rows of a box, as in BoxFluid.
 struct TransportMethod {
     double limiter = 1.0;
     std::optional<double> central;
-    bool second_order = false;
-    bool coupled = false;  ///< pressure and viscosity are corrected together with the grains
 };
 
 /// Whether a gradient scheme of the case is Gauss' linear one.
@@ -89,6 +87,12 @@ bool solved_by_fft(const Field& field) {
     return field.mesh().solverDict(field.name()).template get<Foam::word>("solver") == "FFT";
 }
 
+/// The same, if rows are solved for as well.
+std::optional<TransportMethod> method_on_rows(const FluidFields& fields) {
+    if (!solved_by_fft(fields.p) || !solved_by_fft(fields.U)) return std::nullopt;
+    return transport_on_rows(fields);
+}
+
 /// Reports at the start what the solver itself would report in the first window.
 template <class Field>
 void check_solver(Field& field, const BoxCells& box, const char* key, const char* others) {
@@ -128,16 +132,14 @@ void demand_volume_weights(const Foam::fvMesh& mesh, const CellGrid& grid) {
         throw DoesNotFit("with rows of different heights interpolation must be reverseLinear");
 }
 
-BoxFluid box_fluid(FluidFields& fields, const TransportMethod& method, const BoxCells& box,
-                   const CellGrid& grid) {
+/// By the mesh and the boundary conditions of the fields.
+BoxFluid box_in_the_plane(FluidFields& fields, const BoxCells& box, const CellGrid& grid) {
     demand_volume_weights(fields.mesh, grid);
     const Foam::vector size = fields.mesh.bounds().span();
-    return {in_metres(laplacian_with_values(fields.U, box).plane, size, grid),
-            in_metres(homogeneous_laplacian(fields.p, box).plane, size, grid),
-            fields.nu,
-            method.limiter,
-            method.central,
-            method.second_order};
+    BoxFluid fluid;
+    fluid.velocity = in_metres(laplacian_with_values(fields.U, box).plane, size, grid);
+    fluid.pressure = in_metres(homogeneous_laplacian(fields.p, box).plane, size, grid);
+    return fluid;
 }
 
 std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const SeparableOperator& plane,
@@ -150,40 +152,46 @@ std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const SeparableOperato
     }
 }
 
-/// Throws DoesNotFit.
-std::unique_ptr<FluidStep> box_fluid_step(FluidFields& fields, const TransportMethod& method,
-                                          const BoxCells& box, const CellGrid& grid) {
-    const BoxFluid fluid = box_fluid(fields, method, box, grid);
-    auto own = std::make_unique<FoamRows>(fields, box);
-    if (method.coupled && !own->stay_in_rows())
-        throw DoesNotFit("its ranks do not have complete rows of cells");
+/// The steps on a box whose grid and conditions are known. Throws DoesNotFit.
+std::unique_ptr<FluidStep> box_fluid_step(const Settings& settings, BoxFluid fluid,
+                                          const TransportMethod& method,
+                                          std::unique_ptr<FoamRows> own,
+                                          const FluidFields& fields) {
+    fluid.viscosity = fields.nu;
+    fluid.limiter = method.limiter;
+    fluid.central = method.central;
+    fluid.second_order = in_second_order(settings);
     auto rows = box_rows(fields.ranks, fluid.pressure, own->rows());
     return std::make_unique<BoxFluidStep>(fluid, std::move(rows), std::move(own), fields.ranks,
-                                          method.coupled);
+                                          splitting_of(settings).rigid_grains);
+}
+
+/// Throws DoesNotFit.
+std::unique_ptr<FluidStep> step_in_the_plane(const Settings& settings, FluidFields& fields,
+                                             const TransportMethod& method, const BoxCells& box,
+                                             const CellGrid& grid) {
+    const BoxFluid fluid = box_in_the_plane(fields, box, grid);
+    auto own = std::make_unique<PlaneRows>(fields, box);
+    if (splitting_of(settings).rigid_grains && !own->stay_in_rows())
+        throw DoesNotFit("its ranks do not have complete rows of cells");
+    return box_fluid_step(settings, fluid, method, std::move(own), fields);
 }
 
 /// In space fields are a view of the rows: there are no steps by OpenFOAM's operators.
 std::unique_ptr<FluidStep> step_in_space(const Settings& settings, FluidFields& fields,
                                          const CellGrid& grid, const std::vector<int>& cells) {
-    const std::optional<TransportMethod> method = transport_on_rows(fields);
-    if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U))
+    const std::optional<TransportMethod> method = method_on_rows(fields);
+    if (!method)
         throw Failure(ExitCode::bad_input,
                       "in space fluid.transport_scheme must be Gauss limitedLinearV, linear, LUST "
                       "or linearUpwind with linear gradients, and fluid.pressure_solver and "
                       "fluid.viscous_solver FFT");
-    BoxFluid fluid = box_of(grid);
-    fluid.viscosity = fields.nu;
-    fluid.limiter = method->limiter;
-    fluid.central = method->central;
-    fluid.second_order = in_second_order(settings);
-    auto own = std::make_unique<FoamRows>(fields, grid, cells);
+    auto own = std::make_unique<SpaceRows>(fields, grid, cells);
     if (!own->stay_in_rows())
         throw Failure(ExitCode::bad_input,
                       "in space every rank must have whole layers of cells of one y: use "
                       "fluid.decomposition = rows");
-    auto rows = box_rows(fields.ranks, fluid.pressure, own->rows());
-    return std::make_unique<BoxFluidStep>(fluid, std::move(rows), std::move(own), fields.ranks,
-                                          splitting_of(settings).rigid_grains);
+    return box_fluid_step(settings, box_of(grid), *method, std::move(own), fields);
 }
 
 }  // namespace
@@ -193,10 +201,8 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
     if (grid.dimension == 3) return step_in_space(settings, fields, grid, cells);
     const BoxCells box =
         box_cells(fields.mesh, fields.ranks, {grid.counts[0], grid.counts[1]}, cells);
-    std::optional<TransportMethod> method = transport_on_rows(fields);
-    if (method) method->second_order = in_second_order(settings);
-    if (method) method->coupled = splitting_of(settings).rigid_grains;
-    if (!method || !solved_by_fft(fields.p) || !solved_by_fft(fields.U)) {
+    const std::optional<TransportMethod> method = method_on_rows(fields);
+    if (!method) {
         demand_marchuk_yanenko(
             settings,
             "fluid.transport_scheme must be Gauss limitedLinearV, linear, LUST or linearUpwind "
@@ -204,7 +210,7 @@ std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields
         return operator_step(settings, fields, box);
     }
     try {
-        return box_fluid_step(fields, *method, box, grid);
+        return step_in_the_plane(settings, fields, *method, box, grid);
     } catch (const DoesNotFit& why) {
         demand_marchuk_yanenko(settings, why.what());
         // Accepts more general cases, or reports what does not fit.

@@ -32,22 +32,21 @@ std::unique_ptr<Field> written(FluidFields& fields, const char* name,
 
 OutputFields::OutputFields(FluidFields& fields, const Settings& settings) : fields_(fields) {
     const Foam::dimensionSet rate = Foam::dimless / Foam::dimTime;
-    const bool in_space = fields.mesh.nSolutionD() == 3;
-    if (wanted(settings, "vorticity") && in_space)
+    if (wanted(settings, "vorticity") && fields.in_space)
         curl_ = written<Foam::volVectorField>(fields, "vorticity", rate);
-    if (wanted(settings, "vorticity") && !in_space)
+    if (wanted(settings, "vorticity") && !fields.in_space)
         vorticity_ = written<Foam::volScalarField>(fields, "vorticity", rate);
     if (wanted(settings, "solid"))
         solid_ = written<Foam::volScalarField>(fields, "solid", Foam::dimless);
 }
 
-void OutputFields::compute(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains) {
+void OutputFields::compute(const FoamField& field, const std::vector<ImmersedGrain>& grains) {
     if (vorticity_) *vorticity_ = Foam::fvc::curl(fields_.U)().component(Foam::vector::Z);
     if (curl_) *curl_ = Foam::fvc::curl(fields_.U);
     if (solid_) cover(field, grains);
 }
 
-void OutputFields::cover(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains) {
+void OutputFields::cover(const FoamField& field, const std::vector<ImmersedGrain>& grains) {
     const std::vector<double> shares = covered_share(field, grains);
     for (std::size_t cell = 0; cell < shares.size(); ++cell)
         solid_->primitiveFieldRef()[field.mesh_cell(static_cast<int>(cell))] = shares[cell];

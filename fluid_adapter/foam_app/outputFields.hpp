@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "coupler/protocol/settings.hpp"
-#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/foamField.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 
 namespace turbidite {
@@ -19,10 +19,10 @@ class OutputFields {
     OutputFields(FluidFields& fields, const Settings& settings);
 
     /// From U and these grains, before OpenFOAM writes.
-    void compute(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains);
+    void compute(const FoamField& field, const std::vector<ImmersedGrain>& grains);
 
  private:
-    void cover(const FoamFluidField& field, const std::vector<ImmersedGrain>& grains);
+    void cover(const FoamField& field, const std::vector<ImmersedGrain>& grains);
 
     FluidFields& fields_;
     std::unique_ptr<Foam::volScalarField> vorticity_, solid_;

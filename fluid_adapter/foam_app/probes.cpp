@@ -18,7 +18,7 @@ Probes::Probes(const Settings& settings) : dimension_(run_values(settings).dimen
 }
 
 /// Each rank adds the shares of its own cells.
-std::vector<double> Probes::values(const FluidFields& fields, const FoamFluidField& field) const {
+std::vector<double> Probes::values(const FluidFields& fields, const FoamField& field) const {
     const std::size_t per_point = 1 + dimension_;
     std::vector<double> values(per_point * points_.size(), 0.0);
     for (std::size_t k = 0; k < points_.size(); ++k)

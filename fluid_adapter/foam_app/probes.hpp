@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
-#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/foamField.hpp"
 
 namespace turbidite {
 
@@ -17,7 +17,7 @@ class Probes {
 
     /// p/rho_f [m2/s2], u, v and in space w [m/s] at each point, from the fields; the same on all
     /// ranks.
-    std::vector<double> values(const FluidFields& fields, const FoamFluidField& field) const;
+    std::vector<double> values(const FluidFields& fields, const FoamField& field) const;
 
  private:
     int dimension_;

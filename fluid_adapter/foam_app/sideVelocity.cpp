@@ -21,7 +21,7 @@ int side_of(const Foam::vector& outward) {
 /// Shares of the profile on the faces of a patch along the side; in space it is uniform.
 std::vector<double> shares_of(const Foam::fvPatch& patch, const BoxSide& side,
                               const SideMotion& motion, const FluidFields& fields) {
-    if (fields.mesh.nSolutionD() == 3) return std::vector<double>(patch.size(), 1.0);
+    if (fields.in_space) return std::vector<double>(patch.size(), 1.0);
     const int axis = 1 - side.axis;
     const Foam::boundBox& box = fields.mesh.bounds();
     const Foam::scalar origin = box.min()[axis], length = box.span()[axis];

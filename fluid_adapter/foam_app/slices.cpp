@@ -48,7 +48,7 @@ Slices::Plane Slices::plane(const CellGrid& grid, int normal, double place) cons
 }
 
 /// Each rank writes what is in its own cells.
-void Slices::write(const FluidFields& fields, const FoamFluidField& field,
+void Slices::write(const FluidFields& fields, const FoamField& field,
                    const std::vector<ImmersedGrain>& grains, std::int64_t windows) const {
     for (const Plane& plane : planes_) {
         std::vector<double> values = sampled(plane, fields, field);
@@ -66,7 +66,7 @@ void Slices::write(const FluidFields& fields, const FoamFluidField& field,
 }
 
 std::vector<double> Slices::sampled(const Plane& plane, const FluidFields& fields,
-                                    const FoamFluidField& field) const {
+                                    const FoamField& field) const {
     const CellGrid& grid = field.grid();
     std::vector<double> values(per_cell * cells_of(grid, plane.across, plane.up), 0.0);
     double* value = values.data();
@@ -88,7 +88,7 @@ std::vector<double> Slices::sampled(const Plane& plane, const FluidFields& field
 }
 
 /// The rank that has the cell which the plane cuts knows the grain.
-void Slices::cover(const Plane& plane, const FoamFluidField& field, const ImmersedGrain& grain,
+void Slices::cover(const Plane& plane, const FoamField& field, const ImmersedGrain& grain,
                    std::vector<double>& values) const {
     const CellGrid& grid = field.grid();
     const auto [normal, across, up] = std::array{plane.normal, plane.across, plane.up};

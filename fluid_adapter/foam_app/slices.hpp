@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "coupler/protocol/run_values.hpp"
-#include "fluid_adapter/foam_app/foamFluidField.hpp"
+#include "fluid_adapter/foam_app/foamField.hpp"
 #include "fluid_adapter/foam_app/sliceFile.hpp"
 #include "fluid_adapter/multiplier/cell_stencil.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
@@ -26,7 +26,7 @@ class Slices {
     Slices(const Settings& settings, const CellGrid& grid, std::filesystem::path fluid_case);
 
     /// After so many windows; by all ranks. Throws Failure when the disk is full.
-    void write(const FluidFields& fields, const FoamFluidField& field,
+    void write(const FluidFields& fields, const FoamField& field,
                const std::vector<ImmersedGrain>& grains, std::int64_t windows) const;
 
  private:
@@ -40,8 +40,8 @@ class Slices {
 
     Plane plane(const CellGrid& grid, int normal, double place) const;
     std::vector<double> sampled(const Plane& plane, const FluidFields& fields,
-                                const FoamFluidField& field) const;
-    void cover(const Plane& plane, const FoamFluidField& field, const ImmersedGrain& grain,
+                                const FoamField& field) const;
+    void cover(const Plane& plane, const FoamField& field, const ImmersedGrain& grain,
                std::vector<double>& values) const;
     SliceEdges edges(const Plane& plane, const CellGrid& grid) const;
 

@@ -7,7 +7,7 @@
 
 namespace turbidite {
 
-void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& velocity,
+void ConstrainedFlow::begin(SaddleOperator& system, const VelocityPointers& velocity,
                             const std::vector<Planar>& momenta,
                             const std::vector<Planar>& prescribed) {
     system_ = &system;
@@ -24,7 +24,7 @@ void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& velocity
     BoundaryOperator(points()).apply(cells_.data(), motions_.data(), slip_.data());
 }
 
-void ConstrainedFlow::begin(SaddleOperator& system, const CellVelocity& change) {
+void ConstrainedFlow::begin(SaddleOperator& system, const VelocityPointers& change) {
     const std::vector<Planar> none(system.grains(), Planar::Zero());
     begin(system, change, none, none);
 }
@@ -49,13 +49,13 @@ void ConstrainedFlow::sum_momenta() {
 
 /// cells = u, the velocities at the slots.
 void ConstrainedFlow::import_velocity() {
-    const auto [halo_x, halo_y] = field().import_halo(velocity_.x, velocity_.y);
+    const auto [halo_x, halo_y] = field().import_halo(velocity_[0], velocity_[1]);
     const int owned = field().owned_cells();
     cells_.resize(points().slots());
     for (int slot = 0; slot < points().slots(); ++slot) {
         expect_velocity(slot);
         const int cell = points().stencilled[slot].cell;
-        cells_[slot] = cell < owned ? PlaneVector{velocity_.x[cell], velocity_.y[cell]}
+        cells_[slot] = cell < owned ? PlaneVector{velocity_[0][cell], velocity_[1][cell]}
                                     : PlaneVector{halo_x[cell - owned], halo_y[cell - owned]};
     }
 }
@@ -98,8 +98,8 @@ void ConstrainedFlow::impose() {
         expect_velocity(slot);
         const StencilCell& at = points().stencilled[slot];
         if (!field().owns(at.cell)) continue;
-        velocity_.x[at.cell] -= per_mass / at.volume * cells_[slot].x;
-        velocity_.y[at.cell] -= per_mass / at.volume * cells_[slot].y;
+        velocity_[0][at.cell] -= per_mass / at.volume * cells_[slot].x;
+        velocity_[1][at.cell] -= per_mass / at.volume * cells_[slot].y;
     }
     for (std::size_t g = 0; g < by_grain_.size(); ++g) {
         impulses_[g] += by_grain_[g];
@@ -129,8 +129,8 @@ void ConstrainedFlow::expect_velocity(int slot) const {
     if (slot + ahead >= points().slots()) return;
     const int cell = points().stencilled[slot + ahead].cell;
     if (!field().owns(cell)) return;
-    ask_for(&velocity_.x[cell]);
-    ask_for(&velocity_.y[cell]);
+    ask_for(&velocity_[0][cell]);
+    ask_for(&velocity_[1][cell]);
 }
 
 /// cells = B^T L, of the points of all ranks.

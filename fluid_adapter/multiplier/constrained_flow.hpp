@@ -23,12 +23,12 @@ class ConstrainedFlow {
     /// Begins with u3, kept by reference, and the grains' own momenta (immersed_grain.hpp), without
     /// the fluid they cover. By every rank. `prescribed`: the motions of grains that have A^-1 = 0,
     /// zero for others.
-    void begin(SaddleOperator& system, const CellVelocity& velocity,
+    void begin(SaddleOperator& system, const VelocityPointers& velocity,
                const std::vector<Planar>& momenta, const std::vector<Planar>& prescribed);
 
     /// Begins with a change of velocity, and grains that have no momentum of their own and, where
     /// their motion is prescribed, no change of it.
-    void begin(SaddleOperator& system, const CellVelocity& change);
+    void begin(SaddleOperator& system, const VelocityPointers& change);
 
     /// Adds impulses to the grains: (x, y, moment) [N s/m, N s]. All ranks that hold a grain must
     /// pass the same values.
@@ -72,7 +72,7 @@ class ConstrainedFlow {
     FluidField& field() const { return system_->field(); }
 
     SaddleOperator* system_ = nullptr;
-    CellVelocity velocity_{};
+    VelocityPointers velocity_{};
     std::vector<Planar> momentum_;    // P + J, and what was imposed
     std::vector<Planar> prescribed_;  // motions that no impulse changes
     std::vector<Planar> motions_, impulses_;

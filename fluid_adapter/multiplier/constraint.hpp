@@ -21,7 +21,7 @@
 #include <functional>
 #include <vector>
 
-#include "fluid_adapter/multiplier/cell_velocity.hpp"
+#include "fluid_adapter/multiplier/components.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 
 namespace turbidite {
@@ -55,7 +55,7 @@ class Constraint {
 
     /// (u, U) = W(u3, P) with the momenta of the grains (ImmersedGrain::momentum); u is kept by
     /// reference. Throws std::runtime_error naming a grain that ties too little fluid.
-    virtual MultiplierResult solve(const CellVelocity& u) = 0;
+    virtual MultiplierResult solve(const VelocityPointers& u) = 0;
 
     /// Adds impulses to the grains. All ranks that hold a grain must pass the same values.
     virtual MultiplierResult push(const std::vector<Impulse>& impulses) = 0;
@@ -85,7 +85,7 @@ class Constraint {
 
     /// change <- W change, and what it does to the grains. The slip is reduced by the factor
     /// `reduction`.
-    virtual MultiplierResult make_rigid(const CellVelocity& change, double reduction,
+    virtual MultiplierResult make_rigid(const VelocityPointers& change, double reduction,
                                         GrainChange& of_grains) = 0;
 
     /// The grains take `share` of a change. The caller adds that of the velocity itself.

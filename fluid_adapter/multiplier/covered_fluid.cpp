@@ -29,8 +29,8 @@ CellSums sum_cells(const CollocationPoints& points, int g) {
     return sums;
 }
 
-Planar sum_velocity(const CollocationPoints& points, const CellVelocity& velocity, int g) {
-    const double *ux = velocity.x, *uy = velocity.y;
+Planar sum_velocity(const CollocationPoints& points, const VelocityPointers& velocity, int g) {
+    const double *ux = velocity[0], *uy = velocity[1];
     expect_cells(points, g + 1, ux, uy);
     double x = 0.0, y = 0.0, moment = 0.0;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
@@ -51,9 +51,9 @@ Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, d
     return inertia;
 }
 
-Planar carry_cells(const CollocationPoints& points, const CellVelocity& velocity, int g,
+Planar carry_cells(const CollocationPoints& points, const VelocityPointers& velocity, int g,
                    const Planar& motion, double reference_mass) {
-    double *ux = velocity.x, *uy = velocity.y;
+    double *ux = velocity[0], *uy = velocity[1];
     expect_cells(points, g + 1, ux, uy);
     double lost_x = 0.0, lost_y = 0.0, moment = 0.0;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {

@@ -15,8 +15,8 @@
 
 #include <Eigen/Core>
 
-#include "fluid_adapter/multiplier/cell_velocity.hpp"
 #include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/components.hpp"
 #include "fluid_adapter/multiplier/planar.hpp"
 
 namespace turbidite {
@@ -29,7 +29,7 @@ using CellSums = Eigen::Matrix<double, 4, 1>;
 CellSums sum_cells(const CollocationPoints& points, int g);
 
 /// The same of u_x, u_y, r x u [m/s, m2/s].
-Planar sum_velocity(const CollocationPoints& points, const CellVelocity& velocity, int g);
+Planar sum_velocity(const CollocationPoints& points, const VelocityPointers& velocity, int g);
 
 /// A [kg, kg m, kg m2 per unit length].
 Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums,
@@ -37,7 +37,7 @@ Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums,
 
 /// Sets this rank's interior cells of grain g to the rigid motion; returns the impulse and its
 /// moment lost by the fluid.
-Planar carry_cells(const CollocationPoints& points, const CellVelocity& velocity, int g,
+Planar carry_cells(const CollocationPoints& points, const VelocityPointers& velocity, int g,
                    const Planar& motion, double reference_mass);
 
 }  // namespace turbidite

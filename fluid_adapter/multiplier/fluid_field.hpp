@@ -8,6 +8,7 @@
 #include "coupler/protocol/records.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 #include "fluid_adapter/multiplier/cell_table.hpp"
+#include "fluid_adapter/multiplier/components.hpp"
 #include "fluid_adapter/multiplier/layer_cells.hpp"
 
 namespace turbidite {
@@ -56,6 +57,12 @@ class FluidField {
 
     /// One component of velocity, contiguous over the owned cells [m/s].
     virtual double* velocity(int axis) = 0;
+
+    VelocityPointers velocities() {
+        VelocityPointers all(grid().dimension);
+        for (int axis = 0; axis < all.size(); ++axis) all[axis] = velocity(axis);
+        return all;
+    }
 
     /// Whether other ranks know the cell too: it is in this rank's halo or in another's.
     virtual bool shares(int) const { return false; }

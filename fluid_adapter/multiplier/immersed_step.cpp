@@ -130,13 +130,8 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
     }
 }
 
-CellVelocity ImmersedStep::velocity() const {
-    return {field_.velocity(0), field_.velocity(1),
-            run_.dimension == 3 ? field_.velocity(2) : nullptr};
-}
-
 MultiplierResult ImmersedStep::solve() {
-    return constraint_->solve(velocity());
+    return constraint_->solve(field_.velocities());
 }
 
 MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts) {

@@ -73,7 +73,6 @@ class ImmersedStep {
     Vec3 driving(const GrainState& state, double step) const;
     void take(const std::vector<GrainState>& states, const Window& window);
     void prescribe(const Window& window);
-    CellVelocity velocity() const;
     bool answers_for(std::size_t grain) const;
     FreeResponse response(std::size_t g) const;
     double mismatch(std::size_t g) const;

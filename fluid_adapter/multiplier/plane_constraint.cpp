@@ -24,7 +24,7 @@ void PlaneConstraint::place(const std::vector<ImmersedGrain>& grains) {
     placement_.place(field_, grains, points_);
 }
 
-MultiplierResult PlaneConstraint::solve(const CellVelocity& u) {
+MultiplierResult PlaneConstraint::solve(const VelocityPointers& u) {
     system_.assemble(field_, *grains_, points_);
     flow_.begin(system_, u, momenta_of(*grains_), prescribed_motions(*grains_));
     const MultiplierResult result = uzawa_cg(flow_, settings_, work_);
@@ -65,7 +65,7 @@ void PlaneConstraint::clear_covered(double* values) const {
     for (const InteriorCell& inside : points_.interior) values[inside.cell] = 0.0;
 }
 
-MultiplierResult PlaneConstraint::make_rigid(const CellVelocity& change, double reduction,
+MultiplierResult PlaneConstraint::make_rigid(const VelocityPointers& change, double reduction,
                                              GrainChange& of_grains) {
     MultiplierSettings settings = settings_;
     settings.tolerance = 1.0;  // the slip of a change is judged by its own size

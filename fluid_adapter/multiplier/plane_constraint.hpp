@@ -15,7 +15,7 @@ class PlaneConstraint final : public Constraint {
         : field_(field), settings_(settings), placement_(rules) {}
 
     void place(const std::vector<ImmersedGrain>& grains) override;
-    MultiplierResult solve(const CellVelocity& u) override;
+    MultiplierResult solve(const VelocityPointers& u) override;
     MultiplierResult push(const std::vector<Impulse>& impulses) override;
     void impose() override { flow_.impose(); }
     Twist motion(std::size_t grain) const override { return twist(flow_.motions()[grain]); }
@@ -26,7 +26,7 @@ class PlaneConstraint final : public Constraint {
     Twist moved_by(std::size_t grain, const Impulse& impulse) const override;
     void for_cells(const std::function<void(int)>& visit) const override;
     void clear_covered(double* values) const override;
-    MultiplierResult make_rigid(const CellVelocity& change, double reduction,
+    MultiplierResult make_rigid(const VelocityPointers& change, double reduction,
                                 GrainChange& of_grains) override;
     void add(const GrainChange& change, double share) override { flow_.add(change, share); }
     MultiplierResult settle() override;

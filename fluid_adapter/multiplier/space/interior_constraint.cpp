@@ -57,6 +57,36 @@ void add_run(Moments& sums, const CellRun& run, double h) {
     }
 }
 
+/// Sums of v and r x v over the cells of a grain, weighted as in Moments.
+class CellSums {
+ public:
+    explicit CellSums(double h) : h_(h) {}
+
+    /// Adds a run with `value(c)` in its cell c, where r = first + c h e_x.
+    template <class Value>
+    void add(const CellRun& run, Value value) {
+        Vector of_run = Vector::Zero(), along = Vector::Zero();
+        for (int c = 0; c < run.count; ++c) {
+            const Vector v = value(c);
+            of_run += v;
+            along += c * v;
+        }
+        sum_ += run.volume * of_run;
+        moment_ += run.volume * (run.first.cross(of_run) + h_ * Vector::UnitX().cross(along));
+    }
+
+    /// Both times rho_f V of the reference cell.
+    Eigen::Matrix<double, 6, 1> times(double m) const {
+        Eigen::Matrix<double, 6, 1> both;
+        both << m * sum_, m * moment_;
+        return both;
+    }
+
+ private:
+    double h_;
+    Vector sum_ = Vector::Zero(), moment_ = Vector::Zero();
+};
+
 /// A from the sums over all ranks.
 Eigen::Matrix<double, 6, 6> body_inertia(const ImmersedGrain& grain,
                                          const Eigen::Matrix<double, Moments::count, 1>& sums,
@@ -130,24 +160,17 @@ InteriorConstraint::Six InteriorConstraint::moved(std::size_t grain, const Six& 
 }
 
 /// sum m (u ; r x u) of every grain, over all ranks.
-std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(const CellVelocity& u) const {
+std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(
+    const VelocityPointers& u) const {
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> sums(grains_->size());
     for (std::size_t g = 0; g < sums.size(); ++g) {
-        Vector sum = Vector::Zero(), moment = Vector::Zero();
+        CellSums of_cells(h);
         for (const CellRun& run : cells_.runs(g)) {
-            const double *ux = u.x + run.cell, *uy = u.y + run.cell, *uz = u.z + run.cell;
-            Vector of_run = Vector::Zero(), along = Vector::Zero();
-            for (int c = 0; c < run.count; ++c) {
-                const Vector v(ux[c], uy[c], uz[c]);
-                of_run += v;
-                along += c * v;
-            }
-            // r = first + c h e_x
-            sum += run.volume * of_run;
-            moment += run.volume * (run.first.cross(of_run) + h * Vector::UnitX().cross(along));
+            const double *ux = u[0] + run.cell, *uy = u[1] + run.cell, *uz = u[2] + run.cell;
+            of_cells.add(run, [&](int c) { return Vector(ux[c], uy[c], uz[c]); });
         }
-        sums[g] << m * sum, m * moment;
+        sums[g] = of_cells.times(m);
     }
     sum_over_holders(sums);
     return sums;
@@ -156,34 +179,29 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(const Cell
 /// Sets this rank's cells to the motions of their grains; returns the impulses, of all ranks, that
 /// the fluid loses by it.
 std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
-    const CellVelocity& u, const std::vector<Six>& motions) const {
+    const VelocityPointers& u, const std::vector<Six>& motions) const {
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> lost(grains_->size());
     for (std::size_t g = 0; g < lost.size(); ++g) {
         const Vector spin = motions[g].tail<3>();
         const Vector step = h * spin.cross(Vector::UnitX());  // of U + omega x r along a run
-        Vector sum = Vector::Zero(), moment = Vector::Zero();
+        CellSums off(h);
         for (const CellRun& run : cells_.runs(g)) {
             const Vector first = motions[g].head<3>() + spin.cross(run.first);
-            double *ux = u.x + run.cell, *uy = u.y + run.cell, *uz = u.z + run.cell;
-            Vector of_run = Vector::Zero(), along = Vector::Zero();
-            for (int c = 0; c < run.count; ++c) {
-                const Vector now = first + c * step;
-                const Vector off = Vector(ux[c], uy[c], uz[c]) - now;
-                of_run += off;
-                along += c * off;
+            double *ux = u[0] + run.cell, *uy = u[1] + run.cell, *uz = u[2] + run.cell;
+            off.add(run, [&](int c) {
+                const Vector then(ux[c], uy[c], uz[c]), now = first + c * step;
                 ux[c] = now.x(), uy[c] = now.y(), uz[c] = now.z();
-            }
-            sum += run.volume * of_run;
-            moment += run.volume * (run.first.cross(of_run) + h * Vector::UnitX().cross(along));
+                return Vector(then - now);
+            });
         }
-        lost[g] << m * sum, m * moment;
+        lost[g] = off.times(m);
     }
     sum_over_holders(lost);
     return lost;
 }
 
-MultiplierResult InteriorConstraint::solve(const CellVelocity& u) {
+MultiplierResult InteriorConstraint::solve(const VelocityPointers& u) {
     velocity_ = u;
     impulses_.assign(grains_->size(), Six::Zero());
     motions_ = sum_velocity(u);
@@ -239,7 +257,7 @@ void InteriorConstraint::clear_covered(double* values) const {
 }
 
 /// What it does to grains: motions, then impulses.
-MultiplierResult InteriorConstraint::make_rigid(const CellVelocity& change, double,
+MultiplierResult InteriorConstraint::make_rigid(const VelocityPointers& change, double,
                                                 GrainChange& of_grains) {
     std::vector<Six> motions = sum_velocity(change);
     for (std::size_t g = 0; g < motions.size(); ++g) motions[g] = moved(g, motions[g]);

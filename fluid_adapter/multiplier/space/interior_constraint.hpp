@@ -27,7 +27,7 @@ class InteriorConstraint final : public Constraint {
     explicit InteriorConstraint(FluidField& field) : field_(field), cells_(field.layers()) {}
 
     void place(const std::vector<ImmersedGrain>& grains) override;
-    MultiplierResult solve(const CellVelocity& u) override;
+    MultiplierResult solve(const VelocityPointers& u) override;
     MultiplierResult push(const std::vector<Impulse>& impulses) override;
     void impose() override;
     Twist motion(std::size_t grain) const override;
@@ -40,7 +40,7 @@ class InteriorConstraint final : public Constraint {
 
     void for_cells(const std::function<void(int)>& visit) const override;
     void clear_covered(double* values) const override;
-    MultiplierResult make_rigid(const CellVelocity& change, double reduction,
+    MultiplierResult make_rigid(const VelocityPointers& change, double reduction,
                                 GrainChange& of_grains) override;
     void add(const GrainChange& change, double share) override;
     MultiplierResult settle() override;
@@ -55,8 +55,8 @@ class InteriorConstraint final : public Constraint {
     using SixBySix = Eigen::Matrix<double, 6, 6>;
 
     void sum_bodies();
-    std::vector<Six> sum_velocity(const CellVelocity& u) const;
-    std::vector<Six> carry(const CellVelocity& u, const std::vector<Six>& motions) const;
+    std::vector<Six> sum_velocity(const VelocityPointers& u) const;
+    std::vector<Six> carry(const VelocityPointers& u, const std::vector<Six>& motions) const;
     template <class Row>
     void sum_over_holders(std::vector<Row>& rows) const;
     Six moved(std::size_t grain, const Six& impulse) const;
@@ -64,7 +64,7 @@ class InteriorConstraint final : public Constraint {
     FluidField& field_;
     SphereCells cells_;
     const std::vector<ImmersedGrain>* grains_ = nullptr;
-    CellVelocity velocity_{};
+    VelocityPointers velocity_{};
     std::vector<Eigen::LLT<SixBySix>> bodies_;  // A; not of grains of prescribed motion
     std::vector<double> linear_, angular_;      // isotropic A
     std::vector<Six> motions_, impulses_;

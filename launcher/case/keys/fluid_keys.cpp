@@ -94,7 +94,7 @@ Ruling scheme_is_stable(const Settings& s) {
         "smaller step."};
 }
 
-// Step 5 needs a halo of three layers (halo_layers in foamFluidField.cpp), and a rank should have
+// Step 5 needs a halo of three layers (halo_layers in planeField.cpp), and a rank should have
 // more layers than its halo.
 constexpr double least_layers = 4.0;
 

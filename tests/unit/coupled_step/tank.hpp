@@ -132,7 +132,7 @@ struct Tank {
     }
 
     std::size_t size() const { return static_cast<std::size_t>(cells_across) * cells_across; }
-    CellVelocity velocity() { return {step.velocity(0), step.velocity(1)}; }
+    VelocityPointers velocity() { return {step.velocity(0), step.velocity(1)}; }
     RigidGrains rigid() {
         return RigidGrains(constraint, {step.velocity(0), step.velocity(1)}, size());
     }

@@ -37,7 +37,7 @@ class SpaceField : public FluidField {
     double reference_mass() const override { return edge * edge * edge; }
     double* velocity(int axis) override { return velocity_[axis].data(); }
 
-    CellVelocity all() { return {velocity(0), velocity(1), velocity(2)}; }
+    VelocityPointers all() { return {velocity(0), velocity(1), velocity(2)}; }
 
     void fill_randomly(unsigned seed) {
         std::mt19937 random(seed);

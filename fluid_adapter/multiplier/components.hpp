@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // One value per component of a velocity: two in the plane, three in space. Valid C++17.
 #pragma once
@@ -28,5 +28,8 @@ class Components {
     std::array<T, 3> values_{};
     int size_;
 };
+
+/// A velocity over a rank's own cells, an array per component, which are not copied [m/s].
+using VelocityPointers = Components<double*>;
 
 }  // namespace turbidite
