@@ -48,7 +48,7 @@ TEST(Handshake, EveryMismatchGetsItsSentence) {
     joint.effective_inertia = true;
     const auto sentences = mismatches(hello, joint);
     ASSERT_EQ(sentences.size(), 7u);
-    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.9, the case needs 1.x");
+    EXPECT_EQ(sentences[0], "grains rank 0: protocol version is 2.10, the case needs 1.x");
     EXPECT_EQ(sentences[1], "grains rank 0: adapter is lammps-md, the case needs yade-nscd");
     EXPECT_EQ(sentences[6], "grains rank 0: list of shapes is sphere, the case needs disc");
 }
