@@ -5,8 +5,9 @@
     bench/rebound.py RUN...
 
 RUN are folders of the parts rebound* of configs/spheres-in-liquid.yaml. U is the largest speed downwards before the first
-contact, e the largest speed upwards within two t_c after it over U, St = (rho_s/rho_f) U D/(9 nu); beside e/e_dry stands
-exp(-35/St), through the measurements (Legendre et al., Phys. Fluids 17 (2005) 097105)."""
+contact, e the speed a tenth of a t_c after it over U (in between the liquid that came down with the sphere gives back its
+momentum), St = (rho_s/rho_f) U D/(9 nu); beside e/e_dry stands exp(-35/St), a curve through measurements (Legendre, Daniel
+and Guiraud, Phys. Fluids 17 (2005) 097105)."""
 import argparse
 import sys
 from pathlib import Path
@@ -18,17 +19,17 @@ sys.path.insert(0, str(ROOT / 'launcher/report'))
 
 import run_data
 
-AFTER = 2.0  # [t_c]
+AFTER = 0.1  # [t_c]
 
 
 def rebound(run):
     """(St, e/e_dry, smallest gap [D])."""
     time, speed = run.column('mean_velocity_y')
     gap = run.column('mean_position_y')[1] - 0.5
-    lowest = int(np.argmin(gap[:np.argmax(speed > 0.0)] if np.any(speed > 0.0) else gap))
-    fall = -speed[:lowest + 1].min()
-    after = speed[(time >= time[lowest]) & (time <= time[lowest] + AFTER)].max()
-    stokes = float(run.case['grains.density_ratio']) * fall * run.scale('u_c') * run.scale('D') / (9.0 * float(run.case['scales.viscosity']))
+    fall = -speed.min()
+    up = np.flatnonzero(speed > 0.0)
+    after = np.interp(time[up[0]] + AFTER, time, speed) if len(up) else 0.0
+    stokes = float(run.case['grains.density_ratio']) * fall / (9.0 * float(run.case['scales.viscosity']))
     return stokes, max(after, 0.0) / fall / float(run.case['contact.restitution']), gap.min()
 
 

@@ -7,14 +7,17 @@
 
 namespace turbidite::nscd {
 
-double approach_at_touch(const ContactSituation& s, const FilmTerms& film) {
-    if (film.coefficient == 0.0) return s.approach.n;
+double speed_lost(const ContactSituation& s, const FilmTerms& film) {
+    if (film.coefficient == 0.0) return 0.0;
     const double closed = film.gap - std::max(s.gap, 0.0), from = std::min(film.gap, film.cutoff);
-    if (from <= closed) return s.approach.n;
+    if (from <= closed) return 0.0;
     // W C (ln(g/g_closed) - (g - g_closed)/g_c)
-    const double lost =
-        s.mobility * film.coefficient * (std::log(from / closed) - (from - closed) / film.cutoff);
-    return s.approach.n < 0.0 ? std::min(s.approach.n + lost, 0.0) : s.approach.n;
+    return s.mobility * film.coefficient *
+           (std::log(from / closed) - (from - closed) / film.cutoff);
+}
+
+double approach_at_touch(const ContactSituation& s, const FilmTerms& film) {
+    return s.approach.n < 0.0 ? std::min(s.approach.n + speed_lost(s, film), 0.0) : s.approach.n;
 }
 
 bool in_impact(const ContactSituation& s, const LawTerms& terms, double threshold) {
@@ -23,7 +26,10 @@ bool in_impact(const ContactSituation& s, const LawTerms& terms, double threshol
 }
 
 void demand_rebound(const ContactSituation& s, double restitution, LawTerms& terms) {
-    terms.normal_bias = std::min(terms.normal_bias, restitution * approach_at_touch(s, terms.film));
+    // The film takes its part again on the way back to the gap at which the window began.
+    const double rebound =
+        -restitution * approach_at_touch(s, terms.film) - speed_lost(s, terms.film);
+    if (rebound > 0.0) terms.normal_bias = std::min(terms.normal_bias, -rebound);
 }
 
 bool never_bounces(const SurfaceTable& surfaces) {

@@ -10,14 +10,19 @@
 
 namespace turbidite::nscd {
 
-/// u_n^-; with a film what it leaves of an approach by the time the surfaces touch, from the
-/// integral of m dv = -C (1/g_h - 1/g_c) dg with 1/m = W_nn, zero if they do not get there [m/s].
+/// What a film takes of the speed between the gap and touching, from the integral of m dv = -C
+/// (1/g_h
+/// - 1/g_c) dg with 1/m = W_nn; zero without one [m/s].
+double speed_lost(const ContactSituation& situation, const FilmTerms& film);
+
+/// u_n^-; with a film what it leaves of an approach by the time the surfaces touch, zero if they do
+/// not get there [m/s].
 double approach_at_touch(const ContactSituation& situation, const FilmTerms& film);
 
 /// The approach is faster than `threshold`, and the contact is closed or closes within the step.
 bool in_impact(const ContactSituation& situation, const LawTerms& terms, double threshold);
 
-/// Imposes u_n >= -e u_n^-, unless the terms already require more.
+/// Imposes u_n >= -e u_n^-, less what a film takes, unless the terms already require more.
 void demand_rebound(const ContactSituation& situation, double restitution, LawTerms& terms);
 
 /// True if no pair of surfaces has a restitution coefficient above zero.
