@@ -74,6 +74,15 @@ class ShellTest : public ::testing::Test {
                 text(scratch.path() / "out"), text(scratch.path() / "err")};
     }
 
+    /// Of a process, as its folder of /proc tells it; empty if it ends meanwhile.
+    std::string command_line(const std::filesystem::path& process) const {
+        try {
+            return text(process / "cmdline");
+        } catch (const std::ios_base::failure&) {
+            return {};
+        }
+    }
+
     /// Processes with `folder` and `what` on their command line.
     std::vector<pid_t> processes(const std::filesystem::path& folder,
                                  const std::string& what = "") const {
@@ -81,7 +90,7 @@ class ShellTest : public ::testing::Test {
         for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
             const std::string name = entry.path().filename();
             if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-            const std::string line = text(entry.path() / "cmdline");
+            const std::string line = command_line(entry.path());
             const bool ours = line.find(folder.string()) != std::string::npos;
             if (ours && line.find(what) < line.find('\0')) found.push_back(std::stoi(name));
         }
