@@ -50,7 +50,7 @@ class AdapterKit : public ShellTest {
     }
 
     Answer judge(const std::string& command) const {
-        return shell("timeout 120 " TURBIDITE_PROGRAM " adapter-test -- " + command);
+        return shell("timeout 300 " TURBIDITE_PROGRAM " adapter-test -- " + command);
     }
 
     /// And refuses what it cannot do in words.
