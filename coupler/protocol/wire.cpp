@@ -81,16 +81,20 @@ void maybe(Reader& code, std::optional<Value>& value, Visit visit) {
     if (given) visit(code, value.emplace());
 }
 
-/// A value at the end of a payload, which older programs do not know: nothing stands for none.
+/// An optional value at the end of a payload, which older programs do not know: where it is missing
+/// there is nothing, not even the flag of maybe(), so that they stay as they were.
 template <class Value>
 void trailing(Writer& code, const std::optional<Value>& value) {
-    if (value) code(*value);
+    if (value) code(true), code(*value);
 }
 
 template <class Value>
 void trailing(Reader& code, std::optional<Value>& value) {
     value.reset();
-    if (!code.at_end()) code(value.emplace());
+    if (code.at_end()) return;
+    bool given = false;
+    code(given), code(value.emplace());
+    if (!given) throw MalformedPayload("payload ends with a value that is said not to be there");
 }
 
 // Records of a fixed number of numbers, of which there may be millions: one check of the length,
