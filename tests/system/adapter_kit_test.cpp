@@ -120,9 +120,9 @@ TEST_F(AdapterKit, ThePackageIsWholeAndWorksWithPkgConfig) {
 
     const std::string flags =
         "$(PKG_CONFIG_PATH=prefix/lib/pkgconfig pkg-config --cflags --libs turbidite)";
-    const Answer build =
-        shell("cp -r prefix/share/turbidite/examples/* . && g++ -std=c++17 springs.cpp -o springs " +
-              flags + " && cc falling.c -o falling " + flags + " -lm");
+    const Answer build = shell(
+        "cp -r prefix/share/turbidite/examples/* . && g++ -std=c++17 springs.cpp -o springs " +
+        flags + " && cc falling.c -o falling " + flags + " -lm");
     ASSERT_EQ(build.code, 0) << build.out << build.err;
     for (const std::string program : {"springs", "falling"}) {
         const Answer answer = run_external(program, "--set time.end=0.1");
