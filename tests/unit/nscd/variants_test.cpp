@@ -107,7 +107,7 @@ TEST(ContactNames, AreTheEntriesOfTheLists) {
             offered.push_back(slot_name(static_cast<LawSlot>(slot)) + " " + choice.name);
     for (const LawEntry& law : law_list()) known.push_back(slot_name(law.slot) + " " + law.name);
     EXPECT_EQ(offered, known);
-    EXPECT_EQ(known.size(), 11u);
+    EXPECT_EQ(known.size(), 13u);
     offered.clear(), known.clear();
     for (const NamedChoice& choice : solver_choices()) offered.push_back(choice.name);
     for (const SolverEntry& solver : solver_list()) known.push_back(solver.name);
