@@ -14,9 +14,7 @@ class SpaceField final : public FoamField {
 
     const CellTable& cells() const override { return none_; }
     int local_cells() const override { return owned_cells(); }
-    int first_layer() const override {
-        return first_cell_ / (grid().counts[0] * grid().counts[2]);
-    }
+    int first_layer() const override { return first_cell_ / (grid().counts[0] * grid().counts[2]); }
 
     void work_on(FluidStep& step) override;
     int mesh_cell(int cell) const override { return mesh_cell_[cell]; }
