@@ -9,16 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "granular_adapter/nscd/names/contact_names.hpp"
+#include "granular_adapter/contact_keys/offered_choices.hpp"
 
 namespace turbidite {
 namespace {
-
-std::vector<Choice> offered(const std::vector<nscd::NamedChoice>& names) {
-    std::vector<Choice> choices;
-    for (const nscd::NamedChoice& entry : names) choices.push_back({entry.name, entry.description});
-    return choices;
-}
 
 bool adheres(const Settings& s) {
     return s.has("contact.adhesion") && !is(s, "contact.adhesion", "none");

@@ -5,16 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "granular_adapter/nscd/names/contact_names.hpp"
+#include "granular_adapter/contact_keys/offered_choices.hpp"
 
 namespace turbidite {
 namespace {
-
-std::vector<Choice> offered(const std::vector<nscd::NamedChoice>& names) {
-    std::vector<Choice> choices;
-    for (const nscd::NamedChoice& entry : names) choices.push_back({entry.name, entry.description});
-    return choices;
-}
 
 Ruling dumps_know_rolling(const Settings& s) {
     if (s.real("contact.rolling_friction") == 0.0) return std::nullopt;

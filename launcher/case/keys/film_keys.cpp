@@ -4,19 +4,12 @@
 // a case with a fluid has.
 #include <fmt/format.h>
 
-#include "granular_adapter/nscd/names/contact_names.hpp"
+#include "granular_adapter/contact_keys/offered_choices.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
 namespace turbidite {
 namespace {
-
-std::vector<Choice> laws() {
-    std::vector<Choice> choices;
-    for (const auto& law : nscd::law_choices(nscd::LawSlot::film))
-        choices.push_back({law.name, law.description});
-    return choices;
-}
 
 bool has_films(const Settings& s) {
     return in_space(s) && s.flag("fluid.enabled") && s.text("contact.film") != "none";
@@ -55,7 +48,7 @@ KeyGroup film_keys() {
             {of_space({.name = "contact.film",
                        .type = KeyType::choice,
                        .fallback = "none",
-                       .choices = laws(),
+                       .choices = offered(nscd::law_choices(nscd::LawSlot::film)),
                        .help = "forces of the liquid between grains, and grains and walls, that "
                                "the cells do not resolve",
                        .idle = without_fluid}),
