@@ -49,8 +49,14 @@ bool stands_for(const std::string& part, const std::string& text) {
            is_word(text.substr(dash + 1));
 }
 
+/// Placeholders are the only capitals in the name of a key.
+bool has_placeholder(const std::string& name) {
+    return std::any_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+}
+
 bool means(const KeySpec& key, const std::string& name) {
     if (key.name == name) return true;
+    if (!has_placeholder(key.name)) return false;
     const auto parts = parts_of(key.name), words = parts_of(name);
     return std::equal(parts.begin(), parts.end(), words.begin(), words.end(), stands_for);
 }

@@ -44,7 +44,11 @@ class NeighbourGrid {
     std::size_t row(double y) const;
     std::size_t layer(double z) const;
     std::vector<std::size_t>& cell_at(const PlacedGrain& grain);
-    std::vector<std::size_t> around(std::size_t centre, std::size_t count, bool periodic) const;
+    Vec3 distance(const PlacedGrain& one, const PlacedGrain& other) const;
+    bool is_closer(const PlacedGrain& one, const PlacedGrain& other, double least) const;
+    /// Whether the predicate holds for one of the grains in the cells around a point.
+    template <class Predicate>
+    bool any_near(double x, double y, double z, const Predicate& holds) const;
 
     PackingBox box_;
     const GrainForms* forms_ = nullptr;

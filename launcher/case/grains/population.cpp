@@ -303,15 +303,62 @@ void check_inside(const Packing& grains, const PackingBox& box, const SolidSides
     problems.finish("grains outside");
 }
 
+double median_radius(const Packing& grains) {
+    std::vector<double> radii;
+    for (const PlacedGrain& grain : grains) radii.push_back(grain.radius);
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
+}
+
+/// Finds which of the grains so far may touch a further one. Grains far above the median radius
+/// stand outside the grid, whose cells would otherwise hold thousands of the small ones.
+class GrainsSoFar {
+ public:
+    GrainsSoFar(const Packing& grains, const PackingBox& box, const GrainForms& forms)
+        : grains_(grains),
+          most_(4.0 * median_radius(grains)),
+          grid_(box, std::min(largest_radius(grains), most_), 0.0, &forms) {}
+
+    const NeighbourGrid& geometry() const { return grid_; }
+
+    void add(std::size_t index) {
+        if (is_large(index)) return large_.push_back(index);
+        grid_.insert(grains_[index]);
+        in_grid_.push_back(index);
+    }
+
+    /// Ascending.
+    std::vector<std::size_t> near(std::size_t index) const {
+        std::vector<std::size_t> found = large_;
+        if (is_large(index)) {
+            found.insert(found.end(), in_grid_.begin(), in_grid_.end());
+        } else {
+            const PlacedGrain& grain = grains_[index];
+            for (const std::size_t other : grid_.near(grain.x, grain.y, grain.z))
+                found.push_back(in_grid_[other]);
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+ private:
+    bool is_large(std::size_t index) const { return grains_[index].radius > most_; }
+
+    const Packing& grains_;
+    double most_ = 0.0;  ///< radius of the grains in the grid [D]
+    NeighbourGrid grid_;
+    std::vector<std::size_t> in_grid_, large_;
+};
+
 void check_overlaps(const Packing& grains, const PackingBox& box, const GrainForms& forms,
                     double tolerance, Collector problems) {
-    const double largest = largest_radius(grains);
-    if (largest <= 0.0) return;
-    NeighbourGrid grid(box, largest, 0.0, &forms);
+    if (grains.empty() || largest_radius(grains) <= 0.0) return;
+    GrainsSoFar so_far(grains, box, forms);
     for (std::size_t i = 0; i < grains.size(); ++i) {
-        for (const std::size_t j : grid.near(grains[i].x, grains[i].y, grains[i].z)) {
-            if (grid.circle_gap(grains[i], grains[j]) >= -tolerance) continue;
-            const double gap = grid.gap(grains[i], grains[j]);
+        for (const std::size_t j : so_far.near(i)) {
+            if (so_far.geometry().circle_gap(grains[i], grains[j]) >= -tolerance) continue;
+            const double gap = so_far.geometry().gap(grains[i], grains[j]);
             if (gap < -tolerance)
                 problems.add(i,
                              fmt::format("grains {} and {} overlap by {:.4g} D", grains[j].id,
@@ -319,7 +366,7 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
                              "Grains may touch but not overlap by more than grains.overlap.",
                              "Move one of them.");
         }
-        grid.insert(grains[i]);
+        so_far.add(i);
     }
     problems.finish("overlaps");
 }

@@ -96,6 +96,20 @@ TEST(Population, GrainsOfAllSizesAreCompared) {
                 "grains 0 and 1 overlap by 0.05 D");
 }
 
+TEST(Population, OneFarAboveTheOthersMeetsThem) {
+    // The large one comes in the middle: it meets the row below it, and the last one meets it.
+    Packing grains;
+    for (int i = 0; i < 9; ++i) grains.push_back({.id = i, .x = 1.0 + i, .y = 0.5});
+    grains.push_back({.id = 20, .x = 5, .y = 3.5, .radius = 2.75});
+    grains.push_back({.id = 21, .x = 5, .y = 6.5});
+    const std::string text = texts(check_population(grains, {"g", {}}, box, {}));
+    EXPECT_SAYS(text, "grains 4 and 20 overlap by 0.25 D");
+    EXPECT_SAYS(text, "grains 20 and 21 overlap by 0.25 D");
+    // Those beside number 4 are at a distance of 3.1623 from it.
+    EXPECT_SAYS(text, "grains 3 and 20 overlap by 0.08772 D");
+    EXPECT_SAYS(text, "4 errors");
+}
+
 TEST(Population, TouchingIsNoOverlap) {
     const Packing grains{{.id = 0, .x = 0.5, .y = 0.5}, {.id = 1, .x = 1.5, .y = 0.5}};
     EXPECT_EQ(texts(check_population(grains, {"g", {}}, box, {})), "");
