@@ -27,7 +27,7 @@ namespace {
 
 using mutation::CaseText;
 
-constexpr long usual_mutations = 2000, per_process = 500;
+constexpr long usual_mutations = 1000, per_process = 250;
 constexpr unsigned longest = 30;  // for one case [s]
 
 const char* const grains_csv =

@@ -9,6 +9,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'launcher/report'))
+import page
+
+page.RESOLUTION = 40  # the drawing of pixels would take most of the tests' time
 
 CASE = """# Resolved case: every key, defaults filled in.
 dimension: 2
