@@ -14,6 +14,7 @@
 #include "launcher/case/keys/wrapped_text.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/terminal.hpp"
+#include "launcher/version.hpp"
 
 namespace turbidite {
 namespace {
@@ -31,6 +32,7 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> table = {
         {"run", "run a case: validate, prepare a folder, start the job, write report.html",
          declare_run},
+        {"new", "write a case of your own, beginning with a shipped one", declare_new},
         {"resume", "go on with a run from its last whole checkpoint", declare_resume},
         {"check", "validate a case or a study, all errors at once", declare_check},
         {"report", "write report.html of a run folder", declare_report},
@@ -59,6 +61,11 @@ class Help final : public CLI::Formatter {
         return fitted(CLI::Formatter::make_help(app, std::move(name), mode), terminal_width());
     }
 };
+
+std::string version_line() {
+    const std::string name = "turbidite " + version();
+    return commit().empty() ? name : name + " (commit " + commit() + ")";
+}
 
 int act(const CommandAction& action) {
     try {
@@ -102,7 +109,7 @@ int turbidite_main(const std::vector<std::string>& words) {
         return static_cast<int>(ExitCode::bad_input);
     }
     CLI::App app{description, "turbidite"};
-    app.set_version_flag("--version", "turbidite " TURBIDITE_VERSION);
+    app.set_version_flag("--version", [] { return version_line(); });
     app.require_subcommand(1);
     app.formatter(std::make_shared<Help>());
     app.footer(footer);

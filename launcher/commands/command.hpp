@@ -19,6 +19,7 @@ struct Command {
     CommandAction (*declare)(CLI::App& options);
 };
 
+CommandAction declare_new(CLI::App& options);
 CommandAction declare_resume(CLI::App& app);
 CommandAction declare_run(CLI::App& options);
 CommandAction declare_check(CLI::App& options);

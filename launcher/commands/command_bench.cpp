@@ -9,7 +9,9 @@ namespace turbidite {
 namespace {
 
 [[noreturn]] int run_bench(const std::vector<std::string>& arguments) {
-    std::vector<std::string> line{find_programs().bench()};
+    const Programs programs = find_programs();
+    require_checkout(programs, "benchmarks");
+    std::vector<std::string> line{programs.bench()};
     line.insert(line.end(), arguments.begin(), arguments.end());
     hand_over(std::move(line));
 }

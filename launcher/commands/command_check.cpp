@@ -10,6 +10,7 @@
 #include "launcher/commands/command.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/prepare_run.hpp"
+#include "launcher/job/shipped_cases.hpp"
 #include "launcher/job/terminal.hpp"
 #include "launcher/study/study_plan.hpp"
 
@@ -48,12 +49,16 @@ int check(const CheckOptions& options) {
 
 CommandAction declare_check(CLI::App& app) {
     const auto options = std::make_shared<CheckOptions>();
-    app.add_option("FILE", options->file, "case or study file (YAML)")->required();
+    app.add_option("FILE", options->file, "case or study file (YAML), or the name of a shipped one")
+        ->required();
     app.add_option("--set", options->overrides, "key=value, replaces a value of the case")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     app.add_flag("--quick", options->quick, "the quick form of a study");
-    return [options] { return check(*options); };
+    return [options] {
+        options->file = case_named(options->file, find_programs());
+        return check(*options);
+    };
 }
 
 }  // namespace turbidite

@@ -75,7 +75,7 @@ int examine(const DoctorOptions& options) {
     sheet.add(installed_software(site));
     const Findings built = built_programs(site.programs);
     sheet.add(built);
-    if (any(built, Health::missing)) sheet.add(build_tools());
+    if (!site.programs.installed && any(built, Health::missing)) sheet.add(build_tools());
     sheet.add(state_of_machine(site));
     const bool ready = !sheet.any(Health::missing) && !sheet.any(Health::wrong);
     Finding job{Health::not_tried, "coupled job", "--no-job", ""};

@@ -11,6 +11,7 @@
 #include "launcher/commands/command.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/pour_grains.hpp"
+#include "launcher/job/shipped_cases.hpp"
 #include "launcher/job/terminal.hpp"
 
 namespace turbidite {
@@ -55,7 +56,8 @@ int run(const RunOptions& options) {
 
 CommandAction declare_run(CLI::App& app) {
     const auto options = std::make_shared<RunOptions>();
-    app.add_option("CASE", options->file, "case file (YAML)")->required();
+    app.add_option("CASE", options->file, "case file (YAML), or the name of a shipped case")
+        ->required();
     app.add_option("--set", options->overrides,
                    "key=value, replaces a value of the case; may be repeated (see turbidite keys)")
         ->allow_extra_args(false)
@@ -69,7 +71,10 @@ CommandAction declare_run(CLI::App& app) {
     app.add_flag("--force", options->order.force, "overwrite an existing run in --out");
     app.add_flag("--dry-run", options->dry_run,
                  "prepare everything and print the mpirun line instead of starting it");
-    return [options] { return run(*options); };
+    return [options] {
+        options->file = case_named(options->file, find_programs());
+        return run(*options);
+    };
 }
 
 }  // namespace turbidite

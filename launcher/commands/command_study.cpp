@@ -15,6 +15,7 @@
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/set_aside.hpp"
+#include "launcher/job/shipped_cases.hpp"
 #include "launcher/report/report_script.hpp"
 #include "launcher/study/other_defaults.hpp"
 #include "launcher/study/study_record.hpp"
@@ -268,7 +269,8 @@ int run_study(const StudyOptions& options) {
 
 CommandAction declare_study(CLI::App& app) {
     const auto options = std::make_shared<StudyOptions>();
-    app.add_option("STUDY", options->file, "study file (YAML); docs/studies.md")->required();
+    app.add_option("STUDY", options->file, "study file (YAML), or the name of a shipped study")
+        ->required();
     app.add_option("--set", options->overrides,
                    "key=value for every run, in place of what the study says")
         ->allow_extra_args(false)
@@ -281,7 +283,10 @@ CommandAction declare_study(CLI::App& app) {
                  "kept beside the new");
     app.add_flag("--quick", options->quick,
                  "the keys of `quick` instead of those of `full`; results in <out>-quick");
-    return [options] { return run_study(*options); };
+    return [options] {
+        options->file = case_named(options->file, find_programs());
+        return run_study(*options);
+    };
 }
 
 }  // namespace turbidite

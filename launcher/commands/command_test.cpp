@@ -19,8 +19,10 @@ namespace {
 constexpr auto slow_labels = "system|physics|protocol";
 
 int test(bool unit_only) {
+    const Programs programs = find_programs();
+    require_checkout(programs, "tests");
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::string> line{"ctest",      "--test-dir",          find_programs().build(),
+    std::vector<std::string> line{"ctest",      "--test-dir",          programs.build(),
                                   "--parallel", std::to_string(cores), "--output-on-failure"};
     if (unit_only) line.insert(line.end(), {"-LE", slow_labels});
     std::fflush(nullptr);

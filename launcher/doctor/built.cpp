@@ -13,17 +13,20 @@ namespace {
 namespace fs = std::filesystem;
 
 // Scripts are copied when the build is configured, programs and modules are linked.
-Finding missing_file(const fs::path& file) {
+Finding missing_file(const fs::path& file, bool installed) {
+    if (installed) return {Health::missing, file.filename(), "not installed", reinstall_command};
     const std::string again =
         file.extension() == ".py" ? std::string("rm -f build/release/.configured; ") : "";
     return {Health::missing, file.filename(), "not built", again + build_command};
 }
 
-Finding look_at(const fs::path& file) {
-    if (!fs::exists(file)) return missing_file(file);
+Finding look_at(const fs::path& file, bool installed) {
+    if (!fs::exists(file)) return missing_file(file, installed);
     const LoadedLibraries libraries = loaded_libraries(file);
-    if (libraries.absent.empty()) return {Health::ok, file.filename(), "built", ""};
-    return {Health::wrong, file.filename(), "does not find " + libraries.absent, build_command};
+    if (libraries.absent.empty())
+        return {Health::ok, file.filename(), installed ? "installed" : "built", ""};
+    return {Health::wrong, file.filename(), "does not find " + libraries.absent,
+            installed ? reinstall_command : build_command};
 }
 
 std::vector<fs::path> files_of_build(const Programs& programs) {
@@ -51,12 +54,12 @@ fs::path mpi4py_module(const Programs& programs) {
 }
 
 // A search path set by hand is what usually brings a second MPI.
-std::string libmpi_remedy() {
-    return std::getenv("LD_LIBRARY_PATH") ? "unset LD_LIBRARY_PATH"
-                                          : std::string("rm -r build/release; ") + build_command;
+std::string libmpi_remedy(bool installed) {
+    if (std::getenv("LD_LIBRARY_PATH")) return "unset LD_LIBRARY_PATH";
+    return installed ? reinstall_command : std::string("rm -r build/release; ") + build_command;
 }
 
-Finding one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py) {
+Finding one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py, bool installed) {
     if (!mpi4py.empty()) files.push_back(mpi4py);
     std::set<std::string> found;
     for (const fs::path& file : files) {
@@ -66,7 +69,8 @@ Finding one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py) {
     if (found.size() == 1) return {Health::ok, "one libmpi", *found.begin(), ""};
     std::string all;
     for (const std::string& library : found) all += (all.empty() ? "" : " and ") + library;
-    return {Health::wrong, "one libmpi", found.empty() ? "none is found" : all, libmpi_remedy()};
+    return {Health::wrong, "one libmpi", found.empty() ? "none is found" : all,
+            libmpi_remedy(installed)};
 }
 
 }  // namespace
@@ -74,8 +78,8 @@ Finding one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py) {
 Findings built_programs(const Programs& programs) {
     const std::vector<fs::path> files = files_of_build(programs);
     Findings findings;
-    for (const fs::path& file : files) findings.push_back(look_at(file));
-    findings.push_back(one_libmpi(files, mpi4py_module(programs)));
+    for (const fs::path& file : files) findings.push_back(look_at(file, programs.installed));
+    findings.push_back(one_libmpi(files, mpi4py_module(programs), programs.installed));
     return findings;
 }
 

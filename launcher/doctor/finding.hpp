@@ -21,6 +21,8 @@ using Findings = std::vector<Finding>;
 
 /// Builds the programs of a run, and installs the packages that the build needs.
 constexpr auto build_command = "./turbidite --version";
+/// Brings back what an installation has lost.
+constexpr auto reinstall_command = "apt-get install --reinstall turbidite";
 
 /// The command that installs a Debian package.
 inline std::string install_command(const std::string& package) {

@@ -21,7 +21,7 @@ const std::vector<std::string> few_grains = {
     "output.interval=0.25", "limits.start=60", "limits.stall_hard=60"};
 
 std::string remedy(const LaunchSite& site) {
-    return "./turbidite run " + (site.programs.source / "configs/quickstart.yaml").string();
+    return (site.programs.installed ? "turbidite" : "./turbidite") + std::string(" run quickstart");
 }
 
 JobEnd start(const PreparedRun& prepared) {
@@ -45,8 +45,7 @@ std::string fault(const PreparedRun& prepared) {
 
 Finding play(const LaunchSite& site, const std::filesystem::path& folder) {
     const auto begin = std::chrono::steady_clock::now();
-    const ResolvedCase resolved =
-        load_case(site.programs.source / "configs/quickstart.yaml", few_grains);
+    const ResolvedCase resolved = load_case(site.programs.cases() / "quickstart.yaml", few_grains);
     const PreparedRun prepared = prepare(resolved, {folder / "run", false}, site);
     const std::string refused = fault(prepared);
     if (!refused.empty()) return {Health::wrong, what, refused, remedy(site)};

@@ -17,9 +17,9 @@ void hand_over(std::vector<std::string> line) {
     words.push_back(nullptr);
     std::fflush(nullptr);
     execv(words[0], words.data());
-    throw Failure(ExitCode::participant_failed,
-                  "turbidite: " + line.at(0) + " cannot be started: " + std::strerror(errno) +
-                      ". ./turbidite, in the top folder, builds what a command needs.");
+    throw Failure(ExitCode::participant_failed, "turbidite: " + line.at(0) +
+                                                    " cannot be started: " + std::strerror(errno) +
+                                                    ". `turbidite doctor` says what is missing.");
 }
 
 }  // namespace turbidite

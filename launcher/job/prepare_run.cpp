@@ -19,6 +19,7 @@
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/run_json.hpp"
 #include "launcher/job/run_on_disk.hpp"
+#include "launcher/version.hpp"
 
 namespace turbidite {
 
@@ -109,7 +110,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved,
             {"overrides", resolved.overrides},
             {"from", resolved.from},
             {"case_hash", resolved.settings.text("run.hash")},
-            {"versions", {{"turbidite", TURBIDITE_VERSION}}},
+            {"versions", {{"turbidite", version()}, {"commit", commit()}}},
             {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
             {"scales", scales.kind},
             {"D", scales.diameter},

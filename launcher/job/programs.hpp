@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Locations of the programs and scripts of the job: beside the running program in the build folder;
-// those of the report in the source tree.
+// Locations of the programs and scripts of the job: beside the running program in the build folder
+// and in the source tree, or under the prefix where both were installed.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@ namespace turbidite {
 struct Programs {
     std::filesystem::path folder;   ///< BUILD/bin, absolute
     std::filesystem::path library;  ///< BUILD/lib
-    std::filesystem::path source;   ///< top of the source tree
+    std::filesystem::path source;   ///< top of the source tree, or what was installed of it
+    bool installed = false;         ///< under a prefix, without sources, tests and benchmarks
     /// Program and arguments in the place of turbidite-fluid; empty: that one.
     std::vector<std::string> other_fluid = {};
 
@@ -37,6 +38,7 @@ struct Programs {
     /// The module turbidite_adapter, for grains programs in Python.
     std::filesystem::path python_module() const { return library / "python"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
+    std::filesystem::path cases() const { return source / "configs"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
     std::filesystem::path film() const { return source / "launcher/report/film.py"; }
     std::filesystem::path study() const { return source / "launcher/report/study.py"; }
@@ -45,5 +47,9 @@ struct Programs {
 
 /// Those of the running program.
 Programs find_programs();
+
+/// Throws Failure (bad input) in words if what is asked for was not installed: "tests",
+/// "benchmarks".
+void require_checkout(const Programs& programs, const std::string& what);
 
 }  // namespace turbidite

@@ -84,7 +84,7 @@ class AdapterKit : public ShellTest {
 
 TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine) {
     const std::string cmake = CMAKE_PROGRAM;
-    const Answer build = shell(cmake + " --install " TURBIDITE_BUILD_DIR " --prefix prefix && " +
+    const Answer build = shell(cmake + " --install " TURBIDITE_BUILD_DIR " --component dev --prefix prefix && " +
                                "cp -r prefix/share/turbidite/examples mine && " + cmake +
                                " -S mine -B mine/build -DCMAKE_PREFIX_PATH=$PWD/prefix && " +
                                cmake + " --build mine/build");
@@ -107,7 +107,7 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
 // from pkg-config, and a folder that was moved is found.
 TEST_F(AdapterKit, ThePackageIsWholeAndWorksWithPkgConfig) {
     const Answer install =
-        shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --prefix there && mv there prefix");
+        shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --component dev --prefix there && mv there prefix");
     ASSERT_EQ(install.code, 0) << install.err;
     const Answer headers = shell(
         "cd prefix/include && find . -name '*.hpp' -o -name '*.h' | xargs -P 2 -I {} sh -c "
@@ -146,7 +146,7 @@ TEST_F(AdapterKit, TheInstalledIsolationDividesTheWorld) {
                   "    printf(\"a world of %d\\n\", size);\n"
                   "    return MPI_Finalize();\n"
                   "}\n");
-    ASSERT_EQ(shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --prefix prefix && mpicc "
+    ASSERT_EQ(shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --component dev --prefix prefix && mpicc "
                                   "owner.c -o owner")
                   .code,
               0);

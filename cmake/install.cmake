@@ -1,0 +1,43 @@
+# What a run needs, under a prefix: `cmake --install build/release --component run --prefix PREFIX`. Programs,
+# modules and scripts keep the places that they have to each other in the build and source tree
+# (launcher/job/programs.hpp):
+#     PREFIX/bin/turbidite               a link to the program below
+#     PREFIX/lib/turbidite/bin, lib      as build/release/bin, lib
+#     PREFIX/share/turbidite             as the source tree: configs, launcher/report, ...
+set(run_root lib/turbidite)
+set(programs turbidite turbidite-member turbidite-partner turbidite-replay turbidite-coupler turbidite-fluid
+             turbidite-grains turbidite-grains-md)
+foreach(optional turbidite-lammps turbidite-fluid-box)
+    if(TARGET ${optional})
+        list(APPEND programs ${optional})
+    endif()
+endforeach()
+set(yade_modules turbidite_yade turbidite_contact_engine)
+
+set_target_properties(${programs} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
+set_target_properties(turbiditeFFT turbidite_world_isolation turbidite_c ${yade_modules} PROPERTIES INSTALL_RPATH "")
+install(TARGETS ${programs} RUNTIME DESTINATION ${run_root}/bin COMPONENT run)
+install(TARGETS turbiditeFFT turbidite_world_isolation turbidite_c LIBRARY DESTINATION ${run_root}/lib COMPONENT run)
+install(TARGETS ${yade_modules} LIBRARY DESTINATION ${run_root}/lib/yade COMPONENT run)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/lib/yade ${PROJECT_BINARY_DIR}/lib/python DESTINATION ${run_root}/lib COMPONENT run
+        FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
+
+# Links are made once, relative, so that a prefix may be moved.
+set(links ${PROJECT_BINARY_DIR}/links)
+file(MAKE_DIRECTORY ${links})
+file(CREATE_LINK ../${run_root}/bin/turbidite ${links}/turbidite SYMBOLIC)
+install(FILES ${links}/turbidite DESTINATION bin COMPONENT run)
+
+set(scripts launcher/report)
+foreach(optional launcher/python launcher/gallery)
+    if(EXISTS ${PROJECT_SOURCE_DIR}/${optional})
+        list(APPEND scripts ${optional})
+    endif()
+endforeach()
+foreach(folder configs ${scripts})
+    get_filename_component(parent ${folder} DIRECTORY)
+    install(DIRECTORY ${folder} DESTINATION share/turbidite/${parent} COMPONENT run
+            PATTERN "*.[ch]pp" EXCLUDE PATTERN __pycache__ EXCLUDE)
+endforeach()
+install(DIRECTORY docs DESTINATION share/doc/turbidite COMPONENT run)
+install(FILES README.md SECURITY.md DESTINATION share/doc/turbidite COMPONENT run)
