@@ -27,18 +27,21 @@ set(CPACK_DEBIAN_RUN_PACKAGE_DEPENDS
     "openfoam (>= 1912.200626), openfoam (<< 1913~), libopenfoam (>= 1912.200626), libopenfoam (<< 1913~), yade (>= 2023.02a), yade (<< 2023.03~), openmpi-bin, python3 (>= 3.11), python3-numpy, python3-matplotlib, python3-mpi4py")
 set(CPACK_DEBIAN_RUN_PACKAGE_RECOMMENDS "python3-pandas, ffmpeg")
 set(CPACK_DEBIAN_RUN_DESCRIPTION "immersed granular flows: OpenFOAM and YADE in one simulation
- Grains in a liquid, particle-resolved in the plane and in space: the liquid by a
- distributed-multiplier fictitious-domain method in OpenFOAM, the grains by non-smooth
- contact dynamics in YADE, by molecular dynamics in YADE or LAMMPS, or by a program of
- one's own, coupled over MPI. With cases, reports and the studies of Topin et al. (2011).")
+Grains in a liquid, particle-resolved in the plane and in space: the liquid
+by a distributed-multiplier fictitious-domain method in OpenFOAM, the grains
+by non-smooth contact dynamics in YADE, by molecular dynamics in YADE or
+LAMMPS, or by a program of one's own, coupled over MPI. With cases, reports
+and the studies of Topin et al. (2011).")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME turbidite-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DEV_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/package/triggers)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenmpi-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "turbidite")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "immersed granular flows: to couple a grains program of one's own
- Headers and libraries in C++ and C, a module for Python, and examples: a program that
- moves grains takes part in a run of Turbidite as one of its adapters.")
+Headers and libraries in C++ and C, a module for Python, and examples: a
+program that moves grains takes part in a run of Turbidite as an adapter.")
 
 # Debian asks for a copyright and a changelog in every package.
 execute_process(COMMAND gzip -9n -c ${PROJECT_SOURCE_DIR}/cmake/package/changelog OUTPUT_FILE ${docs}/changelog.gz
