@@ -19,6 +19,7 @@ file(MAKE_DIRECTORY ${docs})
 set(CPACK_DEBIAN_RUN_PACKAGE_NAME turbidite)
 set(CPACK_DEBIAN_RUN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/package/prerm)
 # dpkg-shlibdeps looks beside the packaged files too.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 # What no file of shared libraries tells: OpenFOAM's libraries have none (their ABI is that of the release), YADE and

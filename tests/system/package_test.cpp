@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// What is installed plays without the tree that it was built in, and the Debian packages hold it.
+#include "launcher/version.hpp"
+#include "tests/system/shell_test.hpp"
+
+namespace turbidite {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Installed : public ShellTest {
+ protected:
+    void SetUp() override {
+        const Answer answer =
+            shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR
+                                " --component run --prefix there && mv there usr");
+        ASSERT_EQ(answer.code, 0) << answer.err;
+    }
+
+    /// With nothing in the environment that could lead to the build.
+    Answer turbidite(const std::string& words) const {
+        return shell(
+            "env -i PATH=/usr/bin:/bin HOME=$PWD LANG=C.UTF-8 timeout 200 usr/bin/turbidite " +
+            words);
+    }
+};
+
+TEST_F(Installed, PlaysAShippedCaseByItsNameAndWritesItsReport) {
+    const std::string short_run = " --set time.end=0.5 --set output.interval=0.25 --out ";
+    const Answer wet = turbidite("run quickstart" + short_run + "wet");
+    EXPECT_EQ(wet.code, 0) << wet.out << wet.err;
+    EXPECT_TRUE(fs::exists(scratch.path() / "wet/report.html"));
+    EXPECT_SAYS(text(scratch.path() / "wet/run.json"), "\"commit\"");
+    const Answer lammps =
+        turbidite("run quickstart --set grains.adapter=lammps-md --set coupling.scheme=split" +
+                  short_run + "lammps");
+    EXPECT_EQ(lammps.code, 0) << lammps.out << lammps.err;
+    const Answer doctor = turbidite("doctor --no-job");
+    EXPECT_EQ(doctor.code, 0) << doctor.out;
+    EXPECT_SAYS(doctor.out, "turbidite_yade.so           installed");
+}
+
+// A file that names the build would work here and nowhere else.
+TEST_F(Installed, KnowsNothingOfTheBuild) {
+    const Answer paths = shell(
+        "for file in $(find usr -type f); do readelf -d $file 2>/dev/null; done | grep -c RUNPATH; "
+        "for file in $(find usr -type f); do readelf -d $file 2>/dev/null; done | grep RUNPATH | "
+        "grep " TURBIDITE_BUILD_DIR);
+    EXPECT_GE(std::atoi(paths.out.c_str()), 8) << paths.out;
+    EXPECT_EQ(paths.out.find(TURBIDITE_BUILD_DIR), std::string::npos) << paths.out;
+    EXPECT_EQ(shell("find usr -name __pycache__ -o -name '*.cpp'").out, "");
+}
+
+TEST_F(Installed, SaysThatTestsAndBenchmarksBelongToTheSources) {
+    for (const std::string command : {"test", "bench"}) {
+        const Answer answer = turbidite(command);
+        EXPECT_EQ(answer.code, 2);
+        EXPECT_SAYS(answer.err, "are not installed with the program");
+    }
+}
+
+TEST_F(Installed, SaysItsVersionAndCommit) {
+    const Answer answer = turbidite("--version");
+    EXPECT_SAYS(answer.out, "turbidite " + version());
+    if (commit().empty()) return;  // sources without a history
+    EXPECT_SAYS(answer.out, "(commit " + commit() + ")");
+}
+
+class Package : public ShellTest {};
+
+// Uncompressed, which takes a third of the time.
+TEST_F(Package, HoldsTheProgramAndTheKit) {
+    const Answer made = shell("cpack --config " TURBIDITE_BUILD_DIR
+                              "/CPackConfig.cmake -G DEB -B packages "
+                              "-D CPACK_DEBIAN_COMPRESSION_TYPE=none");
+    ASSERT_EQ(made.code, 0) << made.out << made.err;
+    const std::string fields = "for field in Package Version Depends; do dpkg-deb -f packages/";
+    const Answer run = shell(fields + "turbidite_*.deb $field; done");
+    EXPECT_SAYS(run.out, "turbidite\n" + version());
+    for (const char* dependency :
+         {"libopenfoam (>= 1912.200626), libopenfoam (<< 1913~)", "yade (>= 2023.02a)",
+          "python3-matplotlib", "openmpi-bin", "libopenmpi3", "liblammps0"})
+        EXPECT_SAYS(run.out, dependency);
+    const Answer files = shell("dpkg-deb -c packages/turbidite_*.deb");
+    for (const char* file :
+         {"./usr/bin/turbidite -> ../lib/turbidite/bin/turbidite",
+          "./usr/lib/turbidite/lib/yade/turbidite_yade.so",
+          "./usr/share/turbidite/configs/quickstart.yaml", "./usr/share/doc/turbidite/copyright"})
+        EXPECT_SAYS(files.out, file);
+    const Answer kit = shell("dpkg-deb -c packages/turbidite-dev_*.deb");
+    for (const char* file :
+         {"./usr/include/turbidite/coupler/participant/adapter.hpp",
+          "./usr/lib/cmake/turbidite/turbiditeConfig.cmake", "./usr/share/turbidite/examples/"})
+        EXPECT_SAYS(kit.out, file);
+}
+
+class New : public ShellTest {};
+
+TEST_F(New, WritesACaseOfOnesOwnThatIsValid) {
+    const Answer written = shell(TURBIDITE_PROGRAM " new my-case");
+    EXPECT_EQ(written.code, 0) << written.err;
+    EXPECT_SAYS(written.out, "my-case.yaml\nNext: turbidite check my-case.yaml");
+    const std::string shipped = text(TURBIDITE_SOURCE_DIR "/configs/quickstart.yaml");
+    EXPECT_SAYS(text(scratch.path() / "my-case.yaml"), shipped) << "with its comments";
+    EXPECT_EQ(shell(TURBIDITE_PROGRAM " check my-case.yaml").code, 0);
+    const Answer again = shell(TURBIDITE_PROGRAM " new my-case.yaml");
+    EXPECT_EQ(again.code, 2);
+    EXPECT_SAYS(again.err, "my-case.yaml exists already");
+}
+
+TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
+    const Answer drum = shell(TURBIDITE_PROGRAM " new cases/drum --like drum");
+    EXPECT_SAYS(drum.out, "cases/dem8/drum.csv\n");
+    EXPECT_EQ(shell(TURBIDITE_PROGRAM " check cases/drum.yaml").code, 0);
+    const Answer study = shell(TURBIDITE_PROGRAM " new my-study --like grain-codes");
+    EXPECT_EQ(study.code, 0) << study.err;
+    EXPECT_EQ(shell(TURBIDITE_PROGRAM " check my-study.yaml").code, 0);
+}
+
+TEST_F(New, NamesTheNearestOfTheShippedCases) {
+    for (const std::string command :
+         {"new mine --like quikstart", "run quikstart", "check quikstart"}) {
+        const Answer answer = shell(TURBIDITE_PROGRAM " " + command);
+        EXPECT_EQ(answer.code, 2) << command;
+        EXPECT_SAYS(answer.err, "no shipped case of that name\n  Did you mean quickstart?");
+    }
+    EXPECT_FALSE(fs::exists(scratch.path() / "mine.yaml"));
+}
+
+}  // namespace
+}  // namespace turbidite
