@@ -2,8 +2,8 @@
 """What the documentation names is in the tree.
 
 Links of all pages lead to a file and a heading; pages that sources name exist. In the README, the decisions and the pages
-running and window every name in back-quotes exists: files, folders, keys of a case, tests, and every word of the rest
-somewhere in the sources. Folders under another licence than most are in the README's table of licences.
+folders, running and window every name in back-quotes exists: files, folders, keys of a case, tests, and every word of the rest
+somewhere in the sources. Folders under another licence than most are in the licences of docs/folders.md.
 usage: documented_names_test.py PROJECT_FOLDER
 """
 import functools
@@ -106,7 +106,7 @@ class Names(unittest.TestCase):
     def test_names_are_in_the_tree(self):
         tree = Tree(self.folder)
         docs = self.folder / "docs"
-        others = (self.folder / "README.md", docs / "running.md", docs / "window.md")
+        others = (self.folder / "README.md", docs / "folders.md", docs / "running.md", docs / "window.md")
         for page in (*others, *sorted((docs / "decisions").glob("*.md"))):
             with self.subTest(page.name):
                 self.assertEqual([name for name in sorted(names(page.read_text())) if not tree.has(name)], [])
@@ -114,12 +114,12 @@ class Names(unittest.TestCase):
 
     def test_folders_under_another_licence_are_named(self):
         licence = re.compile(r"SPDX-License-Identifier: (L?GPL-[\d.]+-or-later)")
-        rows = dict(re.findall(r"^\| (L?GPL-[\d.]+-or-later) \| (.*) \|$", (self.folder / "README.md").read_text(), flags=re.M))
+        rows = dict(re.findall(r"^\| (L?GPL-[\d.]+-or-later) \| (.*) \|$", (self.folder / "docs/folders.md").read_text(), flags=re.M))
         for file, text in Tree(self.folder).sources.items():
             found = licence.search(text[:400])
             if found and found[1] != "LGPL-2.1-or-later":
                 named = any(re.match(re.escape(name) + r"(/|$)", file) for name in names(rows[found[1]]))
-                self.assertTrue(named, f"{file} is under {found[1]}, and the README's licences do not say so")
+                self.assertTrue(named, f"{file} is under {found[1]}, and docs/folders.md does not say so")
 
 
 class Itself(unittest.TestCase):

@@ -133,7 +133,7 @@ def source_folders(root):
 
 
 def is_described(folder, root, table):
-    """True if the folder or one of its parents has a line in the README's table or a README of its own."""
+    """True if the folder or one of its parents has a line in the table of docs/folders.md or a README of its own."""
     path = Path(folder)
     lines = [p for p in (path, *path.parents) if str(p) != "."]
     return any(f"`{p}`" in table or (root / p / "README.md").is_file() for p in lines)
@@ -162,14 +162,14 @@ class Includes(unittest.TestCase):
                 self.assertLessEqual(naming, set(doors))
 
     def test_every_folder_says_what_it_is_for(self):
-        table = "\n".join(line for line in (self.root / "README.md").read_text().splitlines() if line.startswith("| `"))
+        table = "\n".join(line for line in (self.root / "docs/folders.md").read_text().splitlines() if line.startswith("| `"))
         self.assertTrue(table)
         homeless = [folder for folder in source_folders(self.root)
                     if not is_described(folder, self.root, table)]
-        self.assertEqual(homeless, [], "these folders have no line in the README's table and no README")
+        self.assertEqual(homeless, [], "these folders have no line in the table of docs/folders.md and no README")
         named = re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)
         self.assertEqual([folder for folder in named if not (self.root / folder).is_dir()], [],
-                         "these folders of the README's table do not exist")
+                         "these folders of docs/folders.md do not exist")
 
     def test_a_forbidden_header_is_found_through_another_file(self):
         # a.hpp includes b.hpp includes mpi.h: one violation, with the chain that leads to it.
