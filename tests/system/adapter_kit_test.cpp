@@ -84,10 +84,11 @@ class AdapterKit : public ShellTest {
 
 TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine) {
     const std::string cmake = CMAKE_PROGRAM;
-    const Answer build = shell(cmake + " --install " TURBIDITE_BUILD_DIR " --component dev --prefix prefix && " +
-                               "cp -r prefix/share/turbidite/examples mine && " + cmake +
-                               " -S mine -B mine/build -DCMAKE_PREFIX_PATH=$PWD/prefix && " +
-                               cmake + " --build mine/build");
+    const Answer build =
+        shell(cmake + " --install " TURBIDITE_BUILD_DIR " --component dev --prefix prefix && " +
+              "cp -r prefix/share/turbidite/examples mine && " + cmake +
+              " -S mine -B mine/build -DCMAKE_PREFIX_PATH=$PWD/prefix && " + cmake +
+              " --build mine/build");
     ASSERT_EQ(build.code, 0) << build.out << build.err;
     ASSERT_EQ(run("", "reference").code, 0);
     expect_conforms("mine/build/springs");
@@ -107,7 +108,8 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
 // from pkg-config, and a folder that was moved is found.
 TEST_F(AdapterKit, ThePackageIsWholeAndWorksWithPkgConfig) {
     const Answer install =
-        shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --component dev --prefix there && mv there prefix");
+        shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR
+                            " --component dev --prefix there && mv there prefix");
     ASSERT_EQ(install.code, 0) << install.err;
     const Answer headers = shell(
         "cd prefix/include && find . -name '*.hpp' -o -name '*.h' | xargs -P 2 -I {} sh -c "
@@ -146,7 +148,8 @@ TEST_F(AdapterKit, TheInstalledIsolationDividesTheWorld) {
                   "    printf(\"a world of %d\\n\", size);\n"
                   "    return MPI_Finalize();\n"
                   "}\n");
-    ASSERT_EQ(shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR " --component dev --prefix prefix && mpicc "
+    ASSERT_EQ(shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR
+                                  " --component dev --prefix prefix && mpicc "
                                   "owner.c -o owner")
                   .code,
               0);
