@@ -7,6 +7,11 @@
 
 docs/python.md is a tutorial.
 """
+try:
+    import numpy as _
+except ImportError:
+    raise ImportError('turbidite needs numpy: apt install python3-numpy, which is for /usr/bin/python3') from None
+
 from .errors import Error, NoSuchRun, NotThere, RunFailed, UnknownName
 from .play import run
 from .run_folder import Run, load

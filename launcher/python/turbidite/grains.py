@@ -40,7 +40,10 @@ def contacts(data):
 
 def entries_of(data, name):
     index = data.folder / 'grains' / f'{name}.pvd'
-    entries = reader('grain_files').series(index) if index.exists() else []
+    try:
+        entries = reader('grain_files').series(index) if index.exists() else []
+    except SyntaxError as error:  # of XML
+        raise NotThere(f'{index} cannot be read: {error}. A run at work may be writing it: try again') from None
     if not entries:
         raise NotThere(f'{data.folder} has no {name}: {index} is missing or empty')
     return entries

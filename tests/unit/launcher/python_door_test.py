@@ -174,6 +174,11 @@ class Grains(Door):
         self.assertIn('orientation_w', table.columns)
         self.assertNotIn('velocity_z', table.columns)
 
+    def test_an_index_that_is_being_written(self):
+        self.write('grains/grains.pvd', '<VTKFile><Coll')
+        with self.assertRaisesRegex(turbidite.NotThere, 'at work'):
+            self.run_folder.grains
+
     def test_contacts(self):
         with self.assertRaisesRegex(turbidite.NotThere, 'no contacts'):
             self.run_folder.contacts
