@@ -40,6 +40,8 @@ const std::vector<Command>& commands() {
          declare_compare},
         {"study", "run what is missing of a sweep of cases, then its table and figures",
          declare_study},
+        {"gallery", "play shipped cases and compare with the numbers expected of them",
+         declare_gallery},
         {"adapter-test", "play a scripted partner against a grains adapter, and say what conforms",
          declare_adapter_test},
         {"replay", "play a recorded run again with one of its programs alone, and compare",

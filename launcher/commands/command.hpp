@@ -27,6 +27,7 @@ CommandAction declare_replay(CLI::App& app);
 CommandAction declare_report(CLI::App& options);
 CommandAction declare_compare(CLI::App& options);
 CommandAction declare_study(CLI::App& options);
+CommandAction declare_gallery(CLI::App& app);
 CommandAction declare_adapter_test(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
 CommandAction declare_doctor(CLI::App& options);

@@ -45,7 +45,8 @@ std::string fault(const PreparedRun& prepared) {
 
 Finding play(const LaunchSite& site, const std::filesystem::path& folder) {
     const auto begin = std::chrono::steady_clock::now();
-    const ResolvedCase resolved = load_case(site.programs.cases() / "quickstart.yaml", few_grains);
+    const ResolvedCase resolved =
+        load_case(site.programs.configs() / "quickstart.yaml", few_grains);
     const PreparedRun prepared = prepare(resolved, {folder / "run", false}, site);
     const std::string refused = fault(prepared);
     if (!refused.empty()) return {Health::wrong, what, refused, remedy(site)};

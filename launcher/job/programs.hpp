@@ -38,10 +38,13 @@ struct Programs {
     /// The module turbidite_adapter, for grains programs in Python.
     std::filesystem::path python_module() const { return library / "python"; }
     std::filesystem::path python() const { return "/usr/bin/python3"; }
-    std::filesystem::path cases() const { return source / "configs"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
     std::filesystem::path film() const { return source / "launcher/report/film.py"; }
     std::filesystem::path study() const { return source / "launcher/report/study.py"; }
+    std::filesystem::path gallery() const { return source / "launcher/report/gallery/main.py"; }
+    /// The shipped cases, and what is expected of them.
+    std::filesystem::path configs() const { return source / "configs"; }
+    std::filesystem::path expected() const { return configs() / "expected.yaml"; }
     std::filesystem::path compare() const { return source / "launcher/report/compare.py"; }
 };
 

@@ -25,8 +25,9 @@ std::string plain_name(fs::path word) {
 
 std::vector<std::string> shipped_cases(const Programs& programs) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(programs.cases()))
-        if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
+    for (const auto& entry : fs::directory_iterator(programs.configs()))
+        if (entry.path().extension() == ".yaml" && entry.path() != programs.expected())
+            names.push_back(entry.path().stem());
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -34,7 +35,7 @@ std::vector<std::string> shipped_cases(const Programs& programs) {
 fs::path case_named(const std::string& word, const Programs& programs) {
     const std::string name = plain_name(word);
     if (fs::exists(word) || name.empty()) return word;
-    const fs::path shipped = programs.cases() / (name + ".yaml");
+    const fs::path shipped = programs.configs() / (name + ".yaml");
     if (fs::exists(shipped)) return shipped;
     if (word != name) return word;
     const std::vector<std::string> names = shipped_cases(programs);

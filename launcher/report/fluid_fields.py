@@ -51,6 +51,18 @@ def pressure_at(run, time, folder):
     return _field(run, folder, 'p', read_scalars)
 
 
+def field_names(folder):
+    """Names of the scalar and vector fields in a folder of `field_times`, in order."""
+    named = {path.name.removesuffix('.gz') for path in folder.iterdir() if path.is_file()}
+    return sorted(name for name in named if _class_of(folder, name) in READERS)
+
+
+def cell_values(run, folder, name):
+    """A field of one (time, folder) of `field_times` as it is in the files: (depth, rows, columns), vectors (..., 3);
+    depth is 1 in the plane. ValueError if it is damaged."""
+    return _cells(run, folder, name, READERS[_class_of(folder, name)])
+
+
 def mean_square_velocity(run, time, folder):
     """Mean of |u|^2 over the volume of the box, in the plane over its area; ValueError if the field is damaged."""
     if not run.in_space():
@@ -115,6 +127,12 @@ def rows_at_equal_heights(edges):
     return np.searchsorted(edges, heights) - 1
 
 
+def _class_of(folder, name):
+    """OpenFOAM's name of a file's type; empty without one."""
+    found = re.search(rb'\bclass\s+(\w+)\s*;', _contents(folder / name)[:2000])
+    return found.group(1).decode() if found else ''
+
+
 def _contents(path):
     if path.exists():
         return path.read_bytes()
@@ -166,3 +184,6 @@ def _vectors(data, n, head, name):
     end = data.index(b'\n)', start)
     numbers = data[start:end].replace(b'(', b' ').replace(b')', b' ').split()
     return np.array(numbers, dtype=float).reshape(n, 3)
+
+
+READERS = {'volVectorField': read_vectors, 'volScalarField': read_scalars}  # by OpenFOAM's class

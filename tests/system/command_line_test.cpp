@@ -96,7 +96,7 @@ TEST_F(CommandLine, CheckWritesNothing) {
 TEST_F(CommandLine, EveryShippedCaseIsValid) {
     int cases = 0;
     for (const auto& file : fs::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
-        if (file.path().extension() != ".yaml") continue;
+        if (file.path().extension() != ".yaml" || file.path().stem() == "expected") continue;
         ++cases;
         const Answer answer = turbidite("check " + file.path().string());
         EXPECT_EQ(answer.code, 0) << answer.err;

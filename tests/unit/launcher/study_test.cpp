@@ -405,7 +405,7 @@ TEST_F(StudyTest, IsToldFromACase) {
 TEST(Shipped, CasesAndStudiesAreValid) {
     int cases = 0, studies = 0;
     for (const auto& entry : std::filesystem::directory_iterator(TURBIDITE_SOURCE_DIR "/configs")) {
-        if (entry.path().extension() != ".yaml") continue;
+        if (entry.path().extension() != ".yaml" || entry.path().stem() == "expected") continue;
         const bool study = is_study(entry.path());
         EXPECT_NO_THROW(study ? void(plan_study(read_study(entry.path()), {}))
                               : void(load_case(entry.path())))

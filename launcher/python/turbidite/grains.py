@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Grains and contacts of a run folder as arrays."""
+import numpy as np
+
+from . import units
+from .errors import NotThere
+from .readers import reader
+from .series import Points, Series, Trajectories
+
+INTEGERS = ('id', 'shape', 'material', 'prescribed', 'id_a', 'id_b', 'feature', 'status')
+TOPOLOGY = ('connectivity', 'offsets')     # of the VTK file, no data
+VECTORS = ('position', 'velocity', 'force', 'contact_force', 'normal', 'point')
+SPINS = ('angular_velocity', 'torque')     # in the plane their z component
+
+
+def grains(data):
+    """Trajectories; NotThere without any output."""
+    entries, of = entries_of(data, 'grains'), units.of_grains(data)
+
+    def read(number):
+        time, path = entries[number]
+        arrays = reader('grain_files').read_arrays(path)
+        found = scaled({'position': arrays.pop('Points'), **arrays}, of, data.in_space())
+        return Points(time / data.scale('t_c'), found, outlines_beside(data, path, found['id']))
+    return Trajectories('grains', [time / data.scale('t_c') for time, _ in entries], read)
+
+
+def contacts(data):
+    """Series; NotThere for programs that do not tell their contacts."""
+    entries, of = entries_of(data, 'contacts'), units.of_contacts(data)
+    dimension = 3 if data.in_space() else 2
+
+    def read(number):
+        time, path = entries[number]
+        arrays = reader('grain_files').read_arrays(path)
+        ends = arrays.pop('Points').reshape(-1, 2, 3)[..., :dimension] / of['ends']
+        return Points(time / data.scale('t_c'), {**scaled(arrays, of, data.in_space()), 'ends': ends})
+    return Series('contacts', [time / data.scale('t_c') for time, _ in entries], read)
+
+
+def entries_of(data, name):
+    index = data.folder / 'grains' / f'{name}.pvd'
+    try:
+        entries = reader('grain_files').series(index) if index.exists() else []
+    except SyntaxError as error:  # of XML
+        raise NotThere(f'{index} cannot be read: {error}. A run at work may be writing it: try again') from None
+    if not entries:
+        raise NotThere(f'{data.folder} has no {name}: {index} is missing or empty')
+    return entries
+
+
+def scaled(arrays, of, in_space):
+    """Arrays (n,), vectors (n, 2) or (n, 3), quaternions (n, 4), divided by their units."""
+    count = len(arrays['id'] if 'id' in arrays else arrays['id_a'])
+    found = {}
+    for name, values in arrays.items():
+        if name in TOPOLOGY:
+            continue
+        shaped = values.reshape(count, -1) if len(values) > count else values
+        if name in INTEGERS:
+            found[name] = shaped.astype(np.int64)
+        else:
+            found[name] = in_plane(name, shaped, in_space) / of.get(name, 1.0)
+    return found
+
+
+def in_plane(name, values, in_space):
+    if in_space or values.ndim == 1:
+        return values
+    if name in SPINS:
+        return values[:, 2]
+    return values[:, :2] if name in VECTORS else values
+
+
+def outlines_beside(data, path, ids):
+    """{id: corners (k, 2) [D]}"""
+    file = path.with_name(path.name.replace('grains_', 'outlines_', 1))
+    if file == path or not file.exists():
+        return {}
+    corners = reader('grain_files').read_outlines(file, ids)
+    return {int(ids[k]): outline / data.scale('D') for k, outline in corners.items()}

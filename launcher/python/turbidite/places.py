@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the report and the program are: beside this package in a checkout and under one prefix when installed."""
+import os
+import shutil
+from pathlib import Path
+
+from .errors import Error
+
+HERE = Path(__file__).resolve().parent
+# From this folder. In a checkout launcher/python/turbidite, launcher/report and the program `turbidite`, which builds
+# what it needs. Under a prefix share/turbidite/python/turbidite or lib/python3/dist-packages/turbidite,
+# share/turbidite/report and bin/turbidite.
+REPORTS = ('../../report', '../../../../share/turbidite/report')
+PROGRAMS = ('../../../turbidite', '../../../../bin/turbidite')
+
+
+def first_there(places, is_there):
+    found = [(HERE / place).resolve() for place in places if is_there(HERE / place)]
+    return found[0] if found else None
+
+
+def report_folder():
+    """The folder with the readers of the report; Error without any."""
+    found = first_there(REPORTS, lambda place: (place / 'run_data.py').is_file())
+    if found is None:
+        raise Error(f'the readers of turbidite belong to {HERE}, as {" or ".join(REPORTS)}, and are not there\n'
+                    '  Install turbidite again, or use launcher/python of a checkout.')
+    return found
+
+
+def program():
+    """The program `turbidite`: that of TURBIDITE_PROGRAM, the one beside this package, or the first in PATH."""
+    found = os.environ.get('TURBIDITE_PROGRAM') or first_there(PROGRAMS, Path.is_file) or shutil.which('turbidite')
+    if not found:
+        raise Error('the program turbidite is neither beside this package nor in PATH\n'
+                    '  Set TURBIDITE_PROGRAM to it.')
+    return str(found)

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""main.py PROGRAM CONFIGS EXPECTED [--quick] [--record] [--json] [--out DIR] [NAME...]: `turbidite gallery`.
+
+Standard input is the document EXPECTED as JSON. Exit code: 0 all holds, 1 some number does not, 2 bad usage or a fault in
+the document; that of the program if it fails.
+"""
+import argparse
+import difflib
+import json
+import re
+import signal
+import sys
+from pathlib import Path
+
+sys.path.insert(1, str(Path(__file__).resolve().parents[1]))
+
+import entries
+import playing
+import quantities
+import records
+import run_data
+
+
+class Gallery:
+    def __init__(self, options, tree):
+        self.options = options
+        self.configs = Path(options.configs)
+        self.entries = entries.read_entries(tree, self.is_study)
+        self.form = 'quick' if options.quick else 'full'
+
+    def file(self, name):
+        path = self.configs / f'{name}.yaml'
+        if not path.is_file():
+            raise entries.Wrong(f'{name}: there is no case or study {path}')
+        return path
+
+    def is_study(self, name):
+        return re.search(r'^(parts|case):', self.file(name).read_text(), re.MULTILINE) is not None
+
+    def entry(self, name):
+        if name not in self.entries:
+            nearest = difflib.get_close_matches(name, self.entries, 1, 0.0)[0]
+            raise entries.Wrong(f'the gallery has no {name}. Did you mean {nearest}? `turbidite gallery` lists all.')
+        return self.entries[name]
+
+    def form_of(self, name):
+        """Wrong where there is nothing to compare with."""
+        forms = self.entry(name).forms
+        if self.form not in forms:
+            short = ', '.join(one for one, entry in self.entries.items() if 'quick' in entry.forms)
+            raise entries.Wrong(f'{name} has no short form: leave out --quick. Those that have one: {short}.')
+        if not forms[self.form].expected:
+            verb = 'study' if self.is_study(name) else 'run'
+            raise entries.Wrong(f'{name} has no expected numbers so far: `turbidite {verb} {self.file(name)}` plays it.')
+        return forms[self.form]
+
+
+def list_all(gallery):
+    print(f'{"case or study":<30}{"recorded":<34}{"processor":>10}{"memory":>9}  short form')
+    for name, entry in gallery.entries.items():
+        form = entry.forms['full']
+        spent = form.recorded and (f'{form.recorded["processor"]:.0f} s', f'{form.recorded["memory"]:.0f} MB')
+        quick = records.told(gallery.configs, entry.forms['quick'].recorded) if 'quick' in entry.forms else '-'
+        seconds, memory = spent or ('', '')
+        print(f'{name:<30}{records.told(gallery.configs, form.recorded):<34}{seconds:>10}{memory:>9}  {quick}')
+
+
+def as_json(gallery):
+    def told(form):
+        bounds = [{'run': one.run, 'what': one.what, 'lowest': finite(one.lowest), 'highest': finite(one.highest)}
+                  for one in form.expected]
+        return {'set': form.overrides, 'expected': bounds, 'recorded': form.recorded,
+                'age': form.recorded and records.age(gallery.configs, form.recorded)}
+    return json.dumps({name: {'study': gallery.is_study(name), **{form: told(one) for form, one in entry.forms.items()}}
+                       for name, entry in gallery.entries.items()}, indent=2)
+
+
+def finite(value):
+    return value if abs(value) < entries.INF else None
+
+
+def judge(form, folder):
+    """Prints a line per number; how many do not hold."""
+    failed, runs = 0, {}
+    for one in form.expected:
+        run = runs.setdefault(one.run, run_data.load_run(folder / one.run))
+        value = measured(run, one.what)
+        holds = one.holds(value)
+        failed += not holds
+        number = 'cannot be told' if value is None else f'{value:.4g} {quantities.unit(one.what)}'.rstrip()
+        print(f'  {"holds" if holds else "FAILS":<8}{one.name()} = {number}, expected {one.told()}')
+    return failed
+
+
+def measured(run, what):
+    """None, and a line that says why, for a run without the quantity."""
+    try:
+        return quantities.quantity(what)(run)
+    except (ValueError, KeyError, OSError) as error:
+        print(f'          {what}: {error}')
+        return None
+
+
+def play(gallery, name):
+    """Exit code."""
+    form, options = gallery.form_of(name), gallery.options
+    folder = Path(options.out) / (name + ('-quick' if gallery.form == 'quick' else ''))
+    line = playing.command(options.program, gallery.file(name), gallery.is_study(name), form, folder)
+    print(playing.shown(line), flush=True)
+    played = playing.play(line)
+    if played.code != 0:
+        print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
+        return played.code
+    failed = judge(form, folder)
+    print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; '
+          f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program')
+    if options.record and not failed:
+        record(gallery, name, played)
+    return 1 if failed else 0
+
+
+def record(gallery, name, played):
+    file = Path(gallery.options.expected)
+    recorded = {'commit': records.commit(gallery.configs), 'date': records.today(), 'processor': played.processor,
+                'memory': played.memory}
+    file.write_text(records.with_record(file.read_text(), name, gallery.form, recorded))
+    print(f'{name}: recorded in {file}')
+
+
+def require_commit(gallery):
+    """A record names the commit that was played."""
+    if records.commit(gallery.configs) is None:
+        raise entries.Wrong('--record names the commit that was played: it needs a checkout with git.')
+    changed = records.changed(gallery.configs, Path(gallery.options.expected).name)
+    if changed:
+        raise entries.Wrong(f'--record names the commit that was played, and {", ".join(changed[:3])} is not committed.')
+
+
+def parsed(arguments):
+    parser = argparse.ArgumentParser()
+    for name in ('program', 'configs', 'expected'):
+        parser.add_argument(name)
+    parser.add_argument('--out')
+    for flag in ('--quick', '--record', '--json'):
+        parser.add_argument(flag, action='store_true')
+    parser.add_argument('names', nargs='*')
+    return parser.parse_intermixed_args(arguments)
+
+
+def act(options, tree):
+    gallery = Gallery(options, tree)
+    if options.json:
+        print(as_json(gallery))
+    elif not options.names:
+        list_all(gallery)
+    for name in options.names:
+        gallery.form_of(name)
+    if options.record:
+        require_commit(gallery)
+    codes = [play(gallery, name) for name in options.names]
+    return next((code for code in sorted(codes, reverse=True) if code), 0)
+
+
+def main(arguments):
+    try:
+        return act(parsed(arguments), json.load(sys.stdin))
+    except entries.Wrong as wrong:
+        print(f'turbidite gallery: {wrong}\nExit code 2.', file=sys.stderr)
+        return 2
+
+
+if __name__ == '__main__':
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `turbidite gallery | head`
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Plays a case or a study by the program, and measures what it took."""
+import os
+import shlex
+import subprocess
+from dataclasses import dataclass
+
+
+@dataclass
+class Played:
+    code: int          # of the program
+    processor: float   # s, of all programs of the job together
+    memory: float      # MB, of the largest of them
+
+
+def command(program, file, is_study, form, out):
+    verb = 'study' if is_study else 'run'
+    return [program, verb, str(file), *form.arguments(), '--out', str(out), *([] if is_study else ['--force'])]
+
+
+def shown(line):
+    """As one would type it."""
+    return shlex.join(['turbidite', *line[1:]])
+
+
+def play(line):
+    """Without a report, which would take part of the time. Ctrl-C reaches the program too, which then ends orderly."""
+    process = subprocess.Popen(line, stdin=subprocess.DEVNULL, env={**os.environ, 'TURBIDITE_REPORT': 'off'})
+    while True:
+        try:
+            _, status, used = os.wait4(process.pid, 0)
+            break
+        except KeyboardInterrupt:
+            pass
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return Played(process.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss / 1000.0)

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What can be expected of a run: a number of the analysis by its name (docs/analysis.md), or of a column of history.csv
+`end(C)`, `max(C)`, `min(C)`, `at(C, TIME)`, `mean(C, FROM, TO)`, times in t_c."""
+import difflib
+import re
+
+import numpy as np
+
+from measured import MEASURED
+
+CALL = re.compile(r'(\w+)\((\w+)((?:, *[-\d.e]+)*)\)$')
+
+
+class Unknown(ValueError):
+    """A quantity that is no quantity."""
+
+
+def at(time, values, when):
+    """At the row of that time."""
+    row = int(np.argmin(np.abs(time - when)))
+    if abs(time[row] - when) > 1e-6 * max(1.0, abs(when)):
+        raise ValueError(f'there is no row at {when:g} t_c')
+    return values[row]
+
+
+def mean(time, values, begin, end):
+    """Over the rows from begin to end."""
+    inside = (time >= begin - 1e-9) & (time <= end + 1e-9)
+    if not inside.any():
+        raise ValueError(f'there is no row from {begin:g} to {end:g} t_c')
+    return values[inside].mean()
+
+
+# Name: (function of times and values, how many times it takes).
+CALLS = {
+    'end': (lambda time, values: values[-1], 0),
+    'max': (lambda time, values: values.max(), 0),
+    'min': (lambda time, values: values.min(), 0),
+    'at': (at, 1),
+    'mean': (mean, 2),
+}
+NAMED = {one.name: one for one in MEASURED}
+
+
+def quantity(text):
+    """Function of a run that gives a float, or None where it cannot be told; Unknown for another text."""
+    if text in NAMED:
+        return NAMED[text].measure
+    called = CALL.match(text)
+    if not called:
+        nearest = difflib.get_close_matches(text, NAMED, 1, 0.0)[0]
+        raise Unknown(f'"{text}" is no quantity. It is a name of the analysis (did you mean {nearest}?), or one of '
+                      'end(C), max(C), min(C), at(C, TIME), mean(C, FROM, TO) of a column C')
+    name, column, times = called.group(1), called.group(2), [float(v) for v in called.group(3).split(',')[1:]]
+    if name not in CALLS or len(times) != CALLS[name][1]:
+        raise Unknown(f'"{text}" is no quantity: there are end(C), max(C), min(C), at(C, TIME), mean(C, FROM, TO)')
+    return lambda run: of_column(run, column, CALLS[name][0], times)
+
+
+def of_column(run, column, measure, times):
+    time, values = run.column(column)
+    return float(measure(time, values, *times)) if len(values) else None
+
+
+def unit(text):
+    """Of a number of the analysis, for the eye; empty for columns (docs/outputs.md has those)."""
+    return NAMED[text].plain_unit if text in NAMED and NAMED[text].plain_unit != '-' else ''

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""When and with which commit the expected numbers of a form last held, one line of configs/expected.yaml."""
+import datetime
+import re
+import subprocess
+
+OLD = 100  # commits
+
+
+def git(folder, *words):
+    """What git says, or None: not a checkout, or no git."""
+    try:
+        done = subprocess.run(['git', '-C', str(folder), *words], capture_output=True, text=True)
+    except FileNotFoundError:
+        return None
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
+def commit(folder):
+    return git(folder, 'rev-parse', '--short=10', 'HEAD')
+
+
+def changed(folder, expected):
+    """Files that differ from the commit, the expected numbers apart."""
+    told = git(folder, 'status', '--porcelain', '--untracked-files=no', '--', ':/', f':!{expected}')
+    return [line.split()[-1] for line in told.splitlines()] if told else []
+
+
+def age(folder, recorded):
+    """Commits since then; None where that cannot be told."""
+    told = git(folder, 'rev-list', '--count', f'{recorded["commit"]}..HEAD')
+    return int(told) if told else None
+
+
+def told(folder, recorded):
+    """'at 903593a, 2026-11-25', and how old that is when it is old."""
+    if recorded is None:
+        return 'not recorded'
+    commits = age(folder, recorded)
+    old = f', {commits} commits ago' if commits is not None and commits > OLD else ''
+    return f'{recorded["commit"][:7]} {recorded["date"]}{old}'
+
+
+def today():
+    return datetime.date.today().isoformat()
+
+
+def line(recorded):
+    return (f'    recorded: {{commit: "{recorded["commit"]}", date: {recorded["date"]}, '
+            f'processor: {recorded["processor"]:.0f}, memory: {recorded["memory"]:.0f}}}')
+
+
+def with_record(text, name, form, recorded):
+    """The document with the `recorded` line of a form replaced, or added as its last. Entries begin in the first column,
+    forms two further to the right, their keys four."""
+    lines = text.splitlines()
+    begin = lines.index(f'  {form}:', lines.index(f'{name}:')) + 1
+    end = next((k for k in range(begin, len(lines)) if not lines[k].startswith('    ')), len(lines))
+    kept = [text for text in lines[begin:end] if not text.startswith('    recorded:')]
+    return '\n'.join([*lines[:begin], *kept, line(recorded), *lines[end:]]) + '\n'

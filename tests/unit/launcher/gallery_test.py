@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The gallery on made-up runs: what is measured, what holds, what the file of expected numbers may say, and records."""
+import contextlib
+import io
+import json
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from made_up_run import RunFolderTest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'launcher/report/gallery'))
+import entries
+import main
+import playing
+import quantities
+import records
+import run_data
+
+EXPECTED = """# Head.
+falling:
+  full:
+    expected:
+      end_height: {is: 2.9, within: 0.1}
+    recorded: {commit: "old", date: 2026-01-01, processor: 1, memory: 1}
+
+  quick:
+    set: {time.end: 1}
+    expected:
+      end_height: {below: 3}
+
+# A comment.
+other:
+  full:
+"""
+TREE = {'falling': {'full': {'expected': {'end_height': {'is': 2.9, 'within': 0.1}, 'min(mean_velocity_y)': {'above': -0.3}}},
+                    'quick': {'set': {'time.end': 1.0, 'domain.size': [4.0, 6.5], 'grains.shape': 'disc'},
+                              'expected': {'end_height': {'below': 3.0}}}},
+        'other': {'full': None}}
+# In the place of the program: copies the made-up run to --out.
+PROGRAM = """#!/usr/bin/python3
+import shutil, sys
+out = sys.argv[sys.argv.index('--out') + 1]
+shutil.rmtree(out, True)
+shutil.copytree({made_up!r}, out)
+sys.exit({code})
+"""
+
+
+class Quantities(RunFolderTest):
+    def setUp(self):
+        super().setUp()
+        self.write_all()
+        self.write('history.csv', 'step,time,mean_speed,mean_position_y\n0,0,1,3\n1,1,5,2\n2,2,2,\n3,3,4,1\n')
+        self.run_data = run_data.load_run(self.folder)
+
+    def of(self, text):
+        return quantities.quantity(text)(self.run_data)
+
+    def test_of_columns(self):
+        self.assertEqual([self.of(f'{name}(mean_speed)') for name in ('end', 'max', 'min')], [4.0, 5.0, 1.0])
+        self.assertEqual((self.of('at(mean_speed, 2)'), self.of('mean(mean_speed, 1, 2)')), (2.0, 3.5))
+        self.assertEqual(self.of('end(mean_position_y)'), 1.0)      # the last row that has one
+        self.assertIsNone(self.of('end(gone)'))
+        for text in ('at(mean_speed, 1.5)', 'mean(mean_speed, 7, 9)'):
+            with self.assertRaisesRegex(ValueError, 'no row'):
+                self.of(text)
+
+    def test_of_the_analysis(self):
+        self.assertEqual(self.of('end_height'), 1.0)
+
+    def test_unknown(self):
+        for text in ('end_hight', 'end(a', 'last(mean_speed)', 'at(mean_speed)', 'end(mean_speed, 2)'):
+            with self.assertRaises(quantities.Unknown, msg=text):
+                quantities.quantity(text)
+        with self.assertRaisesRegex(quantities.Unknown, 'did you mean end_height'):
+            quantities.quantity('end_hight')
+
+
+class Entries(unittest.TestCase):
+    def read(self, **form):
+        return entries.read_entries({'a': {'full': form}}, lambda name: False)['a'].forms['full']
+
+    def test_bounds(self):
+        found = self.read(expected={'end_height': {'is': 2.0, 'within': 0.5}, 'overlap': {'below': 1e-5}})
+        height, overlap = found.expected
+        self.assertEqual([height.holds(v) for v in (1.5, 2.5, 2.6, None)], [True, True, False, False])
+        self.assertEqual([overlap.holds(v) for v in (0.0, 2e-5)], [True, False])
+        self.assertEqual((height.told(), overlap.told()), ('1.5 to 2.5', 'at most 1e-05'))
+
+    def test_faults_are_named(self):
+        for form, text in (({'expectd': {}}, 'a.full: expectd is unknown. Did you mean expected'),
+                           ({'expected': {'end_hight': {'above': 1}}}, 'did you mean end_height'),
+                           ({'expected': {'end_height': {'is': 1}}}, 'is and within belong together'),
+                           ({'expected': {'end_height': {}}}, 'above, below'),
+                           ({'expected': {'end_height': {'above': 'high'}}}, 'above = high is no number'),
+                           ({'recorded': {'comit': 'x'}}, 'Did you mean commit')):
+            with self.assertRaisesRegex(entries.Wrong, text):
+                self.read(**form)
+
+    def test_of_a_study_they_stand_below_its_runs(self):
+        tree = {'s': {'full': {'expected': {'part/run-1': {'overlap': {'below': 1}}}}}}
+        (one,) = entries.read_entries(tree, lambda name: True)['s'].forms['full'].expected
+        self.assertEqual((one.run, one.name()), ('part/run-1', 'part/run-1: overlap'))
+
+    def test_overrides_as_they_are_typed(self):
+        form = entries.read_entries(TREE, lambda name: False)['falling'].forms['quick']
+        self.assertEqual(form.arguments(), ['--set', 'time.end=1', '--set', 'domain.size=[4, 6.5]', '--set', 'grains.shape=disc'])
+
+
+class Played(RunFolderTest):
+    def setUp(self):
+        super().setUp()
+        self.write_all()
+        for name in ('falling', 'other'):
+            self.write(f'configs/{name}.yaml', 'time:\n  step: 0.1\n')
+        self.write('configs/expected.yaml', EXPECTED)
+        self.play_with(0)
+
+    def play_with(self, code):
+        self.write_all()
+        self.write('made-up/case.yaml', (self.folder / 'case.yaml').read_text())
+        self.write('made-up/history.csv', (self.folder / 'history.csv').read_text())
+        self.write('program', PROGRAM.format(made_up=str(self.folder / 'made-up'), code=code))
+        (self.folder / 'program').chmod(0o755)
+
+    def act(self, *words, tree=None):
+        """(exit code, what was printed)"""
+        told = io.StringIO()
+        arguments = [str(self.folder / 'program'), str(self.folder / 'configs'), str(self.folder / 'configs/expected.yaml'),
+                     '--out', str(self.folder / 'out'), *words]
+        with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told), \
+                mock.patch.object(sys, 'stdin', io.StringIO(json.dumps(tree or TREE))):
+            code = main.main(arguments)
+        return code, told.getvalue()
+
+
+class Gallery(Played):
+    def test_all_holds(self):
+        code, told = self.act('falling')
+        self.assertEqual(code, 0, told)
+        self.assertIn('holds   end_height = 2.9 D, expected 2.8 to 3\n', told)
+        self.assertIn('2 of 2 numbers hold', told)
+
+    def test_a_number_that_does_not_hold(self):
+        broken = json.loads(json.dumps(TREE))
+        broken['falling']['full']['expected']['end_height']['is'] = 3.5
+        code, told = self.act('falling', tree=broken)
+        self.assertEqual(code, 1)
+        self.assertIn('FAILS   end_height = 2.9 D, expected 3.4 to 3.6\n', told)
+        self.assertIn('1 of 2 numbers hold', told)
+
+    def test_a_number_that_cannot_be_told_does_not_hold(self):
+        code, told = self.act('falling', tree={'falling': {'full': {'expected': {'run_out': {'above': 0}}}}})
+        self.assertEqual(code, 1)
+        self.assertIn('run_out = cannot be told', told)
+
+    def test_a_run_that_fails_gives_its_exit_code(self):
+        self.play_with(6)
+        code, told = self.act('falling')
+        self.assertEqual(code, 6)
+        self.assertIn('exit code 6', told)
+        self.assertNotIn('holds', told)
+
+    def test_the_short_form(self):
+        code, told = self.act('--quick', 'falling')
+        self.assertEqual(code, 0)
+        self.assertIn("--set time.end=1 --set 'domain.size=[4, 6.5]'", told)
+        self.assertIn('falling-quick', told)
+        self.assertEqual(self.act('--quick', 'other')[0], 2)
+
+    def test_what_is_refused(self):
+        for words, text in ((['faling'], 'Did you mean falling'), (['other'], 'no expected numbers so far')):
+            code, told = self.act(*words)
+            self.assertEqual(code, 2)
+            self.assertIn(text, told)
+        self.assertIn('there is no case', self.act(tree={'gone': None})[1])
+
+    def test_the_list(self):
+        code, told = self.act()
+        self.assertEqual(code, 0)
+        self.assertRegex(told, r'falling +not recorded')
+        listed = json.loads(self.act('--json')[1])
+        self.assertEqual(listed['falling']['full']['expected'][0],
+                         {'run': '', 'what': 'end_height', 'lowest': 2.8, 'highest': 3.0})
+        self.assertFalse(listed['other']['study'])
+
+
+@unittest.skipUnless(shutil.which('git'), 'records are of a checkout')
+class Records(Played):
+    def git(self, *words):
+        subprocess.run(['git', '-C', str(self.folder), '-c', 'user.name=a', '-c', 'user.email=a@b', *words], check=True,
+                       capture_output=True)
+
+    def commit(self, *words):
+        self.git('add', 'configs')
+        self.git('commit', '-m', 'x', *words)
+
+    def setUp(self):
+        super().setUp()
+        self.git('init')
+        self.commit()
+
+    def test_a_record_is_one_line_of_the_file(self):
+        code, told = self.act('--record', 'falling')
+        self.assertEqual(code, 0, told)
+        lines = (self.folder / 'configs/expected.yaml').read_text().splitlines()
+        kept = [line for line in lines if 'recorded' not in line]
+        self.assertEqual(kept, [line for line in EXPECTED.splitlines() if 'recorded' not in line])
+        (line,) = [line for line in lines if 'recorded' in line]
+        self.assertIn(records.commit(self.folder), line)
+        self.assertLess(lines.index(line), lines.index('  quick:'))
+        self.act('--record', '--quick', 'falling')
+        lines = (self.folder / 'configs/expected.yaml').read_text().splitlines()
+        self.assertEqual([k for k, line in enumerate(lines) if 'recorded' in line], [5, 11])
+
+    def test_nothing_is_recorded_when_a_number_does_not_hold(self):
+        before = (self.folder / 'configs/expected.yaml').read_text()
+        broken = {'falling': {'full': {'expected': {'end_height': {'above': 3}}}}}
+        self.assertEqual(self.act('--record', 'falling', tree=broken)[0], 1)
+        self.assertEqual((self.folder / 'configs/expected.yaml').read_text(), before)
+
+    def test_what_is_not_committed_is_not_recorded(self):
+        self.write('configs/falling.yaml', 'time:\n  step: 0.2\n')
+        code, told = self.act('--record', 'falling')
+        self.assertEqual(code, 2)
+        self.assertIn('configs/falling.yaml is not committed', told)
+
+    def test_old_records_are_told(self):
+        recorded = {'commit': records.commit(self.folder), 'date': '2026-01-02', 'processor': 3, 'memory': 4}
+        tree = {'falling': {'full': {**TREE['falling']['full'], 'recorded': recorded}}}
+        self.assertNotIn('ago', self.act(tree=tree)[1])
+        with mock.patch.object(records, 'OLD', 1):
+            self.commit('--allow-empty')
+            self.assertNotIn('ago', self.act(tree=tree)[1])
+            self.commit('--allow-empty')
+            self.assertIn('2026-01-02, 2 commits ago', self.act(tree=tree)[1])
+
+    def test_where_there_is_no_git_the_age_is_unknown(self):
+        with mock.patch.object(subprocess, 'run', side_effect=FileNotFoundError):
+            self.assertIsNone(records.commit(self.folder))
+            self.assertEqual(records.told(self.folder, {'commit': 'abcdefgh', 'date': '2026-01-02'}), 'abcdefg 2026-01-02')
+            self.assertIn('needs a checkout', self.act('--record', 'falling')[1])
+
+
+class Playing(unittest.TestCase):
+    def test_what_a_program_took_is_its_own(self):
+        """A large one before does not count."""
+        large = playing.play([sys.executable, '-c', 'x = bytearray(200_000_000)'])
+        small = playing.play([sys.executable, '-c', 'import sys\nfor k in range(3_000_000): pass\nsys.exit(3)'])
+        self.assertEqual((large.code, small.code), (0, 3))
+        self.assertGreater(large.memory, 200.0)
+        self.assertLess(small.memory, 100.0)
+        self.assertGreater(small.processor, 0.02)
+
+
+if __name__ == '__main__':
+    unittest.main()
