@@ -3,7 +3,8 @@
 # (launcher/job/programs.hpp):
 #     PREFIX/bin/turbidite               a link to the program below
 #     PREFIX/lib/turbidite/bin, lib      as build/release/bin, lib
-#     PREFIX/share/turbidite             as the source tree: configs, launcher/report, ...
+#     PREFIX/share/turbidite             as the source tree: configs, launcher/report, launcher/python
+#     PREFIX/lib/python3/dist-packages   a link to launcher/python/turbidite, where Debian's Python looks with PREFIX /usr
 set(run_root lib/turbidite)
 set(programs turbidite turbidite-member turbidite-partner turbidite-replay turbidite-coupler turbidite-fluid
              turbidite-grains turbidite-grains-md)
@@ -24,17 +25,13 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/lib/yade ${PROJECT_BINARY_DIR}/lib/pytho
 
 # Links are made once, relative, so that a prefix may be moved.
 set(links ${PROJECT_BINARY_DIR}/links)
-file(MAKE_DIRECTORY ${links})
+file(MAKE_DIRECTORY ${links}/python)
 file(CREATE_LINK ../${run_root}/bin/turbidite ${links}/turbidite SYMBOLIC)
+file(CREATE_LINK ../../../share/turbidite/launcher/python/turbidite ${links}/python/turbidite SYMBOLIC)
 install(FILES ${links}/turbidite DESTINATION bin COMPONENT run)
+install(FILES ${links}/python/turbidite DESTINATION lib/python3/dist-packages COMPONENT run)
 
-set(scripts launcher/report)
-foreach(optional launcher/python launcher/gallery)
-    if(EXISTS ${PROJECT_SOURCE_DIR}/${optional})
-        list(APPEND scripts ${optional})
-    endif()
-endforeach()
-foreach(folder configs ${scripts})
+foreach(folder configs launcher/report launcher/python)
     get_filename_component(parent ${folder} DIRECTORY)
     install(DIRECTORY ${folder} DESTINATION share/turbidite/${parent} COMPONENT run
             PATTERN "*.[ch]pp" EXCLUDE PATTERN __pycache__ EXCLUDE)

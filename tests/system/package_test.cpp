@@ -36,6 +36,12 @@ TEST_F(Installed, PlaysAShippedCaseByItsNameAndWritesItsReport) {
         turbidite("run quickstart --set grains.adapter=lammps-md --set coupling.scheme=split" +
                   short_run + "lammps");
     EXPECT_EQ(lammps.code, 0) << lammps.out << lammps.err;
+    const Answer python = shell(
+        "env -i PATH=/usr/bin:/bin PYTHONPATH=usr/lib/python3/dist-packages python3 -B -c "
+        "'import turbidite as t; print(t.load(\"wet\").state, t.places.program())'");
+    EXPECT_EQ(python.out, "done " + fs::canonical(scratch.path()).string() +
+                              "/usr/lib/turbidite/bin/turbidite\n")
+        << python.err;
     const Answer doctor = turbidite("doctor --no-job");
     EXPECT_EQ(doctor.code, 0) << doctor.out;
     EXPECT_SAYS(doctor.out, "turbidite_yade.so           installed");

@@ -7,11 +7,10 @@ from pathlib import Path
 from .errors import Error
 
 HERE = Path(__file__).resolve().parent
-# From this folder. In a checkout launcher/python/turbidite, launcher/report and the program `turbidite`, which builds
-# what it needs. Under a prefix share/turbidite/python/turbidite or lib/python3/dist-packages/turbidite,
-# share/turbidite/report and bin/turbidite.
-REPORTS = ('../../report', '../../../../share/turbidite/report')
-PROGRAMS = ('../../../turbidite', '../../../../bin/turbidite')
+# From this folder, which is launcher/python/turbidite in a checkout as well as in share/turbidite of a prefix
+# (cmake/install.cmake). The program of a checkout builds what it needs.
+REPORT = '../../report'
+PROGRAMS = ('../../../turbidite', '../../../../../bin/turbidite')
 
 
 def first_there(places, is_there):
@@ -21,9 +20,9 @@ def first_there(places, is_there):
 
 def report_folder():
     """The folder with the readers of the report; Error without any."""
-    found = first_there(REPORTS, lambda place: (place / 'run_data.py').is_file())
+    found = first_there([REPORT], lambda place: (place / 'run_data.py').is_file())
     if found is None:
-        raise Error(f'the readers of turbidite belong to {HERE}, as {" or ".join(REPORTS)}, and are not there\n'
+        raise Error(f'the readers of turbidite belong to {HERE / REPORT} and are not there\n'
                     '  Install turbidite again, or use launcher/python of a checkout.')
     return found
 

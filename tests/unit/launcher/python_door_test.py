@@ -300,17 +300,16 @@ class Play(Door):
 
 class Places(unittest.TestCase):
     def test_report_and_program_of_an_installed_tree(self):
-        """share/turbidite/python and lib/python3/dist-packages find share/turbidite/report and bin/turbidite."""
+        """share/turbidite holds the package as a checkout does, and finds bin/turbidite."""
+        package = 'share/turbidite/launcher/python/turbidite'
         with tempfile.TemporaryDirectory() as prefix:
             prefix = Path(prefix).resolve()
-            for file in ('share/turbidite/report/run_data.py', 'bin/turbidite', 'share/turbidite/python/turbidite/places.py',
-                         'lib/python3/dist-packages/turbidite/places.py'):
+            for file in ('share/turbidite/launcher/report/run_data.py', 'bin/turbidite', f'{package}/places.py'):
                 (prefix / file).parent.mkdir(parents=True, exist_ok=True)
                 (prefix / file).touch()
-            for package in ('share/turbidite/python/turbidite', 'lib/python3/dist-packages/turbidite'):
-                with mock.patch.object(places, 'HERE', prefix / package), mock.patch.dict(os.environ, TURBIDITE_PROGRAM=''):
-                    self.assertEqual(places.report_folder(), prefix / 'share/turbidite/report')
-                    self.assertEqual(places.program(), str(prefix / 'bin/turbidite'))
+            with mock.patch.object(places, 'HERE', prefix / package), mock.patch.dict(os.environ, TURBIDITE_PROGRAM=''):
+                self.assertEqual(places.report_folder(), prefix / 'share/turbidite/launcher/report')
+                self.assertEqual(places.program(), str(prefix / 'bin/turbidite'))
 
     def test_without_the_report_it_says_so(self):
         with mock.patch.object(places, 'HERE', Path('/nowhere/a/b')), self.assertRaisesRegex(turbidite.Error, 'Install'):
