@@ -7,7 +7,9 @@ namespace turbidite {
 
 Programs find_programs() {
     const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-    Programs programs{.folder = folder, .library = folder.parent_path() / "lib"};
+    Programs programs;
+    programs.folder = folder;
+    programs.library = folder.parent_path() / "lib";
     // PREFIX/lib/turbidite/bin, as cmake/install.cmake places it.
     const auto shared = (folder / "../../../share/turbidite").lexically_normal();
     programs.installed = std::filesystem::exists(shared / "launcher/report/report.py");
