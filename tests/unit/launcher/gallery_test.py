@@ -97,6 +97,9 @@ class Entries(unittest.TestCase):
                            ({'expected': {'end_height': {'is': 1}}}, 'is and within belong together'),
                            ({'expected': {'end_height': {}}}, 'above, below'),
                            ({'expected': {'end_height': {'above': 'high'}}}, 'above = high is no number'),
+                           ({'expected': {'overlap': None}}, 'a.full.expected.overlap: a map is needed'),
+                           ({'expected': ['overlap']}, 'a.full.expected: a map is needed'),
+                           ({'set': 'time.end=5'}, 'a.full.set: a map is needed, for example {time.end: 5}'),
                            ({'recorded': {'comit': 'x'}}, 'Did you mean commit')):
             with self.assertRaisesRegex(entries.Wrong, text):
                 self.read(**form)
