@@ -63,7 +63,8 @@ def as_yaml(value):
 
 def read_entries(tree, is_study):
     """{name: Entry} of the document; `is_study(name)`. Wrong names what is wrong in it."""
-    return {name: Entry(name, forms_of(name, node or {}, is_study(name))) for name, node in tree.items()}
+    return {name: Entry(name, forms_of(name, node or {}, is_study(name)))
+            for name, node in map_of('the file of expected numbers', tree, '{quickstart: {full: ...}}').items()}
 
 
 def forms_of(name, node, of_study):
@@ -74,14 +75,14 @@ def forms_of(name, node, of_study):
 
 def form_of(where, node, of_study):
     known_only(where, node, KEYS['form'])
-    expected = node.get('expected') or {}
+    expected = map_of(f'{where}.expected', node.get('expected') or {}, '{overlap: {below: 1e-4}}')
     groups = expected if of_study else {'': expected}
-    found = [expectation(f'{where}.expected', run, what, bounds)
-             for run, group in groups.items() for what, bounds in group.items()]
+    found = [expectation(f'{where}.expected', run, what, bounds) for run, group in groups.items()
+             for what, bounds in map_of(f'{where}.expected.{run}', group, '{overlap: {below: 1e-4}}').items()]
     recorded = node.get('recorded')
     if recorded is not None:
         known_only(f'{where}.recorded', recorded, KEYS['recorded'])
-    return Form(node.get('set') or {}, found, recorded)
+    return Form(map_of(f'{where}.set', node.get('set') or {}, '{time.end: 5}'), found, recorded)
 
 
 def expectation(where, run, what, bounds):
@@ -101,8 +102,14 @@ def expectation(where, run, what, bounds):
     return Expectation(run, what, lowest, highest)
 
 
+def map_of(where, node, example):
+    if not isinstance(node, dict):
+        raise Wrong(f'{where}: a map is needed, for example {example}')
+    return node
+
+
 def known_only(where, node, known):
-    for key in node:
+    for key in map_of(where, node, f'{{{known[0]}: ...}}'):
         if key not in known:
             nearest = difflib.get_close_matches(str(key), known, 1, 0.0)[0]
             raise Wrong(f'{where}: {key} is unknown. Did you mean {nearest}?')

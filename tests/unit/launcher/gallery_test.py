@@ -97,6 +97,9 @@ class Entries(unittest.TestCase):
                            ({'expected': {'end_height': {'is': 1}}}, 'is and within belong together'),
                            ({'expected': {'end_height': {}}}, 'above, below'),
                            ({'expected': {'end_height': {'above': 'high'}}}, 'above = high is no number'),
+                           ({'expected': {'overlap': None}}, 'a.full.expected.overlap: a map is needed'),
+                           ({'expected': ['overlap']}, 'a.full.expected: a map is needed'),
+                           ({'set': 'time.end=5'}, 'a.full.set: a map is needed, for example {time.end: 5}'),
                            ({'recorded': {'comit': 'x'}}, 'Did you mean commit')):
             with self.assertRaisesRegex(entries.Wrong, text):
                 self.read(**form)
@@ -171,6 +174,18 @@ class Gallery(Played):
         self.assertIn("--set time.end=1 --set 'domain.size=[4, 6.5]'", told)
         self.assertIn('falling-quick', told)
         self.assertEqual(self.act('--quick', 'other')[0], 2)
+
+    def test_a_study_is_played_and_its_runs_compared(self):
+        self.write('configs/sweep.yaml', 'parts:\n  column:\n    case: falling.yaml\n')
+        for file in ('case.yaml', 'history.csv'):
+            self.write(f'made-up/column/seed-1/{file}', (self.folder / file).read_text())
+        height = {'end_height': {'is': 2.9, 'within': 0.1}}
+        tree = {'sweep': {'full': {'expected': {'column/seed-1': height, 'column/seed-2': height}}}}
+        code, told = self.act('sweep', tree=tree)
+        self.assertEqual(code, 1)
+        self.assertRegex(told, r'turbidite study \S+/configs/sweep.yaml --out \S+/out/sweep\n')
+        self.assertIn('holds   column/seed-1: end_height = 2.9 D', told)
+        self.assertIn('FAILS   column/seed-2: end_height = cannot be told', told)
 
     def test_what_is_refused(self):
         for words, text in ((['faling'], 'Did you mean falling'), (['other'], 'no expected numbers so far')):
