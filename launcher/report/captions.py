@@ -156,14 +156,7 @@ def solvers(run):
         if len(count):
             text.append(f'{name.capitalize()}: {count.mean():.3g} on average, {count.max():.0f} at most '
                         'in the rows.')
-    for name, what in (
-            ('unconverged_windows', 'the contact solver missed its tolerance'),
-            ('unconverged_multiplier_windows', 'the multiplier problem stopped at its iteration limit'),
-            ('unconverged_splitting_windows',
-             'pressure or viscosity with rigid grains missed fluid.splitting_tolerance'),
-            ('unconverged_joint_windows', 'contacts and fluid did not agree to coupling.tolerance')):
-        if name in maxima:
-            text.append(f'Windows in which {what}: {maxima[name]}.')
+    text += [f'Windows in which {what}: {count}.' for what, count in findings.unconverged(run)]
     return ' '.join(text)
 
 

@@ -3,7 +3,10 @@
 import base64
 import html
 import io
+import itertools
+import re
 import sys
+from contextlib import contextmanager
 
 import matplotlib.pyplot as plt
 
@@ -23,20 +26,62 @@ figure { margin: 0; } figcaption { color: #444; max-width: 75ch; }
 .legend span { white-space: nowrap; margin-right: 1.2em; } .legend svg { vertical-align: middle; }
 sub, sup { line-height: 0; }
 @media (max-width: 600px) { body { margin: 1em auto; } td, th { padding-right: .6em; } }
-.bad { color: #a40000; } .remark { color: #7a5c00; }
+h3 { font-size: 1em; } nav { display: flex; flex-wrap: wrap; gap: .2em 1.2em; margin: 1.2em 0; }
+.verdict { font-size: 1.1em; font-weight: 600; padding: .5em .8em; border-left: 5px solid; }
+.verdict.holds { border-color: #2c7a3f; } .verdict.doubt { border-color: #b8860b; } .verdict.bad { border-color: #a40000; }
+ul.checks { list-style: none; padding: 0; } ul.checks li { padding-left: 1.5em; text-indent: -1.5em; }
+ul.checks li::before { display: inline-block; width: 1.5em; text-indent: 0; content: "·"; }
+ul.checks li.holds::before { content: "✓"; color: #2c7a3f; } ul.checks li.doubt::before { content: "!"; color: #a40000; }
+details.part > summary { font-size: 1.15em; font-weight: 600; margin-top: 2em; cursor: pointer; }
+.note { color: #555; max-width: 75ch; } .bad { color: #a40000; } .remark { color: #7a5c00; }
 details pre { background: #f6f6f4; padding: 1em; overflow-x: auto; font-size: 12px; }
 """
 RESOLUTION = 120  # dots per inch
+CONTENTS = object()  # stands in the parts of a page where its contents go
 
 
 class Page:
     def __init__(self, title):
         self.title = title
         self.parts = []
+        self.places = []    # (name, text) of the headings
         self.pictures = {}  # name: bytes of a PNG
 
     def heading(self, text):
-        self.parts.append(f'<h2>{typeset(text)}</h2>')
+        self.parts.append(f'<h2 id="{self._place(text)}">{typeset(text)}</h2>')
+
+    def subheading(self, text):
+        """Within a part; not in the contents."""
+        self.parts.append(f'<h3>{typeset(text)}</h3>')
+
+    def contents(self):
+        """Links to all headings of the page, those that follow included."""
+        self.parts.append(CONTENTS)
+
+    @contextmanager
+    def folded_part(self, text):
+        """A heading whose content opens on demand; nothing where no content is added."""
+        before = len(self.parts)
+        yield
+        content = ''.join(self.parts[before:])
+        del self.parts[before:]
+        if content:
+            self.parts.append(f'<details class="part" id="{self._place(text)}"><summary>{typeset(text)}</summary>{content}'
+                              '</details>')
+
+    def checks(self, items):
+        """(text, class) of single findings: `holds`, `doubt` or `told`."""
+        lines = ''.join(f'<li class="{css}">{typeset(text)}</li>' for text, css in items)
+        self.parts.append(f'<ul class="checks">{lines}</ul>' if lines else '')
+
+    def _place(self, text):
+        """The name of a place to link to, noted for the contents."""
+        name = re.sub(r'[^a-z0-9]+', '-', text.lower()).strip('-') or 'part'
+        taken = {place for place, _ in self.places}
+        place = next(one for one in itertools.chain([name], (f'{name}-{k}' for k in itertools.count(2)))
+                     if one not in taken)
+        self.places.append((place, text))
+        return place
 
     def paragraph(self, text, css=''):
         attribute = f' class="{css}"' if css else ''
@@ -92,9 +137,11 @@ class Page:
 
     def text(self):
         title = html.escape(self.title)
+        links = ' '.join(f'<a href="#{place}">{typeset(text)}</a>' for place, text in self.places)
+        body = ''.join(f'<nav>{links}</nav>' if part is CONTENTS else part for part in self.parts)
         return ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
-                + ''.join(self.parts) + '</body></html>\n')
+                + body + '</body></html>\n')
 
 
 def write_whole(path, content):

@@ -40,6 +40,10 @@ class Report(RunFolderTest):
         self.assertIn('made-up', page)
         self.assertEqual(page.count('src="data:image/png;base64,'), len(FIGURES) - 1)  # sequence.png is a file only
         self.assertIn('Status: done, exit code 0', page)
+        parts = ('Status: done', 'Overlaps are small', 'Units: D is', '<nav>', 'id="case"', '<img',
+                 'id="concentration-over-height"', 'id="solver-diagnostics"', 'Resolved case')
+        order = [page.index(part) for part in parts]
+        self.assertEqual(order, sorted(order))
         self.assertNotIn('Remarks', page)
         self.assertNotIn('src="http', page)
         self.assertEqual(self.pictures(), FIGURES)
