@@ -23,8 +23,8 @@ import seeds
 import surface
 from differences import common_span, difference
 from measured import MEASURED
-from page import write_whole
-from working import Progress
+from document.page import write_whole
+from document.working import Progress
 
 
 class Refusal(Exception):

@@ -11,7 +11,7 @@ import run_data
 import surface
 from analysis import concentration
 from differences import common_span
-from page import Page
+from document.page import Page
 from seeds import SEED
 
 SVG_DASHES = ('', '10 4', '10 3 2 3', '2 3', '12 3 2 3 2 3', '16 5', '5 5')

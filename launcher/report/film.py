@@ -18,7 +18,7 @@ import pictures
 import run_data
 from space import scene, sequence
 from space.camera import OBLIQUE
-from working import Progress
+from document.working import Progress
 
 NAME = 'film.webp'
 FRAME_TIME = 100   # ms

@@ -50,11 +50,18 @@ def panels(run, networks):
     size = pictures.view(run, [network.grains for network in networks])
     for k, network in enumerate(networks):
         result, axes, _ = pictures.panel_axes(run, networks)
+        result.set_label(in_words(run, network))
         grain_drawing.draw(axes, network.grains, run.scale('D'), alpha=0.45)
         axes.add_collection(lines(network, scale))
         pictures.decorate(run, axes, size, network.grains.time)
         found.append((result, f'force_network-{k}'))
     return found
+
+
+def in_words(run, network):
+    """What a picture shows, for those who do not see it."""
+    return (f'{pictures.grains_in_words(run, network.grains, network.grains.time)}, with lines along their '
+            f'{len(network.forces)} contacts; largest force {np.abs(network.forces).max():.3g} rho_s g {run.solid_unit()}')
 
 
 def force_scale(networks):

@@ -36,6 +36,7 @@ def titled(member, picture):
     figure, name = picture
     axes = figure.axes[0]
     axes.set_title(f'{member.name}, {axes.get_title()}', fontsize=9)
+    figure.set_label(f'{member.name}: {figure.get_label()}')
     return figure, f'{member.name}-{name}'.replace('/', '_')
 
 

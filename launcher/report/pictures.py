@@ -165,6 +165,7 @@ def panel(run, shown, picture, limit, size):
     """One of the pictures, with a colour bar below it."""
     wet = run.is_wet()
     result, axes, below = panel_axes(run, shown, bar=True)
+    result.set_label(in_words(run, picture))
     image = _draw(run, picture, limit, size, axes)
     if image is None:
         below.set_axis_off()
@@ -172,6 +173,27 @@ def panel(run, shown, picture, limit, size):
     label, extend = (r'fluid, $v\,/\,u_c$', 'both') if wet else (r'grains, $|u|\,/\,u_c$', 'max')
     bar_below(result, image, below, label, extend)
     return result
+
+
+def in_words(run, picture):
+    """What a picture shows, for those who do not see it."""
+    words = grains_in_words(run, picture.grains, picture.time)
+    if picture.velocity is not None:
+        low, high = (extreme(picture.velocity.vertical) / run.scale('u_c') for extreme in (np.min, np.max))
+        return f'{words}, over the vertical velocity of the fluid, from {low:.2g} to {high:.2g} u_c'
+    speeds = None if picture.grains is None else picture.grains.speeds()
+    if speeds is None or not len(speeds):
+        return words
+    return f'{words}, coloured by their speed, up to {speeds.max() / run.scale("u_c"):.2g} u_c'
+
+
+def grains_in_words(run, grains, time):
+    """How many there are, when, and how far up and to the right they reach."""
+    when = f't = {time / run.scale("t_c"):.3g} t_c'
+    if grains is None or not len(grains.radii):
+        return f'No grains at {when}'
+    right, top = ((grains.centres + grains.radii[:, None]) / run.scale('D')).max(axis=0)
+    return f'{len(grains.radii)} grains at {when}, up to x = {right:.3g} D and y = {top:.3g} D'
 
 
 def bar_below(figure, image, axes, label, extend):

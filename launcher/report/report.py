@@ -21,9 +21,9 @@ import run_data
 import wall_shares
 from analysis import panels
 from head import facts, key_numbers, verdict
-from page import Page, write_whole
+from document.page import Page, write_whole
 from space import chains, sequence, slices
-from working import Progress
+from document.working import Progress
 
 
 def add_head(page, run):

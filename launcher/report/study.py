@@ -23,9 +23,9 @@ import curves
 import run_data
 import seeds
 from measured import DRAWN, MEASURED, table
-from page import Page, write_whole
+from document.page import Page, write_whole
 from paper import add as paper
-from working import Progress
+from document.working import Progress
 
 FIGURE_SETS = {'paper': paper.add}  # by the study's `figures`
 

@@ -24,6 +24,7 @@ def panels(run, networks):
 
 def panel(run, frame, network, scale):
     result, axes, _ = scene.axes_for(frame)
+    result.set_label(force_network.in_words(run, network))
     scene.draw_box(axes, frame)
     walls.draw(axes, run, frame, network.grains.time / run.scale('t_c'))
     pale = np.tile(PALE, (len(network.grains.radii), 1))

@@ -13,7 +13,7 @@ import contact_files
 import force_network
 import report
 import run_data
-from typeset import typeset
+from document.typeset import typeset
 from grain_files import Grains
 
 

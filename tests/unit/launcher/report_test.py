@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The report on synthetic run folders: complete, partly empty, damaged."""
 import json
+import re
 import unittest
 
 import matplotlib
@@ -19,7 +20,7 @@ import relaxation
 import report
 import run_data
 import surface
-from typeset import typeset
+from document.typeset import typeset
 
 FIGURES = ['concentration.png', 'concentration_profiles.png', 'motion-max_penetration.png', 'motion-mean_speed.png',
            'sequence-0.png', 'sequence-1.png', 'sequence.png', 'settling-mean_position_y.png', 'settling-mean_velocity_y.png',
@@ -40,6 +41,11 @@ class Report(RunFolderTest):
         self.assertIn('made-up', page)
         self.assertEqual(page.count('src="data:image/png;base64,'), len(FIGURES) - 1)  # sequence.png is a file only
         self.assertIn('Status: done, exit code 0', page)
+        for words in re.findall('alt="([^"]*)"', page):
+            self.assertNotIn(f'{words}.png', FIGURES)
+            self.assertGreater(len(words.split()), 3)
+        self.assertIn('alt="2 grains at t = 1 t_c, up to x = 2.9 D and y = 3.5 D, over the vertical velocity of the fluid, '
+                      'from 0 to 0.11 u_c"', page)
         parts = ('Status: done', 'Overlaps are small', 'Units: D is', '<nav>', 'id="case"', '<img',
                  'id="concentration-over-height"', 'id="solver-diagnostics"', 'Resolved case')
         order = [page.index(part) for part in parts]

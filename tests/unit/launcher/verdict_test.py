@@ -11,7 +11,7 @@ matplotlib.use('Agg')
 
 import run_data
 from head import facts, key_numbers, verdict
-from page import Page
+from document.page import Page
 
 CASE = {'time.step': '0.5', 'fluid.enabled': 'true', 'scales.kind': 'sedimentation', 'limits.grain_balance_soft': '1e-08',
         'limits.fluid_balance_soft': '1e-06', 'limits.penetration': '0.2'}

@@ -10,32 +10,10 @@ from contextlib import contextmanager
 
 import matplotlib.pyplot as plt
 
-from typeset import typeset
+from document.alt_text import described
+from document.style import STYLE
+from document.typeset import typeset
 
-STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em;
-       color: #222; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
-table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; vertical-align: top; }
-th { text-align: left; font-weight: 600; } td:first-child { color: #666; } img { max-width: 100%; }
-table.numbers td + td, table.numbers th + th { text-align: right; font-variant-numeric: tabular-nums; }
-.wide { overflow-x: auto; }
-figure { margin: 0; } figcaption { color: #444; max-width: 75ch; }
-.panels { display: grid; gap: 8px; align-items: start; } .panels img { width: 100%; }
-.legend { position: sticky; top: 0; background: white; padding: .3em 0; margin: 0; }
-.legend span { white-space: nowrap; margin-right: 1.2em; } .legend svg { vertical-align: middle; }
-sub, sup { line-height: 0; }
-@media (max-width: 600px) { body { margin: 1em auto; } td, th { padding-right: .6em; } }
-h3 { font-size: 1em; } nav { display: flex; flex-wrap: wrap; gap: .2em 1.2em; margin: 1.2em 0; }
-.verdict { font-size: 1.1em; font-weight: 600; padding: .5em .8em; border-left: 5px solid; }
-.verdict.holds { border-color: #2c7a3f; } .verdict.doubt { border-color: #b8860b; } .verdict.bad { border-color: #a40000; }
-ul.checks { list-style: none; padding: 0; } ul.checks li { padding-left: 1.5em; text-indent: -1.5em; }
-ul.checks li::before { display: inline-block; width: 1.5em; text-indent: 0; content: "·"; }
-ul.checks li.holds::before { content: "✓"; color: #2c7a3f; } ul.checks li.doubt::before { content: "!"; color: #a40000; }
-details.part > summary { font-size: 1.15em; font-weight: 600; margin-top: 2em; cursor: pointer; }
-.note { color: #555; max-width: 75ch; } .bad { color: #a40000; } .remark { color: #7a5c00; }
-details pre { background: #f6f6f4; padding: 1em; overflow-x: auto; font-size: 12px; }
-"""
 RESOLUTION = 120  # dots per inch
 CONTENTS = object()  # stands in the parts of a page where its contents go
 
@@ -96,14 +74,13 @@ class Page:
         """Several (figure, name) with one caption: side by side where each has `width` pixels, below each other where
         not."""
         images = ''.join(self._image(figure, name) for figure, name in figures)
-        columns = f'grid-template-columns: repeat(auto-fill, minmax(min(100%, {width}px), 1fr))'
-        self.parts.append(f'<figure><div class="panels" style="{columns}">{images}</div>'
+        self.parts.append(f'<figure><div class="panels" style="--width: {width}px">{images}</div>'
                           f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
     def legend(self, entries):
         """(name, colour, dashes of SVG, whether a band belongs to it) of the lines in all figures that follow."""
         self.parts.append('<p class="legend">' + ' '.join(
-            f'<span><svg width="40" height="12"><line x1="0" x2="40" y1="6" y2="6" stroke="{colour}" '
+            f'<span><svg width="40" height="12" aria-hidden="true"><line x1="0" x2="40" y1="6" y2="6" stroke="{colour}" '
             f'stroke-width="2" stroke-dasharray="{dashes}"/>'
             + (f'<rect x="0" y="1" width="40" height="10" fill="{colour}" opacity="0.18"/>' if band else '')
             + f'</svg> {html.escape(name)}</span>' for name, colour, dashes, band in entries) + '</p>')
@@ -116,9 +93,10 @@ class Page:
         self.pictures[name] = buffer.getvalue()
 
     def _image(self, figure, name):
+        words = html.escape(described(figure))
         self.file_only(figure, name)
         data = base64.b64encode(self.pictures[name]).decode()
-        return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
+        return f'<img alt="{words}" src="data:image/png;base64,{data}">'
 
     def table(self, rows, header=None, css=''):
         line = lambda tag, cells: '<tr>' + ''.join(
@@ -140,6 +118,7 @@ class Page:
         links = ' '.join(f'<a href="#{place}">{typeset(text)}</a>' for place, text in self.places)
         body = ''.join(f'<nav>{links}</nav>' if part is CONTENTS else part for part in self.parts)
         return ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+                '<meta name="viewport" content="width=device-width, initial-scale=1">'
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
                 + body + '</body></html>\n')
 

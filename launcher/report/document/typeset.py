@@ -8,6 +8,16 @@ SUBSCRIPTED = re.compile(r'(?<![\w.])(rho|ρ|u|t|m|R|F|J|x|V|σ)_(c|s|f|h|0|xx|y
 POWER = re.compile(r'(?<![\w.])(D|u|u<sub>c</sub>)\^(\d)')
 TENS = re.compile(r'(?<![\w.])(-?\d+(?:\.\d+)?)e([+-]?)0*(\d+)(?![\w.]*\w)')
 MEAN = re.compile(r'&lt;(\|?u(?:_[xy])?\|?|[xy])&gt;')
+MATHTEXT = {r'\langle': '⟨', r'\rangle': '⟩', r'\,': ' ', r'\times': '×', r'\degree': '°', r'\Sigma': 'Σ',
+            r'\max': 'max', r'\mathrm': '', r'\phi': 'φ', r'\mu': 'μ', r'\rho': 'ρ', r'\sigma': 'σ', r'\delta': 'δ',
+            '$': '', '{': '', '}': '', '^2': '²', '^3': '³'}
+
+
+def plain(mathtext):
+    """A label of a figure as plain text."""
+    for sign, letter in MATHTEXT.items():
+        mathtext = mathtext.replace(sign, letter)
+    return ' '.join(mathtext.split()).replace('⟨ ', '⟨').replace(' ⟩', '⟩')
 
 
 def typeset(text):
