@@ -33,7 +33,7 @@ def frames(run, shown):
         frame, limit = scene.frame(run, [one.grains for one in shown], OBLIQUE), pictures.speed_limit(run, shown)
         return lambda picture: sequence.panel(run, frame, picture.grains, limit)
     limit, size = pictures.shown_limit(run, shown), pictures.view(run, [one.grains for one in shown])
-    return lambda picture: pictures.panel(run, shown, picture, limit, size)
+    return lambda picture: pictures.panel(run, picture, limit, size)
 
 
 def image_of(figure):

@@ -24,7 +24,7 @@ def add(page, members):
     page.heading('Pictures')
     whole = [[pictures.load(run, instant_near(run, row, time)) for time in times] for run, row in zip(runs, rows)]
     figures = [pictures.panels(run, shown) for run, shown in zip(runs, whole)]
-    width = max(pictures.panel_width(run, shown) for run, shown in zip(runs, whole))
+    width = max(pictures.panel_width(pictures.view(run, [one.grains for one in shown])) for run, shown in zip(runs, whole))
     for k in range(TIMES):
         page.panels([titled(member, figures[i][k]) for i, member in enumerate(members[:MOST_MEMBERS])], '', width)
     page.paragraph('One scale of colours per run.' + (' Of groups the first seed.' if any(

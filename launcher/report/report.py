@@ -57,7 +57,9 @@ def add_sequence(page, run):
         return page.panels(sequence.panels(run, loaded),
                            f'{captions.sequence(run, loaded)} {sequence.caption(run, loaded)}', sequence.PANEL_WIDTH)
     page.file_only(pictures.figure(run, loaded), 'sequence')
-    page.panels(pictures.panels(run, loaded), captions.sequence(run, loaded), pictures.panel_width(run, loaded))
+    size = pictures.view(run, [picture.grains for picture in loaded])
+    page.panels(pictures.panels(run, loaded), f'{captions.sequence(run, loaded)}{captions.shown_part(run, size)}',
+                pictures.panel_width(size))
 
 
 def add_curves(page, run):
@@ -101,7 +103,7 @@ def add_contacts(page, run):
     else:
         page.file_only(force_network.figure(run, shown), 'force_network')
         page.panels(force_network.panels(run, shown), captions.force_network(run, shown),
-                    pictures.panel_width(run, shown))
+                    pictures.panel_width(force_network.view(run, shown)))
     told = (chains if run.in_space() else force_network).statistics(shown)
     if told:
         page.panels(told, captions.contact_statistics(run))
