@@ -179,6 +179,7 @@ def decorate(axes, title, unit):
     axes.set_ylabel(unit)
     axes.grid(alpha=0.3)
     axes.tick_params(labelsize=9)
+    axes.ticklabel_format(axis='y', scilimits=(-3, 4), useMathText=True)  # wide numbers push the label out of the margin
 
 
 def logarithmic(axes):

@@ -158,9 +158,9 @@ def panel_axes(size, bar=False):
     return result, axes, result.add_axes((0.35 / inches, 0.42 / total, plot[0] / inches, 0.12 / total)) if bar else None
 
 
-def panels(run, shown):
-    """(figure, name) of each picture."""
-    limit, size = shown_limit(run, shown), view(run, [picture.grains for picture in shown])
+def panels(run, shown, limit=None):
+    """(figure, name) of each picture; `limit` of the colours if it is not that of these pictures."""
+    limit, size = limit or shown_limit(run, shown), view(run, [picture.grains for picture in shown])
     return [(panel(run, picture, limit, size), f'sequence-{k}') for k, picture in enumerate(shown)]
 
 

@@ -7,6 +7,7 @@ import itertools
 import re
 import sys
 from contextlib import contextmanager
+from urllib.parse import quote
 
 import matplotlib.pyplot as plt
 
@@ -71,9 +72,9 @@ class Page:
                           f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
     def panels(self, figures, caption, width=400):
-        """Several (figure, name) with one caption: side by side where each has `width` pixels, below each other where
-        not."""
-        images = ''.join(self._image(figure, name) for figure, name in figures)
+        """Several (figure, name), or (figure, name, address of a page), with one caption: side by side where each has
+        `width` pixels, below each other where not."""
+        images = ''.join(self._image(*one) for one in figures)
         self.parts.append(f'<figure><div class="panels" style="--width: {width}px">{images}</div>'
                           f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
@@ -92,11 +93,17 @@ class Page:
         plt.close(figure)
         self.pictures[name] = buffer.getvalue()
 
-    def _image(self, figure, name):
+    def links(self, entries):
+        """(text, address) in a row."""
+        self.parts.append('<p class="links">' + ' '.join(
+            f'<a href="{address_of(address)}">{html.escape(text)}</a>' for text, address in entries) + '</p>')
+
+    def _image(self, figure, name, address=''):
         words = html.escape(described(figure))
         self.file_only(figure, name)
         data = base64.b64encode(self.pictures[name]).decode()
-        return f'<img alt="{words}" src="data:image/png;base64,{data}">'
+        image = f'<img alt="{words}" src="data:image/png;base64,{data}">'
+        return f'<a href="{address_of(address)}">{image}</a>' if address else image
 
     def table(self, rows, header=None, css=''):
         line = lambda tag, cells: '<tr>' + ''.join(
@@ -121,6 +128,11 @@ class Page:
                 '<meta name="viewport" content="width=device-width, initial-scale=1">'
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
                 + body + '</body></html>\n')
+
+
+def address_of(path):
+    """Of a file beside the page, for a link."""
+    return html.escape(quote(str(path)))
 
 
 def write_whole(path, content):

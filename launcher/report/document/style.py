@@ -21,6 +21,8 @@ table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; vertic
 th { text-align: left; font-weight: 600; } td:first-child { color: var(--faint); } img { max-width: 100%; }
 table.numbers td + td, table.numbers th + th { text-align: right; font-variant-numeric: tabular-nums; }
 .wide { overflow-x: auto; }
+table.numbers td:first-child, table.numbers th:first-child { position: sticky; left: 0; background: var(--paper); }
+.links a { margin-right: 1em; }
 nav { display: flex; flex-wrap: wrap; gap: .2em 1.2em; margin: 1.2em 0; }
 figure { margin: 0; } figcaption { color: var(--faint); max-width: 75ch; }
 .panels { display: grid; gap: 8px; align-items: start;
@@ -43,6 +45,7 @@ details pre { background: var(--raised); padding: 1em; overflow-x: auto; font-si
 @media print {
   body { max-width: none; margin: 0; padding: 0; font-size: 10pt; }
   nav { display: none; } .legend { position: static; } .wide { overflow: visible; }
+  table.numbers { font-size: 7pt; }
   h2, h3 { break-after: avoid; } img, tr, figcaption { break-inside: avoid; }
   .panels { grid-template-columns: repeat(auto-fill, minmax(min(48%, calc(.75 * var(--width))), 1fr)); } }
 """
