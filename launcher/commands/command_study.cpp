@@ -237,8 +237,19 @@ bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs:
     return true;
 }
 
+/// What plays the same study from anywhere, without the flags that change no result.
+std::vector<std::string> words_of(const StudyOptions& options) {
+    std::vector<std::string> words{"turbidite", "study", fs::absolute(options.file).string()};
+    for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
+    if (!options.out.empty())
+        words.insert(words.end(), {"--out", fs::absolute(options.out).string()});
+    if (options.quick) words.push_back("--quick");
+    return words;
+}
+
 int run_study(const StudyOptions& options) {
-    const Study study = read_study(options.file);
+    Study study = read_study(options.file);
+    study.command = words_of(options);
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     const fs::path out = folder_of(study, options);
     const std::vector<const PlannedRun*> missing = missing_runs(plan, out, options.again);

@@ -99,7 +99,7 @@ nlohmann::ordered_json first_part() {
             {"status", "prepared"}};
 }
 
-nlohmann::ordered_json first_record(const ResolvedCase& resolved,
+nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolder& folder,
                                     const std::vector<std::string>& command) {
     const Scales& scales = resolved.scales;
     return {{"status", "prepared"},
@@ -109,6 +109,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved,
             {"case_file", resolved.file.string()},
             {"overrides", resolved.overrides},
             {"from", resolved.from},
+            {"out", folder.root.string()},
             {"case_hash", resolved.settings.text("run.hash")},
             {"versions", {{"turbidite", version()}, {"commit", commit()}}},
             {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
@@ -149,9 +150,11 @@ OwnFolder folder_for(const fs::path& wanted, bool force) {
     if (force && is_run_folder(folder))
         empty_run_folder(folder);
     else if (holds_something(folder.root))
-        throw folder_refused(wanted, "is not empty",
-                             "A run needs a new or empty folder. Choose another --out, or add "
-                             "--force to overwrite the run that is there.");
+        throw folder_refused(
+            wanted, is_run_folder(folder) ? "is not empty" : "is not empty, and no run is in it",
+            std::string("A run needs a new or empty folder. Choose another --out") +
+                (is_run_folder(folder) ? ", or add --force to overwrite the run that is there."
+                                       : "."));
     for (const fs::path& part : {folder.grains(), folder.logs()}) fs::create_directories(part);
     return {folder, lock};
 }
@@ -199,7 +202,7 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     }
     // After the files that it names: a folder with a case can be read, whenever this program ends.
     write_text(folder.resolved_case(), resolved.yaml);
-    write_run_json(folder.record(), first_record(resolved, command));
+    write_run_json(folder.record(), first_record(resolved, folder, command));
     build_fluid(resolved.settings, folder);
     put_run_on_disk(folder);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // What standard output can do. The report's scripts ask the same of standard error
-// (report/working.py).
+// (report/document/working.py).
 #pragma once
 
 #include <string>

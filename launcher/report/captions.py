@@ -3,6 +3,7 @@
 import findings
 import peaks
 import relaxation
+from force_network import LARGEST_PART, THINNEST, force_scale
 
 
 def sequence(run, pictures):
@@ -18,6 +19,13 @@ def sequence(run, pictures):
                     f'down. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
                     f'{fastest[1] / run.scale("t_c"):.3g} t_c.')
     return ' '.join(text + [f'Times: {times} t_c.'])
+
+
+def shown_part(run, size):
+    """Where pictures leave out a part of the box."""
+    whole = run.size()
+    return '' if tuple(size) == tuple(whole) else (f' Shown are {size[0]:g} x {size[1]:g} D of the box, '
+                                                   f'{whole[0]:g} x {whole[1]:g} D.')
 
 
 def fastest_fluid(pictures):
@@ -89,12 +97,16 @@ def rest(run):
     return ''
 
 
-def force_network(run, networks, left_out='the weakest are not drawn'):
+def force_network(run, networks, left_out=f'those below {100 * THINNEST:g} % of that are not drawn'):
     """The force of the widest lines, and their position."""
     counts = ', '.join(f'{len(network.forces)} at t = {network.time:.3g} t_c' for network in networks)
     strongest = max(networks, key=lambda network: abs(network.forces).max())
+    scale = force_scale(networks)
+    wider = sum(int((abs(network.forces) > scale).sum()) for network in networks)
     return ('Lines join grains in contact, as wide as their normal force (red repulsive, blue attractive), on one '
-            'scale for all pictures; ' + left_out + '. Contacts with an impulse: '
+            f'scale for all pictures: the widest stand for {scale:.3g} rho_s g {run.solid_unit()}, which '
+            f'{100 * LARGEST_PART:g} % of the contacts do not exceed in the middle one of the outputs, and for more '
+            f'({wider} lines); {left_out}. Contacts with an impulse: '
             f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g {run.solid_unit()} at t = '
             f'{strongest.time:.3g} t_c.')
 
@@ -112,7 +124,7 @@ def motion(run):
     text = []
     overlap = findings.largest(run, 'max_penetration', 'penetration')
     if overlap is not None:
-        text.append(f'Largest overlap of any window: {overlap:.3g} D.')
+        text.append(f'Largest overlap of any window: {overlap:.3g} D (dotted); the curve has the windows with output.')
     _, contacts = run.column('contacts')
     if len(contacts):
         text.append(f'Contacts with an impulse at the end: {contacts[-1]:.0f}.')
@@ -139,7 +151,7 @@ def solvers(run):
                (('grains', 'grain_balance'), ('fluid', 'fluid_balance'))]
     told = ', '.join(f'{name} {defect:.2g}' for name, defect in defects if defect is not None)
     if told:
-        text.append(f'Largest momentum defect of any window: {told}.')
+        text.append(f'Largest momentum defect of any window (dotted): {told}.')
     divergence = findings.largest(run, 'divergence', 'divergence')
     if divergence is not None and run.is_wet():
         text.append(f'Largest divergence after step 1: {divergence:.2g} u_c/D.')
@@ -156,14 +168,7 @@ def solvers(run):
         if len(count):
             text.append(f'{name.capitalize()}: {count.mean():.3g} on average, {count.max():.0f} at most '
                         'in the rows.')
-    for name, what in (
-            ('unconverged_windows', 'the contact solver missed its tolerance'),
-            ('unconverged_multiplier_windows', 'the multiplier problem stopped at its iteration limit'),
-            ('unconverged_splitting_windows',
-             'pressure or viscosity with rigid grains missed fluid.splitting_tolerance'),
-            ('unconverged_joint_windows', 'contacts and fluid did not agree to coupling.tolerance')):
-        if name in maxima:
-            text.append(f'Windows in which {what}: {maxima[name]}.')
+    text += [f'Windows in which {what}: {count}.' for what, count in findings.unconverged(run)]
     return ' '.join(text)
 
 

@@ -6,6 +6,7 @@ quantified. Runs of one case with several seeds are averaged unless --each is gi
 import csv
 import io
 import json
+import shlex
 import sys
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -23,8 +24,8 @@ import seeds
 import surface
 from differences import common_span, difference
 from measured import MEASURED
-from page import write_whole
-from working import Progress
+from document.page import write_whole
+from document.working import Progress
 
 
 class Refusal(Exception):
@@ -206,7 +207,8 @@ def compare(page_file, folders, each=False):
     working('differences')
     comparison = measure(members)
     working('figures')
-    page = compare_page.make_page(comparison).text()
+    command = ['turbidite', 'compare', *(['--each'] if each else []), *map(str, folders), '--out', str(page_file)]
+    page = compare_page.make_page(comparison, page_file.parent, shlex.join(command)).text()
     working.end()
     return all([write_whole(page_file, page),
                 write_whole(page_file.with_suffix('.csv'), as_csv(comparison.measured)),

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The page of a comparison: tables and figures of its members (seeds.Member), the first one solid."""
+import os
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -11,7 +13,8 @@ import run_data
 import surface
 from analysis import concentration
 from differences import common_span
-from page import Page
+from document.page import Page
+from head import facts
 from seeds import SEED
 
 SVG_DASHES = ('', '10 4', '10 3 2 3', '2 3', '12 3 2 3 2 3', '16 5', '5 5')
@@ -31,11 +34,16 @@ def span(bounds):
     return low if low == high else f'{low} to {high}'
 
 
-def make_page(comparison):
+def make_page(comparison, folder, command):
+    """`folder` is that of the page, from which it links to the reports of the runs."""
     members = comparison.members
     page = Page('Comparison of ' + ', '.join(member.name for member in members))
     add_groups(page, members)
-    page.table(overview(comparison), header=[''] + [member.name for member in members])
+    page.links(report_links([run for member in members for run in member.runs], folder))
+    page.paragraph(facts.units_in_words(members[0].data), 'note')
+    page.paragraph(f'Made by: {command}', 'note')
+    page.contents()
+    add_overview(page, comparison)
     add_parameters(page, comparison)
     member_pictures.add(page, members)
     page.heading('Curves')
@@ -52,6 +60,12 @@ def make_page(comparison):
     return page
 
 
+def report_links(runs, folder):
+    """(name of the run, address) of the reports that are there."""
+    reports = [(run.folder.resolve().name, run.folder / 'report.html') for run in runs]
+    return [(name, os.path.relpath(path, folder)) for name, path in reports if path.exists()]
+
+
 def add_groups(page, members):
     groups = [member for member in members if member.is_group()]
     if not groups:
@@ -65,6 +79,23 @@ def add_groups(page, members):
                   for member in groups])
 
 
+def add_overview(page, comparison):
+    """What is the same for all is said once; what no member has is left out."""
+    page.heading('Overview')
+    rows = [row for row in overview(comparison) if any(row[1:])]
+    same = [f'{name}: {values[0]}' for name, *values in rows if len(set(values)) == 1]
+    page.table([row for row in rows if len(set(row[1:])) > 1], header=[''] + [member.name for member in comparison.members])
+    if same:
+        page.paragraph('The same for all: ' + '; '.join(same) + '.')
+
+
+def with_ratios(values):
+    """Numbers, and how many times the first they are."""
+    first = values[0]
+    return [number(value) + (f' ({value / first:.3g} times)' if k and value and first else '')
+            for k, value in enumerate(values)]
+
+
 def overview(comparison):
     """Rows: a name, then one cell per member."""
     members, wall = comparison.members, comparison.wall
@@ -73,23 +104,20 @@ def overview(comparison):
                                    for member in members]
     wet = lambda name, column: [text if member.data.is_wet() else '' for text, member in
                                 zip(maxima(name, column), members)]
-    ratios = lambda values: [number(v / values[0] if v and values[0] else None) for v in values]
     totals, windows = [total for total, _ in wall], [window for _, window in wall]
     return [
         ['status'] + [member.data.record.get('status', 'unknown') for member in members],
         ['made by'] + [made_by(member.data) for member in members],
         ['last row [t_c]'] + [number(member.data.history['time'][-1]) for member in members],
         ['windows'] + [f'{member.data.history["step"][-1]:.0f}' for member in members],
-        ['wall time [s]'] + [number(total) for total in totals],
-        ['over the first\'s'] + ratios(totals),
-        ['wall time of a window [s]'] + [number(window) for window in windows],
-        ['over the first\'s'] + ratios(windows),
+        ['wall time [s]'] + with_ratios(totals),
+        ['wall time of a window [s]'] + with_ratios(windows),
         ['at rest from [t_c]'] + ['not at rest' if value is None else number(value) for value in rest],
         ['largest overlap of any window [D]'] + maxima('penetration', 'max_penetration'),
         ['windows beyond contact.tolerance'] + maxima('unconverged_windows', ''),
-        ['largest defect of the grains\' momentum [-]'] + maxima('grain_balance', 'grain_balance'),
-        ['largest defect of the fluid\'s momentum [-]'] + wet('fluid_balance', 'fluid_balance'),
-        ['largest Courant number [-]'] + wet('courant', ''),
+        ['largest defect of the grains\' momentum'] + maxima('grain_balance', 'grain_balance'),
+        ['largest defect of the fluid\'s momentum'] + wet('fluid_balance', 'fluid_balance'),
+        ['largest Courant number'] + wet('courant', ''),
     ]
 
 
@@ -189,21 +217,28 @@ def draw_curves(comparison):
 # --- the mean velocity --------------------------------------------------------------------------------
 
 def add_peaks(page, comparison):
-    rows = [[member.name, number(peaks.mean.value), number(peaks.mean.time), span(peaks.of('value')),
-             span(peaks.of('time'))]
-            for member in comparison.members for peaks in [comparison.peaks[member.name]] if peaks]
-    if rows:
+    found = [(member.name, comparison.peaks[member.name]) for member in comparison.members
+             if comparison.peaks[member.name]]
+    if found:
         page.heading('Peak of the mean velocity')
-        page.paragraph('Largest |<u>| over u_c and its time over t_c: of the mean curve, and of the '
-                       'single runs from the smallest to the largest.')
-        page.table(rows, css='numbers', header=['', 'of the mean [u_c]', 'at [t_c]', 'of single runs [u_c]', 'at [t_c]'])
-    if comparison.pairs:
+        grouped = any(member.is_group() for member in comparison.members)
+        page.paragraph('Largest |<u>| over u_c and its time over t_c' + (
+            ': of the mean curve, and of the single runs from the smallest to the largest.' if grouped else '.'))
+        page.table([peak_row(name, peaks, grouped) for name, peaks in found], css='numbers',
+                   header=['', 'peak [u_c]', 'at [t_c]'] + (['of single runs [u_c]', 'at [t_c]'] if grouped else []))
+    between_others = [pair for pair in comparison.pairs if pair.first != comparison.members[0].name]
+    if between_others:
         page.heading('Differences of the mean velocity')
-        page.paragraph('Of |<u>|(t) between every two, over the time both cover, divided by the peak of '
-                       'the first one.')
+        page.paragraph('Of |<u>|(t) between every two but the first, over the time both cover, divided by the peak of '
+                       'the first named.')
         page.table([[pair.first, pair.second, percent(pair.largest), percent(pair.mean),
-                     f'{pair.begin:g} to {pair.end:g}'] for pair in comparison.pairs], css='numbers',
+                     f'{pair.begin:g} to {pair.end:g}'] for pair in between_others], css='numbers',
                    header=['', 'and', 'largest', 'mean over time', 't/t_c'])
+
+
+def peak_row(name, peaks, grouped):
+    of_single = [span(peaks.of('value')), span(peaks.of('time'))] if grouped else []
+    return [name, number(peaks.mean.value), number(peaks.mean.time), *of_single]
 
 
 def add_surfaces(page, comparison):
@@ -251,11 +286,18 @@ def add_differences(page, comparison):
     page.paragraph('Over the time both runs cover, interpolated linearly; rms in time; relative to the '
                    'largest value of the first run. End values are those of each run\'s last row.')
     page.table(difference_rows(comparison), css='numbers',
-               header=['quantity', 'run', 'rms', 'relative', 'largest', 'relative', 'end value'])
+               header=['quantity', 'run', 'rms', 'relative', 'largest', 'relative', 'end value', 'of the first'])
 
 
 def difference_rows(comparison):
-    return [[f'{quantity.title} [{quantity.plain_unit}]', member.name, number(n['rms']), percent(n['rms_relative']),
-             number(n['max']), percent(n['max_relative']), number(n['end_value'])]
-            for quantity in comparison.quantities for member in comparison.members
-            for n in [comparison.measured[member.name][quantity.column]]]
+    """Of each quantity a row per member but the first, whose end value stands in the first of them."""
+    first, *others = comparison.members
+    rows = []
+    for quantity in comparison.quantities:
+        for k, member in enumerate(others):
+            n = comparison.measured[member.name][quantity.column]
+            of_first = comparison.measured[first.name][quantity.column]['end_value']
+            rows.append([measured.titled(quantity) if k == 0 else '', member.name, number(n['rms']),
+                         percent(n['rms_relative']), number(n['max']), percent(n['max_relative']), number(n['end_value']),
+                         number(of_first) if k == 0 else ''])
+    return rows

@@ -11,6 +11,7 @@ import relaxation
 LOG_FLOOR = 1e-16
 TIME_LABEL = r'$t\,/\,t_c$'
 PANEL = (5.4, 3.5)  # inches: its text reads at 420 pixels
+LARGEST = 'largest of any window'
 MARKERS = 'os^Dv<>P'
 DASHES = ('-', '--', '-.', ':', (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (3, 3)))
 
@@ -19,6 +20,7 @@ DASHES = ('-', '--', '-.', ':', (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (3, 3)
 class Curve:
     column: str
     label: str
+    largest: str = ''  # in `maxima` of run.json: over all windows, of which the rows are some
 
 
 @dataclass
@@ -64,7 +66,7 @@ MOTION = [
          [Curve('mean_velocity_norm', r'of the mean, $|\langle u \rangle|$'),
           Curve('mean_speed', r'mean, $\langle |u| \rangle$')]),
     Plot('Kinetic energy', r'energy $/\,(\Sigma m\,u_c^2)$', [Curve('kinetic_energy', '')]),
-    Plot('Deepest overlap', r'overlap $/\,D$', [Curve('max_penetration', '')]),
+    Plot('Deepest overlap', r'overlap $/\,D$', [Curve('max_penetration', '', largest='penetration')]),
     Plot('Contacts with an impulse', 'count', [Curve('contacts', '')]),
 ]
 
@@ -82,12 +84,12 @@ SOLVERS = [
     Plot('Residuals', 'dimensionless',
          [Curve('contact_residual', 'contact (scaled natural map)'),
           Curve('multiplier_residual', r'multipliers (rms slip $/\,u_c$)'),
-          Curve('divergence', r'divergence after step 1 ($\times D/u_c$)'),
+          Curve('divergence', r'divergence after step 1 ($\times D/u_c$)', largest='divergence'),
           Curve('remaining_divergence', r'rms divergence with rigid grains ($\times D/u_c$)'),
-          Curve('joint_mismatch', 'joint: grains against fluid')], logarithmic=True),
+          Curve('joint_mismatch', 'joint: grains against fluid', largest='joint_mismatch')], logarithmic=True),
     Plot('Momentum checks', 'relative defect',
-         [Curve('grain_balance', r'grains: $M\,dU/dt = (M-m_f)g + F_c + F_h$'),
-          Curve('fluid_balance', 'fluid: multipliers and boundaries')], logarithmic=True),
+         [Curve('grain_balance', r'grains: $M\,dU/dt = (M-m_f)g + F_c + F_h$', largest='grain_balance'),
+          Curve('fluid_balance', 'fluid: multipliers and boundaries', largest='fluid_balance')], logarithmic=True),
     Plot('Contact solver', 'sweeps', [Curve('contact_iterations', '')],
          of_springs=('Springs', 'sub-steps of a window')),
     Plot('Multiplier solver', 'iterations', [Curve('multiplier_iterations', 'multipliers'),
@@ -117,8 +119,9 @@ def draw(plot, run, axes):
     curves = available(plot, run)
     for k, curve in enumerate(curves):
         time, values = run.column(curve.column)
-        axes.plot(time, values / height if height else values, label=curve.label, linewidth=1.4, linestyle=dash(k),
-                  marker='.' if len(values) == 1 else None)
+        line, = axes.plot(time, values / height if height else values, label=curve.label, linewidth=1.4, linestyle=dash(k),
+                          marker='.' if len(values) == 1 else None)
+        draw_largest(run, curve, axes, line.get_color())
     decorate(axes, plot.title_of(run), plot.unit_of(run) if height or not plot.divide_by_height else r'$\langle y \rangle\,/\,D$')
     if plot.logarithmic:
         logarithmic(axes)
@@ -126,8 +129,17 @@ def draw(plot, run, axes):
         axes.set_ylim(0.0, 1.0)
     if plot.relaxation:
         relaxation.draw(run, axes)
-    if len(axes.get_legend_handles_labels()[1]) > 1:
+    names = axes.get_legend_handles_labels()[1]
+    if len(names) > 1 or LARGEST in names:
         axes.legend(fontsize=8)
+
+
+def draw_largest(run, curve, axes, colour):
+    """Dotted, in the colour of the curve: between two rows there may be windows with larger values."""
+    value = (run.record.get('maxima') or {}).get(curve.largest)
+    if value:
+        said = LARGEST in axes.get_legend_handles_labels()[1]
+        axes.axhline(value, color=colour, linestyle=':', linewidth=1.2, label=None if said else LARGEST)
 
 
 def bare_panel(size=PANEL, right=0.97):
@@ -167,6 +179,7 @@ def decorate(axes, title, unit):
     axes.set_ylabel(unit)
     axes.grid(alpha=0.3)
     axes.tick_params(labelsize=9)
+    axes.ticklabel_format(axis='y', scilimits=(-3, 4), useMathText=True)  # wide numbers push the label out of the margin
 
 
 def logarithmic(axes):

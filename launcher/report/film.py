@@ -18,7 +18,7 @@ import pictures
 import run_data
 from space import scene, sequence
 from space.camera import OBLIQUE
-from working import Progress
+from document.working import Progress
 
 NAME = 'film.webp'
 FRAME_TIME = 100   # ms
@@ -33,7 +33,7 @@ def frames(run, shown):
         frame, limit = scene.frame(run, [one.grains for one in shown], OBLIQUE), pictures.speed_limit(run, shown)
         return lambda picture: sequence.panel(run, frame, picture.grains, limit)
     limit, size = pictures.shown_limit(run, shown), pictures.view(run, [one.grains for one in shown])
-    return lambda picture: pictures.panel(run, shown, picture, limit, size)
+    return lambda picture: pictures.panel(run, picture, limit, size)
 
 
 def image_of(figure):

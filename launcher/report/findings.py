@@ -8,6 +8,12 @@ import numpy as np
 REST_FRACTION = 0.01
 # (column, name) of the parts of a window's wall time.
 PARTICIPANTS = [('wall_fluid', 'fluid'), ('wall_grains', 'grains'), ('wall_coupling', 'coupling')]
+# Numbers in the record of a run: windows in which a solver stopped before its tolerance.
+UNCONVERGED = (('unconverged_windows', 'the contact solver missed its tolerance'),
+               ('unconverged_multiplier_windows', 'the multiplier problem stopped at its iteration limit'),
+               ('unconverged_splitting_windows',
+                'pressure or viscosity with rigid grains missed fluid.splitting_tolerance'),
+               ('unconverged_joint_windows', 'contacts and fluid did not agree to coupling.tolerance'))
 
 
 def rest_time(run):
@@ -37,6 +43,12 @@ def largest(run, column, in_record=None):
         return float(recorded)
     _, values = run.column(column)
     return float(values.max()) if len(values) else None
+
+
+def unconverged(run):
+    """(what happened, number of windows) of the solvers that the run tells of."""
+    maxima = run.record.get('maxima') or {}
+    return [(what, maxima[name]) for name, what in UNCONVERGED if maxima.get(name) is not None]
 
 
 @dataclass

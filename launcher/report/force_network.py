@@ -6,13 +6,16 @@ from dataclasses import dataclass
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
 
 import curves
 import grain_drawing
 import pictures
 
 WIDEST = 4.0            # points, of the line of the largest force drawn at scale
-LARGEST_PART = 0.995    # quantile of the forces that gets the full width, as do larger ones
+LARGEST_PART = 0.95     # quantile of the forces of an output that gets the full width, as do larger ones
+LEGEND = (0.25, 0.5, 1.0)  # of the full width
+OF_A_GRAIN = 0.7        # the widest line, at most
 THINNEST = 0.08         # of the widest; thinner lines are invisible
 PUSH, PULL = '#b3261e', '#1d5fa8'
 BINS_FORCE, BINS_ANGLE = 30, 36
@@ -32,43 +35,79 @@ class Network:
     between_grains: np.ndarray  # (n,) bool; others are at walls
 
 
+def view(run, networks):
+    """Width and height of the pictures [D]: there is nothing to see where there are no grains."""
+    return pictures.reached(run, [network.grains for network in networks], pictures.MARGIN)
+
+
 def figure(run, networks):
     """The networks side by side, line width proportional to the force, with one scale for all."""
-    scale = force_scale(networks)
-    result, axes, size = pictures.frame(run, [network.grains for network in networks],
-                                        pictures.LABEL_WIDTH)
+    scale, size = force_scale(networks), view(run, networks)
+    result, axes = pictures.frame(size, len(networks), pictures.LABEL_WIDTH)
     for network, place in zip(networks, axes.flat):
-        grain_drawing.draw(place, network.grains, run.scale('D'), alpha=0.45)
-        place.add_collection(lines(network, scale))
-        pictures.decorate(run, place, size, network.grains.time)
+        draw(run, place, network, scale, size)
+    add_widths(axes.flat[0], scale, run.solid_unit(), widest_line(axes.flat[0], size), loc='upper right', fontsize=6)
     return result
 
 
 def panels(run, networks):
     """(figure, name) of each network, with one scale for all."""
-    scale, found = force_scale(networks), []
-    size = pictures.view(run, [network.grains for network in networks])
-    for k, network in enumerate(networks):
-        result, axes, _ = pictures.panel_axes(run, networks)
-        grain_drawing.draw(axes, network.grains, run.scale('D'), alpha=0.45)
-        axes.add_collection(lines(network, scale))
-        pictures.decorate(run, axes, size, network.grains.time)
-        found.append((result, f'force_network-{k}'))
-    return found
+    scale, size = force_scale(networks), view(run, networks)
+    return [(panel(run, network, scale, size), f'force_network-{k}') for k, network in enumerate(networks)]
+
+
+def panel(run, network, scale, size):
+    """One network, with the widths of its lines below it."""
+    result, axes, below = pictures.panel_axes(size, bar=True)
+    result.set_label(in_words(run, network))
+    draw(run, axes, network, scale, size)
+    below.set_axis_off()
+    add_widths(below, scale, run.solid_unit(), widest_line(axes, size), loc='center', fontsize=7)
+    return result
+
+
+def draw(run, axes, network, scale, size):
+    grain_drawing.draw(axes, network.grains, run.scale('D'), alpha=0.45)
+    axes.add_collection(lines(network, scale, widest_line(axes, size)))
+    pictures.decorate(run, axes, size, network.grains.time)
+
+
+def add_widths(axes, scale, unit, widest=WIDEST, **how):
+    """A legend of the widths; `unit` is the D^2 or D^3 of the forces."""
+    shown = [Line2D([], [], color=PUSH, linewidth=share * widest, solid_capstyle='butt') for share in LEGEND]
+    texts = [rf'{share * scale:.2g}' for share in LEGEND[:-1]] + [rf'$\geq$ {scale:.2g} $\rho_s g {unit}$']
+    axes.legend(shown, texts, ncol=len(LEGEND), frameon=False, handlelength=1.6, columnspacing=1.2, **how)
+
+
+def in_words(run, network):
+    """What a picture shows, for those who do not see it."""
+    return (f'{pictures.grains_in_words(run, network.grains, network.grains.time)}, with lines along their '
+            f'{len(network.forces)} contacts; largest force {np.abs(network.forces).max():.3g} rho_s g {run.solid_unit()}')
 
 
 def force_scale(networks):
-    forces = np.concatenate([np.abs(network.forces) for network in networks])
-    return float(np.quantile(forces, LARGEST_PART)) if len(forces) else 1.0
+    """The force of full width: what LARGEST_PART of the contacts do not exceed in the middle one of the outputs, each
+    counted with its contacts. An impact at one output leaves the others as they are."""
+    there = sorted((float(np.quantile(np.abs(network.forces), LARGEST_PART)), len(network.forces)) for network in networks
+                   if len(network.forces))
+    if not there:
+        return 1.0
+    forces, counts = np.transpose(there)
+    return float(forces[np.searchsorted(np.cumsum(counts), 0.5 * counts.sum())])
 
 
-def lines(network, scale):
+def widest_line(axes, size):
+    """Points; not wider than most of a grain."""
+    return min(WIDEST, OF_A_GRAIN * 72.0 * axes.get_position().width * axes.figure.get_figwidth() / size[0])
+
+
+def lines(network, scale, widest=WIDEST):
     """Draws weak contacts first, so that strong ones are on top."""
     order = np.argsort(np.abs(network.forces))
     part = np.clip(np.abs(network.forces[order]) / scale, 0.0, 1.0)
     seen = part >= THINNEST
     colours = np.where(network.forces[order][seen] >= 0.0, PUSH, PULL)
-    return LineCollection(network.ends[order][seen], linewidths=WIDEST * part[seen], colors=colours,
+    return LineCollection(network.ends[order][seen], linewidths=widest * part[seen], colors=colours,
                           capstyle='round')
 
 

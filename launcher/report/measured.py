@@ -69,7 +69,7 @@ def of_bed(k):
     return value
 
 
-DEGREES = r'$\degree$'
+DEGREES = 'degrees'
 RELATIVE = '-'
 
 MEASURED = [
@@ -92,7 +92,7 @@ MEASURED = [
              maximum('grain_balance', 'grain_balance')),
     Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', 'windows',
              maximum('', 'unconverged_windows')),
-    Measured('wall_seconds', 'Wall time', 's', 's', lambda run: findings.wall_seconds(run)[0]),
+    Measured('wall_seconds', 'Wall time', 'seconds', 's', lambda run: findings.wall_seconds(run)[0]),
     Measured('run_out', 'Run-out', r'$(L - L_0)\,/\,L_0$', RELATIVE, of_found(deposit.deposit, 'run_out')),
     Measured('heap_height', 'Height of the heap', r'$H\,/\,D$', 'D', of_found(deposit.deposit, 'top')),
     Measured('heap_slope', 'Slope of the heap', DEGREES, '°', of_found(deposit.deposit, 'slope')),
@@ -143,8 +143,13 @@ def spread(values):
     return mean if min(known) == max(known) else f'{mean} ({number(min(known))} to {number(max(known))})'
 
 
+def titled(one):
+    """A title with the unit, where there is one."""
+    return one.title if one.plain_unit == RELATIVE else f'{one.title} [{one.plain_unit}]'
+
+
 def table(quantities, members):
     """A row per quantity that some run of the members has: its title with the unit, then a cell per member."""
     found = [(one, [[one.of(run) for run in member.runs] for member in members]) for one in quantities]
-    return [[f'{one.title} [{one.plain_unit}]'] + [spread(values) for values in cells]
+    return [[titled(one)] + [spread(values) for values in cells]
             for one, cells in found if any(value is not None for values in cells for value in values)]

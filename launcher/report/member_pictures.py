@@ -4,8 +4,12 @@ import grain_files
 import fluid_fields
 import pictures
 from differences import common_span
+from document.typeset import plain
+from space import scene, sequence
+from space.camera import OBLIQUE
 
 MOST_MEMBERS = 4
+WIDTH_OF_LETTERS = 115.0  # points of size per inch and letter: a long name is not cut off
 TIMES = 3  # the end of the common time, and equal parts of it
 
 
@@ -23,19 +27,55 @@ def add(page, members):
     times = [span[0] + (span[1] - span[0]) * k / TIMES for k in range(1, TIMES + 1)]
     page.heading('Pictures')
     whole = [[pictures.load(run, instant_near(run, row, time)) for time in times] for run, row in zip(runs, rows)]
-    figures = [pictures.panels(run, shown) for run, shown in zip(runs, whole)]
-    width = max(pictures.panel_width(run, shown) for run, shown in zip(runs, whole))
+    limit = common_limit(list(zip(runs, whole)))
+    figures = [pictures.panels(run, shown, limit) for run, shown in zip(runs, whole)]
+    width = max(pictures.panel_width(pictures.view(run, [one.grains for one in shown])) for run, shown in zip(runs, whole))
     for k in range(TIMES):
         page.panels([titled(member, figures[i][k]) for i, member in enumerate(members[:MOST_MEMBERS])], '', width)
-    page.paragraph('One scale of colours per run.' + (' Of groups the first seed.' if any(
+    page.paragraph(f'One scale of colours {"for all" if limit else "per run"}.' + (' Of groups the first seed.' if any(
         member.is_group() for member in members) else ''))
+
+
+def at_the_end(members):
+    """(figure, name, report of the run or '') of the first run of each member at its last output, on one scale of colours;
+    nothing for those without grains."""
+    shown = [(member, picture) for member, picture in ((member, last(member.runs[0])) for member in members)
+             if picture is not None and picture.grains is not None]
+    if not shown:
+        return []
+    limit = common_limit([(member.runs[0], [picture]) for member, picture in shown])
+    return [(*titled(member, (drawn(member.runs[0], picture, limit), 'end')), member.runs[0].folder / 'report.html')
+            for member, picture in shown]
+
+
+def last(run):
+    if 'domain.size' not in run.case:
+        return None
+    every = pictures.all_instants(run) if (run.folder / 'grains' / 'grains.pvd').exists() else []
+    return pictures.load(run, every[-1]) if every else None
+
+
+def common_limit(shown):
+    """Of the colours of all (run, pictures); None where some are those of a fluid and some of grains."""
+    if len({run.is_wet() for run, _ in shown}) > 1:
+        return None
+    return max(pictures.shown_limit(run, some) for run, some in shown)
+
+
+def drawn(run, picture, limit):
+    limit = limit or pictures.shown_limit(run, [picture])
+    if run.in_space():
+        return sequence.panel(run, scene.frame(run, [picture.grains], OBLIQUE), picture.grains, limit)
+    return pictures.panel(run, picture, limit, pictures.view(run, [picture.grains]))
 
 
 def titled(member, picture):
     """(figure, name) with the member's name in title and file."""
     figure, name = picture
     axes = figure.axes[0]
-    axes.set_title(f'{member.name}, {axes.get_title()}', fontsize=9)
+    title = f'{member.name}, {axes.get_title()}'
+    axes.set_title(title, fontsize=min(9.0, WIDTH_OF_LETTERS * figure.get_figwidth() / len(plain(title))))
+    figure.set_label(f'{member.name}: {figure.get_label()}')
     return figure, f'{member.name}-{name}'.replace('/', '_')
 
 

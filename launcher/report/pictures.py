@@ -23,6 +23,8 @@ LABEL_WIDTH = 0.5      # of the labels alone
 # A few cells in a narrow gap can be much faster than the rest; this quantile sets the colour scale.
 COLOURED_PART = 0.999
 SPEED_COLOURS = 'viridis'
+MARGIN, WET_MARGIN = 1.0, 3.0  # D beyond the grains
+MOSTLY_EMPTY = 0.5  # of the domain: if the part with grains is smaller, the rest is not shown
 
 
 @dataclass
@@ -100,16 +102,22 @@ def speed_limit(run, pictures):
 
 
 def view(run, all_grains):
-    """Width and height of the drawing [D], from the lower left corner: the domain, or, without a fluid, the part
-    occupied by grains."""
+    """Width and height of the drawing [D], from the lower left corner: the part of the domain that grains reach at these
+    times; with a fluid, whose motion reaches farther, the whole domain unless most of it is empty."""
+    if not run.is_wet():
+        return reached(run, all_grains, MARGIN)
+    part, whole = reached(run, all_grains, WET_MARGIN), run.size()
+    return part if part[0] * part[1] < MOSTLY_EMPTY * whole[0] * whole[1] else tuple(whole)
+
+
+def reached(run, all_grains, margin):
+    """Width and height of the part of the domain up to the farthest grains and `margin` beyond [D]."""
     width, height = run.size()
-    if run.is_wet():
-        return width, height
     reach = [((g.centres + g.radii[:, None]) / run.scale('D')).max(axis=0)
              for g in all_grains if g is not None and len(g.radii)]
     if not reach:
         return width, height
-    right, top = np.ceil(np.max(reach, axis=0) + 1.0)
+    right, top = np.ceil(np.max(reach, axis=0) + margin)
     return min(width, right), min(height, top)
 
 
@@ -120,7 +128,8 @@ def columns_for(count, aspect):
 
 def figure(run, pictures):
     """All pictures side by side with one colour scale."""
-    result, axes, size = frame(run, [picture.grains for picture in pictures])
+    size = view(run, [picture.grains for picture in pictures])
+    result, axes = frame(size, len(pictures))
     wet = run.is_wet()
     limit = shown_limit(run, pictures)
     images = [_draw(run, picture, limit, size, place) for picture, place in zip(pictures, axes.flat)]
@@ -130,19 +139,18 @@ def figure(run, pictures):
     return result
 
 
-def panel_width(run, shown):
-    """Pixels that a single picture needs to be readable: tall ones stand beside each other on a telephone."""
-    width, height = view(run, [one.grains for one in shown])
-    aspect = height / width
+def panel_width(size):
+    """Pixels that a single picture of this size [D] needs to be readable: tall ones stand beside each other on a
+    telephone."""
+    aspect = size[1] / size[0]
     return 180 if aspect > 1.5 else 280 if aspect > 0.6 else 400
 
 
-def panel_axes(run, shown, bar=False):
-    """(figure, axes, axes of a colour bar or None) for one picture, its text readable at panel_width pixels. Margins are
-    fixed: finding them takes longer than the drawing."""
-    width, height = view(run, [one.grains for one in shown])
-    inches = panel_width(run, shown) / 75.0
-    plot = inches - 0.5, min((inches - 0.5) * height / width, 3.2 * inches)
+def panel_axes(size, bar=False):
+    """(figure, axes, axes of a colour bar or None) for one picture of this size [D], its text readable at panel_width
+    pixels. Margins are fixed: finding them takes longer than the drawing."""
+    inches = panel_width(size) / 75.0
+    plot = inches - 0.5, min((inches - 0.5) * size[1] / size[0], 3.2 * inches)
     below = 0.85 if bar else 0.3
     total = plot[1] + below + 0.35
     result = plt.figure(figsize=(inches, total))
@@ -150,10 +158,10 @@ def panel_axes(run, shown, bar=False):
     return result, axes, result.add_axes((0.35 / inches, 0.42 / total, plot[0] / inches, 0.12 / total)) if bar else None
 
 
-def panels(run, shown):
-    """(figure, name) of each picture."""
-    limit, size = shown_limit(run, shown), view(run, [picture.grains for picture in shown])
-    return [(panel(run, shown, picture, limit, size), f'sequence-{k}') for k, picture in enumerate(shown)]
+def panels(run, shown, limit=None):
+    """(figure, name) of each picture; `limit` of the colours if it is not that of these pictures."""
+    limit, size = limit or shown_limit(run, shown), view(run, [picture.grains for picture in shown])
+    return [(panel(run, picture, limit, size), f'sequence-{k}') for k, picture in enumerate(shown)]
 
 
 def shown_limit(run, shown):
@@ -161,10 +169,11 @@ def shown_limit(run, shown):
     return colour_limit(run, shown) if run.is_wet() else speed_limit(run, shown)
 
 
-def panel(run, shown, picture, limit, size):
+def panel(run, picture, limit, size):
     """One of the pictures, with a colour bar below it."""
     wet = run.is_wet()
-    result, axes, below = panel_axes(run, shown, bar=True)
+    result, axes, below = panel_axes(size, bar=True)
+    result.set_label(in_words(run, picture))
     image = _draw(run, picture, limit, size, axes)
     if image is None:
         below.set_axis_off()
@@ -172,6 +181,27 @@ def panel(run, shown, picture, limit, size):
     label, extend = (r'fluid, $v\,/\,u_c$', 'both') if wet else (r'grains, $|u|\,/\,u_c$', 'max')
     bar_below(result, image, below, label, extend)
     return result
+
+
+def in_words(run, picture):
+    """What a picture shows, for those who do not see it."""
+    words = grains_in_words(run, picture.grains, picture.time)
+    if picture.velocity is not None:
+        low, high = (extreme(picture.velocity.vertical) / run.scale('u_c') for extreme in (np.min, np.max))
+        return f'{words}, over the vertical velocity of the fluid, from {low:.2g} to {high:.2g} u_c'
+    speeds = None if picture.grains is None else picture.grains.speeds()
+    if speeds is None or not len(speeds):
+        return words
+    return f'{words}, coloured by their speed, up to {speeds.max() / run.scale("u_c"):.2g} u_c'
+
+
+def grains_in_words(run, grains, time):
+    """How many there are, when, and how far up and to the right they reach."""
+    when = f't = {time / run.scale("t_c"):.3g} t_c'
+    if grains is None or not len(grains.radii):
+        return f'No grains at {when}'
+    right, top = ((grains.centres + grains.radii[:, None]) / run.scale('D')).max(axis=0)
+    return f'{len(grains.radii)} grains at {when}, up to x = {right:.3g} D and y = {top:.3g} D'
 
 
 def bar_below(figure, image, axes, label, extend):
@@ -183,25 +213,25 @@ def bar_below(figure, image, axes, label, extend):
     bar.update_ticks()
 
 
-def frame(run, all_grains, beside=BAR_WIDTH):
-    """A figure with axes for each picture, and the width and height that each shows [D]; `beside` inches are left for
-    labels and a colour bar."""
-    width, height = view(run, all_grains)
-    columns = columns_for(len(all_grains), height / width)
-    rows = -(-len(all_grains) // columns)
+def frame(size, count, beside=BAR_WIDTH):
+    """A figure with axes for each of `count` pictures of this size [D]; `beside` inches are left for labels and a colour
+    bar."""
+    width, height = size
+    columns = columns_for(count, height / width)
+    rows = -(-count // columns)
     place_width = (FIGURE_WIDTH - BAR_WIDTH) / columns
     place_height = min(place_width * height / width, LARGEST_HEIGHT)
     drawn_width = columns * place_height * width / height
     result, axes = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True,
                                 layout='constrained',
                                 figsize=(drawn_width + beside, rows * (place_height + 0.45) + 0.35))
-    for unused in list(axes.flat)[len(all_grains):]:
+    for unused in list(axes.flat)[count:]:
         unused.set_axis_off()
     for place in axes[:, 0]:
         place.set_ylabel(r'$y\,/\,D$', fontsize=8)
     for place in axes[-1, :]:
         place.set_xlabel(r'$x\,/\,D$', fontsize=8)
-    return result, axes, (width, height)
+    return result, axes
 
 
 def _colour_bar(result, axes, images, label, extend):

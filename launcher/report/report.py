@@ -20,70 +20,31 @@ import pictures
 import run_data
 import wall_shares
 from analysis import panels
-from page import Page, write_whole
+from head import facts, key_numbers, verdict
+from document.page import Page, write_whole
 from space import chains, sequence, slices
-from working import Progress
+from document.working import Progress
 
 
-SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
-
-
-def coupling(case):
-    """The scheme, and coupling.positions unless it is the default."""
-    scheme, positions = case.get('coupling.scheme'), case.get('coupling.positions')
-    return scheme if positions == 'corrected' else f'{scheme}, positions {positions}'
-
-
-def facts(run):
-    """(name, value) pairs of the case, with units."""
-    record, case = run.record, run.case
-    rows = [
-        ('made by', f'turbidite {(record.get("versions") or {}).get("turbidite", "of unknown version")}'
-                    f'{date_of(record)}'),
-        *([('command', run.command())] if run.command() else []),
-        ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
-            f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
-        ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, density ratio '
-                   f'{case.get("grains.density_ratio")}, friction {case.get("contact.friction")}, '
-                   f'by {case.get("grains.adapter")}'),
-        ('fluid', f'Re = {record.get("reynolds", 0):.4g}, {case.get("fluid.cells_per_diameter")} '
-                  f'cells per D' if run.is_wet() else 'none'),
-        ('scales', f'{case.get("scales.kind")}: D = {run.scale("D"):.4g}, u_c = '
-                   f'{run.scale("u_c"):.4g}, t_c = {run.scale("t_c"):.4g}, g = '
-                   f'{record.get("g", float("nan")):.4g} ({units(case)})'),
-        ('time', f'{record.get("windows_done", 0)} of {record.get("windows", "?")} windows of '
-                 f'{case.get("time.step")} t_c'),
-        ('coupling', coupling(case)),
-        ('seed', str(record.get('seed', '?'))),
-    ]
-    courant = (record.get('maxima') or {}).get('courant')
-    if courant is not None:
-        rows.append(('Courant number', f'at most {courant:.3g}'))
-    if 'wall_seconds' in record:
-        rows.append(('wall time', f'{record["wall_seconds"]:.1f} s'))
-    programs = [f'{r.get("role")} {r.get("rank")}: {r.get("adapter")} ({r.get("host_code")}) on '
-                f'{r.get("host")}' for r in record.get('ranks', [])]
-    return rows + [('programs', '; '.join(programs))] if programs else rows
-
-
-def date_of(record):
-    """', 2026-01-31 12:00 +0000', or empty."""
-    prepared = record.get('prepared', '')
-    return f', {prepared[:10]} {prepared[11:16]} {prepared[19:]}' if len(prepared) >= 16 else ''
-
-
-def units(case):
-    return 'SI' if case.get('scales.kind') == 'physical' else 'in units D = u_c = rho_f = 1'
-
-
-def add_status(page, run):
-    status = run.record.get('status', 'unknown')
-    code, error = run.record.get('exit_code'), run.record.get('error')
-    text = (f'Status: {status}' + (f', exit code {code}' if code is not None else '')
-            + (f': {error}' if error else ''))
-    page.paragraph(text, '' if status == 'done' else 'bad')
+def add_head(page, run):
+    """Verdict, numbers, warnings, and where the rest is."""
+    found = verdict.checks(run)
+    doubtful = any(check.css == verdict.DOUBT for check in found)
+    page.paragraph(verdict.outcome(run, found),
+                   'verdict ' + ('bad' if run.record.get('status') != 'done' else 'doubt' if doubtful else 'holds'))
+    page.checks([(check.text, check.css) for check in found])
     for warning in run.warnings():
         page.paragraph(f'Warning: {warning["text"]}', 'bad')
+    numbers = key_numbers.rows(run)
+    if numbers:
+        page.table(numbers, css='key')
+    page.paragraph(facts.units_in_words(run), 'note')
+    page.contents()
+
+
+def add_case(page, run):
+    page.heading('Case')
+    page.table(facts.facts(run))
 
 
 def add_sequence(page, run):
@@ -96,7 +57,9 @@ def add_sequence(page, run):
         return page.panels(sequence.panels(run, loaded),
                            f'{captions.sequence(run, loaded)} {sequence.caption(run, loaded)}', sequence.PANEL_WIDTH)
     page.file_only(pictures.figure(run, loaded), 'sequence')
-    page.panels(pictures.panels(run, loaded), captions.sequence(run, loaded), pictures.panel_width(run, loaded))
+    size = pictures.view(run, [picture.grains for picture in loaded])
+    page.panels(pictures.panels(run, loaded), f'{captions.sequence(run, loaded)}{captions.shown_part(run, size)}',
+                pictures.panel_width(size))
 
 
 def add_curves(page, run):
@@ -109,12 +72,24 @@ def add_curves(page, run):
     for heading, name, plots, caption in (
             ('Mean motion', *motion),
             ('Speed, energy and contacts', 'motion', curves.MOTION, captions.motion),
-            ('Packing', 'packing', curves.NETWORK, captions.packing),
-            ('Residuals and iterations', 'solvers', curves.SOLVERS, captions.solvers)):
+            ('Packing', 'packing', curves.NETWORK, captions.packing)):
         shown = curves.panels(run, plots, name)
         if shown:
             page.heading(heading)
             page.panels(shown, caption(run))
+
+
+def add_diagnostics(page, run):
+    """Of the solvers and of the time they take: for those who ask how, not what."""
+    with page.folded_part('Solver diagnostics'):
+        shown = curves.panels(run, curves.SOLVERS, 'solvers')
+        if shown:
+            page.subheading('Residuals and iterations')
+            page.panels(shown, captions.solvers(run))
+        wall = findings.wall_time(run)
+        if wall is not None:
+            page.subheading('Wall time')
+            page.panels([(wall_shares.figure(wall), 'wall_time')], captions.wall_time(wall))
 
 
 def add_contacts(page, run):
@@ -128,17 +103,10 @@ def add_contacts(page, run):
     else:
         page.file_only(force_network.figure(run, shown), 'force_network')
         page.panels(force_network.panels(run, shown), captions.force_network(run, shown),
-                    pictures.panel_width(run, shown))
+                    pictures.panel_width(force_network.view(run, shown)))
     told = (chains if run.in_space() else force_network).statistics(shown)
     if told:
         page.panels(told, captions.contact_statistics(run))
-
-
-def add_wall_time(page, run):
-    wall = findings.wall_time(run)
-    if wall is not None:
-        page.heading('Wall time')
-        page.panels([(wall_shares.figure(wall), 'wall_time')], captions.wall_time(wall))
 
 
 def add_remarks(page, run):
@@ -152,12 +120,10 @@ def add_remarks(page, run):
 
 def make_page(run):
     page = Page(str(run.record.get('case') or run.folder.name))
-    add_status(page, run)
-    page.table(facts(run))
     working = Progress('report')
-    for what, add in (('pictures', add_sequence), ('slices', slices.add), ('force network', add_contacts),
-                      ('curves', add_curves), ('analysis', panels.add_all), ('wall time', add_wall_time),
-                      ('remarks', add_remarks)):
+    for what, add in (('verdict', add_head), ('case', add_case), ('pictures', add_sequence), ('slices', slices.add),
+                      ('force network', add_contacts), ('curves', add_curves), ('analysis', panels.add_all),
+                      ('solvers', add_diagnostics), ('remarks', add_remarks)):
         working(what)
         add(page, run)
     working.end()

@@ -79,6 +79,7 @@ class RunData:
         words = ['turbidite', 'run', self.record['case_file']]
         words += [word for override in self.record.get('overrides', []) for word in ('--set', override)]
         words += ['--from', self.record['from']] if self.record.get('from') else []
+        words += ['--out', self.record['out']] if self.record.get('out') else []
         return shlex.join(words)
 
     def warnings(self, about=None):

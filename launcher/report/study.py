@@ -8,6 +8,7 @@ history are listed and left out of the figures.
 import csv
 import io
 import json
+import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,13 +21,17 @@ import numpy as np
 import compare
 import compare_page
 import curves
+import member_pictures
 import run_data
 import seeds
 from measured import DRAWN, MEASURED, table
-from page import Page, write_whole
+from document.page import Page, write_whole
+from head import facts
 from paper import add as paper
-from working import Progress
+from document.working import Progress
 
+MOST_PICTURES = 12
+PICTURE_WIDTH = 280  # pixels
 FIGURE_SETS = {'paper': paper.add}  # by the study's `figures`
 
 
@@ -37,14 +42,14 @@ class StudyRun:
 
 
 def load(folder):
-    """Title, name of a set of further figures or empty, and runs."""
+    """What study.json says, and the runs."""
     record = json.loads((folder / 'study.json').read_text())
     runs = []
     for entry in record['runs']:
         there = entry['status'] != 'missing'
         data = run_data.load_run(folder / entry['folder']) if there else run_data.RunData(folder / entry['folder'])
         runs.append(StudyRun(entry, data))
-    return record['study'], record.get('figures', ''), runs
+    return record, runs
 
 
 def swept_keys(runs):
@@ -68,13 +73,15 @@ def as_csv(runs):
 
 # --- the page -----------------------------------------------------------------------------------------
 
-def make_page(title, runs):
+def make_page(title, runs, command=''):
     page = Page(f'Study {title}')
-    page.paragraph(progress(runs))
+    page.paragraph(progress(runs), 'verdict ' + ('holds' if all(run.entry['status'] == 'done' for run in runs) else 'doubt'))
     failed = [f'{run.entry["folder"]}: {run.entry["status"]}. {run.entry["error"]}' for run in runs
               if run.entry['status'] not in ('done', 'missing')]
     if failed:
         page.bullets(failed, 'bad')
+    add_notes(page, runs, command)
+    page.contents()
     for part in dict.fromkeys(run.entry['part'] for run in runs):
         add_part(page, part, [run for run in runs if run.entry['part'] == part])
     remarks = [f'{run.entry["folder"]}: {remark}' for run in runs for remark in run.data.remarks]
@@ -86,11 +93,22 @@ def make_page(title, runs):
 
 def progress(runs):
     done = sum(run.entry['status'] == 'done' for run in runs)
-    return (f'{done} of {len(runs)} runs are done. Runs that differ in random.seed alone are taken together: '
-            'means, and in brackets the smallest and the largest. Numbers of every run are in study.csv.')
+    return f'{done} of {len(runs)} runs are done.'
+
+
+def add_notes(page, runs, command):
+    """How to read the page, and what made it."""
+    page.paragraph('Runs that differ in random.seed alone are taken together: means, and in brackets the smallest and the '
+                   'largest. Numbers of every run are in study.csv.', 'note')
+    known = [run.data for run in runs if run.data.case]
+    if known:
+        page.paragraph(facts.units_in_words(known[0]), 'note')
+    if command:
+        page.paragraph(f'Made by: {command}', 'note')
 
 
 def add_part(page, part, runs):
+    """Answers first: what was measured against what was swept, then pictures, curves, and all numbers on demand."""
     page.heading(part)
     there = [run for run in runs if run.data.history is not None]
     if not there:
@@ -100,26 +118,50 @@ def add_part(page, part, runs):
     by_folder = {run.data.folder: run for run in there}
     keys = [key for key in swept_keys(runs) if key != seeds.SEED]
     values = {member.name: by_folder[member.runs[0].folder].entry['values'] for member in members}
-    add_table(page, members, keys, values)
-    comparison = compare.measure(members)
-    page.legend(compare_page.legend_entries(members))
-    page.panels(((figure, f'{part}-{name}') for figure, name in compare_page.draw_curves(comparison)),
-                'All against t/t_c.' + (' Lines: means over the seeds; bands: smallest to largest.'
-                                        if any(member.is_group() for member in members) else ''))
+    names = header_of(members, keys, values)
+    page.table(table(answers(), members), css='numbers', header=names)
     for key in keys:
         shown = draw_against(key, members, values)
         if shown:
             page.panels([(figure, f'{part}-{key}-{name}') for figure, name in shown],
                         f'Against {key}; bars from the smallest to the largest of the seeds.')
+    add_pictures(page, part, members, there)
+    comparison = compare.measure(members)
+    page.legend(compare_page.legend_entries(members))
+    page.panels(((figure, f'{part}-{name}') for figure, name in compare_page.draw_curves(comparison)),
+                'All against t/t_c.' + (' Lines: means over the seeds; bands: smallest to largest.'
+                                        if any(member.is_group() for member in members) else ''))
+    with page.folded_part(f'All numbers of {part}'):
+        page.table(table(MEASURED, members), css='numbers', header=names)
 
 
-def add_table(page, members, keys, values):
-    """A row per quantity, a column per member."""
-    page.table(table(MEASURED, members), css='numbers',
-               header=['', *[', '.join([*(f'{seeds_word(key)} {values[member.name][key]}'.strip() for key in keys
-                                          if values[member.name].get(key)),
-                                        f'{len(member.runs)} runs' if member.is_group() else '']).strip(', ')
-                             or member.name for member in members]])
+def answers():
+    return [one for one in MEASURED if one.name in DRAWN]
+
+
+def add_pictures(page, part, members, runs):
+    """The end of the first run of each member, with a link to its report, and links to the reports of all runs."""
+    reports = [(run.entry['name'], f'{run.entry["folder"]}/report.html') for run in runs
+               if (run.data.folder / 'report.html').exists()]
+    address = {run.data.folder: f'{run.entry["folder"]}/report.html' for run in runs}
+    shown = [(figure, f'{part}-{name}', address[report.parent] if report.exists() else '')
+             for figure, name, report in member_pictures.at_the_end(members[:MOST_PICTURES])]
+    if shown:
+        page.panels(shown, 'The last output, on one scale of colours'
+                    + (', of the first seeds' if any(member.is_group() for member in members) else '')
+                    + (f'; {MOST_PICTURES} of {len(members)}' if len(members) > MOST_PICTURES else '')
+                    + '. A picture leads to the report of its run.', PICTURE_WIDTH)
+    if reports:
+        page.paragraph('Reports of the runs:')
+        page.links(reports)
+
+
+def header_of(members, keys, values):
+    """What each member is called in a table: its swept values."""
+    return ['', *[', '.join([*(f'{seeds_word(key)} {values[member.name][key]}'.strip() for key in keys
+                               if values[member.name].get(key)),
+                             f'{len(member.runs)} runs' if member.is_group() else '']).strip(', ')
+                  or member.name for member in members]]
 
 
 def numbers_of(key, members, values):
@@ -185,10 +227,11 @@ def main(arguments):
         print('usage: study.py FOLDER   (of `turbidite study`)', file=sys.stderr)
         return 2
     folder = Path(arguments[1])
-    title, figures, runs = load(folder)
+    record, runs = load(folder)
+    figures = record.get('figures', '')
     working = Progress('study')
     working('tables and figures')
-    page = make_page(title, runs)
+    page = make_page(record['study'], runs, shlex.join(record.get('command', [])))
     written = [FIGURE_SETS[figures](page, folder, runs)] if figures in FIGURE_SETS else []
     working.end()
     pictures = folder / 'pictures'

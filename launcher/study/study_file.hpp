@@ -56,6 +56,7 @@ struct Study {
     std::string figures;  ///< a set of figures besides those of every study; empty: none
     std::vector<StudyPart> parts;
     std::vector<CaseProblem> problems;  ///< of the file itself
+    std::vector<std::string> command;   ///< the words that play it, for study.json
 };
 
 /// The file has `parts` or a `case`: it is a study and not a case. False when it cannot be read.

@@ -81,8 +81,10 @@ void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,
                         const std::filesystem::path& out) {
     auto runs = nlohmann::ordered_json::array();
     for (const PlannedRun& run : plan) runs.push_back(run_entry(run, out));
-    write_run_json(out / "study.json",
-                   {{"study", study.name}, {"figures", study.figures}, {"runs", runs}});
+    write_run_json(out / "study.json", {{"study", study.name},
+                                        {"command", study.command},
+                                        {"figures", study.figures},
+                                        {"runs", runs}});
 }
 
 }  // namespace turbidite

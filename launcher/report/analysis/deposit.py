@@ -15,6 +15,7 @@ from analysis.once import once_per_run
 
 FITTED = (0.1, 0.9)  # of the height: the part of the surface whose slope is fitted
 FEWEST_COLUMNS = 3
+STEEPEST = 50.0        # degrees: loose grains do not rest on a steeper slope
 STRAIGHT = 0.8         # least share of the variance that the line explains: a column that still stands has no slope
 
 
@@ -39,6 +40,11 @@ class Deposit:
     def lengthening(self):
         """The other reading of a spreading length: that of the whole heap over that of the column."""
         return self.foot / self.first_foot
+
+    @property
+    def is_heap(self):
+        """It has spread, and a slope at which grains can rest: a column that stands or falls, or a layer, is none."""
+        return self.line is not None and self.foot > self.first_foot and self.slope <= STEEPEST
 
     @property
     def fits(self):
@@ -97,6 +103,6 @@ def draw(found, axes):
 
 
 def caption(found):
-    text = (f'Heap at t = {found.time:.4g} t_c: foot at {found.foot:.4g} D, at first {found.first_foot:.4g} D '
+    text = (f'{"Heap" if found.is_heap else "Surface"} at t = {found.time:.4g} t_c: foot at {found.foot:.4g} D, at first {found.first_foot:.4g} D '
             f'(run-out {found.run_out:.3g}), height {found.top:.4g} D')
     return text + ('.' if found.slope is None else f', slope {found.slope:.3g}°.')

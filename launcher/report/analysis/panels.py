@@ -3,6 +3,7 @@
 import numpy as np
 
 import curves
+import findings
 import fluid_fields
 import grain_files
 import surface
@@ -18,7 +19,8 @@ CARRIED = (('floor', 'contacts, floor'), ('sides', 'contacts, side walls'), ('fl
 
 
 def add_all(page, run):
-    """In the order of the page. A closed box has neither heap nor slip plane; a suspension has a concentration. What is
+    """In the order of the page. A closed box has neither heap nor slip plane, and a column only once it has slid; a
+    suspension has a concentration. What is
     measured on triangles of the plane has no meaning in space."""
     in_plane = (add_deposit, add_shear, add_pores, add_pressure, add_weight, add_energy, add_rheology, add_concentration)
     in_space = (add_deposit, add_pressure, add_weight, add_energy, add_concentration)
@@ -30,18 +32,19 @@ def add_deposit(page, run):
     found = deposit.deposit(run)
     if found is None:
         return
-    figure, axes = panel('Surface of the heap', r'$x\,/\,D$', r'$y\,/\,D$')
+    figure, axes = panel('Surface of the grains', r'$x\,/\,D$', r'$y\,/\,D$')
     series = grain_files.grain_series(run)
     chosen = [series[i] for i in snapshots.evenly(len(series), SURFACES)]
     for k, (time, path) in enumerate(chosen):
         x, height = surface.trimmed(*surface.surface(run, grain_files.read_grains(time, path)))
         axes.plot(x, height, color=curves.in_order(k, len(chosen)), linewidth=1.3,
                   label=rf'$t = {time / run.scale("t_c"):.3g}\,t_c$')
-    deposit.draw(found, axes)
+    if found.is_heap:
+        deposit.draw(found, axes)
     axes.set(xlim=(0.0, None), ylim=(0.0, None))
     axes.legend(fontsize=8)
-    page.heading('Heap')
-    page.panels([(figure, 'heap')], deposit.caption(found) + (
+    page.heading('Heap' if found.is_heap else 'Surface')
+    page.panels([(figure, 'heap')], deposit.caption(found) + ('' if findings.rest_time(run) else ' It still moves.') + (
         ' Highest points of the grains in columns of one D x D, mean over the depth; the foot is where less than half a D '
         'is left.' if run.in_space() else ' Highest point of the grains in each column of one D.'))
 
@@ -61,7 +64,7 @@ def add_shear(page, run):
     reach = now.centres.max(axis=0) + 2.0
     for place in (axes, beside):
         place.set(xlim=(0.0, reach[0]), ylim=(0.0, reach[1]), aspect='equal')
-    page.heading('Slip plane and pores at that time')
+    page.heading('Slip plane and pores at that time' if found.is_slip_plane else 'Shear and pores while it speeds up')
     page.panels([(figure, 'shear'), (other, 'pore_cells')], shear_band.caption(found)
                 + f' Change of the pore volume at constant solid in cells of {grid.cell:g} D since the start.')
 
@@ -207,6 +210,7 @@ def add_concentration(page, run):
     if found is None or len(found.time) < 2:
         return
     figure, axes = panel('Concentration', TIME_LABEL, r'$y\,/\,D$', bar=True)
+    axes.grid(False)
     image = axes.pcolormesh(curves.edges_of(found.time), found.edges, found.shares.T, cmap='viridis', vmin=0.0)
     figure.colorbar(image, ax=axes, label='solid share')
     other, beside = panel('Concentration over height', 'solid share', r'$y\,/\,D$')

@@ -34,6 +34,11 @@ class ShearBand:
     elongation: float
     quiescent: float     # share of the grains
 
+    @property
+    def is_slip_plane(self):
+        """The band is long, and falls to the side that is free."""
+        return self.angle is not None and self.angle > 0.0
+
 
 @once_per_run
 def shear_band(run):
@@ -117,7 +122,7 @@ def draw(found, axes):
     image = axes.pcolormesh(*found.grid.edges(), found.rate, cmap='magma_r', vmin=0.0,
                             vmax=np.nanquantile(found.rate, 0.995))
     axes.contour(*found.grid.middles(), found.band.astype(float), levels=[0.5], colors='#1d5fa8', linewidths=1.0)
-    if found.angle is not None:
+    if found.is_slip_plane:
         slope = -np.tan(np.radians(found.angle))
         axes.axline(found.middle, slope=slope, color='#1d5fa8', linestyle='--', linewidth=1.2)
     return image
@@ -126,6 +131,6 @@ def draw(found, axes):
 def caption(found):
     text = (f'Shear rate at t = {found.time:.4g} t_c, when the mean velocity passes half of its peak; outlined: the '
             'band above half of the largest rate.')
-    if found.angle is not None:
+    if found.is_slip_plane:
         text += f' Its axis falls to the right at {found.angle:.3g}°.'
     return text + f' Grains at rest then: {100 * found.quiescent:.3g} %.'

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Adds the paper's figures and statements to a study's page, and writes them as Markdown."""
-from page import write_whole
+from document.page import write_whole
 from paper import figures, statements
 from paper.selection import PaperRuns
 

@@ -13,6 +13,7 @@ PALE = (0.93, 0.92, 0.90)
 DRAWN_FROM = 1.5       # times the mean force: weaker contacts would hide the chains
 LEFT_OUT = f'forces below {DRAWN_FROM:g} times the mean are not drawn'
 BINS = 20
+WIDEST = 0.6 * force_network.WIDEST  # pictures of space are wider
 
 
 def panels(run, networks):
@@ -23,7 +24,8 @@ def panels(run, networks):
 
 
 def panel(run, frame, network, scale):
-    result, axes, _ = scene.axes_for(frame)
+    result, axes, below = scene.axes_for(frame, bar=True)
+    result.set_label(force_network.in_words(run, network))
     scene.draw_box(axes, frame)
     walls.draw(axes, run, frame, network.grains.time / run.scale('t_c'))
     pale = np.tile(PALE, (len(network.grains.radii), 1))
@@ -32,6 +34,8 @@ def panel(run, frame, network, scale):
     axes.imshow(image, origin='lower', extent=frame.extent, zorder=1, interpolation='antialiased')
     axes.add_collection(lines(frame.camera, network, scale))
     axes.set_title(scene.title(run, network.grains.time), fontsize=10)
+    below.set_axis_off()
+    force_network.add_widths(below, scale, run.solid_unit(), WIDEST, loc='center', fontsize=8)
     return result
 
 
@@ -42,7 +46,7 @@ def lines(camera, network, scale):
     order = order[size[order] >= DRAWN_FROM * size.mean()]
     seen = camera.seen(network.ends[order])[..., :2]
     colours = np.where(network.forces[order] >= 0.0, force_network.PUSH, force_network.PULL)
-    widths = 0.6 * force_network.WIDEST * np.clip(size[order] / scale, force_network.THINNEST, 1.0)
+    widths = WIDEST * np.clip(size[order] / scale, force_network.THINNEST, 1.0)
     return LineCollection(seen, linewidths=widths, colors=colours, capstyle='round', zorder=2)
 
 

@@ -29,6 +29,8 @@ def panels(run, shown):
 def panel(run, frame, grains, limit):
     """One picture with its colour bar; `limit`: speed of the last colour [u_c]."""
     result, axes, below = scene.axes_for(frame, bar=True)
+    result.set_label(('From the side: ' if frame.camera is SIDE else 'Obliquely from above: ')
+                     + pictures.in_words(run, pictures.Picture(grains.time, grains, None)))
     scene.draw_box(axes, frame)
     walls.draw(axes, run, frame, grains.time / run.scale('t_c'))
     speeds = grains.speeds()

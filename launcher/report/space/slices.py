@@ -12,6 +12,7 @@ import grain_drawing
 import grain_files
 import pictures
 from analysis.snapshots import evenly
+from document.typeset import plain
 
 AXES = 'xyz'
 PANEL_WIDTH = 420
@@ -159,7 +160,9 @@ def panel(run, one, grains, values, limit, colours, label):
     width = min(INCHES - 2 * MARGIN, TALLEST / aspect)
     below, above = 1.05, 0.35
     total = width * aspect + below + above
-    figure = plt.figure(figsize=(INCHES, total))
+    figure = plt.figure(figsize=(INCHES, total), label=(
+        f'Plane {one.name(run)} at t = {one.time / run.scale("t_c"):.3g} t_c: {plain(label)}, from {values.min():.2g} to '
+        f'{values.max():.2g}'))
     left = 0.5 * (INCHES - width) / INCHES
     axes = figure.add_axes((left, below / total, width / INCHES, width * aspect / total))
     bar = figure.add_axes((0.25, 0.42 / total, 0.5, 0.12 / total))

@@ -7,8 +7,9 @@ import numpy as np
 from made_up_run import CASE, RunFolderTest
 
 import run_data
-from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, phases, pore_pressure,
-                      pores, rheology, shear_band, snapshots, waves, weight_balance)
+from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, panels, phases,
+                      pore_pressure, pores, rheology, shear_band, snapshots, waves, weight_balance)
+from document.page import Page
 from measured import MEASURED
 
 DISC = np.pi / 4.0
@@ -135,6 +136,31 @@ class WrittenDeposits(RunFolderTest):
 
     def test_a_heap_at_the_side_of_the_box_is_told(self):
         self.assertFalse(self.heap([4, 4], [1, 1, 1, 1, 1, 1, 1, 1]).fits)
+
+
+    def headings(self, *columns):
+        self.heap(*columns)
+        page = Page('title')
+        panels.add_deposit(page, run_data.load_run(self.folder))
+        return [text for _, text in page.places], ' '.join(page.parts)
+
+    def test_a_heap_is_told_where_there_is_one(self):
+        names, text = self.headings([4, 4], [4, 3, 2, 1])
+        self.assertEqual(names, ['Heap'])
+        self.assertIn('Heap at t', text)
+        self.assertIn('slope 45°', text)
+        for columns in (([4, 4], [4, 4]), ([6, 5], [6, 4, 2]), ([4, 3, 2, 1], [4, 3, 2, 1]), ([2, 2], [1, 1, 1, 1])):
+            names, text = self.headings(*columns)
+            self.assertEqual(names, ['Surface'], columns)
+            self.assertNotIn('Heap', text)
+
+
+class SlipPlanes(unittest.TestCase):
+    def test_a_band_that_is_round_or_falls_to_the_wall_is_none(self):
+        for angle, there in ((45.0, True), (None, False), (-30.0, False)):
+            found = shear_band.ShearBand(1.0, None, None, None, None, angle, 2.0, 0.25)
+            self.assertEqual(found.is_slip_plane, there)
+            self.assertEqual('falls to the right' in shear_band.caption(found), there)
 
 
 class Waves(unittest.TestCase):

@@ -87,6 +87,32 @@ class Compare(RunFolderTest):
         self.assertIn('src="data:image/png;base64,', page)
         self.assertNotIn('Remarks', page)
 
+    def test_a_page_says_nothing_twice(self):
+        for k, name in enumerate(('one', 'two', 'three')):
+            self.write_run(name, 1.0 + k)
+        self.assertEqual(self.run_it('one', 'two', 'three')[0], 0)
+        page = (self.folder / 'page.html').read_text()
+        self.assertIn('The same for all: status: done; made by: turbidite ?, no date;', page)
+        self.assertNotIn('<td>status</td>', page)
+        self.assertNotIn('Courant', page)  # no run has one
+        self.assertIn('<td>wall time [s]</td><td>4</td><td>8 (2 times)</td><td>12 (3 times)</td>', page)
+        table = page[page.index('of the first</th>'):]
+        self.assertEqual(table.count('<td>one</td>'), 0)
+        self.assertEqual(table.count('Wall time of a window [s]'), 1)
+        # Of the second row of a quantity the name and the first run's end are not said again.
+        self.assertIn('<td>200 %</td><td>0.3</td><td></td>', table)
+        self.assertNotIn('[-]', page)
+
+    def test_a_page_leads_to_the_reports_and_says_its_command(self):
+        for name in ('one', 'two'):
+            self.write_run(name, 1.0)
+        self.write('two/report.html', '')
+        self.assertEqual(self.run_it('one', 'two')[0], 0)
+        page = (self.folder / 'page.html').read_text()
+        self.assertIn('<a href="two/report.html">two</a>', page)
+        self.assertNotIn('one/report.html', page)
+        self.assertIn(f'Made by: turbidite compare {self.folder}/one {self.folder}/two --out {self.folder}/page.html', page)
+
     def test_only_the_common_time_counts(self):
         self.write_run('one', 1.0)
         self.write_run('short', 2.0, times=range(3))

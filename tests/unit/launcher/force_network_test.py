@@ -13,7 +13,7 @@ import contact_files
 import force_network
 import report
 import run_data
-from typeset import typeset
+from document.typeset import typeset
 from grain_files import Grains
 
 
@@ -40,6 +40,30 @@ class ForceNetwork(RunFolderTest):
     def test_larger_forces_than_the_scale_are_not_wider(self):
         drawn = force_network.lines(network([8.0]), scale=4.0)
         self.assertEqual(list(drawn.get_linewidths()), [force_network.WIDEST])
+
+    def test_an_impact_at_one_output_does_not_blank_the_others(self):
+        calm = [network(np.linspace(0.0, 1.0, 101)) for _ in range(3)]
+        impact = network(np.linspace(0.0, 500.0, 101))
+        self.assertAlmostEqual(force_network.force_scale(calm + [impact]), 0.95)
+        drawn = force_network.lines(calm[0], force_network.force_scale(calm + [impact]))
+        self.assertGreater(len(drawn.get_linewidths()), 90)
+
+    def test_the_scale_is_that_of_outputs_with_many_contacts(self):
+        few, many = network([0.01] * 3), network([2.0] * 200)
+        self.assertAlmostEqual(force_network.force_scale([few, few, many]), 2.0)
+        self.assertEqual(force_network.force_scale([]), 1.0)
+
+    def test_widths_have_a_legend(self):
+        self.write_all()
+        shown = [network([4.0] * 20)]
+        (figure, _), = force_network.panels(run_data.load_run(self.folder), shown)
+        legend = figure.axes[1].get_legend()
+        widths = [line.get_linewidth() / force_network.WIDEST for line in legend.get_lines()]
+        forces = [float(text.get_text().replace(r'$\geq$', '').split()[0]) for text in legend.get_texts()]
+        np.testing.assert_allclose(np.array(forces), 4.0 * np.array(widths))
+        self.assertEqual(widths[-1], 1.0)
+        self.assertIn(r'\rho_s g D^2', legend.get_texts()[-1].get_text())
+        plt.close('all')
 
     def test_distribution_is_a_density_over_the_mean(self):
         # 900 contacts of 0.5 and 100 of 5.5: mean 1; attractive contacts and walls are not counted.
@@ -110,6 +134,9 @@ class ContactSeries(RunFolderTest):
         page = (self.folder / 'report.html').read_text()
         self.assertIn('Force network', page)
         self.assertIn(typeset('2 at t = 1 t_c. Largest force: 4 rho_s g D^2'), page)
+        # Forces 2 and 4: 95 % of them do not exceed 3.9.
+        self.assertIn(typeset('the widest stand for 3.9 rho_s g D^2, which 95 % of the contacts'), page)
+        self.assertIn('and for more (1 lines); those below 8 % of that are not drawn.', page)
         self.assertNotIn('Remarks', page)
         self.assertTrue((self.folder / 'pictures/force_network.png').exists())
 

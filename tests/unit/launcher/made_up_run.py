@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'launcher/report'))
-import page
+from document import page
 
 page.RESOLUTION = 40  # the drawing of pixels would take most of the tests' time
 

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How text and figures are set on a page."""
 import io
+import re
 import unittest
 
 import matplotlib
+import numpy as np
 import made_up_run  # noqa: F401  (finds the modules of the report)
 
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 
-from page import Page
-from typeset import typeset
-from working import Progress
+from document.page import Page
+from document.typeset import typeset
+from document.working import Progress
 
 
 class Typeset(unittest.TestCase):
@@ -42,6 +44,35 @@ class Pages(unittest.TestCase):
         page.legend([('<one>', '#123456', '', False), ('two', '#654321', '4 2', True)])
         self.assertIn('&lt;one&gt;', page.text())
         self.assertEqual(page.text().count('<rect'), 1)
+
+
+class Reading(unittest.TestCase):
+    """On a telephone, in the dark, on paper, and without eyes."""
+
+    def test_a_telephone_shows_the_page_in_its_own_width(self):
+        self.assertIn('<meta name="viewport" content="width=device-width, initial-scale=1">', Page('title').text())
+
+    def test_there_are_styles_for_the_dark_and_for_paper(self):
+        text = Page('title').text()
+        self.assertIn('@media (prefers-color-scheme: dark)', text)
+        self.assertIn('@media print', text)
+        # A colour that is written out would be the same on both.
+        rules = [line for line in text[text.index('body {'):text.index('</style>')].splitlines() if '--' not in line]
+        self.assertEqual([line for line in rules if re.search(r'#[0-9a-f]{3}|: (white|black)', line)], [])
+
+    def test_the_words_for_a_curve_say_axes_lines_and_values(self):
+        figure, axes = plt.subplots()
+        axes.plot([0, 1, 2], [0.0, -0.25, np.nan], label=r'$\langle u_y \rangle$')
+        axes.axhline(0.0)
+        axes.set(title='Mean velocity', xlabel=r'$t\,/\,t_c$', ylabel=r'$\langle u \rangle\,/\,u_c$')
+        page = Page('title')
+        page.panels([(figure, 'mean_velocity')], 'caption')
+        self.assertIn('alt="Mean velocity: ⟨u⟩ / u_c against t / t_c, from -0.25 to 0; lines: ⟨u_y⟩"', page.text())
+
+    def test_a_figure_may_have_words_of_its_own(self):
+        page = Page('title')
+        page.panels([(plt.figure(label='two grains & a wall'), 'sequence-0')], 'caption')
+        self.assertIn('alt="two grains &amp; a wall"', page.text())
 
 
 class ProgressLine(unittest.TestCase):

@@ -14,7 +14,7 @@ import numpy as np
 import run_data
 import study
 from analysis import deposit, energy, pore_pressure, snapshots
-from page import Page
+from document.page import Page
 from paper import add, darcy, figures, statements, waiting
 from paper.selection import COLUMNS, COMPACITIES, DENSE, LOOSE, REYNOLDS, PaperRuns, spread
 

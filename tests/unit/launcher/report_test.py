@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The report on synthetic run folders: complete, partly empty, damaged."""
 import json
+import re
 import unittest
 
 import matplotlib
@@ -10,6 +11,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from made_up_run import CASE, COLUMNS, ROWS, VTP, RunFolderTest, foam_file
 
+import captions
+import curves
 import findings
 import fluid_fields
 import grain_drawing
@@ -19,7 +22,7 @@ import relaxation
 import report
 import run_data
 import surface
-from typeset import typeset
+from document.typeset import typeset
 
 FIGURES = ['concentration.png', 'concentration_profiles.png', 'motion-max_penetration.png', 'motion-mean_speed.png',
            'sequence-0.png', 'sequence-1.png', 'sequence.png', 'settling-mean_position_y.png', 'settling-mean_velocity_y.png',
@@ -40,6 +43,15 @@ class Report(RunFolderTest):
         self.assertIn('made-up', page)
         self.assertEqual(page.count('src="data:image/png;base64,'), len(FIGURES) - 1)  # sequence.png is a file only
         self.assertIn('Status: done, exit code 0', page)
+        for words in re.findall('alt="([^"]*)"', page):
+            self.assertNotIn(f'{words}.png', FIGURES)
+            self.assertGreater(len(words.split()), 3)
+        self.assertIn('alt="2 grains at t = 1 t_c, up to x = 2.9 D and y = 3.5 D, over the vertical velocity of the fluid, '
+                      'from 0 to 0.11 u_c"', page)
+        parts = ('Status: done', 'Overlaps are small', 'Units: D is', '<nav>', 'id="case"', '<img',
+                 'id="concentration-over-height"', 'id="solver-diagnostics"', 'Resolved case')
+        order = [page.index(part) for part in parts]
+        self.assertEqual(order, sorted(order))
         self.assertNotIn('Remarks', page)
         self.assertNotIn('src="http', page)
         self.assertEqual(self.pictures(), FIGURES)
@@ -195,6 +207,31 @@ class Report(RunFolderTest):
         self.assertIn('Colour: speed of the grains', page)
         self.assertIn(typeset('Fastest here: 2 u_c'), page)
         self.assertEqual(self.pictures(), FIGURES)
+
+    def test_pictures_are_cropped_where_the_box_is_mostly_empty(self):
+        self.write_all()
+        run = run_data.load_run(self.folder)
+        grains = [grain_files.read_grains(*one) for one in grain_files.grain_series(run)]  # up to 2.9 and 4.5 D
+        self.assertEqual(pictures.view(run, grains), (4, 6))
+        run.case['domain.size'] = '[40, 30]'  # with a fluid 3 D are left beyond the grains, without 1 D
+        self.assertEqual(pictures.view(run, grains), (6, 8))
+        self.assertEqual(captions.shown_part(run, (6, 8)), ' Shown are 6 x 8 D of the box, 40 x 30 D.')
+        run.case['domain.size'] = '[8, 8]'
+        self.assertEqual(pictures.view(run, grains), (8, 8))  # 6 x 8 D are more than half of it
+        self.assertEqual(captions.shown_part(run, (8, 8)), '')
+        run.case['fluid.enabled'] = 'false'
+        self.assertEqual(pictures.view(run, grains), (4, 6))
+
+    def test_the_largest_of_any_window_is_in_the_curve_that_tells_it(self):
+        self.write_all()
+        run = run_data.load_run(self.folder)
+        run.record['maxima'] = {'penetration': 0.03}
+        (figure, _), = [shown for shown in curves.panels(run, curves.MOTION, 'motion') if 'penetration' in shown[1]]
+        line = figure.axes[0].lines[1]
+        self.assertEqual((list(line.get_ydata()), line.get_linestyle()), ([0.03, 0.03], ':'))
+        self.assertGreater(figure.axes[0].get_ylim()[1], 0.03)
+        self.assertEqual([text.get_text() for text in figure.axes[0].get_legend().get_texts()], [curves.LARGEST])
+        plt.close('all')
 
     def test_captions_of_a_collapse(self):
         self.write_all()

@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a study draws its quantities against."""
+"""The page of a study: what quantities are drawn against, and what comes first."""
+import json
 import unittest
 from types import SimpleNamespace
 
-import made_up_run  # puts launcher/report on the path
+import matplotlib
 
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+from made_up_run import CASE, VTP, RunFolderTest
+
+import curves
+import member_pictures
 import study
 
 
@@ -23,6 +30,65 @@ class SweptValues(unittest.TestCase):
     def test_nothing_to_draw_against(self):
         for texts in (('0.3', '0.3'), ('[15, 7.5]', '[10, 60]'), ('[1, 2]', '[1, 2, 3]'), ('yade-md', 'yade-nscd')):
             self.assertIsNone(numbers(*texts)[0], texts)
+
+
+class Page(RunFolderTest):
+    def write_study(self, **of_all):
+        runs = []
+        for part, friction, seed in (('sweep', 0.1, 1), ('sweep', 0.1, 2), ('sweep', 0.3, 1), ('other', 0.1, 1)):
+            name = f'friction-{friction}-seed-{seed}'
+            folder = f'{part}/{name}'
+            self.write(f'{folder}/case.yaml', CASE + f'contact:\n  friction: {friction}\nrandom:\n  seed: {seed}\n')
+            self.write(f'{folder}/run.json', json.dumps({'status': 'done'}))
+            self.write(f'{folder}/report.html', '')
+            self.write(f'{folder}/history.csv', 'step,time,mean_velocity_norm\n0,0,0\n'
+                       f'10,1,{friction + seed}\n20,2,0\n')
+            self.write(f'{folder}/grains/grains_20.vtp', VTP.format(y=3))
+            self.write(f'{folder}/grains/grains.pvd', '<VTKFile><Collection>'
+                       '<DataSet timestep="2" part="0" file="grains_20.vtp"/></Collection></VTKFile>')
+            runs.append({'part': part, 'name': name, 'folder': folder, 'status': 'done', 'error': '',
+                         'values': {'contact.friction': str(friction), 'random.seed': str(seed)}})
+        self.write('study.json', json.dumps({'study': 'slopes', 'runs': runs, **of_all}))
+
+    def page(self):
+        self.assertEqual(study.main(['study.py', str(self.folder)]), 0)
+        return (self.folder / 'study.html').read_text()
+
+    def test_answers_come_first_then_pictures_curves_and_all_numbers(self):
+        self.write_study(command=['turbidite', 'study', 'my slopes.yaml', '--set', 'time.end=2'])
+        page = self.page()
+        parts = ('4 of 4 runs are done', "turbidite study 'my slopes.yaml' --set time.end=2", '<nav>', 'id="sweep"',
+                 'Peak of the mean velocity [u<sub>c</sub>]</td><td>1.6 (1.1 to 2.1)</td><td>1.3</td>', 'Against contact.friction',
+                 '<a href="sweep/friction-0.3-seed-1/report.html"><img alt="friction-0.3-seed-1: 2 grains at t = 2 t_c',
+                 'The last output, on one scale of colours, of the first seeds',
+                 '<a href="sweep/friction-0.1-seed-2/report.html">friction-0.1-seed-2</a>', 'All against t/t', '<details',
+                 'All numbers of sweep', 'id="other"')
+        self.assertEqual([part for part in parts if part not in page], [])
+        body = page[page.index('<body>'):]
+        order = [body.index(part) for part in parts if part != 'All numbers of sweep']
+        self.assertEqual(order, sorted(order))
+
+    def test_a_study_of_an_earlier_version_has_no_command(self):
+        self.write_study()
+        self.assertNotIn('Made by', self.page())
+
+
+class Labels(unittest.TestCase):
+    def test_long_names_fit_over_their_picture(self):
+        figure, axes = plt.subplots(figsize=(3.7, 3.0))
+        axes.set_title(r'$t = 12\,t_c$')
+        figure, _ = member_pictures.titled(SimpleNamespace(name='compacity-0.7854-friction-0.3-adapter-yade-nscd-'
+                                                           'restitution-0.25-seed-1'), (figure, 'end'))
+        width = axes.title.get_window_extent(figure.canvas.get_renderer()).width
+        self.assertLess(width, figure.get_figwidth() * figure.dpi)
+        plt.close(figure)
+
+    def test_wide_numbers_do_not_push_the_label_out(self):
+        figure, axes = curves.panel('title', 'x', r'overlap $/\,D$')
+        axes.plot([0, 1], [0.0, 0.000145])
+        figure.canvas.draw()
+        self.assertGreater(axes.yaxis.label.get_window_extent().x0, 0.0)
+        plt.close(figure)
 
 
 if __name__ == '__main__':

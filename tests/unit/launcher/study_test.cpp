@@ -271,8 +271,11 @@ TEST_F(StudyTest, ARunIsDoneWhenItsCaseIsThePlannedOne) {
     EXPECT_EQ(state_of(runs[0], scratch.path()), RunState::done);
     EXPECT_EQ(state_of(runs[1], scratch.path()), RunState::missing);
     EXPECT_EQ(state_of(runs[2], scratch.path()), RunState::failed);
-    write_study_record(study(text), runs, scratch.path());
+    Study played = study(text);
+    played.command = {"turbidite", "study", "my study.yaml", "--quick"};
+    write_study_record(played, runs, scratch.path());
     const auto record = nlohmann::json::parse(std::ifstream(scratch.path() / "study.json"));
+    EXPECT_EQ(record["command"], nlohmann::json(played.command));
     EXPECT_EQ(record["runs"][0]["status"], "done");
     EXPECT_EQ(record["runs"][1]["status"], "missing");
     EXPECT_EQ(record["runs"][2]["status"], "physics refused");

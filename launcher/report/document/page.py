@@ -3,40 +3,64 @@
 import base64
 import html
 import io
+import itertools
+import re
 import sys
+from contextlib import contextmanager
+from urllib.parse import quote
 
 import matplotlib.pyplot as plt
 
-from typeset import typeset
+from document.alt_text import described
+from document.style import STYLE
+from document.typeset import typeset
 
-STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em;
-       color: #222; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
-table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; vertical-align: top; }
-th { text-align: left; font-weight: 600; } td:first-child { color: #666; } img { max-width: 100%; }
-table.numbers td + td, table.numbers th + th { text-align: right; font-variant-numeric: tabular-nums; }
-.wide { overflow-x: auto; }
-figure { margin: 0; } figcaption { color: #444; max-width: 75ch; }
-.panels { display: grid; gap: 8px; align-items: start; } .panels img { width: 100%; }
-.legend { position: sticky; top: 0; background: white; padding: .3em 0; margin: 0; }
-.legend span { white-space: nowrap; margin-right: 1.2em; } .legend svg { vertical-align: middle; }
-sub, sup { line-height: 0; }
-@media (max-width: 600px) { body { margin: 1em auto; } td, th { padding-right: .6em; } }
-.bad { color: #a40000; } .remark { color: #7a5c00; }
-details pre { background: #f6f6f4; padding: 1em; overflow-x: auto; font-size: 12px; }
-"""
 RESOLUTION = 120  # dots per inch
+CONTENTS = object()  # stands in the parts of a page where its contents go
 
 
 class Page:
     def __init__(self, title):
         self.title = title
         self.parts = []
+        self.places = []    # (name, text) of the headings
         self.pictures = {}  # name: bytes of a PNG
 
     def heading(self, text):
-        self.parts.append(f'<h2>{typeset(text)}</h2>')
+        self.parts.append(f'<h2 id="{self._place(text)}">{typeset(text)}</h2>')
+
+    def subheading(self, text):
+        """Within a part; not in the contents."""
+        self.parts.append(f'<h3>{typeset(text)}</h3>')
+
+    def contents(self):
+        """Links to all headings of the page, those that follow included."""
+        self.parts.append(CONTENTS)
+
+    @contextmanager
+    def folded_part(self, text):
+        """A heading whose content opens on demand; nothing where no content is added."""
+        before = len(self.parts)
+        yield
+        content = ''.join(self.parts[before:])
+        del self.parts[before:]
+        if content:
+            self.parts.append(f'<details class="part" id="{self._place(text)}"><summary>{typeset(text)}</summary>{content}'
+                              '</details>')
+
+    def checks(self, items):
+        """(text, class) of single findings: `holds`, `doubt` or `told`."""
+        lines = ''.join(f'<li class="{css}">{typeset(text)}</li>' for text, css in items)
+        self.parts.append(f'<ul class="checks">{lines}</ul>' if lines else '')
+
+    def _place(self, text):
+        """The name of a place to link to, noted for the contents."""
+        name = re.sub(r'[^a-z0-9]+', '-', text.lower()).strip('-') or 'part'
+        taken = {place for place, _ in self.places}
+        place = next(one for one in itertools.chain([name], (f'{name}-{k}' for k in itertools.count(2)))
+                     if one not in taken)
+        self.places.append((place, text))
+        return place
 
     def paragraph(self, text, css=''):
         attribute = f' class="{css}"' if css else ''
@@ -48,17 +72,16 @@ class Page:
                           f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
     def panels(self, figures, caption, width=400):
-        """Several (figure, name) with one caption: side by side where each has `width` pixels, below each other where
-        not."""
-        images = ''.join(self._image(figure, name) for figure, name in figures)
-        columns = f'grid-template-columns: repeat(auto-fill, minmax(min(100%, {width}px), 1fr))'
-        self.parts.append(f'<figure><div class="panels" style="{columns}">{images}</div>'
+        """Several (figure, name), or (figure, name, address of a page), with one caption: side by side where each has
+        `width` pixels, below each other where not."""
+        images = ''.join(self._image(*one) for one in figures)
+        self.parts.append(f'<figure><div class="panels" style="--width: {width}px">{images}</div>'
                           f'<figcaption>{typeset(caption)}</figcaption></figure>')
 
     def legend(self, entries):
         """(name, colour, dashes of SVG, whether a band belongs to it) of the lines in all figures that follow."""
         self.parts.append('<p class="legend">' + ' '.join(
-            f'<span><svg width="40" height="12"><line x1="0" x2="40" y1="6" y2="6" stroke="{colour}" '
+            f'<span><svg width="40" height="12" aria-hidden="true"><line x1="0" x2="40" y1="6" y2="6" stroke="{colour}" '
             f'stroke-width="2" stroke-dasharray="{dashes}"/>'
             + (f'<rect x="0" y="1" width="40" height="10" fill="{colour}" opacity="0.18"/>' if band else '')
             + f'</svg> {html.escape(name)}</span>' for name, colour, dashes, band in entries) + '</p>')
@@ -70,10 +93,17 @@ class Page:
         plt.close(figure)
         self.pictures[name] = buffer.getvalue()
 
-    def _image(self, figure, name):
+    def links(self, entries):
+        """(text, address) in a row."""
+        self.parts.append('<p class="links">' + ' '.join(
+            f'<a href="{address_of(address)}">{html.escape(text)}</a>' for text, address in entries) + '</p>')
+
+    def _image(self, figure, name, address=''):
+        words = html.escape(described(figure))
         self.file_only(figure, name)
         data = base64.b64encode(self.pictures[name]).decode()
-        return f'<img alt="{html.escape(name)}" src="data:image/png;base64,{data}">'
+        image = f'<img alt="{words}" src="data:image/png;base64,{data}">'
+        return f'<a href="{address_of(address)}">{image}</a>' if address else image
 
     def table(self, rows, header=None, css=''):
         line = lambda tag, cells: '<tr>' + ''.join(
@@ -92,9 +122,17 @@ class Page:
 
     def text(self):
         title = html.escape(self.title)
+        links = ' '.join(f'<a href="#{place}">{typeset(text)}</a>' for place, text in self.places)
+        body = ''.join(f'<nav>{links}</nav>' if part is CONTENTS else part for part in self.parts)
         return ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+                '<meta name="viewport" content="width=device-width, initial-scale=1">'
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
-                + ''.join(self.parts) + '</body></html>\n')
+                + body + '</body></html>\n')
+
+
+def address_of(path):
+    """Of a file beside the page, for a link."""
+    return html.escape(quote(str(path)))
 
 
 def write_whole(path, content):

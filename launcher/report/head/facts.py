@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What was played: the case and the programs, with units."""
+
+SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
+
+
+def coupling(case):
+    """The scheme, and coupling.positions unless it is the default."""
+    scheme, positions = case.get('coupling.scheme'), case.get('coupling.positions')
+    return scheme if positions == 'corrected' else f'{scheme}, positions {positions}'
+
+
+def facts(run):
+    """(name, value) pairs of the case, with units."""
+    record, case = run.record, run.case
+    rows = [
+        ('made by', f'turbidite {(record.get("versions") or {}).get("turbidite", "of unknown version")}'
+                    f'{date_of(record)}'),
+        *([('command', run.command())] if run.command() else []),
+        ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
+            f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
+        ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, density ratio '
+                   f'{case.get("grains.density_ratio")}, friction {case.get("contact.friction")}, '
+                   f'by {case.get("grains.adapter")}'),
+        ('fluid', f'Re = {record.get("reynolds", 0):.4g}, {case.get("fluid.cells_per_diameter")} '
+                  f'cells per D' if run.is_wet() else 'none'),
+        ('scales', f'{case.get("scales.kind")}: D = {run.scale("D"):.4g}, u_c = '
+                   f'{run.scale("u_c"):.4g}, t_c = {run.scale("t_c"):.4g}, g = '
+                   f'{record.get("g", float("nan")):.4g} ({units(case)})'),
+        ('time', f'{record.get("windows", "?")} windows of {case.get("time.step")} t_c'),
+        ('coupling', coupling(case)),
+        ('seed', str(record.get('seed', '?'))),
+    ]
+    programs = [f'{r.get("role")} {r.get("rank")}: {r.get("adapter")} ({r.get("host_code")}) on '
+                f'{r.get("host")}' for r in record.get('ranks', [])]
+    return rows + [('programs', '; '.join(programs))] if programs else rows
+
+
+def date_of(record):
+    """', 2026-01-31 12:00 +0000', or empty."""
+    prepared = record.get('prepared', '')
+    return f', {prepared[:10]} {prepared[11:16]} {prepared[19:]}' if len(prepared) >= 16 else ''
+
+
+def units(case):
+    return 'SI' if case.get('scales.kind') == 'physical' else 'in units D = u_c = rho_f = 1'
+
+
+def units_in_words(run):
+    """What the units of all numbers and curves are."""
+    velocity = {'avalanche': '√(g D)', 'sedimentation': 'that of settling (Topin 2011, Eq. 21)',
+                'physical': 'scales.velocity'}.get(run.case.get('scales.kind'))
+    return ('Units: D is the diameter of the grains, u_c the characteristic velocity' + (f', {velocity}' if velocity else '')
+            + ', and t_c = D/u_c the time to move by D with it; ρ_s and ρ_f are the densities of grains and fluid, m is the '
+            'mass of a grain, g gravity.')

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a report begins with, on runs whose numbers are known."""
+import unittest
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import made_up_run  # noqa: F401  (finds the modules of the report)
+
+matplotlib.use('Agg')
+
+import run_data
+from head import facts, key_numbers, verdict
+from document.page import Page
+
+CASE = {'time.step': '0.5', 'fluid.enabled': 'true', 'scales.kind': 'sedimentation', 'limits.grain_balance_soft': '1e-08',
+        'limits.fluid_balance_soft': '1e-06', 'limits.penetration': '0.2'}
+MAXIMA = {'penetration': 1e-4, 'grain_balance': 2e-14, 'fluid_balance': 3e-13, 'unconverged_windows': 0,
+          'unconverged_multiplier_windows': 0, 'courant': 0.4}
+
+
+def run_with(maxima=(), record=(), history=None, case=()):
+    known = {'status': 'done', 'exit_code': 0, 'windows': 10, 'windows_done': 10, 'maxima': {**MAXIMA, **dict(maxima)}}
+    rows = {name: np.array(values, dtype=float) for name, values in (history or {}).items()} or None
+    return run_data.RunData(Path('.'), {**known, **dict(record)}, {**CASE, **dict(case)}, rows)
+
+
+def said(run):
+    return {check.subject: (check.css, check.text) for check in verdict.checks(run)}
+
+
+class Verdict(unittest.TestCase):
+    def test_a_run_that_holds(self):
+        run = run_with()
+        self.assertEqual({css for css, _ in said(run).values()}, {verdict.HOLDS})
+        self.assertEqual(set(said(run)), {'momentum', 'overlaps', 'solvers', 'Courant number'})
+        self.assertEqual(verdict.outcome(run, verdict.checks(run)),
+                         'Status: done, exit code 0. All 10 windows, t = 5 t_c. Every check holds.')
+
+    def test_each_doubt_is_named_with_number_and_limit(self):
+        for name, value, subject, words in (
+                ('grain_balance', 1e-5, 'momentum', 'grains 1e-05, fluid 3e-13, beyond limits.grain_balance_soft = 1e-08.'),
+                ('fluid_balance', 1e-5, 'momentum', 'beyond limits.fluid_balance_soft = 1e-06.'),
+                ('penetration', 0.05, 'overlaps', 'Overlaps are large: up to 0.05 D; beyond 0.2 D a run ends.'),
+                ('unconverged_windows', 3, 'solvers', '(10 windows): in 3 of them the contact solver missed'),
+                ('unconverged_multiplier_windows', 4, 'solvers', 'in 4 of them the multiplier problem')):
+            run = run_with({name: value})
+            css, text = said(run)[subject]
+            self.assertEqual(css, verdict.DOUBT, name)
+            self.assertIn(words, text)
+            self.assertTrue(verdict.outcome(run, verdict.checks(run)).endswith(f'Look at: {subject}.'))
+
+    def test_the_courant_number_is_judged_by_the_run_itself(self):
+        run = run_with({'courant': 4.6}, {'warnings': [{'about': 'courant', 'text': 'the Courant number was up to 4.6.'}]})
+        self.assertEqual(said(run)['Courant number'], (verdict.DOUBT, 'The Courant number is too large: up to 4.6.'))
+
+    def test_what_a_dry_run_has_no_fluid_for_is_left_out(self):
+        run = run_with({'fluid_balance': 1.0}, case={'fluid.enabled': 'false'})
+        self.assertNotIn('Courant number', said(run))
+        self.assertEqual(said(run)['momentum'], (verdict.HOLDS, 'Momentum is balanced: largest relative defect of any '
+                                                 'window grains 2e-14.'))
+
+    def test_an_old_or_empty_folder_is_not_praised(self):
+        run = run_data.RunData(Path('.'))
+        self.assertEqual(verdict.checks(run), [])
+        self.assertEqual(verdict.outcome(run, []), 'Status: unknown.')
+
+    def test_a_run_that_was_cut_off_says_how_far_it_came(self):
+        run = run_with(record={'status': 'interrupted', 'exit_code': 130, 'windows_done': 4})
+        self.assertIn('Status: interrupted, exit code 130. 4 of 10 windows, t = 2 t_c.', verdict.outcome(run, []))
+
+    def test_grains_that_rest_and_grains_that_left(self):
+        run = run_with(history={'time': [0, 1, 2], 'mean_speed': [0, 1, 0.001], 'grains': [9, 9, 7]})
+        self.assertTrue(said(run)['rest'][1].startswith('At rest from t = 2 t_c on'))
+        self.assertEqual(said(run)['grains'], (verdict.TOLD, '2 of 9 grains left the box; means are over the remaining ones.'))
+
+
+class KeyNumbers(unittest.TestCase):
+    def test_have_units(self):
+        run = run_with(history={'step': [0, 10], 'time': [0, 1], 'mean_velocity_norm': [0, 0.5], 'front_x': [3, 4]})
+        self.assertEqual(key_numbers.rows(run), [('Peak of the mean velocity', '0.5 u_c'), ('Time of the peak', '1 t_c')])
+
+    def test_the_front_is_told_of_a_collapse(self):
+        run = run_with(history={'step': [0, 10], 'time': [0, 1], 'mean_velocity_norm': [0, 0], 'front_x': [3, 4]},
+                       case={'scales.kind': 'avalanche', 'domain.size': '[20, 6]'})
+        self.assertIn(('Front at the end', '4 D'), key_numbers.rows(run))
+
+    def test_units_are_said_in_words(self):
+        self.assertIn('u_c the characteristic velocity, √(g D), and t_c = D/u_c',
+                      facts.units_in_words(run_with(case={'scales.kind': 'avalanche'})))
+
+
+class Contents(unittest.TestCase):
+    def test_link_to_every_heading_also_later_and_folded_ones(self):
+        page = Page('title')
+        page.contents()
+        page.heading('Heap')
+        page.heading('Heap')
+        with page.folded_part('Solver diagnostics'):
+            page.subheading('Residuals')
+        text = page.text()
+        for place in ('heap', 'heap-2', 'solver-diagnostics'):
+            self.assertIn(f'<a href="#{place}">', text)
+            self.assertEqual(text.count(f'id="{place}"'), 1)
+        self.assertLess(text.index('<nav>'), text.index('id="heap"'))
+        self.assertIn('<details class="part" id="solver-diagnostics"><summary>Solver diagnostics</summary><h3>', text)
+
+    def test_an_empty_part_is_not_there(self):
+        page = Page('title')
+        page.contents()
+        with page.folded_part('Solver diagnostics'):
+            pass
+        self.assertNotIn('Solver diagnostics', page.text())
+
+
+if __name__ == '__main__':
+    unittest.main()
