@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "fluid_adapter/foam_app/sliceFile.hpp"
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/slice_file.hpp"
 
 #include <algorithm>
 #include <cstdio>

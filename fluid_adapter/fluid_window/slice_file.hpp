@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Files of output.slices for ParaView: VTK RectilinearGrid with cell values as raw float32, and the
 // collection (.pvd) that puts them on a time axis.
