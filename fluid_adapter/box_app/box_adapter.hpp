@@ -30,8 +30,9 @@ class BoxAdapter final : public FluidAdapter {
     void correct(const Window& window, const std::vector<GrainState>& grains) override;
     std::vector<FreeResponse> respond() override;
     Kicks impose(const Window& window) override;
-    SavedState save() const override;
-    void restore(const SavedState& state) override;
+    void save_to(PieceWriter& file) const override;
+    void restore_own(PieceReader& file) override;
+    void restore_parts(std::vector<PieceReader>& of_ranks) override;
 
  private:
     std::filesystem::path folder_;

@@ -23,6 +23,7 @@ class BoxField final : public StoredField {
     /// p over rho_f, and what is to be taken off it where no side fixes it.
     void set_pressure(const double* p, double level);
     const std::vector<double>& pressure() const { return p_; }
+    std::vector<double>& pressure() { return p_; }
 
     const CellGrid& grid() const override { return grid_; }
     const CellTable& cells() const override { return none_; }

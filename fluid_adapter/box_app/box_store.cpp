@@ -4,13 +4,16 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <sstream>
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/splitting.hpp"
-#include "fluid_adapter/box_app/central_divergence.hpp"
+#include "fluid_adapter/box_app/interpolated_velocity.hpp"
 #include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/fluid_window/grid_of_domain.hpp"
+#include "fluid_adapter/fluid_window/wanted_fields.hpp"
 #include "fluid_adapter/multiplier/covered_share.hpp"
 #include "fluid_adapter/ranks/rank_rows.hpp"
 
@@ -34,20 +37,25 @@ std::vector<int> cells_of_rank(const CellGrid& grid, const RankGroup& ranks) {
     return cells;
 }
 
+/// The cases of this program have no other scheme.
 void set_transport(BoxFluid& fluid, const Settings& settings) {
-    const std::string& scheme = settings.text("fluid.transport_scheme");
+    std::istringstream words(settings.text("fluid.transport_scheme"));
+    std::string gauss, scheme;
+    words >> gauss >> scheme;
     const std::pair<const char*, double> central[] = {
-        {"Gauss linearUpwind ", 0.0}, {"Gauss LUST ", 0.75}, {"Gauss linear", 1.0}};
+        {"linearUpwind", 0.0}, {"LUST", 0.75}, {"linear", 1.0}};
     for (const auto& [name, share] : central) {
-        if (scheme.rfind(name, 0) != 0) continue;
+        if (gauss != "Gauss" || scheme != name) continue;
         fluid.central = share;
         return;
     }
-    const std::string limited = "Gauss limitedLinearV ";
-    if (scheme.rfind(limited, 0) != 0)
-        throw Failure(ExitCode::bad_input, "fluid.transport_scheme = " + scheme +
-                                               " is not known by fluid.program = box");
-    fluid.limiter = std::max(std::stod(scheme.substr(limited.size())), 1e-15);
+    double limiter = 0.0;
+    if (gauss != "Gauss" || scheme != "limitedLinearV" || !(words >> limiter))
+        throw Failure(ExitCode::bad_input,
+                      "fluid.transport_scheme = " + settings.text("fluid.transport_scheme") +
+                          " is not known by fluid.program = box; use Gauss limitedLinearV 1, "
+                          "linear, LUST grad(U) or linearUpwind grad(U)");
+    fluid.limiter = std::max(limiter, 1e-15);
 }
 
 BoxFluid fluid_of(const CellGrid& grid, const RunValues& run, const Settings& settings) {
@@ -56,11 +64,6 @@ BoxFluid fluid_of(const CellGrid& grid, const RunValues& run, const Settings& se
     fluid.second_order = settings.text("fluid.time_scheme") == "second-order";
     set_transport(fluid, settings);
     return fluid;
-}
-
-bool names_solid(const Settings& settings) {
-    return settings.has("output.fields") &&
-           settings.text("output.fields").find("solid") != std::string::npos;
 }
 
 }  // namespace
@@ -100,8 +103,9 @@ BoxStore::BoxStore(const Settings& settings, const RankGroup& ranks,
       neighbours_(box_rows()),
       probes_(settings),
       slices_(settings, grid_, folder),
-      solid_(names_solid(settings)),
-      folder_(folder) {
+      series_(folder, run_.step),
+      solid_(is_wanted(settings, "solid")),
+      vorticity_(is_wanted(settings, "vorticity")) {
     auto fields = std::make_unique<LayerFields>(field_, rows_, side_motions(settings));
     fields_ = fields.get();
     step_ = std::make_unique<BoxFluidStep>(fluid_of(grid_, run_, settings), box_rows(),
@@ -126,50 +130,29 @@ bool BoxStore::begin(const Window& window) {
 }
 
 double BoxStore::largest_divergence() const {
-    double largest = largest_central_divergence(field_, *neighbours_, fields_->held());
+    double largest = largest_divergence_of(field_, *neighbours_, fields_->held());
     ranks_.max(&largest, 1);
     return largest;
 }
 
-/// The whole box, on every rank: by rank, the layers of the others are zero.
 void BoxStore::write(const std::vector<ImmersedGrain>& grains) {
-    const LayerCells layers = field_.layers();
-    const std::vector<double> shares =
-        solid_ ? covered_share(field_, grains) : std::vector<double>();
-    const auto whole = [&](const std::string& name, int components, auto value) {
-        SliceArray array{name, components, {}};
-        array.values.resize(static_cast<std::size_t>(components) * grid_.counts[0] *
-                            grid_.counts[1] * grid_.counts[2]);
-        std::vector<double> sum(array.values.size());
-        for (int j = 0; j < layers.count; ++j)
-            for (int k = 0; k < grid_.counts[2]; ++k)
-                for (int i = 0; i < grid_.counts[0]; ++i) {
-                    const int cell = layers.cell(i, layers.first + j, k);
-                    const std::size_t place =
-                        i + grid_.counts[0] *
-                                (layers.first + j + static_cast<std::size_t>(grid_.counts[1]) * k);
-                    for (int c = 0; c < components; ++c)
-                        sum[components * place + c] = value(cell, c);
-                }
-        ranks_.sum(sum.data(), static_cast<int>(sum.size()));
-        std::copy(sum.begin(), sum.end(), array.values.begin());
-        return array;
-    };
-    std::vector<SliceArray> arrays{
-        whole("p", 1, [&](int cell, int) { return field_.shown_pressure(cell); }),
-        whole("U", 3, [&](int cell, int c) { return field_.shown_velocity(cell)[c]; })};
-    if (solid_) arrays.push_back(whole("solid", 1, [&](int cell, int) { return shares[cell]; }));
-    if (ranks_.rank() != 0) return;
-    SliceEdges edges;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int i = 0; i < grid_.counts[axis]; ++i)
-            edges[axis].push_back(grid_.centre(axis, i) - 0.5 * grid_.size(axis, i));
-        edges[axis].push_back(grid_.origin[axis] + grid_.length(axis));
+    std::vector<WrittenField> fields{
+        {"p", 1, [&](int cell, const CellIndex&, int) { return field_.shown_pressure(cell); }},
+        {"U", 3,
+         [&](int cell, const CellIndex&, int c) { return field_.shown_velocity(cell)[c]; }}};
+    std::vector<double> shares;
+    if (solid_) {
+        shares = covered_share(field_, grains);
+        fields.push_back(
+            {"solid", 1, [&](int cell, const CellIndex&, int) { return shares[cell]; }});
     }
-    const std::filesystem::path series = folder_ / "fields";
-    std::filesystem::create_directories(series);
-    write_slice(series / slice_file_name("fields", windows_), edges, arrays);
-    write_slice_series(series, {"fields"}, run_.step);
+    std::optional<InterpolatedVelocity> faces;
+    if (vorticity_) {
+        faces.emplace(field_, *neighbours_, fields_->held());
+        fields.push_back(
+            {"vorticity", 3, [&](int, const CellIndex& at, int c) { return faces->curl(at)[c]; }});
+    }
+    series_.write(field_, ranks_, fields, windows_);
 }
 
 void BoxStore::write_slices(const std::vector<ImmersedGrain>& grains) {

@@ -8,11 +8,12 @@
 
 #include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/box_app/box_field.hpp"
+#include "fluid_adapter/box_app/field_series.hpp"
+#include "fluid_adapter/domain/fluid_domain.hpp"
+#include "fluid_adapter/domain/side_motion.hpp"
 #include "fluid_adapter/fluid_window/box_fluid_step.hpp"
 #include "fluid_adapter/fluid_window/probes.hpp"
 #include "fluid_adapter/fluid_window/slices.hpp"
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
-#include "fluid_adapter/foam_case/side_motion.hpp"
 #include "fluid_adapter/ranks/cell_rows.hpp"
 
 namespace turbidite {
@@ -50,7 +51,7 @@ class BoxStore final : public FluidStore {
 
     BoxField& field() override { return field_; }
     const BoxField& field() const { return field_; }
-    FluidStep& step() override { return *step_; }
+    BoxFluidStep& step() override { return *step_; }
     const RankGroup& ranks() const override { return ranks_; }
     double density() const override { return run_.fluid_density; }
     double equal_height() const override;
@@ -79,11 +80,11 @@ class BoxStore final : public FluidStore {
     mutable BoxField field_;
     std::unique_ptr<BoxRows> neighbours_;  // of this rank's layers, for what is written
     LayerFields* fields_ = nullptr;        // the step's
-    std::unique_ptr<FluidStep> step_;
+    std::unique_ptr<BoxFluidStep> step_;
     Probes probes_;
     Slices slices_;
-    bool solid_;
-    std::filesystem::path folder_;
+    FieldSeries series_;
+    bool solid_, vorticity_;    // are written, too
     std::int64_t windows_ = 0;  // of the run, with the present one
 };
 

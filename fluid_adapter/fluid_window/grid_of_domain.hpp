@@ -3,7 +3,7 @@
 // The grid of a case's fluid. Valid C++17.
 #pragma once
 
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
+#include "fluid_adapter/domain/fluid_domain.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 
 namespace turbidite {

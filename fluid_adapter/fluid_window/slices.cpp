@@ -29,6 +29,14 @@ SliceArray array_of(const std::vector<double>& values, const char* name, std::si
 
 }  // namespace
 
+std::vector<double> edges_along(const CellGrid& grid, int axis) {
+    std::vector<double> edges;
+    for (int i = 0; i < grid.counts[axis]; ++i)
+        edges.push_back(grid.centre(axis, i) - 0.5 * grid.size(axis, i));
+    edges.push_back(grid.origin[axis] + grid.length(axis));
+    return edges;
+}
+
 Slices::Slices(const Settings& settings, const CellGrid& grid, std::filesystem::path fluid_case)
     : run_(run_values(settings)), folder_(std::move(fluid_case) / "slices") {
     if (!settings.has("run.slices")) return;
@@ -62,7 +70,7 @@ void Slices::write(const StoredField& field, const RankGroup& ranks,
     if (planes_.empty() || ranks.rank() != 0) return;
     std::vector<std::string> names;
     for (const Plane& plane : planes_) names.push_back(plane.name);
-    write_slice_series(folder_, names, run_.step);
+    write_slice_series(folder_ / "slices.pvd", names, run_.step);
 }
 
 std::vector<double> Slices::sampled(const Plane& plane, const StoredField& field) const {
@@ -125,15 +133,9 @@ void Slices::cover(const Plane& plane, const StoredField& field, const ImmersedG
 
 SliceEdges Slices::edges(const Plane& plane, const CellGrid& grid) const {
     SliceEdges edges;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (axis == plane.normal) {
-            edges[axis] = {plane.place};
-            continue;
-        }
-        for (int i = 0; i < grid.counts[axis]; ++i)
-            edges[axis].push_back(grid.centre(axis, i) - 0.5 * grid.size(axis, i));
-        edges[axis].push_back(grid.origin[axis] + grid.length(axis));
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        edges[axis] =
+            axis == plane.normal ? std::vector<double>{plane.place} : edges_along(grid, axis);
     return edges;
 }
 

@@ -20,6 +20,9 @@
 
 namespace turbidite {
 
+/// Where the cells of the grid along an axis begin and end [m].
+std::vector<double> edges_along(const CellGrid& grid, int axis);
+
 class Slices {
  public:
     /// Reads run.slices: axis (0 to 2) and place [m] of each plane, one after the other.

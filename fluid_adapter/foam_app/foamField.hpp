@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "fluid_adapter/domain/fluid_domain.hpp"
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
 #include "fluid_adapter/ranks/shared_grains.hpp"
 
 namespace turbidite {

@@ -22,10 +22,6 @@ bool has_functions(const Settings& s) {
     return s.has("fluid.functions");
 }
 
-bool has_vorticity(const Settings& s) {
-    return s.has("output.fields") && s.text("output.fields").find("vorticity") != std::string::npos;
-}
-
 bool transports_otherwise(const Settings& s) {
     return s.has("fluid.transport_scheme") && !is_scheme_on_rows(s.text("fluid.transport_scheme"));
 }
@@ -42,7 +38,6 @@ constexpr Limit limits_of_box[] = {
     {"fluid.functions", has_functions, "function objects are OpenFOAM's", "Remove it"},
     {"fluid.transport_scheme", transports_otherwise,
      "it knows Gauss limitedLinearV, linear, LUST and linearUpwind", "Use Gauss LUST grad(U)"},
-    {"output.fields", has_vorticity, "it writes no vorticity", "Remove it"},
 };
 
 /// The first of them that the case needs; null if there is none.
