@@ -28,6 +28,10 @@ from working import Progress
 SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
 
+def by_box(record):
+    return ', by the box program' if record.get('fluid_program') == 'box' else ''
+
+
 def coupling(case):
     """The scheme, and coupling.positions unless it is the default."""
     scheme, positions = case.get('coupling.scheme'), case.get('coupling.positions')
@@ -47,7 +51,7 @@ def facts(run):
                    f'{case.get("grains.density_ratio")}, friction {case.get("contact.friction")}, '
                    f'by {case.get("grains.adapter")}'),
         ('fluid', f'Re = {record.get("reynolds", 0):.4g}, {case.get("fluid.cells_per_diameter")} '
-                  f'cells per D' if run.is_wet() else 'none'),
+                  f'cells per D{by_box(record)}' if run.is_wet() else 'none'),
         ('scales', f'{case.get("scales.kind")}: D = {run.scale("D"):.4g}, u_c = '
                    f'{run.scale("u_c"):.4g}, t_c = {run.scale("t_c"):.4g}, g = '
                    f'{record.get("g", float("nan")):.4g} ({units(case)})'),
