@@ -6,19 +6,22 @@
 #     PREFIX/share/turbidite             as the source tree: configs, launcher/report, launcher/python
 #     PREFIX/lib/python3/dist-packages   a link to launcher/python/turbidite, where Debian's Python looks with PREFIX /usr
 set(run_root lib/turbidite)
-set(programs turbidite turbidite-member turbidite-partner turbidite-replay turbidite-coupler turbidite-fluid
+set(programs turbidite turbidite-member turbidite-partner turbidite-replay turbidite-coupler turbidite-fluid-box
              turbidite-grains turbidite-grains-md)
-foreach(optional turbidite-lammps turbidite-fluid-box)
-    if(TARGET ${optional})
-        list(APPEND programs ${optional})
-    endif()
-endforeach()
+set(libraries turbidite_world_isolation turbidite_c)
 set(yade_modules turbidite_yade turbidite_contact_engine)
+if(TURBIDITE_OPENFOAM)
+    list(APPEND programs turbidite-fluid)
+    list(APPEND libraries turbiditeFFT)
+endif()
+if(TARGET turbidite-lammps)
+    list(APPEND programs turbidite-lammps)
+endif()
 
 set_target_properties(${programs} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
-set_target_properties(turbiditeFFT turbidite_world_isolation turbidite_c ${yade_modules} PROPERTIES INSTALL_RPATH "")
+set_target_properties(${libraries} ${yade_modules} PROPERTIES INSTALL_RPATH "")
 install(TARGETS ${programs} RUNTIME DESTINATION ${run_root}/bin COMPONENT run)
-install(TARGETS turbiditeFFT turbidite_world_isolation turbidite_c LIBRARY DESTINATION ${run_root}/lib COMPONENT run)
+install(TARGETS ${libraries} LIBRARY DESTINATION ${run_root}/lib COMPONENT run)
 install(TARGETS ${yade_modules} LIBRARY DESTINATION ${run_root}/lib/yade COMPONENT run)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/lib/yade ${PROJECT_BINARY_DIR}/lib/python DESTINATION ${run_root}/lib COMPONENT run
         FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)

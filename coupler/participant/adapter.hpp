@@ -16,6 +16,7 @@
 // Valid C++17.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "coupler/protocol/stored_file.hpp"
 
 namespace turbidite {
 
@@ -114,8 +116,21 @@ class FluidAdapter {
     virtual Kicks impose(const Window& window) = 0;
 
     /// As of GrainsAdapter; called on all ranks at the same time.
-    virtual SavedState save() const = 0;
-    virtual void restore(const SavedState& state) = 0;
+    virtual SavedState save() const { throw no_state(); }
+    virtual void restore(const SavedState&) { throw no_state(); }
+
+    /// The same to and from the files of the checkpoint, by parts, for a fluid that is not to be in
+    /// memory a second time.
+    virtual void save_to(PieceWriter& file) const {
+        const SavedState state = save();
+        file.write(state.data(), state.size());
+    }
+    virtual void restore_own(PieceReader& file) { restore(file.all()); }
+    virtual void restore_parts(std::vector<PieceReader>& of_ranks) {
+        std::vector<SavedState> states;
+        for (PieceReader& file : of_ranks) states.push_back(file.all());
+        restore_from(states);
+    }
 
     /// The states of all ranks of a run that had another number of them.
     virtual void restore_from(const std::vector<SavedState>& of_ranks) {
@@ -123,6 +138,13 @@ class FluidAdapter {
                       "this fluid adapter can only go on with the number of ranks that wrote the "
                       "checkpoint: fluid.ranks = " +
                           std::to_string(of_ranks.size()));
+    }
+
+ private:
+    static std::logic_error no_state() {
+        return std::logic_error(
+            "a fluid that says saves_state overrides save and restore, or save_to, restore_own and "
+            "restore_parts");
     }
 };
 

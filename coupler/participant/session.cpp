@@ -198,7 +198,9 @@ class RoleSession : public Session {
     /// A state that cannot be saved does not end the run, only this checkpoint.
     SavedPart saved(const CheckpointPlace& place) const {
         try {
-            return {store(in_run_folder(place.folder), file_name(), adapter_.save()), ""};
+            PieceWriter file(in_run_folder(place.folder), file_name());
+            save_to(adapter_, file);
+            return {file.finish(), ""};
         } catch (const std::exception& error) {
             return {{file_name()}, error.what()};
         } catch (...) {
@@ -209,17 +211,33 @@ class RoleSession : public Session {
     void restore(const RestoreOrder& order) {
         const auto folder = in_run_folder(order.folder);
         const Identity& own = talk_->identity;
-        if (order.parts.size() == static_cast<std::size_t>(own.ranks))
-            return adapter_.restore(load(folder, order.parts[own.rank]));
-        std::vector<SavedState> states;
-        for (const StoredFile& part : order.parts) states.push_back(load(folder, part));
-        restore_from(adapter_, states);
+        if (order.parts.size() == static_cast<std::size_t>(own.ranks)) {
+            PieceReader file(folder, order.parts[own.rank]);
+            return restore_own(adapter_, file);
+        }
+        std::vector<PieceReader> files;
+        for (const StoredFile& part : order.parts) files.emplace_back(folder, part);
+        restore_parts(adapter_, files);
     }
 
-    static void restore_from(FluidAdapter& fluid, const std::vector<SavedState>& states) {
-        fluid.restore_from(states);
+    static void save_to(const FluidAdapter& fluid, PieceWriter& file) { fluid.save_to(file); }
+    static void restore_own(FluidAdapter& fluid, PieceReader& file) { fluid.restore_own(file); }
+    static void restore_parts(FluidAdapter& fluid, std::vector<PieceReader>& files) {
+        fluid.restore_parts(files);
     }
-    static void restore_from(GrainsAdapter& grains, const std::vector<SavedState>& states) {
+
+    // The state of grains is small.
+
+    static void save_to(const GrainsAdapter& grains, PieceWriter& file) {
+        const SavedState state = grains.save();
+        file.write(state.data(), state.size());
+    }
+    static void restore_own(GrainsAdapter& grains, PieceReader& file) {
+        grains.restore(file.all());
+    }
+    static void restore_parts(GrainsAdapter& grains, std::vector<PieceReader>& files) {
+        std::vector<SavedState> states;
+        for (PieceReader& file : files) states.push_back(file.all());
         grains.restore_from(states);
     }
 

@@ -29,10 +29,11 @@ class Descriptor {
 
     bool open() const { return number_ >= 0; }
 
-    bool write_all(const Bytes& bytes) const {
+    bool write_all(const void* from, std::size_t bytes) const {
         std::size_t done = 0;
-        while (done < bytes.size()) {
-            const ssize_t more = ::write(number_, bytes.data() + done, bytes.size() - done);
+        while (done < bytes) {
+            const ssize_t more =
+                ::write(number_, static_cast<const char*>(from) + done, bytes - done);
             if (more < 0 && errno == EINTR) continue;
             if (more <= 0) return false;
             done += static_cast<std::size_t>(more);
@@ -88,12 +89,75 @@ std::int64_t crc32_of(const Bytes& bytes) {
     return static_cast<std::int64_t>(crc.checksum());
 }
 
+struct PieceWriter::Open {
+    std::filesystem::path path;
+    StoredFile file;  // so far, without its checksum
+    Descriptor out{path, O_WRONLY | O_CREAT | O_TRUNC};
+    boost::crc_32_type crc{};
+
+    /// Bytes that were to be written, at the least.
+    Failure failure(std::size_t more = 0) const {
+        return cannot_store(path, " (" + std::to_string(file.bytes + more) + " bytes)");
+    }
+};
+
+PieceWriter::PieceWriter(const std::filesystem::path& folder, const std::string& name)
+    : open_(new Open{folder / name, {name}}) {
+    if (!open_->out.open()) throw open_->failure();
+}
+
+PieceWriter::~PieceWriter() = default;
+
+void PieceWriter::write(const void* from, std::size_t bytes) {
+    if (!open_->out.write_all(from, bytes)) throw open_->failure(bytes);
+    open_->crc.process_bytes(from, bytes);
+    open_->file.bytes += static_cast<std::int64_t>(bytes);
+}
+
+StoredFile PieceWriter::finish() {
+    if (!open_->out.sync()) throw open_->failure();
+    open_->file.crc32 = static_cast<std::int64_t>(open_->crc.checksum());
+    return open_->file;
+}
+
 StoredFile store(const std::filesystem::path& folder, const std::string& name, const Bytes& bytes) {
-    const std::filesystem::path file = folder / name;
-    const Descriptor out(file, O_WRONLY | O_CREAT | O_TRUNC);
-    const std::string size = " (" + std::to_string(bytes.size()) + " bytes)";
-    if (!out.open() || !out.write_all(bytes) || !out.sync()) throw cannot_store(file, size);
-    return {name, static_cast<std::int64_t>(bytes.size()), crc32_of(bytes)};
+    PieceWriter file(folder, name);
+    file.write(bytes.data(), bytes.size());
+    return file.finish();
+}
+
+struct PieceReader::Open {
+    std::filesystem::path path;
+    std::size_t bytes;
+    std::ifstream in;
+};
+
+PieceReader::PieceReader(const std::filesystem::path& folder, const StoredFile& file) {
+    verify(folder, file);
+    open_.reset(
+        new Open{folder / file.name, static_cast<std::size_t>(file.bytes), opened(folder, file)});
+}
+
+PieceReader::~PieceReader() = default;
+PieceReader::PieceReader(PieceReader&&) noexcept = default;
+
+std::size_t PieceReader::size() const {
+    return open_->bytes;
+}
+
+void PieceReader::read(std::size_t begin, void* to, std::size_t bytes) {
+    open_->in.clear();
+    open_->in.seekg(static_cast<std::streamoff>(begin));
+    open_->in.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
+    if (!open_->in)
+        throw damaged(open_->path, "has no bytes " + std::to_string(begin) + " to " +
+                                       std::to_string(begin + bytes));
+}
+
+Bytes PieceReader::all() {
+    Bytes bytes(open_->bytes);
+    read(0, bytes.data(), bytes.size());
+    return bytes;
 }
 
 Bytes load(const std::filesystem::path& folder, const StoredFile& file) {

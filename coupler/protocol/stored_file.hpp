@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <string>
 
+#include <memory>
+
 #include "coupler/protocol/wire.hpp"
 
 namespace turbidite {
@@ -28,6 +30,44 @@ bool is_file_name(const std::string& name);
 /// Writes FOLDER/name and waits until the disk has it. Throws Failure (participant failed) naming
 /// the file, the bytes and the system's reason.
 StoredFile store(const std::filesystem::path& folder, const std::string& name, const Bytes& bytes);
+
+/// A file that is written in pieces, for content that is not to be in memory a second time.
+class PieceWriter {
+ public:
+    /// FOLDER/name, empty. Throws as `store`.
+    PieceWriter(const std::filesystem::path& folder, const std::string& name);
+    ~PieceWriter();
+
+    /// Appends bytes. Throws as `store`.
+    void write(const void* from, std::size_t bytes);
+
+    /// Waits until the disk has it; nothing is written afterwards. Throws as `store`.
+    StoredFile finish();
+
+ private:
+    struct Open;
+    std::unique_ptr<Open> open_;
+};
+
+/// Reads such a file in pieces, in any order, after all of it has been compared with its checksum.
+class PieceReader {
+ public:
+    /// Throws as `load`.
+    PieceReader(const std::filesystem::path& folder, const StoredFile& file);
+    ~PieceReader();
+    PieceReader(PieceReader&&) noexcept;
+
+    std::size_t size() const;  ///< [bytes]
+
+    /// Bytes from `begin` on. Throws Failure (bad input) naming the file if it does not have them.
+    void read(std::size_t begin, void* to, std::size_t bytes);
+
+    Bytes all();
+
+ private:
+    struct Open;
+    std::unique_ptr<Open> open_;
+};
 
 /// Reads it again. Throws Failure (bad input) naming the file if it is missing or differs from what
 /// was written, or if its name is none (is_file_name).

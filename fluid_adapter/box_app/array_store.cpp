@@ -61,6 +61,12 @@ FluidMomentum ArrayField::momentum() const {
     return of;
 }
 
+Vec3 ArrayField::shown_velocity(int cell) const {
+    Vec3 u{};
+    for (int axis = 0; axis < grid_.dimension; ++axis) u[axis] = velocity_[axis][cell];
+    return u;
+}
+
 ArrayStore::ArrayStore(const ArrayBox& box)
     : ArrayStore(box, std::make_unique<ArrayRows>(box.grid)) {}
 

@@ -65,6 +65,8 @@ class ArrayField final : public StoredField {
     void put_force_density(const Constraint&) override {}
     void accelerate(const Vec3& change) override;
     FluidMomentum momentum() const override;
+    double shown_pressure(int) const override { return 0.0; }
+    Vec3 shown_velocity(int cell) const override;
 
  private:
     CellGrid grid_;

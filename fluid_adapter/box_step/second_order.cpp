@@ -110,18 +110,25 @@ SideForce SecondOrder::diffuse(SecondOrderHost& host, double dt) {
     return force;
 }
 
-void SecondOrder::append_memory(SecondOrderHost& host, std::vector<double>& values) {
+void SecondOrder::visit_memory(SecondOrderHost& host, const ValuesVisit& visit) {
     make_room(host);
-    values.push_back(goes_on_ ? 1.0 : 0.0);
-    for (const std::vector<double>& piece : carried_)
-        values.insert(values.end(), piece.begin(), piece.end());
+    double goes_on = goes_on_ ? 1.0 : 0.0;
+    visit(&goes_on, 1);
+    goes_on_ = goes_on > 0.0;
+    for (std::vector<double>& piece : carried_) visit(piece.data(), piece.size());
+}
+
+void SecondOrder::append_memory(SecondOrderHost& host, std::vector<double>& values) {
+    visit_memory(host, [&](const double* first, std::size_t count) {
+        values.insert(values.end(), first, first + count);
+    });
 }
 
 void SecondOrder::set_memory(SecondOrderHost& host, const double* values) {
-    make_room(host);
-    goes_on_ = *values++ > 0.0;
-    for (std::vector<double>& piece : carried_)
-        for (double& value : piece) value = *values++;
+    visit_memory(host, [&](double* first, std::size_t count) {
+        std::copy_n(values, count, first);
+        values += count;
+    });
 }
 
 }  // namespace turbidite

@@ -33,6 +33,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct VelocityValues {
     double* first;
     std::size_t count;
 };
+
+/// Is shown arrays, one after the other, to read or to fill them.
+using ValuesVisit = std::function<void(double* first, std::size_t count)>;
 
 /// What crosses the sides, as BoxForce.
 using SideForce = std::array<double, 3>;
@@ -101,7 +105,10 @@ class SecondOrder {
     /// The velocity was changed from outside: begins anew.
     void forget() { goes_on_ = false; }
 
-    /// u2 of the last window, of all pieces, and whether there was one.
+    /// u2 of the last window, of all pieces, and whether there was one: the arrays themselves.
+    void visit_memory(SecondOrderHost& host, const ValuesVisit& visit);
+
+    /// The same, copied.
     void append_memory(SecondOrderHost& host, std::vector<double>& values);
 
     /// From what append_memory appended.

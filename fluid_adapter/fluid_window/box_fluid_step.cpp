@@ -169,35 +169,34 @@ void BoxFluidStep::put_pressure() {
     fields_->write_pressure(step_.pressure(), floating_);
 }
 
-std::vector<double> BoxFluidStep::memory() {
-    std::vector<double> values;
-    const auto append = [&](const std::vector<double>& more) {
-        values.insert(values.end(), more.begin(), more.end());
+void BoxFluidStep::visit_memory(const ValuesVisit& visit) {
+    const auto visit_all = [&](std::vector<double>& values) {
+        visit(values.data(), values.size());
     };
     const int components = step_.layers().components();
-    for (int axis = 0; axis < components; ++axis) append(step_.excess(axis));
+    for (int axis = 0; axis < components; ++axis) visit_all(step_.excess(axis));
     // The next window begins with p itself: the field has another level where no side fixes it.
-    if (coupled_) values.insert(values.end(), step_.pressure(), step_.pressure() + step_.cells());
-    if (!in_second_order_) return values;
-    for (int axis = 0; axis < components; ++axis) append(step_.last_flux(axis));
-    second_order_.append_memory(*this, values);
+    if (coupled_) visit(step_.pressure(), step_.cells());
+    if (!in_second_order_) return;
+    for (int axis = 0; axis < components; ++axis) visit_all(step_.last_flux(axis));
+    second_order_.visit_memory(*this, visit);
+}
+
+std::vector<double> BoxFluidStep::memory() {
+    std::vector<double> values;
+    visit_memory([&](const double* first, std::size_t count) {
+        values.insert(values.end(), first, first + count);
+    });
     return values;
 }
 
 void BoxFluidStep::set_memory(const std::vector<double>& values) {
     const double* next = values.data();
-    const auto take = [&](double* to, std::size_t size) {
-        std::copy_n(next, size, to);
-        next += size;
-    };
-    const auto take_flux = [&](std::vector<double>& to) { take(to.data(), to.size()); };
-    const int components = step_.layers().components();
-    for (int axis = 0; axis < components; ++axis) take_flux(step_.excess(axis));
-    fields_->read_pressure(step_.pressure());
-    if (coupled_) take(step_.pressure(), step_.cells());
-    if (!in_second_order_) return;
-    for (int axis = 0; axis < components; ++axis) take_flux(step_.last_flux(axis));
-    second_order_.set_memory(*this, next);
+    take_pressure();
+    visit_memory([&](double* first, std::size_t count) {
+        std::copy_n(next, count, first);
+        next += count;
+    });
 }
 
 /// Of values on faces; there is a layer of faces more than of cells along y.

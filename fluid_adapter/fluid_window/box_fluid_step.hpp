@@ -63,6 +63,10 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     }
     std::vector<double> memory() override;
     void set_memory(const std::vector<double>& values) override;
+
+    /// The arrays of `memory` themselves. Whoever fills them calls take_pressure before.
+    void visit_memory(const ValuesVisit& visit);
+    void take_pressure() { fields_->read_pressure(step_.pressure()); }
     MemoryRows memory_rows() const override;
 
  private:

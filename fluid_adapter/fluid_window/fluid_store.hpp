@@ -42,6 +42,11 @@ class StoredField : public FluidField {
     virtual void accelerate(const Vec3& change) = 0;
 
     virtual FluidMomentum momentum() const = 0;  ///< of all fluid
+
+    // The fields in one of this rank's cells, as those see them who write them:
+
+    virtual double shown_pressure(int cell) const = 0;  ///< over rho_f [m2/s2]
+    virtual Vec3 shown_velocity(int cell) const = 0;    ///< [m/s]
 };
 
 class FluidStore {

@@ -117,7 +117,7 @@ Vec3 FoamAdapter::velocity(int i, int j, int k) const {
 double FoamAdapter::pressure(int i, int j, int k) const {
     window_->put_fields();
     const FoamField& field = store_->field();
-    return store_->fields().p[field.mesh_cell(field.cell(i, j, k))];
+    return field.shown_pressure(field.cell(i, j, k));
 }
 
 }  // namespace turbidite

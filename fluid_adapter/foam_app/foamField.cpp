@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/fluid_window/grid_of_domain.hpp"
 #include "fluid_adapter/foam_app/planeField.hpp"
 #include "fluid_adapter/foam_app/spaceField.hpp"
 
@@ -13,24 +14,6 @@ namespace {
 
 /// Cell centres may deviate by this fraction of a cell: blockMesh writes its points as text.
 constexpr double placement_tolerance = 1e-4;
-
-Side side_of(const std::string& kind) {
-    if (kind == "cyclic") return Side::cyclic;
-    return kind == "free" ? Side::open : Side::wall;  // grains keep to the inside of an inflow too
-}
-
-CellGrid grid_of(const FluidDomain& domain, double thickness) {
-    CellGrid grid;
-    grid.dimension = domain.dimension;
-    for (int axis = 0; axis < grid.dimension; ++axis) {
-        grid.counts[axis] = domain.cells[axis];
-        grid.spacing[axis] = domain.size[axis] / domain.cells[axis];
-        grid.sides[axis] = {side_of(domain.sides[2 * axis]), side_of(domain.sides[2 * axis + 1])};
-    }
-    if (stretched(domain)) grid.stretch(1, domain.row_edges);
-    if (grid.dimension == 2) grid.spacing[2] = thickness;
-    return grid;
-}
 
 }  // namespace
 
@@ -97,6 +80,11 @@ void FoamField::put_force_density(const Constraint& constraint) {
         const int at = mesh_cell(cell);
         fields_.lambda[at] = rate * (fields_.U[at] - Foam::vector(u[0], u[1], u[2]));
     });
+}
+
+Vec3 FoamField::shown_velocity(int cell) const {
+    const Foam::vector& u = fields_.U[mesh_cell(cell)];
+    return {u.x(), u.y(), u.z()};
 }
 
 std::unique_ptr<FoamField> make_foam_field(FluidFields& fields, const FluidDomain& domain) {

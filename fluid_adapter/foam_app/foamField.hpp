@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "fluid_adapter/domain/fluid_domain.hpp"
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
 #include "fluid_adapter/ranks/shared_grains.hpp"
 
 namespace turbidite {
@@ -23,6 +23,8 @@ class FoamField : public StoredField {
     void hold_grains(const GrainId* ids, int count) const override;
     void sum_over_holders(double* rows, int per_grain) const override;
     void put_force_density(const Constraint& constraint) override;
+    double shown_pressure(int cell) const override { return fields_.p[mesh_cell(cell)]; }
+    Vec3 shown_velocity(int cell) const override;
 
     /// i + nx (k + nz j) of each of this rank's cells. Throws Failure, on every rank, if the mesh
     /// is not the grid of the case.

@@ -51,7 +51,7 @@ void FoamStore::write(const std::vector<ImmersedGrain>& grains) {
 }
 
 void FoamStore::write_slices(const std::vector<ImmersedGrain>& grains) {
-    slices_.write(fields_, *field_, grains, windows_);
+    slices_.write(*field_, fields_.ranks, grains, windows_);
 }
 
 void FoamStore::guard(const std::string& doing, const std::function<void()>& work) const {

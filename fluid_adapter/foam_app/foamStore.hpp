@@ -8,12 +8,12 @@
 #include <memory>
 
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
+#include "fluid_adapter/fluid_window/probes.hpp"
+#include "fluid_adapter/fluid_window/slices.hpp"
 #include "fluid_adapter/foam_app/foamField.hpp"
 #include "fluid_adapter/foam_app/functionObjects.hpp"
 #include "fluid_adapter/foam_app/outputFields.hpp"
-#include "fluid_adapter/foam_app/probes.hpp"
 #include "fluid_adapter/foam_app/sideVelocity.hpp"
-#include "fluid_adapter/foam_app/slices.hpp"
 
 namespace turbidite {
 
@@ -34,7 +34,7 @@ class FoamStore final : public FluidStore {
     void show(const std::vector<ImmersedGrain>& grains) override;
     void interpolate_flux() override { fields_.interpolate_flux(); }
     double largest_divergence() const override { return fields_.largest_divergence(); }
-    std::vector<double> probes() const override { return probes_.values(fields_, *field_); }
+    std::vector<double> probes() const override { return probes_.values(*field_, fields_.ranks); }
     void write(const std::vector<ImmersedGrain>& grains) override;
     void write_slices(const std::vector<ImmersedGrain>& grains) override;
     void guard(const std::string& doing, const std::function<void()>& work) const override;

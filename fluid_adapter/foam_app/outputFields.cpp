@@ -3,20 +3,11 @@
 
 #include <fvcCurl.H>
 
-#include <sstream>
-
+#include "fluid_adapter/fluid_window/wanted_fields.hpp"
 #include "fluid_adapter/multiplier/covered_share.hpp"
 
 namespace turbidite {
 namespace {
-
-bool wanted(const Settings& settings, const std::string& field) {
-    if (!settings.has("output.fields")) return false;
-    std::istringstream names(settings.text("output.fields"));
-    for (std::string name; names >> name;)
-        if (name == field) return true;
-    return false;
-}
 
 /// Zero, on the mesh, of this unit; written with the others.
 template <class Field>
@@ -32,11 +23,11 @@ std::unique_ptr<Field> written(FluidFields& fields, const char* name,
 
 OutputFields::OutputFields(FluidFields& fields, const Settings& settings) : fields_(fields) {
     const Foam::dimensionSet rate = Foam::dimless / Foam::dimTime;
-    if (wanted(settings, "vorticity") && fields.in_space)
+    if (is_wanted(settings, "vorticity") && fields.in_space)
         curl_ = written<Foam::volVectorField>(fields, "vorticity", rate);
-    if (wanted(settings, "vorticity") && !fields.in_space)
+    if (is_wanted(settings, "vorticity") && !fields.in_space)
         vorticity_ = written<Foam::volScalarField>(fields, "vorticity", rate);
-    if (wanted(settings, "solid"))
+    if (is_wanted(settings, "solid"))
         solid_ = written<Foam::volScalarField>(fields, "solid", Foam::dimless);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
+#include "fluid_adapter/domain/fluid_domain.hpp"
 #include "fluid_adapter/fluid_window/box_of_grid.hpp"
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
 
 namespace turbidite {
 namespace {

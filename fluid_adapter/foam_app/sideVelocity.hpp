@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The velocity prescribed on sides of the fluid (foam_case/side_motion.hpp), as boundary values of
+// The velocity prescribed on sides of the fluid (domain/side_motion.hpp), as boundary values of
 // U: the one place from which both kinds of steps take it.
 #pragma once
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fluid_adapter/box_step/side_values.hpp"
+#include "fluid_adapter/domain/side_motion.hpp"
 #include "fluid_adapter/foam_app/createFields.hpp"
-#include "fluid_adapter/foam_case/side_motion.hpp"
 #include "fluid_adapter/foam_solver/boxCells.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 

@@ -2,7 +2,8 @@
 #include "fluid_adapter/foam_app/spaceField.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "fluid_adapter/fluid_window/layer_momentum.hpp"
 
 namespace turbidite {
 
@@ -26,20 +27,7 @@ void SpaceField::accelerate(const Vec3& change) {
 }
 
 FluidMomentum SpaceField::momentum() const {
-    std::array<double, 4> sums{};
-    const LayerCells layers = this->layers();
-    const std::size_t layer = layers.cells() / layers.count;
-    for (int j = 0; j < layers.count; ++j) {
-        const double mass = cell_mass(0, layers.first + j);
-        for (int axis = 0; axis < 3; ++axis) {
-            const double* u = velocity_[axis] + j * layer;
-            double sum = 0.0, sizes = 0.0;
-            for (std::size_t c = 0; c < layer; ++c) sum += u[c], sizes += std::abs(u[c]);
-            sums[axis] += mass * sum, sums[3] += mass * sizes;
-        }
-    }
-    fields_.ranks.sum(sums.data(), static_cast<int>(sums.size()));
-    return {{sums[0], sums[1], sums[2]}, sums[3]};
+    return momentum_of_layers(*this, velocity_, fields_.ranks);
 }
 
 }  // namespace turbidite

@@ -65,7 +65,8 @@ int run_utility(const std::string& program, const std::filesystem::path& directo
         throw Failure(ExitCode::participant_failed,
                       program +
                           " was not found: install the Debian package openfoam or put "
-                          "OpenFOAM 1912's programs on PATH");
+                          "OpenFOAM 1912's programs on PATH; spheres in space (dimension: 3) are "
+                          "played without OpenFOAM by fluid.program: box");
     if (status != 0)
         throw Failure(ExitCode::participant_failed,
                       fmt::format("{} failed with code {} on {} (see {}):\n{}", program, status,

@@ -11,8 +11,8 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/protocol/whole_file.hpp"
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
-#include "fluid_adapter/foam_case/side_motion.hpp"
+#include "fluid_adapter/domain/fluid_domain.hpp"
+#include "fluid_adapter/domain/side_motion.hpp"
 
 namespace turbidite {
 namespace {

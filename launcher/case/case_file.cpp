@@ -13,6 +13,7 @@
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/case/grains/materials.hpp"
 #include "launcher/case/grains/space_lattice.hpp"
+#include "launcher/case/keys/fluid_program.hpp"
 #include "launcher/case/keys/keys.hpp"
 #include "launcher/case/placed_case.hpp"
 #include "launcher/case/resolved_text.hpp"
@@ -84,6 +85,7 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
     append(problems, std::move(of_keys));
     choose_scheme(settings);
     choose_compacity(settings);
+    const std::string of_program = choose_program(settings);
     append(problems, check_rules(settings, entries));
     append(problems, check_materials(settings, entries));
     if (given.earlier) accept_overlaps(settings);
@@ -92,7 +94,9 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
     if (!problems.empty()) throw CaseRefused(std::move(problems));
     name_copies(settings);
     place_command(settings, folder);
-    return resolve(std::move(settings), std::move(placed), entries);
+    ResolvedCase resolved = resolve(std::move(settings), std::move(placed), entries);
+    if (!of_program.empty()) resolved.notes.push_back(of_program);
+    return resolved;
 }
 
 EarlierStart earlier_run(const std::string& text) {

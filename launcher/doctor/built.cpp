@@ -33,7 +33,8 @@ std::vector<fs::path> files_of_build(const Programs& programs) {
     const fs::path yade = programs.yade_folder();
     return {programs.coupler(),
             programs.member(),
-            programs.fluid(),
+            programs.fluid(FluidProgram::openfoam),
+            programs.fluid(FluidProgram::box),
             programs.folder / "turbidite-grains",
             programs.folder / "turbidite-grains-md",
             programs.folder / "turbidite-lammps",

@@ -210,12 +210,24 @@ JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
     return outcome;
 }
 
+namespace {
+
+/// " and fluid/fluid.foam": what ParaView opens of the fluid; empty if there is nothing.
+std::string fluid_for_paraview(const RunFolder& folder) {
+    for (const char* file : {"fluid.foam", "fields/fields.pvd", "slices/slices.pvd"})
+        if (std::filesystem::exists(folder.fluid() / file))
+            return fmt::format(" and fluid/{}", file);
+    return "";
+}
+
+}  // namespace
+
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
     if (outcome.code == ExitCode::done)
         return fmt::format(
             "Done. Results in {}: {}history.csv; for ParaView grains/grains.pvd{}.\n",
             folder.root.string(), std::filesystem::exists(folder.report()) ? "report.html, " : "",
-            std::filesystem::exists(folder.fluid()) ? " and fluid/fluid.foam" : "");
+            fluid_for_paraview(folder));
     const bool asked_for =
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
     return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n{}",

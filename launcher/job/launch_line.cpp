@@ -45,12 +45,13 @@ std::string python_path(const LaunchSite& site) {
     return site.python.empty() ? ours : ours + ":" + site.python;
 }
 
-Arguments fluid_command(std::int64_t ranks, const RunFolder& folder, const Programs& programs) {
-    Arguments part{programs.fluid()};
+Arguments fluid_command(const Settings& settings, const RunFolder& folder,
+                        const Programs& programs) {
+    Arguments part{programs.fluid(fluid_program(settings))};
     for (std::size_t i = 1; i < programs.other_fluid.size(); ++i)
         part.push_back(programs.other_fluid[i]);
     append(part, {"-case", folder.fluid()});
-    if (ranks > 1) part.push_back("-parallel");
+    if (settings.integer("fluid.ranks") > 1) part.push_back("-parallel");
     return part;
 }
 
@@ -74,7 +75,7 @@ class Parts {
     void add(const std::string& role, const Settings& settings, const Programs& programs) {
         const std::int64_t ranks = settings.integer(role + ".ranks");
         add(role, ranks,
-            role == "fluid" ? fluid_command(ranks, folder_, programs)
+            role == "fluid" ? fluid_command(settings, folder_, programs)
                             : grains_command(settings, programs, folder_.root));
     }
 
@@ -167,7 +168,7 @@ std::string shell_line(const std::vector<std::string>& arguments) {
 std::vector<std::filesystem::path> needed_programs(const Settings& settings,
                                                    const Programs& programs) {
     std::vector<std::filesystem::path> needed{programs.coupler(), programs.member()};
-    if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid());
+    if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid(fluid_program(settings)));
     const GrainsAdapter& adapter = grains_adapter(settings);
     if (adapter.host == GrainsHost::command) return needed;  // require_command
     if (adapter.host == GrainsHost::yade) {

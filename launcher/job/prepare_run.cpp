@@ -91,6 +91,12 @@ nlohmann::ordered_json shape_table(const ShapeTable& shapes) {
     return table;
 }
 
+/// Null without a fluid.
+nlohmann::ordered_json fluid_program_of(const Settings& settings) {
+    if (!settings.flag("fluid.enabled")) return nullptr;
+    return program_name(fluid_program(settings));
+}
+
 /// `turbidite resume` adds others.
 nlohmann::ordered_json first_part() {
     return {{"started", local_time("%Y-%m-%dT%H:%M:%S%z")},
@@ -121,6 +127,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolde
             {"rho", scales.fluid_density},
             {"nu", scales.viscosity},
             {"reynolds", scales.reynolds},
+            {"fluid_program", fluid_program_of(resolved.settings)},
             {"seed", resolved.settings.integer("random.seed")},
             {"grains", resolved.population.size()},
             {"shapes", shape_table(resolved.shapes)},
@@ -180,7 +187,7 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
 namespace {
 
 void build_fluid(const Settings& settings, const RunFolder& folder) {
-    if (!settings.flag("fluid.enabled")) return;
+    if (!settings.flag("fluid.enabled") || fluid_program(settings) == FluidProgram::box) return;
     write_fluid_case(settings, folder.fluid());
     build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
     if (settings.integer("fluid.ranks") > 1)
@@ -247,12 +254,15 @@ void require_programs(const ResolvedCase& resolved, const std::vector<fs::path>&
     require_compiler(resolved);
     for (const fs::path& program : needed) {
         if (fs::exists(program)) continue;
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("{} is missing, but the case needs it (grains.adapter = {}, "
-                                  "fluid.enabled = {})\n  Build or install it with ./turbidite, or "
-                                  "choose another adapter.\nNothing was started. Exit code 2.",
-                                  program.string(), settings.text("grains.adapter"),
-                                  settings.text("fluid.enabled")));
+        throw Failure(
+            ExitCode::bad_input,
+            fmt::format(
+                "{} is missing, but the case needs it (grains.adapter = {}, "
+                "fluid.enabled = {}, "
+                "fluid.program = {})\n  Build or install it with ./turbidite, or "
+                "choose another adapter or fluid.program.\nNothing was started. Exit code 2.",
+                program.string(), settings.text("grains.adapter"), settings.text("fluid.enabled"),
+                program_name(fluid_program(settings))));
     }
 }
 

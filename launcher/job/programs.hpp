@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "launcher/case/forecast/mesh_cost.hpp"
+
 namespace turbidite {
 
 struct Programs {
@@ -15,16 +17,16 @@ struct Programs {
     std::filesystem::path library;  ///< BUILD/lib
     std::filesystem::path source;   ///< top of the source tree, or what was installed of it
     bool installed = false;         ///< under a prefix, without sources, tests and benchmarks
-    /// Program and arguments in the place of turbidite-fluid; empty: that one.
+    /// Program and arguments in the place of that of the case; empty: that one.
     std::vector<std::string> other_fluid = {};
 
     std::filesystem::path build() const { return folder.parent_path(); }
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }
     /// Starts every program of a job and notices when one ends too early.
     std::filesystem::path member() const { return folder / "turbidite-member"; }
-    std::filesystem::path fluid() const {
-        return other_fluid.empty() ? folder / "turbidite-fluid"
-                                   : std::filesystem::path(other_fluid.front());
+    std::filesystem::path fluid(FluidProgram program) const {
+        if (!other_fluid.empty()) return other_fluid.front();
+        return folder / (program == FluidProgram::box ? "turbidite-fluid-box" : "turbidite-fluid");
     }
     /// A recording in the place of coupler and partner.
     std::filesystem::path replay() const { return folder / "turbidite-replay"; }

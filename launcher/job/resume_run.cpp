@@ -164,11 +164,11 @@ void remove_later_times(const fs::path& fluid_case, double time) {
     for (const fs::path& folder : later) fs::remove_all(folder);
 }
 
-/// Files NAME_00000100.vtr of slices that were written after so many windows.
-void remove_later_slices(const fs::path& slices, std::int64_t windows) {
+/// Files NAME_00000100.vtr of a series that were written after so many windows.
+void remove_later_files(const fs::path& series, std::int64_t windows) {
     std::error_code none;
     std::vector<fs::path> later;
-    for (const auto& entry : fs::directory_iterator(slices, none)) {
+    for (const auto& entry : fs::directory_iterator(series, none)) {
         const std::string name = entry.path().stem().string();
         const std::size_t number = name.rfind('_');
         if (entry.path().extension() != ".vtr" || number == std::string::npos) continue;
@@ -210,7 +210,9 @@ void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const 
     const double time = static_cast<double>(chosen.manifest.windows) * run.step;
     remove_later_times(folder.fluid(), time);
     for (const fs::path& own : processor_folders(folder)) remove_later_times(own, time);
-    remove_later_slices(folder.fluid() / "slices", chosen.manifest.windows);
+    for (const char* series : {"slices", "fields"})
+        remove_later_files(folder.fluid() / series, chosen.manifest.windows);
+    if (fluid_program(now) == FluidProgram::box) return;
     extend_fluid_case(now, folder.fluid());
     if (now.integer("fluid.ranks") != then.integer("fluid.ranks"))
         decompose_again(now, folder, chosen);

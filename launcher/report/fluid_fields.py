@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The fluid's fields in a run folder: the times at which they were written, and in the plane a field at one of them as
-2-D arrays; in space they are only summed up, and slices.py has what is drawn. Only this file depends on how OpenFOAM stores it (format, folders)."""
+2-D arrays; in space they are only summed up, and slices.py has what is drawn. Only this file depends on how OpenFOAM and the box
+program store it (format, folders)."""
 import gzip
 import re
 from dataclasses import dataclass
@@ -8,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import processor_fields
+from space import rectilinear
 
 
 @dataclass
@@ -21,10 +23,12 @@ class VelocityField:
 
 
 def field_times(run):
-    """(time, folder) of every output with a velocity field, in order."""
+    """(time, folder) of every output with a velocity field, in order; of the box program (time, file)."""
     fluid = run.folder / 'fluid'
     if not run.is_wet():
         return []
+    if run.record.get('fluid_program') == 'box':
+        return [(time, path) for time, _, path in rectilinear.entries(fluid / 'fields' / 'fields.pvd')]
     found = []
     for entry in processor_fields.time_parent(fluid).iterdir() if fluid.exists() else []:
         try:
@@ -68,9 +72,18 @@ def mean_square_velocity(run, time, folder):
     if not run.in_space():
         velocity = velocity_at(run, time, folder)
         return float((velocity.vertical**2 + velocity.horizontal**2).mean())
+    if folder.suffix == '.vtr':
+        return _mean_square_of_box(folder)
     of_rows = (_cells(run, folder, 'U', read_vectors)**2).sum(axis=-1).mean(axis=(0, 2))
     heights = np.diff(row_edges(run)) if is_stretched(run) else None
     return float(np.average(of_rows, weights=heights))
+
+
+def _mean_square_of_box(path):
+    arrays = rectilinear.arrays(path)
+    x, y, z = (np.diff(arrays[axis]) for axis in 'xyz')
+    of_rows = (arrays['U']**2).reshape(len(z), len(y), len(x), 3).sum(axis=-1).mean(axis=(0, 2))
+    return float(np.average(of_rows, weights=y))
 
 
 def _field(run, folder, name, read):

@@ -45,10 +45,11 @@ def instants(run):
 
 
 def all_instants(run):
-    """(time, grains file or None, field folder or None) of every output with grains; with a fluid, of every output of
-    its fields."""
+    """(time, grains file or None, field folder or None) of every output with grains; with a fluid in the plane, whose
+    velocity is in the picture, of every output of its fields."""
     grains, fields = grain_files.grain_series(run), fluid_fields.field_times(run)
-    leading = fields if run.is_wet() and len(fields) > 1 else grains or fields
+    of_fields = run.is_wet() and not run.in_space() and len(fields) > 1
+    leading = fields if of_fields else grains or fields
     if not leading:
         return []
     times = [time for time, _ in leading]

@@ -48,6 +48,7 @@ RULES = [
     ("fluid_adapter/coupled_step/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "corrections with rigid grains know no host"),
     ("fluid_adapter/fluid_window/*.[hc]pp", [TRANSPORT, OPENFOAM], "a window knows no host: its store does"),
     ("fluid_adapter/box_app/*.[hc]pp", [TRANSPORT, OPENFOAM], "a fluid in plain arrays needs no host"),
+    ("fluid_adapter/domain/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "the box of a fluid is that of any program"),
     ("fluid_adapter/linear_solvers/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "separable solves know no host"),
     ("coupler/participant/*.[hc]pp", [HUB, LAUNCHER], "participants know messages, not schemes"),
     ("coupler/output/*.[hc]pp", [HUB, TRANSPORT, MPI, LAUNCHER], "output does not depend on who computed it"),

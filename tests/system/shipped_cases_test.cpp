@@ -56,6 +56,11 @@ TEST_P(ShippedCase, PlaysItsFirstWindows) {
     const Answer answer = shell(line.str());
     EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
     EXPECT_EQ(rows_of_history(), 4);
+    if (answer.code != 0) return;
+    // All of them fit into memory with OpenFOAM's mesh.
+    const bool dry = record().at("fluid_program").is_null();
+    EXPECT_EQ(dry, !fs::exists(run_folder() / "fluid"));
+    EXPECT_TRUE(dry || record().at("fluid_program") == "openfoam");
 }
 
 std::string name_of(const ::testing::TestParamInfo<fs::path>& info) {

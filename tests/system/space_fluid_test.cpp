@@ -3,8 +3,8 @@
 // Spheres in a liquid, from the case file to the files of the run: OpenFOAM and contact dynamics in
 // three dimensions.
 #include <cmath>
-#include <cstring>
 
+#include "tests/system/fluid_files.hpp"
 #include "tests/system/history_columns.hpp"
 #include "tests/system/shell_test.hpp"
 
@@ -34,14 +34,8 @@ class SpaceFluid : public ShellTest {
         return columns_of(text(scratch.path() / folder / "history.csv"));
     }
 
-    /// The numbers of a field of all cells as OpenFOAM wrote it.
     std::vector<double> field(const std::string& file, std::size_t count) const {
-        const std::string written = text(scratch.path() / file);
-        const std::size_t open = written.find('(', written.find("nonuniform"));
-        std::vector<double> values(count);
-        if (open == std::string::npos || written.size() < open + 1 + 8 * count) return {};
-        std::memcpy(values.data(), written.data() + open + 1, 8 * count);
-        return values;
+        return openfoam_field(text(scratch.path() / file), count);
     }
 };
 
@@ -116,20 +110,6 @@ TEST_F(SpaceFluid, AProbeHasTheValuesOfTheFields) {
         EXPECT_GT(std::abs(u), 1e-5);
         EXPECT_NEAR(one.at(names[axis]).back(), u, near(u)) << names[axis];
     }
-}
-
-/// The data of an array of a slice, raw float32 after the header.
-std::vector<float> slice_array(const std::string& file, const std::string& name) {
-    const std::string mark = "encoding=\"raw\">\n_";
-    const std::size_t begin = file.find(mark), at = file.find("Name=\"" + name + "\"");
-    if (begin == std::string::npos || at == std::string::npos) return {};
-    const std::size_t word = file.find("offset=\"", at) + 8;
-    const char* data = file.data() + begin + mark.size() + std::stoul(file.substr(word));
-    std::uint64_t bytes = 0;
-    std::memcpy(&bytes, data, sizeof bytes);
-    std::vector<float> values(bytes / sizeof(float));
-    std::memcpy(values.data(), data + sizeof bytes, bytes);
-    return values;
 }
 
 // Between two layers of cells a slice is the mean of both; on any number of ranks it is the same,

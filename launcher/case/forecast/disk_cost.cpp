@@ -24,7 +24,8 @@ constexpr double of_mesh = 150.0;
 constexpr double of_shared_mesh = 180.0;  // the same again in processor*, with addressing
 constexpr double of_field_set = 56.0;     // velocity and multipliers 24 each, pressure 8
 constexpr double of_scalar_field = 8.0, of_vector_field = 24.0;
-constexpr double of_slice = 20.0;  // p, U and covered, 4 bytes each
+constexpr double of_box_field_set = 16.0;  // velocity and pressure of the box program, 4 bytes each
+constexpr double of_slice = 20.0;          // p, U and covered, 4 bytes each
 constexpr double of_fluid_checkpoint = 60.0;
 
 // Bytes per grain: of one output (grains and contacts, base64), of one checkpoint.
@@ -42,14 +43,17 @@ double words(const std::string& text) {
 }
 
 double bytes_of_mesh(const Settings& settings) {
+    if (fluid_program(settings) == FluidProgram::box) return 0.0;
     return of_mesh + (settings.integer("fluid.ranks") > 1 ? of_shared_mesh : 0.0);
 }
 
 double bytes_of_fields(const Settings& settings) {
     const std::string more = settings.has("output.fields") ? settings.text("output.fields") : "";
     const bool vectors = in_space(settings) && more.find("vorticity") != std::string::npos;
-    return of_field_set + of_scalar_field * words(more) +
-           (vectors ? of_vector_field - of_scalar_field : 0.0);
+    const double more_bytes =
+        of_scalar_field * words(more) + (vectors ? of_vector_field - of_scalar_field : 0.0);
+    if (fluid_program(settings) == FluidProgram::box) return of_box_field_set + 0.5 * more_bytes;
+    return of_field_set + more_bytes;
 }
 
 /// Of one output.

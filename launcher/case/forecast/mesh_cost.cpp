@@ -11,10 +11,15 @@
 namespace turbidite {
 namespace {
 
-constexpr double bytes_per_cell = 750.0;
-constexpr double bytes_of_second_order = 80.0;   // per cell, velocities and fluxes of the stages
-constexpr double bytes_of_rigid_grains = 190.0;  // per cell, pressure and viscosity with them
-constexpr double bytes_without_cells = 1e8;
+/// Bytes per cell, but for the last.
+struct ProgramMemory {
+    double plain;
+    double second_order;  ///< velocities and fluxes of the stages
+    double rigid_grains;  ///< pressure and viscosity with them
+    double without_cells;
+};
+constexpr ProgramMemory of_openfoam{750.0, 80.0, 190.0, 1e8};
+constexpr ProgramMemory of_box{95.0, 95.0, 195.0, 5e7};
 constexpr double gigabyte = 1e9;
 
 }  // namespace
@@ -34,12 +39,33 @@ double fluid_cells(const Settings& settings) {
     return layer * fluid_rows(settings);
 }
 
-double fluid_memory(const Settings& settings) {
+const char* program_name(FluidProgram program) {
+    return program == FluidProgram::box ? "box" : "openfoam";
+}
+
+FluidProgram fluid_program(const Settings& settings) {
+    const bool box = is(settings, "fluid.program", program_name(FluidProgram::box));
+    return box ? FluidProgram::box : FluidProgram::openfoam;
+}
+
+double fluid_memory(const Settings& settings, FluidProgram program) {
+    const ProgramMemory& bytes = program == FluidProgram::box ? of_box : of_openfoam;
     const bool second_order = settings.text("fluid.time_scheme") == "second-order";
     const bool rigid_grains = splitting_of(settings).rigid_grains;
-    const double per_cell = bytes_per_cell + (second_order ? bytes_of_second_order : 0.0) +
-                            (rigid_grains ? bytes_of_rigid_grains : 0.0);
-    return (bytes_without_cells + per_cell * fluid_cells(settings)) / gigabyte;
+    const double per_cell = bytes.plain + (second_order ? bytes.second_order : 0.0) +
+                            (rigid_grains ? bytes.rigid_grains : 0.0);
+    return (bytes.without_cells + per_cell * fluid_cells(settings)) / gigabyte;
+}
+
+double fluid_memory(const Settings& settings) {
+    return fluid_memory(settings, fluid_program(settings));
+}
+
+const std::vector<const char*>& keys_of_memory() {
+    static const std::vector<const char*> keys = {
+        "fluid.enabled",   "dimension",   "fluid.cells_per_diameter", "fluid.time_scheme",
+        "fluid.splitting", "domain.size", "fluid.stretch_ratio",      "fluid.stretch_largest"};
+    return keys;
 }
 
 double memory_limit(const Settings& settings) {

@@ -12,6 +12,7 @@
 #include "coupler/protocol/splitting.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/transform_length.hpp"
+#include "launcher/case/keys/fluid_program.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 #include "launcher/case/keys/transport_schemes.hpp"
 #include "launcher/case/scales.hpp"
@@ -147,6 +148,10 @@ Ruling rows_can_stretch(const Settings& s) {
                     std::floor(100.0 * highest) / 100.0)};
 }
 
+std::string sentence(const std::string& text) {
+    return text.empty() ? "" : " " + text + ".";
+}
+
 Ruling mesh_fits_in_memory(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
     const double cells = fluid_cells(s), needed = fluid_memory(s), limit = memory_limit(s);
@@ -159,8 +164,9 @@ Ruling mesh_fits_in_memory(const Settings& s) {
                                "are {:.3g} GB{}.",
                                cells / 1e6, needed, limit,
                                s.has("limits.memory") ? " (limits.memory)" : " in this machine"),
-        fmt::format("Use a smaller domain.size, fewer cells or fluid.stretch_ratio{}.",
-                    too_many ? "" : ", or set limits.memory for a larger machine")};
+        fmt::format("Use a smaller domain.size, fewer cells or fluid.stretch_ratio{}.{}",
+                    too_many ? "" : ", or set limits.memory for a larger machine",
+                    too_many ? "" : sentence(hint_of_box(s)))};
 }
 
 Ruling reynolds_follows(const Settings& s) {
@@ -193,9 +199,6 @@ std::vector<Needed> needed_with_rigid_grains() {
             {"fluid.decomposition", "rows", "it works on complete rows of cells"}};
 }
 
-constexpr const char* schemes_on_rows[] = {"Gauss limitedLinearV ", "Gauss linear", "Gauss LUST ",
-                                           "Gauss linearUpwind "};
-
 Ruling splitting_has_what_it_needs(const Settings& s) {
     if (!s.flag("fluid.enabled") || !splitting_of(s).rigid_grains) return std::nullopt;
     for (const Needed& needed : needed_with_rigid_grains())
@@ -205,9 +208,7 @@ Ruling splitting_has_what_it_needs(const Settings& s) {
                             needed.why, s.text(needed.key)),
                 fmt::format("Set {}: {}, or use {}.", needed.key, needed.value, papers_splitting)};
     const std::string& scheme = s.text("fluid.transport_scheme");
-    if (std::any_of(std::begin(schemes_on_rows), std::end(schemes_on_rows),
-                    [&](const char* name) { return scheme.rfind(name, 0) == 0; }))
-        return std::nullopt;
+    if (is_scheme_on_rows(scheme)) return std::nullopt;
     return Objection{
         fmt::format("This splitting works on rows of a box, which know Gauss limitedLinearV, "
                     "linear, LUST and linearUpwind; fluid.transport_scheme = {}.",
@@ -273,6 +274,7 @@ std::vector<KeySpec> mesh_keys() {
          .type = KeyType::flag,
          .fallback = "true",
          .help = "false: dry grains, no fluid program"},
+        program_key(),
         {.name = "fluid.ranks",
          .type = KeyType::integer,
          .fallback = "1",
@@ -484,32 +486,33 @@ std::vector<KeySpec> scheme_keys() {
 }
 
 std::vector<Rule> rules() {
-    return {{"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_can_be_cut},
-            {"fluid.acceleration",
-             {"fluid.enabled", "domain.left", "domain.bottom"},
-             acceleration_is_along_cyclic_sides},
-            {"fluid.transport_scheme", {}, scheme_is_known},
-            {"fluid.transport_scheme",
-             {"fluid.enabled", "fluid.cells_per_diameter", "fluid.time_scheme", "time.step",
-              "scales.kind"},
-             scheme_is_stable},
-            {"fluid.ranks",
-             {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter",
-              "fluid.stretch_ratio", "fluid.stretch_largest"},
-             ranks_have_cells},
-            {"fluid.stretch_from",
-             {"fluid.enabled", "domain.size", "domain.bottom", "fluid.cells_per_diameter",
-              "fluid.stretch_ratio", "fluid.stretch_largest"},
-             rows_can_stretch},
-            {"fluid.cells_per_diameter",
-             {"fluid.enabled", "fluid.time_scheme", "fluid.splitting", "domain.size",
-              "fluid.stretch_ratio", "fluid.stretch_largest"},
-             mesh_fits_in_memory},
-            {"fluid.splitting",
-             {"fluid.enabled", "coupling.scheme", "fluid.pressure_solver", "fluid.viscous_solver",
-              "fluid.decomposition", "fluid.time_scheme", "fluid.transport_scheme"},
-             splitting_has_what_it_needs},
-            {"fluid.reynolds", {"scales.kind"}, reynolds_follows}};
+    std::vector<Rule> rules = program_rules();
+    const std::vector<Rule> others = {
+        {"time.step", {"fluid.enabled", "fluid.cells_per_diameter"}, transport_can_be_cut},
+        {"fluid.acceleration",
+         {"fluid.enabled", "domain.left", "domain.bottom"},
+         acceleration_is_along_cyclic_sides},
+        {"fluid.transport_scheme", {}, scheme_is_known},
+        {"fluid.transport_scheme",
+         {"fluid.enabled", "fluid.cells_per_diameter", "fluid.time_scheme", "time.step",
+          "scales.kind"},
+         scheme_is_stable},
+        {"fluid.ranks",
+         {"fluid.enabled", "fluid.decomposition", "domain.size", "fluid.cells_per_diameter",
+          "fluid.stretch_ratio", "fluid.stretch_largest"},
+         ranks_have_cells},
+        {"fluid.stretch_from",
+         {"fluid.enabled", "domain.size", "domain.bottom", "fluid.cells_per_diameter",
+          "fluid.stretch_ratio", "fluid.stretch_largest"},
+         rows_can_stretch},
+        {"fluid.cells_per_diameter", keys_of_memory(), mesh_fits_in_memory},
+        {"fluid.splitting",
+         {"fluid.enabled", "coupling.scheme", "fluid.pressure_solver", "fluid.viscous_solver",
+          "fluid.decomposition", "fluid.time_scheme", "fluid.transport_scheme"},
+         splitting_has_what_it_needs},
+        {"fluid.reynolds", {"scales.kind"}, reynolds_follows}};
+    rules.insert(rules.end(), others.begin(), others.end());
+    return rules;
 }
 
 }  // namespace

@@ -90,4 +90,11 @@ SchemeChoice read_transport_scheme(const std::string& text) {
     return {&nearest, {}, {}};
 }
 
+bool is_scheme_on_rows(const std::string& text) {
+    const std::vector<std::string> words = words_of(text);
+    constexpr const char* known[] = {"limitedLinearV", "linear", "LUST", "linearUpwind"};
+    return words.size() > 1 && words[0] == "Gauss" &&
+           std::find(std::begin(known), std::end(known), words[1]) != std::end(known);
+}
+
 }  // namespace turbidite

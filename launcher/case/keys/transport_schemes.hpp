@@ -38,4 +38,8 @@ struct SchemeChoice {
 };
 SchemeChoice read_transport_scheme(const std::string& text);
 
+/// Whether steps on rows of a box know the scheme: Gauss limitedLinearV, linear, LUST or
+/// linearUpwind, not bounded.
+bool is_scheme_on_rows(const std::string& text);
+
 }  // namespace turbidite

@@ -10,6 +10,10 @@ def coupling(case):
     return scheme if positions == 'corrected' else f'{scheme}, positions {positions}'
 
 
+def by_box(record):
+    return ', by the box program' if record.get('fluid_program') == 'box' else ''
+
+
 def facts(run):
     """(name, value) pairs of the case, with units."""
     record, case = run.record, run.case
@@ -23,7 +27,7 @@ def facts(run):
                    f'{case.get("grains.density_ratio")}, friction {case.get("contact.friction")}, '
                    f'by {case.get("grains.adapter")}'),
         ('fluid', f'Re = {record.get("reynolds", 0):.4g}, {case.get("fluid.cells_per_diameter")} '
-                  f'cells per D' if run.is_wet() else 'none'),
+                  f'cells per D{by_box(record)}' if run.is_wet() else 'none'),
         ('scales', f'{case.get("scales.kind")}: D = {run.scale("D"):.4g}, u_c = '
                    f'{run.scale("u_c"):.4g}, t_c = {run.scale("t_c"):.4g}, g = '
                    f'{record.get("g", float("nan")):.4g} ({units(case)})'),

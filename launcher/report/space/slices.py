@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Planes of the fluid in space (output.slices): the files in fluid/slices, and their pictures: the vertical velocity in
 colour as in the plane (red up, blue down, white at rest), the pressure, and the spheres where the plane cuts them."""
-import re
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -13,6 +11,7 @@ import grain_files
 import pictures
 from analysis.snapshots import evenly
 from document.typeset import plain
+from space import rectilinear
 
 AXES = 'xyz'
 PANEL_WIDTH = 420
@@ -44,29 +43,15 @@ class Slice:
 
 def series(run):
     """[[(time, path), ...] of each plane], in the order of output.slices; empty without any."""
-    index = run.folder / 'fluid' / 'slices' / 'slices.pvd'
-    if not index.exists():
-        return []
     planes = {}
-    for entry in ElementTree.parse(index).iter('DataSet'):
-        path = index.parent / entry.get('file')
-        if path.exists():
-            planes.setdefault(int(entry.get('part')), []).append((float(entry.get('timestep')), path))
+    for time, part, path in rectilinear.entries(run.folder / 'fluid' / 'slices' / 'slices.pvd'):
+        planes.setdefault(part, []).append((time, path))
     return [planes[part] for part in sorted(planes)]
 
 
 def read(time, path):
-    """A file of the fluid program: VTK RectilinearGrid, float32 as raw appended data; ValueError if it is damaged."""
-    head, mark, data = path.read_bytes().partition(b'<AppendedData encoding="raw">\n_')
-    if not mark:
-        raise ValueError(f'{path.name} has no appended data')
-    arrays = {}
-    for name, offset in re.findall(rb'<DataArray[^>]*Name="(\w+)"[^>]*offset="(\d+)"', head):
-        start = int(offset)
-        size = int.from_bytes(data[start:start + 8], 'little')
-        if len(data) < start + 8 + size:
-            raise ValueError(f'{path.name} is cut off')
-        arrays[name.decode()] = np.frombuffer(data, dtype='<f4', count=size // 4, offset=start + 8).astype(float)
+    """A file of the fluid program (rectilinear.py); ValueError if it is damaged."""
+    arrays = rectilinear.arrays(path)
     edges = [arrays[name] for name in AXES]
     axis = int(np.argmin([len(along) for along in edges]))
     across, up = [other for other in range(3) if other != axis]  # the first runs fastest

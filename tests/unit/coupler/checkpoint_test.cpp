@@ -50,6 +50,38 @@ Names sets_in(const TestFolder& folder) {
     return CheckpointSets(folder.path()).names();
 }
 
+TEST(StoredFile, InPiecesIsTheSameAsWhole) {
+    const TestFolder folder("pieces");
+    const Bytes bytes{'p', 'i', 'e', 'c', 'e', 's'};
+    const StoredFile whole = store(folder.path(), "whole", bytes);
+    PieceWriter writer(folder.path(), "pieces");
+    writer.write(bytes.data(), 2);
+    writer.write(bytes.data() + 2, 0);
+    writer.write(bytes.data() + 2, 4);
+    const StoredFile pieces = writer.finish();
+    EXPECT_EQ(pieces.name, "pieces");
+    EXPECT_EQ(pieces.bytes, whole.bytes);
+    EXPECT_EQ(pieces.crc32, whole.crc32);
+    EXPECT_EQ(load(folder.path(), pieces), bytes);
+    PieceReader reader(folder.path(), pieces);
+    EXPECT_EQ(reader.size(), 6u);
+    char part[4] = {};
+    reader.read(4, part, 2);
+    EXPECT_EQ(std::string(part), "es");
+    reader.read(0, part, 3);
+    EXPECT_EQ(std::string(part), "pie");
+    EXPECT_THROW(reader.read(4, part, 3), Failure);
+    EXPECT_EQ(reader.all(), bytes) << "after a read that failed, too";
+}
+
+TEST(StoredFile, IsComparedBeforeAPieceIsRead) {
+    const TestFolder folder("damaged-pieces");
+    const StoredFile file = store(folder.path(), "file", Bytes(100, 'a'));
+    overwrite(folder.path() / "file", 99, 'b');
+    EXPECT_THROW(PieceReader(folder.path(), file), Failure);
+    EXPECT_THROW(PieceWriter(folder.path() / "none", "file"), Failure);
+}
+
 TEST(CheckpointRule, CountsFromTheBeginningOfTheRun) {
     Settings settings = test_settings();
     const RunValues run = run_values(settings);

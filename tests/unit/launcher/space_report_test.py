@@ -114,6 +114,24 @@ class Liquid(SpaceRun):
         np.testing.assert_allclose(values, [0.0, whole - 0.5 / 2.0])
         self.assertEqual(data.remarks, [])
 
+    def test_fields_of_the_box_program_count_by_their_heights(self):
+        edges = [np.array(along, dtype='<f4') for along in ([0, 1, 2], [0, 1, 3], [0, 1])]
+        velocity = np.arange(12, dtype='<f4').reshape(1, 2, 2, 3)  # z, y, x
+        parts = [('x', edges[0]), ('y', edges[1]), ('z', edges[2]), ('U', velocity.ravel())]
+        head, data = '', b''
+        for name, values in parts:
+            head += f'<DataArray type="Float32" Name="{name}" format="appended" offset="{len(data)}"/>'
+            data += np.uint64(values.nbytes).tobytes() + values.tobytes()
+        self.write('fluid/fields/fields_00000002.vtr', f'<VTKFile>{head}<AppendedData encoding="raw">\n_'.encode() + data)
+        self.write('fluid/fields/fields.pvd', '<VTKFile><Collection><DataSet timestep="0.5" part="0" '
+                   'file="fields_00000002.vtr"/></Collection></VTKFile>')
+        data = run_data.load_run(self.folder)
+        data.record['fluid_program'] = 'box'
+        [(time, path)] = fluid_fields.field_times(data)
+        self.assertEqual(time, 0.5)
+        rows = (velocity**2).sum(axis=-1).mean(axis=(0, 2))
+        self.assertAlmostEqual(fluid_fields.mean_square_velocity(data, time, path), (rows[0] + 2 * rows[1]) / 3)
+
     def test_a_damaged_field_is_said(self):
         self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
         self.write('fluid/1/U', b'format binary;\ninternalField nonuniform List<vector> \n3\n(')

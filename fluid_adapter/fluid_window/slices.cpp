@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "fluid_adapter/foam_app/slices.hpp"
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/slices.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +29,14 @@ SliceArray array_of(const std::vector<double>& values, const char* name, std::si
 
 }  // namespace
 
+std::vector<double> edges_along(const CellGrid& grid, int axis) {
+    std::vector<double> edges;
+    for (int i = 0; i < grid.counts[axis]; ++i)
+        edges.push_back(grid.centre(axis, i) - 0.5 * grid.size(axis, i));
+    edges.push_back(grid.origin[axis] + grid.length(axis));
+    return edges;
+}
+
 Slices::Slices(const Settings& settings, const CellGrid& grid, std::filesystem::path fluid_case)
     : run_(run_values(settings)), folder_(std::move(fluid_case) / "slices") {
     if (!settings.has("run.slices")) return;
@@ -48,25 +56,24 @@ Slices::Plane Slices::plane(const CellGrid& grid, int normal, double place) cons
 }
 
 /// Each rank writes what is in its own cells.
-void Slices::write(const FluidFields& fields, const FoamField& field,
+void Slices::write(const StoredField& field, const RankGroup& ranks,
                    const std::vector<ImmersedGrain>& grains, std::int64_t windows) const {
     for (const Plane& plane : planes_) {
-        std::vector<double> values = sampled(plane, fields, field);
+        std::vector<double> values = sampled(plane, field);
         for (const ImmersedGrain& grain : grains) cover(plane, field, grain, values);
-        fields.ranks.sum(values.data(), static_cast<int>(values.size()));
-        if (fields.ranks.rank() != 0) continue;
+        ranks.sum(values.data(), static_cast<int>(values.size()));
+        if (ranks.rank() != 0) continue;
         write_slice(folder_ / slice_file_name(plane.name, windows), edges(plane, field.grid()),
                     {array_of(values, "p", 0, 1), array_of(values, "U", 1, 3),
                      array_of(values, "covered", 4, 1)});
     }
-    if (planes_.empty() || fields.ranks.rank() != 0) return;
+    if (planes_.empty() || ranks.rank() != 0) return;
     std::vector<std::string> names;
     for (const Plane& plane : planes_) names.push_back(plane.name);
-    write_slice_series(folder_, names, run_.step);
+    write_slice_series(folder_ / "slices.pvd", names, run_.step);
 }
 
-std::vector<double> Slices::sampled(const Plane& plane, const FluidFields& fields,
-                                    const FoamField& field) const {
+std::vector<double> Slices::sampled(const Plane& plane, const StoredField& field) const {
     const CellGrid& grid = field.grid();
     std::vector<double> values(per_cell * cells_of(grid, plane.across, plane.up), 0.0);
     double* value = values.data();
@@ -78,17 +85,16 @@ std::vector<double> Slices::sampled(const Plane& plane, const FluidFields& field
                 at[plane.normal] = plane.stencil.layer[end];
                 const int cell = field.cell(at[0], at[1], at[2]);
                 if (cell < 0) continue;
-                const int place = field.mesh_cell(cell);
                 const double weight = plane.stencil.weight(end);
-                value[0] += weight * fields.p[place];
-                for (int axis = 0; axis < 3; ++axis)
-                    value[1 + axis] += weight * fields.U[place][axis];
+                const Vec3 u = field.shown_velocity(cell);
+                value[0] += weight * field.shown_pressure(cell);
+                for (int axis = 0; axis < 3; ++axis) value[1 + axis] += weight * u[axis];
             }
     return values;
 }
 
 /// The rank that has the cell which the plane cuts knows the grain.
-void Slices::cover(const Plane& plane, const FoamField& field, const ImmersedGrain& grain,
+void Slices::cover(const Plane& plane, const StoredField& field, const ImmersedGrain& grain,
                    std::vector<double>& values) const {
     const CellGrid& grid = field.grid();
     const auto [normal, across, up] = std::array{plane.normal, plane.across, plane.up};
@@ -127,15 +133,9 @@ void Slices::cover(const Plane& plane, const FoamField& field, const ImmersedGra
 
 SliceEdges Slices::edges(const Plane& plane, const CellGrid& grid) const {
     SliceEdges edges;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (axis == plane.normal) {
-            edges[axis] = {plane.place};
-            continue;
-        }
-        for (int i = 0; i < grid.counts[axis]; ++i)
-            edges[axis].push_back(grid.centre(axis, i) - 0.5 * grid.size(axis, i));
-        edges[axis].push_back(grid.origin[axis] + grid.length(axis));
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        edges[axis] =
+            axis == plane.normal ? std::vector<double>{plane.place} : edges_along(grid, axis);
     return edges;
 }
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Planes of the fluid in space at every output, fluid/slices (output.slices):
 //
@@ -13,12 +13,15 @@
 #include <vector>
 
 #include "coupler/protocol/run_values.hpp"
-#include "fluid_adapter/foam_app/foamField.hpp"
-#include "fluid_adapter/foam_app/sliceFile.hpp"
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
+#include "fluid_adapter/fluid_window/slice_file.hpp"
 #include "fluid_adapter/multiplier/cell_stencil.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 
 namespace turbidite {
+
+/// Where the cells of the grid along an axis begin and end [m].
+std::vector<double> edges_along(const CellGrid& grid, int axis);
 
 class Slices {
  public:
@@ -26,7 +29,7 @@ class Slices {
     Slices(const Settings& settings, const CellGrid& grid, std::filesystem::path fluid_case);
 
     /// After so many windows; by all ranks. Throws Failure when the disk is full.
-    void write(const FluidFields& fields, const FoamField& field,
+    void write(const StoredField& field, const RankGroup& ranks,
                const std::vector<ImmersedGrain>& grains, std::int64_t windows) const;
 
  private:
@@ -39,9 +42,8 @@ class Slices {
     };
 
     Plane plane(const CellGrid& grid, int normal, double place) const;
-    std::vector<double> sampled(const Plane& plane, const FluidFields& fields,
-                                const FoamField& field) const;
-    void cover(const Plane& plane, const FoamField& field, const ImmersedGrain& grain,
+    std::vector<double> sampled(const Plane& plane, const StoredField& field) const;
+    void cover(const Plane& plane, const StoredField& field, const ImmersedGrain& grain,
                std::vector<double>& values) const;
     SliceEdges edges(const Plane& plane, const CellGrid& grid) const;
 

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Pressure and velocity at the points of output.probes.
 #pragma once
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "coupler/protocol/settings.hpp"
-#include "fluid_adapter/foam_app/foamField.hpp"
+#include "fluid_adapter/fluid_window/fluid_store.hpp"
 
 namespace turbidite {
 
@@ -17,7 +17,7 @@ class Probes {
 
     /// p/rho_f [m2/s2], u, v and in space w [m/s] at each point, from the fields; the same on all
     /// ranks.
-    std::vector<double> values(const FluidFields& fields, const FoamField& field) const;
+    std::vector<double> values(const StoredField& field, const RankGroup& ranks) const;
 
  private:
     int dimension_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fluid_adapter/foam_case/fluid_domain.hpp"
+#include "fluid_adapter/domain/fluid_domain.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "fluid_adapter/foam_app/sliceFile.hpp"
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/slice_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +21,7 @@ void append(std::ostream& out, const std::vector<float>& values) {
     out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(bytes));
 }
 
-/// Declares arrays and counts where their data begin.
+/// Declares arrays and counts where their data begin, after the header.
 class Declaration {
  public:
     std::string of(const std::string& name, int components, std::size_t count) {
@@ -32,9 +32,16 @@ class Declaration {
         return text.str();
     }
 
+    std::size_t offset() const { return offset_; }
+
  private:
     std::size_t offset_ = 0;
 };
+
+/// An edge more than cells, or a single place.
+std::size_t cells_along(const std::vector<double>& edges) {
+    return std::max<std::size_t>(1, edges.size() - 1);
+}
 
 std::string extent_of(const SliceEdges& edges) {
     std::string text;
@@ -53,26 +60,41 @@ std::int64_t windows_of(const std::string& file, const std::string& name) {
 
 }  // namespace
 
+SliceLayout slice_layout(const SliceEdges& edges, const std::vector<SliceArray>& arrays) {
+    SliceLayout layout;
+    const std::size_t cells = cells_along(edges[0]) * cells_along(edges[1]) * cells_along(edges[2]);
+    Declaration declaration;
+    const std::string extent = extent_of(edges);
+    std::ostringstream out;
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"RectilinearGrid\" version=\"1.0\" "
+           "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<RectilinearGrid "
+           "WholeExtent=\""
+        << extent << "\">\n<Piece Extent=\"" << extent << "\">\n<Coordinates>\n";
+    const char* const axes[] = {"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) out << declaration.of(axes[axis], 1, edges[axis].size());
+    out << "</Coordinates>\n<CellData Scalars=\"p\" Vectors=\"U\">\n";
+    for (const SliceArray& array : arrays) {
+        layout.places.push_back(declaration.offset());
+        layout.lengths.push_back(cells * array.components * sizeof(float));
+        out << declaration.of(array.name, array.components, cells * array.components);
+    }
+    out << "</CellData>\n</Piece>\n</RectilinearGrid>\n<AppendedData encoding=\"raw\">\n_";
+    const std::size_t header = out.str().size();
+    for (std::size_t& place : layout.places) place += header;
+    for (const std::vector<double>& along : edges)
+        append(out, std::vector<float>(along.begin(), along.end()));
+    layout.begin = out.str();
+    layout.end = "\n</AppendedData>\n</VTKFile>\n";
+    return layout;
+}
+
 void write_slice(const std::filesystem::path& file, const SliceEdges& edges,
                  const std::vector<SliceArray>& arrays) {
+    const SliceLayout layout = slice_layout(edges, arrays);
     write_whole(file, [&](std::ostream& out) {
-        Declaration declaration;
-        const std::string extent = extent_of(edges);
-        out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"RectilinearGrid\" version=\"1.0\" "
-               "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<RectilinearGrid "
-               "WholeExtent=\""
-            << extent << "\">\n<Piece Extent=\"" << extent << "\">\n<Coordinates>\n";
-        const char* const axes[] = {"x", "y", "z"};
-        for (int axis = 0; axis < 3; ++axis)
-            out << declaration.of(axes[axis], 1, edges[axis].size());
-        out << "</Coordinates>\n<CellData Scalars=\"p\" Vectors=\"U\">\n";
-        for (const SliceArray& array : arrays)
-            out << declaration.of(array.name, array.components, array.values.size());
-        out << "</CellData>\n</Piece>\n</RectilinearGrid>\n<AppendedData encoding=\"raw\">\n_";
-        for (const std::vector<double>& along : edges)
-            append(out, std::vector<float>(along.begin(), along.end()));
+        out << layout.begin;
         for (const SliceArray& array : arrays) append(out, array.values);
-        out << "\n</AppendedData>\n</VTKFile>\n";
+        out << layout.end;
     });
 }
 
@@ -82,17 +104,17 @@ std::string slice_file_name(const std::string& name, std::int64_t windows) {
     return name + number + extension;
 }
 
-void write_slice_series(const std::filesystem::path& folder, const std::vector<std::string>& names,
+void write_slice_series(const std::filesystem::path& series, const std::vector<std::string>& names,
                         double step) {
     std::vector<std::tuple<std::int64_t, std::size_t, std::string>> found;  // window, part, file
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(series.parent_path()))
         for (std::size_t part = 0; part < names.size(); ++part) {
             const std::string file = entry.path().filename().string();
             const std::int64_t windows = windows_of(file, names[part]);
             if (windows >= 0) found.emplace_back(windows, part, file);
         }
     std::sort(found.begin(), found.end());
-    write_whole(folder / "slices.pvd", [&](std::ostream& out) {
+    write_whole(series, [&](std::ostream& out) {
         out.precision(9);
         out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                "version=\"0.1\">\n<Collection>\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fluid_adapter/foam_case/side_motion.hpp"
+#include "fluid_adapter/domain/side_motion.hpp"
 
 #include <stdexcept>
 #include <string>

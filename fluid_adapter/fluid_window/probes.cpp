@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "fluid_adapter/foam_app/probes.hpp"
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/probes.hpp"
 
 #include <sstream>
 
@@ -18,7 +18,7 @@ Probes::Probes(const Settings& settings) : dimension_(run_values(settings).dimen
 }
 
 /// Each rank adds the shares of its own cells.
-std::vector<double> Probes::values(const FluidFields& fields, const FoamField& field) const {
+std::vector<double> Probes::values(const StoredField& field, const RankGroup& ranks) const {
     const std::size_t per_point = 1 + dimension_;
     std::vector<double> values(per_point * points_.size(), 0.0);
     for (std::size_t k = 0; k < points_.size(); ++k)
@@ -26,12 +26,11 @@ std::vector<double> Probes::values(const FluidFields& fields, const FoamField& f
             const int cell = field.cell(at.i, at.j, at.k);
             if (cell < 0 || !field.owns(cell)) continue;
             double* value = &values[per_point * k];
-            const int place = field.mesh_cell(cell);
-            value[0] += at.weight * fields.p[place];
-            for (int axis = 0; axis < dimension_; ++axis)
-                value[1 + axis] += at.weight * fields.U[place][axis];
+            const Vec3 u = field.shown_velocity(cell);
+            value[0] += at.weight * field.shown_pressure(cell);
+            for (int axis = 0; axis < dimension_; ++axis) value[1 + axis] += at.weight * u[axis];
         }
-    if (!values.empty()) fields.ranks.sum(values.data(), static_cast<int>(values.size()));
+    if (!values.empty()) ranks.sum(values.data(), static_cast<int>(values.size()));
     return values;
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fluid_adapter/fluid_window/layer_momentum.hpp"
+
+#include <cmath>
+
+namespace turbidite {
+
+FluidMomentum momentum_of_layers(const FluidField& field, const std::array<double*, 3>& u_of,
+                                 const RankGroup& ranks) {
+    std::array<double, 4> sums{};
+    const LayerCells layers = field.layers();
+    const std::size_t layer = layers.cells() / layers.count;
+    for (int j = 0; j < layers.count; ++j) {
+        const double mass = field.cell_mass(0, layers.first + j);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double* u = u_of[axis] + j * layer;
+            double sum = 0.0, sizes = 0.0;
+            for (std::size_t c = 0; c < layer; ++c) sum += u[c], sizes += std::abs(u[c]);
+            sums[axis] += mass * sum, sums[3] += mass * sizes;
+        }
+    }
+    ranks.sum(sums.data(), static_cast<int>(sums.size()));
+    return {{sums[0], sums[1], sums[2]}, sums[3]};
+}
+
+}  // namespace turbidite
