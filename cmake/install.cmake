@@ -34,10 +34,22 @@ file(CREATE_LINK ../../../share/turbidite/launcher/python/turbidite ${links}/pyt
 install(FILES ${links}/turbidite DESTINATION bin COMPONENT run)
 install(FILES ${links}/python/turbidite DESTINATION lib/python3/dist-packages COMPONENT run)
 
-foreach(folder configs launcher/report launcher/python)
+foreach(folder configs launcher/report launcher/python launcher/site)
     get_filename_component(parent ${folder} DIRECTORY)
     install(DIRECTORY ${folder} DESTINATION share/turbidite/${parent} COMPONENT run
             PATTERN "*.[ch]pp" EXCLUDE PATTERN __pycache__ EXCLUDE)
 endforeach()
 install(DIRECTORY docs DESTINATION share/doc/turbidite COMPONENT run)
-install(FILES README.md SECURITY.md DESTINATION share/doc/turbidite COMPONENT run)
+install(FILES README.md SECURITY.md CITATION.cff DESTINATION share/doc/turbidite COMPONENT run)
+
+# The site of `turbidite docs`; programs are built without mkdocs too.
+find_program(MKDOCS mkdocs)
+if(MKDOCS)
+    file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/decisions/*.md docs/images/*.png docs/images/*/*.png configs/*.md)
+    set(site ${PROJECT_BINARY_DIR}/site)
+    add_custom_command(OUTPUT ${site}/index.html
+        COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/launcher/site/site.py build ${PROJECT_SOURCE_DIR} ${site}
+        DEPENDS ${pages} launcher/site/site.py launcher/site/mkdocs.yml VERBATIM)
+    add_custom_target(site ALL DEPENDS ${site}/index.html)
+    install(DIRECTORY ${site}/ DESTINATION share/doc/turbidite/html OPTIONAL COMPONENT run)
+endif()

@@ -47,6 +47,7 @@ const std::vector<Command>& commands() {
         {"replay", "play a recorded run again with one of its programs alone, and compare",
          declare_replay},
         {"keys", "print every key of a case file with unit, default and range", declare_keys},
+        {"docs", "show the pages in a browser, with a search, without internet", declare_docs},
         {"doctor", "say what is installed and built, what is missing, and play a short job",
          declare_doctor},
         {"test", "run the tests", declare_test},

@@ -30,6 +30,7 @@ CommandAction declare_study(CLI::App& options);
 CommandAction declare_gallery(CLI::App& app);
 CommandAction declare_adapter_test(CLI::App& options);
 CommandAction declare_keys(CLI::App& options);
+CommandAction declare_docs(CLI::App& options);
 CommandAction declare_doctor(CLI::App& options);
 CommandAction declare_test(CLI::App& options);
 CommandAction declare_bench(CLI::App& options);

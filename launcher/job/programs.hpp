@@ -42,6 +42,11 @@ struct Programs {
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
     std::filesystem::path film() const { return source / "launcher/report/film.py"; }
+    /// The pages as a site, once it is built.
+    std::filesystem::path site() const {
+        return installed ? source.parent_path() / "doc/turbidite/html" : build() / "site";
+    }
+    std::filesystem::path site_script() const { return source / "launcher/site/site.py"; }
     std::filesystem::path study() const { return source / "launcher/report/study.py"; }
     std::filesystem::path gallery() const { return source / "launcher/report/gallery/main.py"; }
     /// The shipped cases, and what is expected of them.

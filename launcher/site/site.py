@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The pages of the project as a site that can be searched without internet.
+
+    site.py build SOURCES SITE        the site in the folder SITE, from the Markdown of the sources as it is
+    site.py show SITE [PORT]          on this machine alone, until Ctrl-C
+
+Building needs mkdocs and mkdocs-material (Debian). A page without a place in mkdocs.yml, a place without a page, and a link
+that leads nowhere are errors."""
+import functools
+import http.server
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+CONFIGURATION = Path(__file__).resolve().parent / 'mkdocs.yml'
+LINK = re.compile(r'\]\(([^)#\s:]+)(#[^)\s]*)?\)')
+PICTURES = ('.png', '.webp', '.svg')
+
+
+def pages_of(sources):
+    """Of the top folder, docs and configs, relative to the sources."""
+    found = [*sources.glob('*.md'), *sources.glob('docs/**/*.md'), *sources.glob('configs/*.md')]
+    return sorted(page.relative_to(sources) for page in found)
+
+
+def as_page(sources, page):
+    """The text of a page: links to sources of programs, which are no part of the site, become their names."""
+    def link(match):
+        target = (sources / page).parent / match[1]
+        if target.suffix == '.md' or target.suffix in PICTURES or not target.exists():
+            return match[0]
+        return '](' + '\0'
+    text = LINK.sub(link, (sources / page).read_text())
+    return re.sub(r'(?<!!)\[([^\]]*)\]\(\0', r'\1', text)
+
+
+def stage(sources, folder):
+    """Pages and their pictures in the folders they have in the sources, so that their links hold."""
+    for page in pages_of(sources):
+        (folder / page).parent.mkdir(parents=True, exist_ok=True)
+        (folder / page).write_text(as_page(sources, page))
+    shutil.copytree(sources / 'docs/images', folder / 'docs/images')
+
+
+def without_place(sources):
+    """Pages that the table of contents leaves out."""
+    placed = set(re.findall(r'[\w./-]+\.md', CONFIGURATION.read_text()))
+    return [str(page) for page in pages_of(sources) if str(page) not in placed]
+
+
+def build(sources, site):
+    """Raises SystemExit with mkdocs' words."""
+    if lost := without_place(sources):
+        sys.exit(f'{CONFIGURATION} has no place for {", ".join(lost)}')
+    with tempfile.TemporaryDirectory() as work:
+        work = Path(work)
+        stage(sources, work / 'pages')
+        (work / 'mkdocs.yml').write_text(CONFIGURATION.read_text() + 'docs_dir: pages\n')
+        done = subprocess.run(['mkdocs', 'build', '--strict', '-f', work / 'mkdocs.yml', '-d', work / 'site'],
+                              capture_output=True, text=True, check=False)
+        if done.returncode:
+            said = [line for line in (done.stdout + done.stderr).splitlines() if not line.startswith('INFO')]
+            sys.exit('\n'.join(said))
+        shutil.rmtree(site, ignore_errors=True)
+        shutil.move(work / 'site', site)
+
+
+class Silent(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+def show(site, port):
+    """Until Ctrl-C; port 0 is a free one."""
+    handler = functools.partial(Silent, directory=str(site))
+    with http.server.ThreadingHTTPServer(('127.0.0.1', port), handler) as server:
+        print(f'The pages are at http://127.0.0.1:{server.server_address[1]}/ on this machine. Ctrl-C ends it.', flush=True)
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            pass
+
+
+if __name__ == '__main__':
+    match sys.argv[1:]:
+        case ['build', sources, site]:
+            build(Path(sources).resolve(), Path(site).resolve())
+        case ['show', site, *port]:
+            show(Path(site).resolve(), int(port[0]) if port else 0)
+        case _:
+            sys.exit(__doc__)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The site: every page has a place, links hold, pictures and the search are there."""
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import urllib.request
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+SCRIPT = ROOT / 'launcher/site/site.py'
+
+
+def script(*words):
+    return subprocess.run(['/usr/bin/python3', '-B', SCRIPT, *map(str, words)], capture_output=True, text=True, check=False)
+
+
+class Site(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.site = Path(cls.folder.name) / 'site'
+        built = script('build', ROOT, cls.site)
+        if built.returncode:
+            raise AssertionError(built.stderr)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_its_links_lead_to_files_of_the_site(self):
+        dead = []
+        pages = list(self.site.rglob('*.html'))
+        self.assertGreater(len(pages), 40)
+        for page in pages:
+            for target in re.findall(r'(?:href|src)="([^"#?:]+)["#?]', page.read_text()):
+                if not target.startswith('/') and not (page.parent / target).exists():
+                    dead.append((page.name, target))
+        self.assertEqual(dead, [])
+
+    def test_the_search_knows_a_key_and_a_word_of_the_questions(self):
+        index = json.loads((self.site / 'search/search_index.json').read_text())
+        for word in ('fluid.cells_per_diameter', 'Why does my dense column not move'):
+            self.assertTrue(any(word in entry['text'] + entry['title'] for entry in index['docs']), word)
+
+    def test_it_asks_nothing_of_the_internet(self):
+        for page in self.site.rglob('*.html'):
+            self.assertEqual(re.findall(r'<(?:script|link)[^>]+(?:src|href)="(https?:[^"]+)', page.read_text()), [], page.name)
+
+    def test_it_is_shown_on_this_machine(self):
+        with subprocess.Popen(['/usr/bin/python3', '-B', SCRIPT, 'show', self.site], stdout=subprocess.PIPE, text=True) as server:
+            clock = threading.Timer(20, server.kill)
+            clock.start()
+            address = re.search(r'http://127\.0\.0\.1:\d+/', server.stdout.readline())[0]
+            self.assertIn('OpenFOAM', urllib.request.urlopen(address + 'index.html').read().decode())
+            server.terminate()
+            clock.cancel()
+
+
+class Faults(unittest.TestCase):
+    def build(self, change):
+        """Of a copy of the pages, after a change."""
+        with tempfile.TemporaryDirectory() as folder:
+            sources, site = Path(folder) / 'sources', Path(folder) / 'site'
+            for name in ('docs', 'configs'):
+                shutil.copytree(ROOT / name, sources / name)
+            for page in ROOT.glob('*.md'):
+                shutil.copy(page, sources)
+            change(sources)
+            built = script('build', sources, site)
+            self.assertNotEqual(built.returncode, 0)
+            self.assertFalse(site.exists())
+            return built.stderr
+
+    def test_a_page_without_a_place_is_named(self):
+        self.assertIn('no place for docs/lost.md', self.build(lambda root: (root / 'docs/lost.md').write_text('# Lost\n')))
+
+    def test_a_link_that_leads_nowhere_is_named(self):
+        self.assertIn('nowhere.md', self.build(lambda root: (root / 'docs/studies.md').write_text('[x](nowhere.md)\n')))
+
+
+if __name__ == '__main__':
+    sys.exit(unittest.main())
