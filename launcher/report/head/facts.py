@@ -10,6 +10,13 @@ def coupling(case):
     return scheme if positions == 'corrected' else f'{scheme}, positions {positions}'
 
 
+def version_of(record):
+    """'0.1.0', with the commit where it was recorded."""
+    versions = record.get('versions') or {}
+    commit = f' (commit {versions["commit"]})' if versions.get('commit') else ''
+    return versions.get('turbidite', 'of unknown version') + commit
+
+
 def by_box(record):
     return ', by the box program' if record.get('fluid_program') == 'box' else ''
 
@@ -18,8 +25,7 @@ def facts(run):
     """(name, value) pairs of the case, with units."""
     record, case = run.record, run.case
     rows = [
-        ('made by', f'turbidite {(record.get("versions") or {}).get("turbidite", "of unknown version")}'
-                    f'{date_of(record)}'),
+        ('made by', f'turbidite {version_of(record)}{date_of(record)}'),
         *([('command', run.command())] if run.command() else []),
         ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
             f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
