@@ -77,7 +77,7 @@ class Faults(unittest.TestCase):
             return built.stderr
 
     def test_a_page_without_a_place_is_named(self):
-        self.assertIn('no place for docs/lost.md', self.build(lambda root: (root / 'docs/lost.md').write_text('# Lost\n')))
+        self.assertIn('no place for docs/' + 'added.md', self.build(lambda root: (root / ('docs/' + 'added.md')).write_text('# Added\n')))
 
     def test_a_link_that_leads_nowhere_is_named(self):
         self.assertIn('nowhere.md', self.build(lambda root: (root / 'docs/studies.md').write_text('[x](nowhere.md)\n')))
