@@ -75,11 +75,11 @@ int act(const CommandAction& action) {
         return action();
     } catch (const Failure& failure) {
         std::fflush(stdout);
-        fmt::print(stderr, "{}\n", failure.what());
+        fmt::print(stderr, "{}", for_stderr(std::string(failure.what()) + "\n"));
         return static_cast<int>(failure.code());
     } catch (const std::exception& error) {
         std::fflush(stdout);
-        fmt::print(stderr, "turbidite: {}\n", error.what());
+        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", error.what())));
         return static_cast<int>(ExitCode::participant_failed);
     }
 }
@@ -108,7 +108,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
 
 int turbidite_main(const std::vector<std::string>& words) {
     if (const std::string complaint = unknown_command(words[0]); !complaint.empty()) {
-        fmt::print(stderr, "{}\n", complaint);
+        fmt::print(stderr, "{}", for_stderr(complaint + "\n"));
         return static_cast<int>(ExitCode::bad_input);
     }
     CLI::App app{description, "turbidite"};

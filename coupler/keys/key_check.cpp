@@ -36,7 +36,7 @@ Checked check_choice(const KeySpec& key, const std::string& value, CaseProblem& 
         if (choice.available) return value;
         problem.allowed = value + " is not available in this version. " + problem.allowed;
     }
-    problem.remedy = fmt::format("Use {}.", nearest_name(value, available));
+    problem.remedy = fmt::format("Use {}.", fmt::join(nearest_names(value, available), " or "));
     return std::nullopt;
 }
 
@@ -131,8 +131,10 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
         problem.remedy = "Remove it.";
         return problem;
     }
-    const KeySpec& nearest = *find_key(table, nearest_name(entry.key, names_of(table)));
-    problem.allowed = fmt::format("Did you mean {}? ({})", nearest.name, nearest.help);
+    const std::vector<std::string> nearest = nearest_names(entry.key, names_of(table));
+    problem.allowed = fmt::format("Did you mean {}?", fmt::join(nearest, " or "));
+    if (nearest.size() == 1)
+        problem.allowed += fmt::format(" ({})", find_key(table, nearest.front())->help);
     return problem;
 }
 

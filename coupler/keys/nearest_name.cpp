@@ -18,6 +18,19 @@ std::size_t distance(const std::string& name, const std::string& known) {
     return std::min(whole, edit_distance(name, last_part(known)) + 1);
 }
 
+bool ends_word(const std::string& name, std::size_t at) {
+    return at == name.size() || name[at] == '-' || name[at] == '_' || name[at] == '.';
+}
+
+/// `known` has `name` as a whole word or as several of them.
+bool has_word(const std::string& known, const std::string& name) {
+    if (name.empty()) return false;
+    for (auto at = known.find(name); at != std::string::npos; at = known.find(name, at + 1))
+        if ((at == 0 || ends_word(known, at - 1)) && ends_word(known, at + name.size()))
+            return true;
+    return false;
+}
+
 }  // namespace
 
 std::size_t edit_distance(const std::string& from, const std::string& to) {
@@ -48,6 +61,17 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
         best = candidate;
     }
     return best;
+}
+
+std::vector<std::string> nearest_names(const std::string& name,
+                                       const std::vector<std::string>& known) {
+    constexpr std::size_t most = 3, typing_error = 2;
+    const std::string nearest = nearest_name(name, known);
+    if (distance(name, nearest) <= typing_error) return {nearest};
+    std::vector<std::string> found;
+    for (const std::string& candidate : known)
+        if (found.size() < most && has_word(candidate, name)) found.push_back(candidate);
+    return found.empty() ? std::vector<std::string>{nearest} : found;
 }
 
 }  // namespace turbidite

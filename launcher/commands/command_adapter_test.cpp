@@ -13,6 +13,7 @@
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/temporary_folder.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {
@@ -102,10 +103,11 @@ int test_adapter(const AdapterTestOptions& options) {
     for (const Requirement& requirement : requirements) {
         const Finding finding = judge(requirement, candidate, folder);
         failed += finding.grade == Grade::failed;
-        fmt::print("{:<6}{:<36}{}\n", word(finding.grade), requirement.name, finding.text);
+        fmt::print("{}", for_stdout(fmt::format("{:<6}{:<36}{}\n", word(finding.grade),
+                                                requirement.name, finding.text)));
         std::fflush(stdout);
     }
-    fmt::print("{}\n", conclusion(failed));
+    fmt::print("{}", for_stdout(conclusion(failed) + "\n"));
     return static_cast<int>(failed == 0 ? ExitCode::done : ExitCode::tests_failed);
 }
 

@@ -12,6 +12,7 @@
 #include "launcher/doctor/installed.hpp"
 #include "launcher/doctor/machine.hpp"
 #include "launcher/doctor/short_job.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {
@@ -34,8 +35,10 @@ const char* word(Health health) {
 }
 
 void print(const Finding& finding) {
-    fmt::print("{:<8}{:<28}{}\n", word(finding.health), finding.name, finding.text);
-    if (!finding.remedy.empty()) fmt::print("        {}\n", finding.remedy);
+    std::string lines =
+        fmt::format("{:<8}{:<28}{}\n", word(finding.health), finding.name, finding.text);
+    if (!finding.remedy.empty()) lines += fmt::format("        {}\n", finding.remedy);
+    fmt::print("{}", for_stdout(lines));
     std::fflush(stdout);
 }
 
@@ -64,8 +67,8 @@ Finding job_of(const Sheet& sheet, const LaunchSite& site) {
     return play_short_job(site);
 }
 
-int tell(ExitCode code, const char* verdict) {
-    fmt::print("{}\n", verdict);
+int tell(ExitCode code, const std::string& verdict) {
+    fmt::print("{}", for_stdout(verdict + "\n"));
     return static_cast<int>(code);
 }
 

@@ -7,6 +7,7 @@
 
 #include "launcher/commands/command.hpp"
 #include "launcher/job/resume_run.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {
@@ -18,18 +19,23 @@ struct ResumeOptions {
 };
 
 int resume(const ResumeOptions& options) {
-    std::FILE* to = options.dry_run ? stderr : stdout;
+    const auto tell = [&](const std::string& text) {
+        options.dry_run ? fmt::print(stderr, "{}", for_stderr(text))
+                        : fmt::print("{}", for_stdout(text));
+    };
     const LaunchSite site = this_site();
-    const auto say = [](const std::string& text) { fmt::print(stderr, "turbidite: {}\n", text); };
+    const auto say = [](const std::string& text) {
+        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
+    };
     const auto resumed = prepare_resumption(options.folder, options.overrides, site, say);
     if (!resumed) {
-        fmt::print(to,
-                   "The run in {} is complete. To go on beyond its end: --set time.end=<t_c>.\n",
-                   options.folder);
+        tell(fmt::format(
+            "The run in {} is complete. To go on beyond its end: --set time.end=<t_c>.\n",
+            options.folder));
         return static_cast<int>(ExitCode::done);
     }
-    fmt::print(to, "{} goes on after window {}, {:g} t_c\n", resumed->run.folder.root.string(),
-               resumed->windows, resumed->time);
+    tell(fmt::format("{} goes on after window {}, {:g} t_c\n", resumed->run.folder.root.string(),
+                     resumed->windows, resumed->time));
     if (!options.dry_run) return static_cast<int>(play(resumed->run, site.programs).code);
     std::fflush(nullptr);
     fmt::print("{}\n", shell_line(resumed->run.line));

@@ -39,7 +39,7 @@ int run(const RunOptions& options) {
     const auto folder =
         options.order.out.empty() ? std::filesystem::path("runs") : options.order.out;
     if (const std::string lack = lack_of_disk(predicted_disk(resolved), folder); !lack.empty())
-        fmt::print(stderr, "turbidite: {}\n", lack);
+        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", lack)));
     const PreparedRun prepared = prepare(resolved, options.order, site);
     const std::string summary =
         case_summary(resolved) + fmt::format("  folder: {}\n", prepared.folder.root.string());
@@ -47,7 +47,7 @@ int run(const RunOptions& options) {
         fmt::print("{}", for_stdout(summary));
         return static_cast<int>(play(prepared, site.programs).code);
     }
-    fmt::print(stderr, "{}", summary);
+    fmt::print(stderr, "{}", for_stderr(summary));
     fmt::print("{}\n", shell_line(prepared.line));
     return static_cast<int>(ExitCode::done);
 }

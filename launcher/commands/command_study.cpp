@@ -16,6 +16,7 @@
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/set_aside.hpp"
 #include "launcher/job/shipped_cases.hpp"
+#include "launcher/job/terminal.hpp"
 #include "launcher/report/report_script.hpp"
 #include "launcher/study/other_defaults.hpp"
 #include "launcher/study/study_record.hpp"
@@ -83,6 +84,10 @@ std::vector<const PlannedRun*> missing_runs(const std::vector<PlannedRun>& plan,
     return missing;
 }
 
+void say(const std::string& text) {
+    fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
+}
+
 /// So that results of an earlier version do not pass for those of this one.
 void tell_kept(const std::vector<PlannedRun>& plan, const fs::path& out) {
     std::size_t kept = 0;
@@ -91,23 +96,19 @@ void tell_kept(const std::vector<PlannedRun>& plan, const fs::path& out) {
         ++kept;
         const auto changes = other_defaults(run, out / run.path());
         for (const std::string& change : changes.value_or(std::vector<std::string>{}))
-            fmt::print(stderr, "turbidite: {} was played with {}\n", run.path(), change);
+            say(fmt::format("{} was played with {}", run.path(), change));
     }
     if (kept > 0)
-        fmt::print(stderr,
-                   "turbidite: {} done by a version with other defaults, and {} as {}; --again "
-                   "plays {} again and keeps the old {} beside the new\n",
-                   kept == 1 ? "one run was" : fmt::format("{} runs were", kept),
-                   kept == 1 ? "stays" : "stay", kept == 1 ? "it is" : "they are",
-                   kept == 1 ? "it" : "them", kept == 1 ? "one" : "ones");
+        say(
+            fmt::format("{} done by a version with other defaults, and {} as {}; --again "
+                        "plays {} again and keeps the old {} beside the new",
+                        kept == 1 ? "one run was" : fmt::format("{} runs were", kept),
+                        kept == 1 ? "stays" : "stay", kept == 1 ? "it is" : "they are",
+                        kept == 1 ? "it" : "them", kept == 1 ? "one" : "ones"));
 }
 
 bool asked_to_stop(ExitCode code) {
     return code == ExitCode::interrupted || code == ExitCode::terminated;
-}
-
-void say(const std::string& text) {
-    fmt::print(stderr, "turbidite: {}\n", text);
 }
 
 /// What was there stays, under another name, unless nothing has been played in it.
@@ -230,10 +231,12 @@ bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs:
     }
     if (!write_study_results(out, find_programs())) return false;
     const std::size_t left = missing_runs(plan, out, again).size();
-    fmt::print("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
-               plan.size() - left, plan.size(), out.string(),
-               study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
-               left > 0 ? " The same line again runs what is missing." : "");
+    const std::string text =
+        fmt::format("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
+                    plan.size() - left, plan.size(), out.string(),
+                    study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
+                    left > 0 ? " The same line again runs what is missing." : "");
+    fmt::print("{}", for_stdout(text));
     return true;
 }
 
@@ -253,9 +256,11 @@ int run_study(const StudyOptions& options) {
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     const fs::path out = folder_of(study, options);
     const std::vector<const PlannedRun*> missing = missing_runs(plan, out, options.again);
-    fmt::print("{}: {} runs, {} of them done, folder {}{}\n", study.name, plan.size(),
-               plan.size() - missing.size(), out.string(),
-               missing.empty() ? "" : ", to do: " + forecast_text(missing));
+    const std::string text =
+        fmt::format("{}: {} runs, {} of them done, folder {}{}\n", study.name, plan.size(),
+                    plan.size() - missing.size(), out.string(),
+                    missing.empty() ? "" : ", to do: " + forecast_text(missing));
+    fmt::print("{}", for_stdout(text));
     if (!options.again) tell_kept(plan, out);
     if (const std::string lack = lack_of_disk(predicted_disk(missing), out); !lack.empty())
         say(lack);

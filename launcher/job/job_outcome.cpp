@@ -230,10 +230,11 @@ std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
             fluid_for_paraview(folder));
     const bool asked_for =
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
-    return fmt::format("{}{}\n{}Results so far in {}. Exit code {}.\n{}",
+    // The cause stands last, beside what to do: logs may be long.
+    return fmt::format("{}{}{}\nResults so far in {}. Exit code {}.\n{}",
+                       asked_for ? "" : last_words(folder, outcome),
                        asked_for ? "Interrupted: " : "The run failed: ", outcome.error,
-                       asked_for ? "" : last_words(folder, outcome), folder.root.string(),
-                       static_cast<int>(outcome.code), how_to_go_on(folder));
+                       folder.root.string(), static_cast<int>(outcome.code), how_to_go_on(folder));
 }
 
 std::string last_words(const RunFolder& folder, const JobOutcome& outcome) {

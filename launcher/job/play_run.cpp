@@ -115,10 +115,10 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
     std::fflush(stdout);
     const bool done = outcome.code == ExitCode::done;
-    if (!done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
+    if (!done) fmt::print(stderr, "{}", for_stderr(outcome_text(folder, outcome)));
     const bool due = report_wanted() && has_output(folder);
     const bool reported = !due || write_report(folder, programs);
-    if (done) fmt::print("{}", outcome_text(folder, outcome));
+    if (done) fmt::print("{}", for_stdout(outcome_text(folder, outcome)));
     if (!reported) fmt::print(stderr, "report.html could not be written; see above.\n");
     return outcome;
 }

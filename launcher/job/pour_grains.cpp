@@ -16,6 +16,7 @@
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/case/grains/pouring.hpp"
 #include "launcher/job/resume_run.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {
@@ -85,7 +86,9 @@ JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
                       const LaunchSite& site) {
     if (!fs::exists(folder.history()))
         return play(prepare(pouring, {folder.root, true}, site), site.programs);
-    const auto say = [](const std::string& text) { fmt::print(stderr, "turbidite: {}\n", text); };
+    const auto say = [](const std::string& text) {
+        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
+    };
     const auto resumed = prepare_resumption(
         folder.root, {fmt::format("time.end={:g}", next_end(folder.history()))}, site, say);
     if (!resumed) return {};

@@ -16,18 +16,34 @@ bool rewrites_lines() {
     return isatty(STDOUT_FILENO) != 0 && (kind == nullptr || std::string(kind) != "dumb");
 }
 
-int terminal_width() {
+namespace {
+
+int width_of(int stream) {
     winsize size{};
     int columns = 80;
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    if (ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
         columns = size.ws_col;
     else if (const char* given = std::getenv("COLUMNS"); given && std::atoi(given) > 0)
         columns = std::atoi(given);
     return std::clamp(columns, 40, 120);
 }
 
+std::string for_stream(int stream, const std::string& lines) {
+    return isatty(stream) ? fitted(lines, width_of(stream)) : lines;
+}
+
+}  // namespace
+
+int terminal_width() {
+    return width_of(STDOUT_FILENO);
+}
+
 std::string for_stdout(const std::string& lines) {
-    return isatty(STDOUT_FILENO) ? fitted(lines, terminal_width()) : lines;
+    return for_stream(STDOUT_FILENO, lines);
+}
+
+std::string for_stderr(const std::string& lines) {
+    return for_stream(STDERR_FILENO, lines);
 }
 
 }  // namespace turbidite

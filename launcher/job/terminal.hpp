@@ -17,4 +17,7 @@ int terminal_width();
 /// Lines as they are for a file or a pipe, and in the width of the terminal for a terminal.
 std::string for_stdout(const std::string& lines);
 
+/// The same for stderr.
+std::string for_stderr(const std::string& lines);
+
 }  // namespace turbidite

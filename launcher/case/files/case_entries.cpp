@@ -87,13 +87,18 @@ void read_document(const std::string& text, const Place& place, CaseEntries& res
 
 void read_file(const std::filesystem::path& file, CaseEntries& result) {
     std::ifstream input(file);
-    std::stringstream text;
-    if (is_folder(file) || !input || !(text << input.rdbuf())) {
+    if (is_folder(file) || !input) {
         result.problems.push_back(problem_at(file.string(), 0, "cannot be read",
                                              "A case file (YAML) is needed.", "Check the path."));
         return;
     }
-    read_document(text.str(), {file.filename().string()}, result);
+    const std::string text{std::istreambuf_iterator<char>(input), {}};
+    if (text.empty())
+        result.problems.push_back(problem_at(file.string(), 0, "is empty",
+                                             "A case is a list of `key: value` in groups.",
+                                             "See configs/ for examples."));
+    else
+        read_document(text, {file.filename().string()}, result);
 }
 
 CaseEntries read_override(const std::string& text) {

@@ -30,8 +30,20 @@ bool has(const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
 
+/// What stands between the columns instead of commas: "semicolons", "tabs"; empty if nothing does.
+std::string other_separator(const std::string& header) {
+    if (header.find(',') != std::string::npos) return "";
+    if (header.find(';') != std::string::npos) return "semicolons";
+    const auto last = header.find_last_not_of(" \t\r");
+    return header.find('\t', header.find_first_not_of(" \t")) < last ? "tabs" : "";
+}
+
 void read_header(CsvTable& table, int line, const std::string& text, const CsvForm& form) {
     table.columns = split(text);
+    if (const std::string separator = other_separator(text); !separator.empty())
+        return table.refuse(line, "has " + separator + " between its columns",
+                            "Commas separate columns, and decimals have a point: 0,1.5,2.5.",
+                            "Save it so, decimal commas included.");
     for (const std::string& column : table.columns)
         if (!has(form.columns, column))
             table.refuse(line, fmt::format("column \"{}\" is unknown", column), form.sentence,
@@ -88,9 +100,10 @@ CsvTable read_csv(const std::filesystem::path& file, const CsvForm& form) {
         if (!table.problems.empty()) return table;
     }
     if (table.rows.empty() && table.problems.empty())
-        table.refuse(0, fmt::format("contains no {}", form.rows),
-                     "At least one line after the header is needed.",
-                     fmt::format("Add {}s.", form.rows));
+        table.refuse(
+            0, table.columns.empty() ? "is empty" : fmt::format("contains no {}", form.rows),
+            table.columns.empty() ? form.sentence : "At least one line after the header is needed.",
+            fmt::format("Add {}s.", form.rows));
     return table;
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "coupler/protocol/received.hpp"
 
 namespace turbidite {
@@ -54,6 +56,16 @@ class Walk {
     int values_ = 0;
 };
 
+/// The first line that is indented with a tab, 0 if there is none.
+int tab_line(const std::string& text) {
+    std::istringstream lines(text);
+    int number = 1;
+    for (std::string line; std::getline(lines, line); ++number)
+        if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos)
+            return number;
+    return 0;
+}
+
 }  // namespace
 
 YAML::Node yaml_tree(const std::string& text) {
@@ -62,6 +74,9 @@ YAML::Node yaml_tree(const std::string& text) {
         Walk().through(root);
         return root;
     } catch (const YAML::Exception& error) {
+        // The parser takes a tab for a part of the key, and names another fault.
+        if (const int line = tab_line(text); line > 0)
+            throw YamlFault{line, "is indented with a tab", "YAML wants spaces: replace the tab."};
         throw yaml_fault(error);
     }
 }

@@ -380,10 +380,15 @@ PopulationFile read_population_csv(const std::filesystem::path& file, const Grai
     PopulationFile result;
     result.source.name = table.name;
     for (const CsvTable::Row& row : table.rows) {
-        result.grains.push_back(grain_of(table, row, {forms, materials, motions}));
+        const std::size_t before = table.problems.size();
+        const PlacedGrain grain = grain_of(table, row, {forms, materials, motions});
+        if (table.problems.size() > before) continue;  // what is unreadable would be checked as 0
+        result.grains.push_back(grain);
         result.source.lines.push_back(row.line);
     }
     result.problems = std::move(table.problems);
+    std::stable_sort(result.problems.begin(), result.problems.end(),
+                     [](const CaseProblem& a, const CaseProblem& b) { return a.line < b.line; });
     return result;
 }
 

@@ -30,7 +30,7 @@ struct PopulationSource {
 struct PopulationFile {
     Packing grains;
     PopulationSource source;
-    std::vector<CaseProblem> problems;
+    std::vector<CaseProblem> problems;  ///< rows with a fault, which are no grains
 };
 PopulationFile read_population_csv(const std::filesystem::path& file,
                                    const GrainForms& forms = plain_discs(),

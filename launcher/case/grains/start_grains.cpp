@@ -83,9 +83,7 @@ StartGrains grains_from_file(const std::filesystem::path& file, const Settings& 
     if (!is_file(file)) return {{}, {}, {}, {missing_file(entries, key, file)}};
     PopulationFile read =
         read_population_csv(file, forms, material_names(settings), motion_names(settings));
-    // Unreadable positions would be checked as 0.
-    if (!read.problems.empty()) return {{}, {}, {}, std::move(read.problems)};
-    return {std::move(read.grains), std::move(read.source), {}, {}};
+    return {std::move(read.grains), std::move(read.source), {}, std::move(read.problems)};
 }
 
 StartGrains extra_grains(const std::filesystem::path& file, const Settings& settings,

@@ -203,6 +203,29 @@ TEST_F(CaseFile, MissingFileAndBadYaml) {
     EXPECT_SAYS(text, "is not YAML");
 }
 
+// The parser calls a tab an illegal map value, in this or in another line.
+TEST_F(CaseFile, ATabIsCalledATab) {
+    const std::string text = refusal("contact:\n\tfriction: 0.3\n");
+    EXPECT_SAYS(text, "is indented with a tab");
+    EXPECT_SAYS(text, "YAML wants spaces");
+    EXPECT_EQ(text.find("is not YAML"), std::string::npos) << text;
+    // Elsewhere a tab is no fault, and does not hide one.
+    EXPECT_EQ(refusal("contact: {friction:\t0.3}\n"), "");
+    EXPECT_SAYS(refusal("contact: {friction:\t0.3\n"), "is not YAML");
+}
+
+TEST_F(CaseFile, AnEmptyFileIsCalledEmpty) {
+    for (const auto& [content, fault] :
+         {std::pair("", "empty.yaml: is empty"), std::pair("# none\n", "contains no keys")}) {
+        try {
+            load_case(folder.write("empty.yaml", content));
+            FAIL() << "an empty file was accepted";
+        } catch (const CaseRefused& refused) {
+            EXPECT_SAYS(std::string(refused.what()), fault);
+        }
+    }
+}
+
 std::string powers_of_ten(int count) {
     std::string text = "a0: &a0 {k: 1}\n";
     for (int n = 1; n <= count; ++n) {
@@ -260,6 +283,28 @@ TEST_F(CaseFile, ACommandIsOneProgram) {
 TEST_F(CaseFile, AMisspeltAdapterGetsTheNearest) {
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-nsdc"}), "Use yade-nscd.");
     EXPECT_SAYS(refusal("", {"grains.adapter=lamps-md"}), "Use lammps-md.");
+}
+
+// By letters alone `yade` is nearest to yade-md, and density to domain.size.
+TEST_F(CaseFile, AWordOfANameFindsAllThatHaveIt) {
+    EXPECT_SAYS(refusal("", {"grains.adapter=yade"}), "Use yade-nscd or yade-md.");
+    EXPECT_SAYS(refusal("", {"grains.adapter=md"}), "Use yade-md or lammps-md or standalone-md.");
+    EXPECT_SAYS(refusal("", {"grains.density=2"}), "Did you mean grains.density_ratio? (");
+    EXPECT_SAYS(refusal("", {"density=2"}), "grains.density_ratio");
+    EXPECT_SAYS(refusal("", {"frition=2"}), "Did you mean contact.friction? (");  // a typing error
+}
+
+TEST_F(CaseFile, AllFaultsOfAGrainsFileAtOnce) {
+    const std::string text = refusal_of_grains(
+        "id,x,y,radius\n0,1,1,0.5\n1,abc,2,0.5\n2,3\n0,3,3,-1\n5,900,1,0.5\nx,5,5,0.5\n");
+    for (const char* fault :
+         {"g.csv line 3: x = abc", "g.csv line 4: 2 values in \"2,3\"",
+          "g.csv line 5: grain id 0 is given twice", "g.csv line 5: grain 0: radius = -1",
+          "g.csv line 6: grain 5 at (900, 1) is outside", "g.csv line 7: id = x"})
+        EXPECT_SAYS(text, fault);
+    EXPECT_LT(text.find("line 3"), text.find("line 4"));
+    // No grain can be read: nothing else is checked.
+    EXPECT_SAYS(refusal_of_grains("id,x,y\n0,a,1\n"), "1 error,");
 }
 
 TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {

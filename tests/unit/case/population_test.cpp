@@ -76,6 +76,18 @@ TEST(PopulationFile, ErrorsNameTheLine) {
     EXPECT_SAYS(read_errors("id,x,y\n"), "contains no grain");
 }
 
+TEST(PopulationFile, WhatAFileIsInsteadIsSaid) {
+    for (const char* empty : {"", "\n\n", "# id,x,y\n"})
+        EXPECT_SAYS(read_errors(empty), "grains.csv: is empty");
+    for (const auto& [text, separator] :
+         {std::pair("id;x;y\n0;1,5;1\n", "semicolons"), std::pair("id\tx\ty\n0\t1\t1\n", "tabs")}) {
+        const std::string said = read_errors(text);
+        EXPECT_SAYS(said, std::string("line 1: has ") + separator + " between its columns");
+        EXPECT_SAYS(said, "1 error");  // not one for each column that is missing then
+    }
+    EXPECT_EQ(read_errors("id,\tx,\ty\n0,\t1,\t1\n"), "");
+}
+
 TEST(Population, RepeatedIdsAndBadRadii) {
     const Packing grains{{.id = 1, .x = 2, .y = 2},
                          {.id = 1, .x = 5, .y = 5},

@@ -125,6 +125,9 @@ TEST_F(Outcome, FailureShowsTheLogs) {
     EXPECT_SAYS(text, "ValueError: no such grain");
     EXPECT_SAYS(text, "a process died");
     EXPECT_SAYS(text, "Exit code 4.");
+    // The cause is next to the advice, not above the logs.
+    EXPECT_SAYS(text, "The run failed: grains failed\nResults so far in ");
+    EXPECT_GT(text.find("The run failed"), text.find("a process died"));
 }
 
 TEST_F(Outcome, SuccessSaysWhereThingsAre) {

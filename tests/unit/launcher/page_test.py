@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How text and figures are set on a page."""
 import io
+import os
 import re
 import unittest
+from unittest import mock
 
 import matplotlib
 import numpy as np
@@ -81,10 +83,18 @@ class ProgressLine(unittest.TestCase):
         Progress('report', stream)('pictures')
         self.assertEqual(stream.getvalue(), '')
 
+    def test_a_terminal_without_escapes_has_none(self):
+        stream = io.StringIO()
+        stream.isatty = lambda: True
+        with mock.patch.dict(os.environ, TERM='dumb'):
+            Progress('report', stream)('pictures')
+        self.assertEqual(stream.getvalue(), '')
+
     def test_a_terminal_has_one_line(self):
         stream = io.StringIO()
         stream.isatty = lambda: True
-        working = Progress('report', stream)
+        with mock.patch.dict(os.environ, TERM='xterm'):
+            working = Progress('report', stream)
         working('pictures')
         working.end()
         self.assertIn('report: pictures', stream.getvalue())

@@ -63,7 +63,11 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
 TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
     const ScratchFolder scratch;
     scratch.write("home/logs/diary.log", "mine");
-    EXPECT_SAYS(refusal({.out = scratch.path() / "home", .force = true}), "is not empty");
+    for (const bool force : {false, true}) {
+        const std::string text = refusal({.out = scratch.path() / "home", .force = force});
+        EXPECT_SAYS(text, "is not empty, and no run is in it");
+        EXPECT_EQ(text.find("--force"), std::string::npos) << text;  // it would be refused
+    }
     EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
 }
 
@@ -95,6 +99,7 @@ TEST(PrepareRun, RunFolderLoadsToTheSameCase) {
     const auto record = read_run_json(folder.record());
     EXPECT_EQ(record.at("case_hash"), resolved.settings.text("run.hash"));
     EXPECT_EQ(record.at("command"), "mpirun x");
+    EXPECT_EQ(record.at("out"), folder.root.string());
     EXPECT_EQ(record.at("grains"), 7);
     EXPECT_EQ(record.at("windows"), 10);
     EXPECT_TRUE(record.at("exit_code").is_null());

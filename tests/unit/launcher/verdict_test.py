@@ -75,6 +75,14 @@ class Verdict(unittest.TestCase):
         self.assertEqual(said(run)['grains'], (verdict.TOLD, '2 of 9 grains left the box; means are over the remaining ones.'))
 
 
+class Commands(unittest.TestCase):
+    def test_are_whole(self):
+        run = run_with(record={'case_file': '/a/my case.yaml', 'overrides': ['domain.size=[4, 6]', 'time.end=2'],
+                               'from': 'runs/x@3', 'out': '/runs/y'})
+        self.assertEqual(run.command(), "turbidite run '/a/my case.yaml' --set 'domain.size=[4, 6]' --set time.end=2 "
+                         '--from runs/x@3 --out /runs/y')
+
+
 class KeyNumbers(unittest.TestCase):
     def test_have_units(self):
         run = run_with(history={'step': [0, 10], 'time': [0, 1], 'mean_velocity_norm': [0, 0.5], 'front_x': [3, 4]})

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""terminal_test.py TURBIDITE: what commands print on a terminal of 60 columns, and on one that knows no escapes."""
+import fcntl
+import os
+import pty
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv.pop()).resolve())
+CONFIGS = Path(__file__).resolve().parents[3] / 'configs'
+COLUMNS = 60
+
+
+def printed(folder, *words, term='xterm'):
+    """All that the program prints on a terminal, stdout and stderr."""
+    ours, its = pty.openpty()
+    fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack('HHHH', 24, COLUMNS, 0, 0))
+    child = subprocess.Popen([PROGRAM, *words], stdin=its, stdout=its, stderr=its, cwd=folder,
+                             env=dict(os.environ, TERM=term))
+    os.close(its)
+    parts = []
+    while True:
+        try:
+            part = os.read(ours, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not part:
+            break
+        parts.append(part)
+    child.wait()
+    os.close(ours)
+    return b''.join(parts).decode().replace('\r\n', '\n')
+
+
+def breakable(line):
+    """A line that is too wide, and could be narrower: a path cannot."""
+    indent = len(line) - len(line.lstrip())
+    return len(line) > COLUMNS and indent + max(map(len, line.split())) <= COLUMNS
+
+
+class Terminal(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        (self.folder / 'case.yaml').write_text((CONFIGS / 'quickstart.yaml').read_text())
+        (self.folder / 'grains.csv').write_text('id,x,y\n0,abc,1\n1,900,1\n')
+        (self.folder / 'full').mkdir()
+        (self.folder / 'full/diary').write_text('mine')
+
+    def test_no_word_is_broken(self):
+        """By the terminal, at its edge."""
+        for words, said in ((['--help'], 'go on with a run'), (['run', '--help'], 'overwrite an existing run'),
+                            (['keys', 'contact.friction'], 'friction'), (['rnu'], 'there is no command'),
+                            (['check', 'case.yaml'], 'valid'),
+                            (['check', 'case.yaml', '--set', 'grains.file=grains.csv'], 'x = abc'),
+                            (['check', 'case.yaml', '--set', 'grains.adapter=yade'], 'yade-md'),
+                            (['run', 'case.yaml', '--out', 'full'], 'is not empty'),
+                            (['resume', 'nowhere'], 'nowhere'), (['compare', 'nowhere'], 'at least two'),
+                            (['study', str(CONFIGS / 'grain-codes.yaml'), '--dry-run', '--out', 'study'], 'runs')):
+            text = printed(self.folder, *words)
+            self.assertIn(said, text)
+            self.assertEqual([line for line in text.split('\n') if breakable(line)], [], words)
+
+    def test_a_terminal_without_escapes_gets_none(self):
+        for words in (['--help'], ['check', 'case.yaml'], ['run', 'case.yaml', '--out', 'full'], ['keys']):
+            text = printed(self.folder, *words, term='dumb')
+            self.assertGreater(len(text), 20)
+            self.assertNotIn('\x1b', text)
+
+
+if __name__ == '__main__':
+    unittest.main()
