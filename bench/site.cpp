@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -16,6 +18,15 @@ namespace turbidite::bench {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// For a shell.
+std::string into_log(const std::vector<std::string>& line, const fs::path& log) {
+    return shell_line(line) + " >" + shell_line({log.string()}) + " 2>&1 </dev/null";
+}
+
+}  // namespace
+
 Site::Site(bool quick) : quick_(quick), programs_(find_programs()), folder_("bench") {
     // OpenFOAM reads its settings while its libraries are loaded.
     ::setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
@@ -26,14 +37,31 @@ fs::path Site::source(const std::string& file) const {
 }
 
 void Site::run(const std::vector<std::string>& line, const std::string& log) const {
-    const std::string command =
-        shell_line(line) + " >" + shell_line({(folder() / log).string()}) + " 2>&1 </dev/null";
     std::fflush(nullptr);
-    const int status = std::system(command.c_str());
+    demand_success(line.front(), std::system(into_log(line, folder() / log).c_str()), log);
+}
+
+double Site::peak_memory_of(const std::vector<std::string>& line, const std::string& log) const {
+    const std::string command = "exec " + into_log(line, folder() / log);
+    std::fflush(nullptr);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        ::_exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    if (child < 0 || ::wait4(child, &status, 0, &usage) != child)
+        throw Failure(ExitCode::tests_failed, line.front() + " cannot be started");
+    demand_success(line.front(), status, log);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+void Site::demand_success(const std::string& program, int status, const std::string& log) const {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string said = text(log);
     throw Failure(ExitCode::tests_failed,
-                  fmt::format("{} failed with status {}; the end of its output:\n{}", line.front(),
+                  fmt::format("{} failed with status {}; the end of its output:\n{}", program,
                               WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
                               said.substr(said.size() - std::min<std::size_t>(said.size(), 600))));
 }

@@ -31,10 +31,16 @@ class Site {
     /// the end of the log if the program fails.
     void run(const std::vector<std::string>& line, const std::string& log) const;
 
+    /// The same; returns the largest resident memory that it or any program it waited for had
+    /// [bytes].
+    double peak_memory_of(const std::vector<std::string>& line, const std::string& log) const;
+
     /// The contents of a log in the folder.
     std::string text(const std::string& log) const;
 
  private:
+    void demand_success(const std::string& program, int status, const std::string& log) const;
+
     bool quick_;
     Programs programs_;
     TemporaryFolder folder_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "bench/contenders.hpp"
 #include "bench/coupling_figures.hpp"
@@ -109,6 +110,28 @@ Measured bytes_per_cell(Site& site) {
     return measured;
 }
 
+/// Of the largest program of a whole run, the fluid, with its checkpoints, slices and fields.
+double peak_of_box_program(Site& site, const std::string& name, const std::string& size) {
+    ::setenv("TURBIDITE_REPORT", "off", 1);
+    return site.peak_memory_of(
+        {site.programs().folder / "turbidite", "run",
+         site.source("../configs/settling-spheres.yaml"), "--out", site.folder() / name, "--set",
+         "fluid.program=box", "--set", "grains.adapter=standalone-nscd", "--set", "grains.count=8",
+         "--set", "domain.size=" + size, "--set", "time.end=0.03", "--set", "output.interval=0.03"},
+        name + ".log");
+}
+
+Measured bytes_per_cell_of_box(Site& site) {
+    const bool quick = site.quick();
+    const double large = peak_of_box_program(site, "box-large", quick ? "[6,6,6]" : "[18,24,18]");
+    const double small = peak_of_box_program(site, "box-small", quick ? "[5,5,5]" : "[9,24,9]");
+    const double cells = 512.0 * (quick ? 216.0 - 125.0 : 24.0 * (324.0 - 81.0));
+    Measured measured;
+    measured.value = measured.lowest = measured.highest = (large - small) / cells;
+    measured.notes = {fmt::format("growth of the peak of a run with {:.3g} cells more", cells)};
+    return measured;
+}
+
 Measured explicit_over_plain(Site& site) {
     const SpaceCase corrected = shipped(site, "explicit");
     const SpaceCase plain = shipped(site, "plain", {"fluid.splitting=marchuk-yanenko"});
@@ -178,6 +201,11 @@ std::vector<Figure> space_figures() {
          "bytes",
          {Kind::at_most, 1150.0},
          bytes_per_cell},
+        {"bytes_per_cell_space_box",
+         "growth of the box program's peak of resident memory in whole runs of that case",
+         "bytes",
+         {Kind::at_most, 260.0},
+         bytes_per_cell_of_box},
         {"explicit_over_plain_space",
          "fluid side of a window of the shipped settling spheres in mid-fall, explicit-multiplier "
          "over the paper's splitting",

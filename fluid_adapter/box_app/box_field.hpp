@@ -39,6 +39,7 @@ class BoxField final : public StoredField {
     void load(const Constraint&) override {}
     void store(const Constraint&) override {}
     void put_force_density(const Constraint&) override {}
+    bool shows_force_density() const override { return false; }
     void accelerate(const Vec3& change) override;
     FluidMomentum momentum() const override;
     double shown_pressure(int cell) const override { return p_[cell] - level_; }

@@ -38,6 +38,9 @@ class StoredField : public FluidField {
     /// before `store`.
     virtual void put_force_density(const Constraint& constraint) = 0;
 
+    /// Whether anybody is shown lambda, for which a window keeps its u3.
+    virtual bool shows_force_density() const { return true; }
+
     /// Adds a velocity to u in every cell [m/s].
     virtual void accelerate(const Vec3& change) = 0;
 

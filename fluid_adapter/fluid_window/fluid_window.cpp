@@ -85,11 +85,11 @@ std::vector<FreeResponse> FluidWindow::responses() {
 
 Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
-        if (fields_are_seen()) step_.put_unconstrained();  // u3, for lambda
+        if (lambda_is_seen()) step_.put_unconstrained();  // u3
         multipliers_.impose();
         for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
-        if (fields_are_seen()) field_.put_force_density(multipliers_.constraint());
+        if (lambda_is_seen()) field_.put_force_density(multipliers_.constraint());
         field_.store(multipliers_.constraint());
         close_ledger();
     });
@@ -110,15 +110,15 @@ void FluidWindow::begin(const Window& window) {
     timings_ = {};
     report_ = {};
     grains_taken_ = false;
-    if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(fields_are_seen());
+    if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(lambda_is_seen());
     if (store_.begin(window)) step_.sides_changed();
     step_.begin(window.step);
     fields_follow_ = false;
 }
 
 /// At the end of the present window.
-bool FluidWindow::fields_are_seen() const {
-    return window_.write_output || store_.observed();
+bool FluidWindow::lambda_is_seen() const {
+    return field_.shows_force_density() && (window_.write_output || store_.observed());
 }
 
 void FluidWindow::project() {

@@ -72,7 +72,7 @@ class FluidWindow {
     double volume() const;
     void write_fields();
     bool fields_due() const;
-    bool fields_are_seen() const;
+    bool lambda_is_seen() const;
 
     const RunValues run_;
     FluidStore& store_;

@@ -12,6 +12,7 @@ struct Software {
     std::vector<std::string> command;  ///< prints the version
     std::string before_version;        ///< the text in front of it
     std::string mend = {};             ///< if it fails; empty: the command, to see its words
+    std::string without = {};          ///< what works without it
 };
 
 bool is_missing(const CommandOutput& output) {
@@ -21,7 +22,8 @@ bool is_missing(const CommandOutput& output) {
 Finding look_at(const Software& software) {
     const CommandOutput output = output_of(software.command);
     const std::string remedy = install_command(software.package);
-    if (is_missing(output)) return {Health::missing, software.name, "not installed", remedy};
+    if (is_missing(output))
+        return {Health::missing, software.name, "not installed" + software.without, remedy};
     const std::string version = word_after(software.before_version, output.text);
     if (output.code != 0 || version.empty())
         return {Health::wrong, software.name, first_words(output.text),
@@ -52,7 +54,8 @@ Findings installed_software(const LaunchSite& site) {
                          "openfoam",
                          {"env", "WM_PROJECT_DIR=" + site.openfoam, "blockMesh", "-help"},
                          "OpenFOAM- (",
-                         "unset WM_PROJECT_DIR"},
+                         "unset WM_PROJECT_DIR",
+                         "; spheres in space are played without it (docs/box-program.md)"},
                         {"YADE", "yade", {programs.yade(), "--version"}, "Yade version: "},
                         {"LAMMPS",
                          "liblammps-dev",

@@ -21,13 +21,26 @@ class Bench : public ShellTest {
 TEST_F(Bench, QuickGivesEveryFigure) {
     const Answer answer = bench("fluid --quick --json figures.json");
     const auto figures = nlohmann::json::parse(text(scratch.path() / "figures.json"));
-    for (const char* name :
-         {"icofoam_over_ours_2d", "ours_over_array_code", "cell_cost_growth", "speedup_2_ranks",
-          "joint_window_d16", "second_over_first_order", "joint_speedup_2_ranks",
-          "explicit_over_plain", "implicit_over_plain", "implicit_over_plain_loose",
-          "avalanche_window_d16", "bytes_per_cell", "icofoam_over_ours_3d",
-          "cells_space_over_plane", "cell_cost_growth_space", "bytes_per_cell_space",
-          "explicit_over_plain_space", "fluid_speedup_2_ranks_space", "coupling_share_space"}) {
+    for (const char* name : {"icofoam_over_ours_2d",
+                             "ours_over_array_code",
+                             "cell_cost_growth",
+                             "speedup_2_ranks",
+                             "joint_window_d16",
+                             "second_over_first_order",
+                             "joint_speedup_2_ranks",
+                             "explicit_over_plain",
+                             "implicit_over_plain",
+                             "implicit_over_plain_loose",
+                             "avalanche_window_d16",
+                             "bytes_per_cell",
+                             "icofoam_over_ours_3d",
+                             "cells_space_over_plane",
+                             "cell_cost_growth_space",
+                             "bytes_per_cell_space",
+                             "bytes_per_cell_space_box",
+                             "explicit_over_plain_space",
+                             "fluid_speedup_2_ranks_space",
+                             "coupling_share_space"}) {
         ASSERT_TRUE(figures.contains(name)) << answer.err;
         const auto& figure = figures.at(name);
         ASSERT_TRUE(figure.at("value").is_number()) << figure << answer.err;

@@ -190,6 +190,9 @@ TEST_F(BoxProgram, PlaysWhereOpenFoamIsNotInstalled) {
         0);
     const std::string without =
         "env -u WM_PROJECT_DIR PATH=" + (scratch.path() / "bin").string() + " ";
+    EXPECT_SAYS(turbidite("doctor --no-job", without).out,
+                "missing OpenFOAM                    not installed; spheres in space are played "
+                "without it");
     const Answer checked = turbidite("check case.yaml", without);
     EXPECT_EQ(checked.code, 0) << checked.err;
     EXPECT_SAYS(checked.out, "fluid.program: auto is box here");

@@ -19,6 +19,7 @@ constexpr auto names = {"OpenFOAM",
                         "mpi4py",
                         "turbidite-coupler",
                         "turbidite-fluid",
+                        "turbidite-fluid-box",
                         "turbidite-grains",
                         "turbidite-grains-md",
                         "libturbidite.so",
@@ -48,8 +49,9 @@ class Doctor : public ShellTest {
     fs::path build_without(const std::string& missing) const {
         const fs::path bin = scratch.path() / "bin";
         fs::create_directories(bin);
-        for (const char* name : {"turbidite-coupler", "turbidite-member", "turbidite-fluid",
-                                 "turbidite-grains", "turbidite-grains-md", "turbidite-lammps"})
+        for (const char* name :
+             {"turbidite-coupler", "turbidite-member", "turbidite-fluid", "turbidite-fluid-box",
+              "turbidite-grains", "turbidite-grains-md", "turbidite-lammps"})
             if (name != missing) fs::create_symlink(build / "bin" / name, bin / name);
         fs::create_directory_symlink(build / "lib", scratch.path() / "lib");
         fs::copy_file(TURBIDITE_PROGRAM, bin / "turbidite");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "launcher/case/keys/keys.hpp"
 
 namespace turbidite {
@@ -80,6 +82,15 @@ TEST(LaunchLine, SeveralFluidRanksAreParallel) {
                         "/r/fluid -parallel :"),
               std::string::npos)
         << line;
+}
+
+TEST(LaunchLine, TheFluidProgramIsThatOfTheCase) {
+    Settings box = settings("standalone-nscd", true);
+    box.set("fluid.program", std::string("box"));
+    const std::string line = shell_line(launch_arguments(box, {"/r"}, site(true)));
+    EXPECT_NE(line.find(" /b/bin/turbidite-fluid-box -case /r/fluid :"), std::string::npos) << line;
+    const auto needed = needed_programs(box, site(true).programs);
+    EXPECT_NE(std::find(needed.begin(), needed.end(), "/b/bin/turbidite-fluid-box"), needed.end());
 }
 
 TEST(LaunchLine, QuotesForTheShell) {
