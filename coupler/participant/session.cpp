@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "coupler/participant/conversation.hpp"
+#include "coupler/protocol/received.hpp"
 
 namespace turbidite {
 
@@ -49,7 +50,9 @@ bool Session::guarded(Action action) {
     } catch (const CouplerSilent&) {
         throw;
     } catch (const Failure& failure) {
-        verdict = conversation.fail({static_cast<int>(failure.code()), failure.what()});
+        // Bad input is what the launcher says before a job: within one the program has failed.
+        const ExitCode code = received_code(static_cast<int>(failure.code()));
+        verdict = conversation.fail({static_cast<int>(code), failure.what()});
     } catch (const std::exception& error) {
         verdict = conversation.fail({static_cast<int>(ExitCode::participant_failed), error.what()});
     } catch (...) {

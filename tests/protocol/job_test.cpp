@@ -115,6 +115,13 @@ TEST_F(Job, AnExceptionEndsAllWithItsCodeAndMessage) {
     EXPECT_NE(record().find("scripted trouble"), std::string::npos) << record();
 }
 
+TEST_F(Job, BadInputWithinAJobIsAFailureOfTheProgram) {
+    const Result result = run(1, 1, "bad-input", "");
+    EXPECT_EQ(result.code, 4) << result.output;
+    EXPECT_NE(record().find("scripted bad input"), std::string::npos) << record();
+    EXPECT_EQ(record().find("no program of a job may give"), std::string::npos) << record();
+}
+
 TEST_F(Job, AKilledParticipantEndsTheJob) {
     const Result result = run(1, 1, "", "kill");
     EXPECT_NE(result.code, 0);

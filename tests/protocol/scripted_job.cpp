@@ -6,9 +6,9 @@
 //     scripted_job fluid   FOLDER [FAULT]
 //     scripted_job grains  FOLDER [FAULT]
 //
-// FAULT occurs in window 2: throw, exit, kill, silence. SCHEME is split by default; under joint the
-// grains land on a floor and the fluid announces an inertia that is 20 % wrong, so that several
-// rounds are needed.
+// FAULT occurs in window 2: throw, bad-input, exit, kill, silence. SCHEME is split by default;
+// under joint the grains land on a floor and the fluid announces an inertia that is 20 % wrong, so
+// that several rounds are needed.
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -28,6 +28,7 @@ using namespace turbidite;
 
 void commit(const std::string& fault) {
     if (fault == "throw") throw PhysicsRefused("scripted trouble");
+    if (fault == "bad-input") throw Failure(ExitCode::bad_input, "scripted bad input");
     if (fault == "exit") _exit(0);
     if (fault == "kill") raise(SIGKILL);
     if (fault == "silence") std::this_thread::sleep_for(std::chrono::hours(1));
