@@ -56,13 +56,13 @@ class Gallery:
 
 
 def list_all(gallery):
-    print(f'{"case or study":<30}{"recorded":<34}{"processor":>10}{"memory":>9}  short form')
+    print(f'{"case or study":<30}{"recorded":<46}{"processor":>10}{"memory":>9}  short form')
     for name, entry in gallery.entries.items():
         form = entry.forms['full']
         spent = form.recorded and (f'{form.recorded["processor"]:.0f} s', f'{form.recorded["memory"]:.0f} MB')
         quick = records.told(gallery.configs, entry.forms['quick'].recorded) if 'quick' in entry.forms else '-'
         seconds, memory = spent or ('', '')
-        print(f'{name:<30}{records.told(gallery.configs, form.recorded):<34}{seconds:>10}{memory:>9}  {quick}')
+        print(f'{name:<30}{records.told(gallery.configs, form.recorded):<46}{seconds:>10}{memory:>9}  {quick}')
 
 
 def as_json(gallery):
@@ -107,6 +107,7 @@ def play(gallery, name):
     folder = Path(options.out) / (name + ('-quick' if gallery.form == 'quick' else ''))
     line = playing.command(options.program, gallery.file(name), gallery.is_study(name), form, folder)
     print(playing.shown(line), flush=True)
+    commit = records.commit(gallery.configs)  # of what is played: by its end there may be another
     played = playing.play(line)
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
@@ -115,14 +116,13 @@ def play(gallery, name):
     print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; '
           f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program')
     if options.record and not failed:
-        record(gallery, name, played)
+        record(gallery, name, commit, played)
     return 1 if failed else 0
 
 
-def record(gallery, name, played):
+def record(gallery, name, commit, played):
     file = Path(gallery.options.expected)
-    recorded = {'commit': records.commit(gallery.configs), 'date': records.today(), 'processor': played.processor,
-                'memory': played.memory}
+    recorded = {'commit': commit, 'date': records.today(), 'processor': played.processor, 'memory': played.memory}
     file.write_text(records.with_record(file.read_text(), name, gallery.form, recorded))
     print(f'{name}: recorded in {file}')
 

@@ -38,6 +38,8 @@ def told(folder, recorded):
         return 'not recorded'
     commits = age(folder, recorded)
     old = f', {commits} commits ago' if commits is not None and commits > OLD else ''
+    if commits is None and commit(folder):
+        old = ', a commit that is not here'
     return f'{recorded["commit"][:7]} {recorded["date"]}{old}'
 
 

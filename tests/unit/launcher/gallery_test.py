@@ -254,6 +254,22 @@ class Records(Played):
             self.commit('--allow-empty')
             self.assertIn('2026-01-02, 2 commits ago', self.act(tree=tree)[1])
 
+    def test_the_commit_is_that_of_the_beginning(self):
+        begin = records.commit(self.folder)
+
+        def play(line):
+            self.commit('--allow-empty')
+            return playing.Played(subprocess.run(line).returncode, 1.0, 2.0)
+        with mock.patch.object(playing, 'play', play):
+            self.assertEqual(self.act('--record', 'falling')[0], 0)
+        self.assertNotEqual(records.commit(self.folder), begin)
+        self.assertIn(begin, (self.folder / 'configs/expected.yaml').read_text())
+
+    def test_commits_of_elsewhere_are_told(self):
+        recorded = {'commit': '0123456789', 'date': '2026-01-02', 'processor': 3, 'memory': 4}
+        tree = {'falling': {'full': {**TREE['falling']['full'], 'recorded': recorded}}}
+        self.assertIn('0123456 2026-01-02, a commit that is not here', self.act(tree=tree)[1])
+
     def test_where_there_is_no_git_the_age_is_unknown(self):
         with mock.patch.object(subprocess, 'run', side_effect=FileNotFoundError):
             self.assertIsNone(records.commit(self.folder))
