@@ -208,7 +208,8 @@ const char* word_of(const PlannedRun& run, const fs::path& out) {
 
 void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
     for (const PlannedRun& run : plan) {
-        fmt::print("{:<8} {:>7}  {}\n", word_of(run, out), rough_time(run.seconds), run.path());
+        fmt::print("{}", for_stdout(fmt::format("{:<8} {:>7}  {}\n", word_of(run, out),
+                                                rough_time(run.seconds), run.path())));
     }
 }
 

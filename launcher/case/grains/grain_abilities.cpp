@@ -77,7 +77,11 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     const double cells = settings.real("fluid.cells_per_diameter");
     const double least = least_cells_across(settings);
     const auto across = [cells](const PlacedGrain& g) { return 2.0 * g.radius * cells; };
-    rules.push_back({[=](const PlacedGrain& g) { return across(g) < least * (1.0 - 1e-12); },
+    // A radius that is not positive has been refused as such.
+    const auto is_thin = [=](const PlacedGrain& g) {
+        return g.radius > 0.0 && across(g) < least * (1.0 - 1e-12);
+    };
+    rules.push_back({is_thin,
                      [across](const PlacedGrain& g) {
                          return fmt::format("diameter {:.3g} D, {:.3g} cells", 2.0 * g.radius,
                                             across(g));

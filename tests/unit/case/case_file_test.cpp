@@ -300,7 +300,7 @@ TEST_F(CaseFile, AllFaultsOfAGrainsFileAtOnce) {
     for (const char* fault :
          {"g.csv line 3: x = abc", "g.csv line 4: 2 values in \"2,3\"",
           "g.csv line 5: grain id 0 is given twice", "g.csv line 5: grain 0: radius = -1",
-          "g.csv line 6: grain 5 at (900, 1) is outside", "g.csv line 7: id = x"})
+          "g.csv line 6: grain 5 at (900, 1) is outside", "g.csv line 7: id = x", "6 errors"})
         EXPECT_SAYS(text, fault);
     EXPECT_LT(text.find("line 3"), text.find("line 4"));
     // No grain can be read: nothing else is checked.

@@ -62,7 +62,7 @@ class Terminal(unittest.TestCase):
                             (['check', 'case.yaml', '--set', 'grains.adapter=yade'], 'yade-md'),
                             (['run', 'case.yaml', '--out', 'full'], 'is not empty'),
                             (['resume', 'nowhere'], 'nowhere'), (['compare', 'nowhere'], 'at least two'),
-                            (['study', str(CONFIGS / 'grain-codes.yaml'), '--dry-run', '--out', 'study'], 'runs')):
+                            (['study', str(CONFIGS / 'grain-codes.yaml'), '--dry-run', '--out', 'study'], 'lammps-md')):
             text = printed(self.folder, *words)
             self.assertIn(said, text)
             self.assertEqual([line for line in text.split('\n') if breakable(line)], [], words)
