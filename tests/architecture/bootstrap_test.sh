@@ -91,7 +91,7 @@ output=$(cd / && "$work/a link" doctor --no-job 2>&1) || code=$?
 cp "$work/program" "$build/bin/turbidite"
 
 for target in run_programs bench_programs; do
-    grep -q "^add_custom_target($target " "$project/CMakeLists.txt" || broken "CMake has no target $target"
+    grep -q "^ *add_custom_target($target " "$project/CMakeLists.txt" || broken "CMake has no target $target"
 done
 
 # A failing build is reported with its output and its own code, and the program is not started.
