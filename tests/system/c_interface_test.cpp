@@ -77,7 +77,7 @@ TEST_F(CInterface, AProgramOfALaterHeaderRunsOrIsRefusedInWords) {
 TEST_F(CInterface, AProgramSaysInWhichDimensionsItPlays) {
     compile(headers + "/other_sizes.c", "present", "other_sizes");
     const std::string space = "' --set dimension=3 --set 'domain.size=[8, 40, 4]";
-    for (const std::string dimension : {std::string(), space}) {
+    for (const std::string& dimension : {std::string(), space}) {
         const Answer both = run("other_sizes both-dimensions" + dimension);
         EXPECT_EQ(both.code, 0) << both.out << both.err;
     }

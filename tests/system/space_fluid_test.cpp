@@ -161,7 +161,9 @@ TEST_F(SpaceFluid, SlicesAreThoseOfTheFields) {
                 ASSERT_NEAR(one[n], two[n], 1e-5) << name << ' ' << array;
                 highest = std::max(highest, static_cast<double>(one[n]));
             }
-            if (std::string(array) == "covered") EXPECT_EQ(highest, 1.0);
+            if (std::string(array) == "covered") {
+                EXPECT_EQ(highest, 1.0);
+            }
         }
     const auto entries = [&] {
         const std::string series = text(scratch.path() / "one/fluid/slices/slices.pvd");

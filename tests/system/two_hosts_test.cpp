@@ -83,7 +83,9 @@ TEST_F(TwoHosts, GrainsOnBothHaveTheDigitsOfOneRank) {
                two = columns_of(text(scratch.path() / "two/history.csv"));
     ASSERT_GT(one.at("contacts").back(), 100.0);
     for (const auto& [name, values] : one)
-        if (name.rfind("wall_", 0) != 0) EXPECT_EQ(values, two.at(name)) << name;
+        if (name.rfind("wall_", 0) != 0) {
+            EXPECT_EQ(values, two.at(name)) << name;
+        }
     for (const char* series : {"grains", "contacts"}) {
         const std::string file = std::string("/grains/") + series + "_00000400.vtp";
         const std::string of_one = text(scratch.path() / ("one" + file));

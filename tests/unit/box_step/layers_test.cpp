@@ -208,7 +208,9 @@ TEST(Layers, VorticesAboutEveryAxisConverge) {
         const double coarse = error_of_vortices(12, about), fine = error_of_vortices(24, about);
         EXPECT_LT(fine, 0.3 * coarse);  // second order: a quarter
         EXPECT_LT(fine, 1e-2);
-        if (about > 0) EXPECT_NEAR(fine, last, 1e-10);  // no axis differs from another
+        if (about > 0) {
+            EXPECT_NEAR(fine, last, 1e-10) << "no axis differs from another";
+        }
         last = fine;
     }
 }

@@ -137,8 +137,12 @@ TEST(Film, NeverOvershoots) {
             ASSERT_LE(engine.bodies().twist[0].velocity[1], 1e-12) << "no bounce";
         }
         EXPECT_GE(lowest, -1e-15) << viscosity;
-        if (viscosity <= 1e-3) EXPECT_LT(lowest, 1e-12) << "lands";
-        if (viscosity >= 1e3) EXPECT_GT(lowest, 0.045) << "sinks slowly";
+        if (viscosity <= 1e-3) {
+            EXPECT_LT(lowest, 1e-12) << "lands";
+        }
+        if (viscosity >= 1e3) {
+            EXPECT_GT(lowest, 0.045) << "sinks slowly";
+        }
     }
 }
 
