@@ -14,11 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "quickstart" for quickstart, quickstart.yaml and configs/quickstart.yaml; empty for other paths.
-std::string plain_name(fs::path word) {
-    if (word.parent_path() == "configs") word = word.filename();
-    if (word.has_parent_path()) return "";
-    return word.extension() == ".yaml" ? word.stem() : word;
+/// "quickstart" for quickstart, quickstart.yaml and configs/quickstart.yaml, "validation/rebound"
+/// for that one; empty for paths that lead elsewhere.
+std::string shipped_name(const fs::path& word) {
+    if (word.empty() || word.is_absolute() || word.lexically_normal() != word ||
+        *word.begin() == "..")
+        return "";
+    const fs::path name = *word.begin() == "configs" ? word.lexically_relative("configs") : word;
+    return name.extension() == ".yaml" ? (name.parent_path() / name.stem()).string()
+                                       : name.string();
 }
 
 }  // namespace
@@ -33,11 +37,12 @@ std::vector<std::string> shipped_cases(const Programs& programs) {
 }
 
 fs::path case_named(const std::string& word, const Programs& programs) {
-    const std::string name = plain_name(word);
-    if (fs::exists(word) || name.empty()) return word;
+    const std::string name = shipped_name(word);
+    const bool is_file = fs::exists(word) && !fs::is_directory(word);
+    if (is_file || name.empty()) return word;
     const fs::path shipped = programs.configs() / (name + ".yaml");
     if (fs::exists(shipped)) return shipped;
-    if (word != name) return word;
+    if (word != name || fs::path(word).has_parent_path() || fs::exists(word)) return word;
     const std::vector<std::string> names = shipped_cases(programs);
     throw Failure(ExitCode::bad_input,
                   fmt::format("turbidite: there is no file {0}, and no shipped case of that name\n"

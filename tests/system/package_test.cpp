@@ -124,6 +124,17 @@ TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
     EXPECT_EQ(shell(TURBIDITE_PROGRAM " check my-study.yaml").code, 0);
 }
 
+TEST_F(New, KnowsTheCasesOfValidationToo) {
+    const std::string name = "validation/settling-disc";
+    for (const std::string word : {name, "configs/" + name, "configs/" + name + ".yaml"})
+        EXPECT_EQ(shell(TURBIDITE_PROGRAM " check " + word).code, 0) << word;
+    std::filesystem::create_directory(scratch.path() / "quickstart");
+    EXPECT_EQ(shell(TURBIDITE_PROGRAM " check quickstart").code, 0) << "a folder is no case";
+    const Answer answer = shell(TURBIDITE_PROGRAM " check ../" + name);
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err, "../" + name);
+}
+
 TEST_F(New, NamesTheNearestOfTheShippedCases) {
     for (const std::string command :
          {"new mine --like quikstart", "run quikstart", "check quikstart"}) {
