@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "coupler/participant/conversation.hpp"
-#include "coupler/protocol/received.hpp"
 
 namespace turbidite {
 
@@ -51,7 +50,8 @@ bool Session::guarded(Action action) {
         throw;
     } catch (const Failure& failure) {
         // Bad input is what the launcher says before a job: within one the program has failed.
-        const ExitCode code = received_code(static_cast<int>(failure.code()));
+        const ExitCode code =
+            failure.code() == ExitCode::bad_input ? ExitCode::participant_failed : failure.code();
         verdict = conversation.fail({static_cast<int>(code), failure.what()});
     } catch (const std::exception& error) {
         verdict = conversation.fail({static_cast<int>(ExitCode::participant_failed), error.what()});
