@@ -79,13 +79,10 @@ TEST_F(TwoHosts, GrainsOnBothHaveTheDigitsOfOneRank) {
     const std::vector<std::string> where = hosts("two", "grains");
     ASSERT_EQ(where.size(), 2u);
     EXPECT_NE(where[0], where[1]);
-    const auto one = columns_of(text(scratch.path() / "one/history.csv")),
-               two = columns_of(text(scratch.path() / "two/history.csv"));
-    ASSERT_GT(one.at("contacts").back(), 100.0);
-    for (const auto& [name, values] : one)
-        if (name.rfind("wall_", 0) != 0) {
-            EXPECT_EQ(values, two.at(name)) << name;
-        }
+    const std::string history = text(scratch.path() / "one/history.csv");
+    ASSERT_GT(columns_of(history).at("contacts").back(), 100.0);
+    EXPECT_EQ(lines_without_wall_times(history),
+              lines_without_wall_times(text(scratch.path() / "two/history.csv")));
     for (const char* series : {"grains", "contacts"}) {
         const std::string file = std::string("/grains/") + series + "_00000400.vtp";
         const std::string of_one = text(scratch.path() / ("one" + file));
