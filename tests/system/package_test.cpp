@@ -126,7 +126,7 @@ TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
 
 TEST_F(New, KnowsTheCasesOfValidationToo) {
     const std::string name = "validation/settling-disc";
-    for (const std::string word : {name, "configs/" + name, "configs/" + name + ".yaml"})
+    for (const std::string& word : {name, "configs/" + name, "configs/" + name + ".yaml"})
         EXPECT_EQ(shell(TURBIDITE_PROGRAM " check " + word).code, 0) << word;
     std::filesystem::create_directory(scratch.path() / "quickstart");
     EXPECT_EQ(shell(TURBIDITE_PROGRAM " check quickstart").code, 0) << "a folder is no case";
