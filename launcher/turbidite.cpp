@@ -79,7 +79,7 @@ int act(const CommandAction& action) {
         return static_cast<int>(failure.code());
     } catch (const std::exception& error) {
         std::fflush(stdout);
-        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", error.what())));
+        tell_on_stderr(error.what());
         return static_cast<int>(ExitCode::participant_failed);
     }
 }

@@ -148,12 +148,23 @@ bool exists(const KeySpec& key, int dimension) {
     return key.dimension == 0 || key.dimension == dimension;
 }
 
+/// Whether the case has a value for it where it gives none.
+bool has_fallback(const KeySpec& key, int dimension) {
+    if (dimension == 3 && key.in_space.fallback) return !key.in_space.fallback->empty();
+    return key.need == Need::fallback;
+}
+
+/// Whether null may stand for it, as if it were not there. Keys of space are, in the plane.
+bool may_be_null(const KeySpec& key, int dimension) {
+    if (key.dimension == 3 && dimension == 2) return true;
+    return (key.need == Need::optional || key.dimension == 3) && !has_fallback(key, dimension);
+}
+
 void check_entry(const KeyTable& table, const CaseEntry& entry, int dimension, Settings& settings,
                  CaseProblems& problems) {
     const KeySpec* found = find_key(table, entry.key);
     if (found == nullptr) return problems.push_back(unknown_key(table, entry));
-    const bool optional = found->need == Need::optional || found->dimension == 3;
-    if (entry.is_null && optional) return;
+    if (entry.is_null && may_be_null(*found, dimension)) return;
     const KeySpec spec = in_dimension(*found, dimension);
     const KeySpec* key = &spec;
     CaseProblem problem = problem_of(entry, *key);

@@ -6,9 +6,9 @@
 #include "coupler/protocol/freed_memory.hpp"
 #include "fluid_adapter/box_app/box_state.hpp"
 #include "fluid_adapter/box_app/box_store.hpp"
-#include "fluid_adapter/fluid_window/fluid_window.hpp"
 
 namespace turbidite {
+
 BoxAdapter::BoxAdapter(std::filesystem::path folder) : folder_(std::move(folder)) {
     keep_freed_memory();
 }
@@ -16,15 +16,10 @@ BoxAdapter::BoxAdapter(std::filesystem::path folder) : folder_(std::move(folder)
 BoxAdapter::~BoxAdapter() = default;
 
 Hello BoxAdapter::describe() const {
-    Hello hello;
-    hello.role = Role::fluid;
+    Hello hello = hello_of_window();
     hello.adapter = "box";
-    hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = "none";
     hello.dimension = 3;
-    hello.capabilities.saves_state = true;
-    hello.capabilities.serialises_state = true;
-    hello.capabilities.effective_inertia = true;
     hello.capabilities.shapes = {"sphere"};
     return hello;
 }
@@ -34,26 +29,6 @@ Box BoxAdapter::initialise(const Settings& settings, const ShapeTable& shapes) {
     store_ = std::make_unique<BoxStore>(settings, ranks_, folder_);
     window_ = std::make_unique<FluidWindow>(*store_, settings, shapes);
     return store_->box();
-}
-
-void BoxAdapter::advance(const Window& window) {
-    window_->advance(window);
-}
-
-void BoxAdapter::let_fall(const Window&, const std::vector<GrainState>& grains) {
-    window_->let_fall(grains);
-}
-
-void BoxAdapter::correct(const Window&, const std::vector<GrainState>& grains) {
-    window_->correct(grains);
-}
-
-std::vector<FreeResponse> BoxAdapter::respond() {
-    return window_->responses();
-}
-
-Kicks BoxAdapter::impose(const Window&) {
-    return window_->impose();
 }
 
 void BoxAdapter::save_to(PieceWriter& file) const {

@@ -6,15 +6,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "coupler/participant/adapter.hpp"
+#include "fluid_adapter/fluid_window/window_adapter.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
 
-class FluidWindow;
 class BoxStore;
 
-class BoxAdapter final : public FluidAdapter {
+class BoxAdapter final : public WindowAdapter {
  public:
     /// `folder`: for what the fluid writes.
     explicit BoxAdapter(std::filesystem::path folder);
@@ -25,11 +24,6 @@ class BoxAdapter final : public FluidAdapter {
 
     Hello describe() const override;
     Box initialise(const Settings& settings, const ShapeTable& shapes) override;
-    void advance(const Window& window) override;
-    void let_fall(const Window& window, const std::vector<GrainState>& grains) override;
-    void correct(const Window& window, const std::vector<GrainState>& grains) override;
-    std::vector<FreeResponse> respond() override;
-    Kicks impose(const Window& window) override;
     void save_to(PieceWriter& file) const override;
     void restore_own(PieceReader& file) override;
     void restore_parts(std::vector<PieceReader>& of_ranks) override;
@@ -38,7 +32,6 @@ class BoxAdapter final : public FluidAdapter {
     std::filesystem::path folder_;
     RankGroup ranks_;
     std::unique_ptr<BoxStore> store_;
-    std::unique_ptr<FluidWindow> window_;
 };
 
 }  // namespace turbidite

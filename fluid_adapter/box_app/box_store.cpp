@@ -6,11 +6,11 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
-#include <utility>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/splitting.hpp"
 #include "fluid_adapter/box_app/interpolated_velocity.hpp"
+#include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/fluid_window/grid_of_domain.hpp"
 #include "fluid_adapter/fluid_window/wanted_fields.hpp"
@@ -42,13 +42,8 @@ void set_transport(BoxFluid& fluid, const Settings& settings) {
     std::istringstream words(settings.text("fluid.transport_scheme"));
     std::string gauss, scheme;
     words >> gauss >> scheme;
-    const std::pair<const char*, double> central[] = {
-        {"linearUpwind", 0.0}, {"LUST", 0.75}, {"linear", 1.0}};
-    for (const auto& [name, share] : central) {
-        if (gauss != "Gauss" || scheme != name) continue;
-        fluid.central = share;
-        return;
-    }
+    if (gauss == "Gauss") fluid.central = central_share(scheme);
+    if (fluid.central) return;
     double limiter = 0.0;
     if (gauss != "Gauss" || scheme != "limitedLinearV" || !(words >> limiter))
         throw Failure(ExitCode::bad_input,

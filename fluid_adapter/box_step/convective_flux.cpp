@@ -86,6 +86,13 @@ void convective_flux(int count, double two_by_k, const FacePlace& face, const do
         carry_in_space(count, two_by_k, face, flux, u.begin(), carried.begin());
 }
 
+std::optional<double> central_share(const std::string& scheme) {
+    if (scheme == "linear") return 1.0;
+    if (scheme == "LUST") return 0.75;
+    if (scheme == "linearUpwind") return 0.0;
+    return std::nullopt;
+}
+
 void blended_flux(int count, double central, const FacePlace& face, const double* flux,
                   const VelocityAcross& u, const CarriedRows& carried) {
     for (int axis = 0; axis < u.size(); ++axis)

@@ -29,6 +29,9 @@
 // Valid C++17.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "fluid_adapter/multiplier/components.hpp"
 
 namespace turbidite {
@@ -52,6 +55,10 @@ using CarriedRows = Components<double*>;
 /// carried = flux u_f for all components; two_by_k: 2/k of the limiter.
 void convective_flux(int count, double two_by_k, const FacePlace& face, const double* flux,
                      const VelocityAcross& u, const CarriedRows& carried);
+
+/// Share of linear interpolation of OpenFOAM's schemes that are linear in u, by their name: linear,
+/// LUST, linearUpwind; none for others.
+std::optional<double> central_share(const std::string& scheme);
 
 /// With the share `central` of linear interpolation.
 void blended_flux(int count, double central, const FacePlace& face, const double* flux,

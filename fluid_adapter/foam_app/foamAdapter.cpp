@@ -5,7 +5,6 @@
 #include <sigFpe.H>
 
 #include "coupler/protocol/freed_memory.hpp"
-#include "fluid_adapter/fluid_window/fluid_window.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
 #include "fluid_adapter/foam_app/foamStore.hpp"
 #include "fluid_adapter/foam_app/savedState.hpp"
@@ -34,15 +33,10 @@ void FoamAdapter::share(int communicator) {
 }
 
 Hello FoamAdapter::describe() const {
-    Hello hello;
-    hello.role = Role::fluid;
+    Hello hello = hello_of_window();
     hello.adapter = "openfoam";
-    hello.adapter_version = TURBIDITE_VERSION;
     hello.host_code = "OpenFOAM 1912";
     hello.dimension = 0;  // both
-    hello.capabilities.saves_state = true;
-    hello.capabilities.serialises_state = true;
-    hello.capabilities.effective_inertia = true;
     hello.capabilities.shapes = {"disc", "triangle", "polygon", "sphere"};
     return hello;
 }
@@ -55,26 +49,6 @@ Box FoamAdapter::initialise(const Settings& settings, const ShapeTable& shapes) 
     const Foam::boundBox bounds(store_->fields().mesh.points(), false);
     return {{bounds.min().x(), bounds.min().y(), bounds.min().z()},
             {bounds.max().x(), bounds.max().y(), bounds.max().z()}};
-}
-
-void FoamAdapter::advance(const Window& window) {
-    window_->advance(window);
-}
-
-void FoamAdapter::let_fall(const Window&, const std::vector<GrainState>& grains) {
-    window_->let_fall(grains);
-}
-
-void FoamAdapter::correct(const Window&, const std::vector<GrainState>& grains) {
-    window_->correct(grains);
-}
-
-std::vector<FreeResponse> FoamAdapter::respond() {
-    return window_->responses();
-}
-
-Kicks FoamAdapter::impose(const Window&) {
-    return window_->impose();
 }
 
 FluidRank FoamAdapter::of_this_rank() const {

@@ -7,17 +7,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "coupler/participant/adapter.hpp"
 #include "fluid_adapter/fluid_window/fluid_timings.hpp"
+#include "fluid_adapter/fluid_window/window_adapter.hpp"
 #include "fluid_adapter/ranks/rank_group.hpp"
 
 namespace turbidite {
 
-class FluidWindow;
 class FoamStore;
 struct FluidRank;
 
-class FoamAdapter final : public FluidAdapter {
+class FoamAdapter final : public WindowAdapter {
  public:
     /// `directory`: the OpenFOAM case.
     explicit FoamAdapter(std::filesystem::path directory);
@@ -30,11 +29,6 @@ class FoamAdapter final : public FluidAdapter {
 
     Hello describe() const override;
     Box initialise(const Settings& settings, const ShapeTable& shapes) override;
-    void advance(const Window& window) override;
-    void let_fall(const Window& window, const std::vector<GrainState>& grains) override;
-    void correct(const Window& window, const std::vector<GrainState>& grains) override;
-    std::vector<FreeResponse> respond() override;
-    Kicks impose(const Window& window) override;
     SavedState save() const override;
     void restore(const SavedState& state) override;
     void restore_from(const std::vector<SavedState>& of_ranks) override;
@@ -57,7 +51,6 @@ class FoamAdapter final : public FluidAdapter {
     std::filesystem::path directory_;
     RankGroup ranks_;
     std::unique_ptr<FoamStore> store_;
-    std::unique_ptr<FluidWindow> window_;
 };
 
 }  // namespace turbidite

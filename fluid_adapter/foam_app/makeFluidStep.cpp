@@ -8,6 +8,7 @@
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "coupler/protocol/splitting.hpp"
+#include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/foam_app/foamRows.hpp"
 #include "fluid_adapter/foam_app/laplacianOperator.hpp"
@@ -32,16 +33,8 @@ bool gauss_linear(const FluidFields& fields, const Foam::word& gradient) {
     return Foam::word(scheme) == "Gauss" && (scheme.eof() || Foam::word(scheme) == "linear");
 }
 
-/// Share of linear interpolation of the schemes that are linear in u.
-std::optional<double> central_share(const Foam::word& name) {
-    if (name == "linear") return 1.0;
-    if (name == "LUST") return 0.75;
-    if (name == "linearUpwind") return 0.0;
-    return std::nullopt;
-}
-
-/// The same for the case's div(phi,U), `bounded` or not.
-std::optional<double> central_share(const FluidFields& fields) {
+/// Of the case's div(phi,U), `bounded` or not.
+std::optional<double> central_share_of_case(const FluidFields& fields) {
     Foam::Istream& scheme = fields.mesh.divScheme("div(phi,U)");
     Foam::word name;
     while (!scheme.eof() && (name.empty() || name == "bounded" || name == "Gauss"))
@@ -111,7 +104,7 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
     check_solver(fields.U, box, "fluid.viscous_solver", "PCG");
     const RunValues run = run_values(settings);
     return std::make_unique<OperatorStep>(fields, divergence_goal * run.velocity / run.diameter,
-                                          in_second_order(settings), central_share(fields));
+                                          in_second_order(settings), central_share_of_case(fields));
 }
 
 /// The operator with the spacing of the mesh in metres; of a stretched grid, that of its first row.

@@ -24,10 +24,8 @@ int resume(const ResumeOptions& options) {
                         : fmt::print("{}", for_stdout(text));
     };
     const LaunchSite site = this_site();
-    const auto say = [](const std::string& text) {
-        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
-    };
-    const auto resumed = prepare_resumption(options.folder, options.overrides, site, say);
+    const auto resumed =
+        prepare_resumption(options.folder, options.overrides, site, tell_on_stderr);
     if (!resumed) {
         tell(fmt::format(
             "The run in {} is complete. To go on beyond its end: --set time.end=<t_c>.\n",

@@ -39,7 +39,7 @@ int run(const RunOptions& options) {
     const auto folder =
         options.order.out.empty() ? std::filesystem::path("runs") : options.order.out;
     if (const std::string lack = lack_of_disk(predicted_disk(resolved), folder); !lack.empty())
-        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", lack)));
+        tell_on_stderr(lack);
     const PreparedRun prepared = prepare(resolved, options.order, site);
     const std::string summary =
         case_summary(resolved) + fmt::format("  folder: {}\n", prepared.folder.root.string());

@@ -84,10 +84,6 @@ std::vector<const PlannedRun*> missing_runs(const std::vector<PlannedRun>& plan,
     return missing;
 }
 
-void say(const std::string& text) {
-    fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
-}
-
 /// So that results of an earlier version do not pass for those of this one.
 void tell_kept(const std::vector<PlannedRun>& plan, const fs::path& out) {
     std::size_t kept = 0;
@@ -96,10 +92,10 @@ void tell_kept(const std::vector<PlannedRun>& plan, const fs::path& out) {
         ++kept;
         const auto changes = other_defaults(run, out / run.path());
         for (const std::string& change : changes.value_or(std::vector<std::string>{}))
-            say(fmt::format("{} was played with {}", run.path(), change));
+            tell_on_stderr(fmt::format("{} was played with {}", run.path(), change));
     }
     if (kept > 0)
-        say(
+        tell_on_stderr(
             fmt::format("{} done by a version with other defaults, and {} as {}; --again "
                         "plays {} again and keeps the old {} beside the new",
                         kept == 1 ? "one run was" : fmt::format("{} runs were", kept),
@@ -116,8 +112,8 @@ PreparedRun prepare_afresh(const PlannedRun& run, const fs::path& folder, const 
     const ResolvedCase resolved = run.resolve();
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (has_windows(folder))
-        say(fmt::format("{}: the run that was there is now {}", run.path(),
-                        set_aside(folder).string()));
+        tell_on_stderr(fmt::format("{}: the run that was there is now {}", run.path(),
+                                   set_aside(folder).string()));
     return prepare(resolved, {.out = folder, .force = true}, site);
 }
 
@@ -127,13 +123,13 @@ PreparedRun prepare_afresh(const PlannedRun& run, const fs::path& folder, const 
 PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const LaunchSite& site) {
     const fs::path folder = out / run.path();
     if (may_go_on(run, out)) try {
-            if (auto resumed = prepare_resumption(folder, {}, site, say)) {
+            if (auto resumed = prepare_resumption(folder, {}, site, tell_on_stderr)) {
                 fmt::print("goes on after window {}, {:g} t_c\n", resumed->windows, resumed->time);
                 return std::move(resumed->run);
             }
         } catch (const Failure& failure) {
             if (failure.code() != ExitCode::bad_input) throw;
-            say(fmt::format("{}: it starts afresh: {}", run.path(), failure.what()));
+            tell_on_stderr(fmt::format("{}: it starts afresh: {}", run.path(), failure.what()));
         }
     return prepare_afresh(run, folder, site);
 }
@@ -145,8 +141,8 @@ std::optional<PreparedRun> prepared_to_play(const PlannedRun& run, const fs::pat
         return prepare_to_play(run, out, site);
     } catch (const Failure& failure) {
         if (failure.code() == ExitCode::bad_input) throw;
-        say(fmt::format("{}: it stays as it is, and the next call tries again: {}", run.path(),
-                        failure.what()));
+        tell_on_stderr(fmt::format("{}: it stays as it is, and the next call tries again: {}",
+                                   run.path(), failure.what()));
         return std::nullopt;
     }
 }
@@ -264,7 +260,7 @@ int run_study(const StudyOptions& options) {
     fmt::print("{}", for_stdout(text));
     if (!options.again) tell_kept(plan, out);
     if (const std::string lack = lack_of_disk(predicted_disk(missing), out); !lack.empty())
-        say(lack);
+        tell_on_stderr(lack);
     if (options.dry_run) {
         list(plan, out);
         return static_cast<int>(ExitCode::done);

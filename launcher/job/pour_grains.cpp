@@ -86,11 +86,9 @@ JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
                       const LaunchSite& site) {
     if (!fs::exists(folder.history()))
         return play(prepare(pouring, {folder.root, true}, site), site.programs);
-    const auto say = [](const std::string& text) {
-        fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
-    };
-    const auto resumed = prepare_resumption(
-        folder.root, {fmt::format("time.end={:g}", next_end(folder.history()))}, site, say);
+    const auto resumed =
+        prepare_resumption(folder.root, {fmt::format("time.end={:g}", next_end(folder.history()))},
+                           site, tell_on_stderr);
     if (!resumed) return {};
     return play(resumed->run, site.programs);
 }

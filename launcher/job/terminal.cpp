@@ -4,6 +4,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -44,6 +46,10 @@ std::string for_stdout(const std::string& lines) {
 
 std::string for_stderr(const std::string& lines) {
     return for_stream(STDERR_FILENO, lines);
+}
+
+void tell_on_stderr(const std::string& text) {
+    fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
 }
 
 }  // namespace turbidite

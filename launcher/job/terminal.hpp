@@ -20,4 +20,7 @@ std::string for_stdout(const std::string& lines);
 /// The same for stderr.
 std::string for_stderr(const std::string& lines);
 
+/// Writes "turbidite: ..." as a line of its own to stderr.
+void tell_on_stderr(const std::string& text);
+
 }  // namespace turbidite

@@ -4,22 +4,15 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/whole_file.hpp"
 #include "launcher/case/files/case_entries.hpp"
 
 namespace turbidite {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 void write(const fs::path& file, const std::string& text) {
     std::error_code ignored;
@@ -61,10 +54,10 @@ OwnCase write_own_case(const fs::path& shipped, const fs::path& file) {
     const std::string head = fmt::format(
         "# Begun as a copy of {}. Every key, with unit, default and range: `turbidite keys`.\n#\n",
         shipped.stem().string());
-    write(file, head + text_of(shipped));
+    write(file, head + read_whole(shipped));
     for (const fs::path& name : names) {
         own.beside.push_back(file.parent_path() / name);
-        write(own.beside.back(), text_of(shipped.parent_path() / name));
+        write(own.beside.back(), read_whole(shipped.parent_path() / name));
     }
     return own;
 }

@@ -57,6 +57,8 @@ def pressure_at(run, time, folder):
 
 def field_names(folder):
     """Names of the scalar and vector fields in a folder of `field_times`, in order."""
+    if _of_box(folder):
+        return sorted(set(rectilinear.arrays(folder)) - set('xyz'))
     named = {path.name.removesuffix('.gz') for path in folder.iterdir() if path.is_file()}
     return sorted(name for name in named if _class_of(folder, name) in READERS)
 
@@ -64,6 +66,8 @@ def field_names(folder):
 def cell_values(run, folder, name):
     """A field of one (time, folder) of `field_times` as it is in the files: (depth, rows, columns), vectors (..., 3);
     depth is 1 in the plane. ValueError if it is damaged."""
+    if _of_box(folder):
+        return _cells_of_box(rectilinear.arrays(folder), name)
     return _cells(run, folder, name, READERS[_class_of(folder, name)])
 
 
@@ -72,7 +76,7 @@ def mean_square_velocity(run, time, folder):
     if not run.in_space():
         velocity = velocity_at(run, time, folder)
         return float((velocity.vertical**2 + velocity.horizontal**2).mean())
-    if folder.suffix == '.vtr':
+    if _of_box(folder):
         return _mean_square_of_box(folder)
     of_rows = (_cells(run, folder, 'U', read_vectors)**2).sum(axis=-1).mean(axis=(0, 2))
     heights = np.diff(row_edges(run)) if is_stretched(run) else None
@@ -81,9 +85,22 @@ def mean_square_velocity(run, time, folder):
 
 def _mean_square_of_box(path):
     arrays = rectilinear.arrays(path)
-    x, y, z = (np.diff(arrays[axis]) for axis in 'xyz')
-    of_rows = (arrays['U']**2).reshape(len(z), len(y), len(x), 3).sum(axis=-1).mean(axis=(0, 2))
-    return float(np.average(of_rows, weights=y))
+    of_rows = (_cells_of_box(arrays, 'U')**2).sum(axis=-1).mean(axis=(0, 2))
+    return float(np.average(of_rows, weights=np.diff(arrays['y'])))
+
+
+def _of_box(path):
+    """Whether this is a file of the box program, not a folder of OpenFOAM's."""
+    return path.suffix == '.vtr'
+
+
+def _cells_of_box(arrays, name):
+    """As cell_values, of the arrays of a file; ValueError if their numbers do not fit the mesh."""
+    shape = tuple(len(arrays[axis]) - 1 for axis in 'zyx')
+    components, rest = divmod(len(arrays[name]), int(np.prod(shape)))
+    if rest or components not in (1, 3):
+        raise ValueError(f'{name} has {len(arrays[name])} values for {" x ".join(map(str, shape[::-1]))} cells')
+    return arrays[name].reshape(*shape, *([3] if components == 3 else []))
 
 
 def _field(run, folder, name, read):
@@ -123,8 +140,13 @@ def is_stretched(run):
 
 
 def row_edges(run):
-    """Heights at which rows of the mesh begin and end, from the points of its left side; ValueError if the mesh is
-    damaged."""
+    """Heights at which rows of the mesh begin and end, from the points of its left side, of the box program from the
+    first of its fields; ValueError if the mesh is damaged or there are no fields."""
+    if run.record.get('fluid_program') == 'box':
+        files = [path for _, path in field_times(run)]
+        if not files:
+            raise ValueError('fluid/fields holds no fields, and with them no mesh')
+        return rectilinear.arrays(files[0])['y']
     columns, _, depth = _equal_cells(run)
     points = read_points(_contents(run.folder / 'fluid/constant/polyMesh/points'))
     edges = points[:len(points) // (depth + 1):columns + 1, 1]  # x runs fastest, then y

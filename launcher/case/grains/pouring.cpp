@@ -31,32 +31,35 @@ Ground ground_of(const Settings& settings) {
     return {size.at(0), size.at(2)};
 }
 
-/// Of these spheres [D3].
-double solid_volume(const std::vector<double>& radii) {
-    double sum = 0.0;
-    for (const double r : radii) sum += 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    return sum;
-}
-
 /// On the lowest sites of a lattice; in narrow regions the stand-ins are smaller than the grains.
 Packing on_lattice(const PackingRegion& region, const std::vector<double>& radii) {
     const SpaceLattice& lattice = space_lattice("fcc");
     Packing sites;
     double size = 1.0;
     for (; sites.size() < radii.size(); size *= 0.97)
-        sites = lattice_sites(lattice, region, size * radii.front(), lattice.densest());
-    sites.resize(radii.size());
+        sites =
+            lattice_sites(lattice, region, size * radii.front(), lattice.densest(), radii.size());
     const double largest = sites.front().radius;
     for (std::size_t i = 0; i < radii.size(); ++i)
         sites[i].radius = largest * radii[i] / radii.front();
     return sites;
 }
 
+std::string too_dense(const PackingRequest& request, double fraction) {
+    const PackingRegion region = request.filled();
+    return fmt::format(
+        "They would fill {:.3g} of {} x {} x {} D; poured packings fill {} at most. Ask for "
+        "fewer grains or enlarge {}.",
+        fraction, region.width, region.height, region.depth, densest_poured,
+        request.region ? "grains.region" : "domain.size");
+}
+
 /// As the generator of the pouring run draws them.
 std::vector<double> radii_of(const Settings& settings) {
     const GrainForms forms = make_grain_forms(settings);
     RandomNumbers random(static_cast<std::uint64_t>(settings.integer("random.seed")));
-    return draw_radii({.count = settings.integer("grains.count"),
+    return draw_radii({.box = {},
+                       .count = settings.integer("grains.count"),
                        .forms = &forms,
                        .size_ratio = settings.real("grains.size_ratio")},
                       random);
@@ -114,16 +117,16 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
 
 PackingResult poured_stand_in(const PackingRequest& request) {
     PackingResult result;
+    if (const double least = least_solid_fraction(request); least > densest_poured) {
+        result.refusal = too_dense(request, least);
+        return result;
+    }
     RandomNumbers random(request.seed);
     const std::vector<double> radii = draw_radii(request, random);
     const PackingRegion region = request.filled();
-    const double fraction = solid_volume(radii) / (region.width * region.height * region.depth);
+    const double fraction = solid_volume(radii) / region.volume();
     if (fraction > densest_poured) {
-        result.refusal = fmt::format(
-            "They would fill {:.3g} of {} x {} x {} D; poured packings fill {} at most. Ask for "
-            "fewer grains or enlarge {}.",
-            fraction, region.width, region.height, region.depth, densest_poured,
-            request.region ? "grains.region" : "domain.size");
+        result.refusal = too_dense(request, fraction);
         return result;
     }
     result.grains = on_lattice(region, radii);

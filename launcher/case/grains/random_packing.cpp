@@ -151,15 +151,30 @@ bool is_overfull(const PackingRequest& request) {
            share * region.width * region.height;
 }
 
+double smallest_radius(const PackingRequest& request) {
+    return 2.0 * mean_radius(request) / (1.0 + request.size_ratio);
+}
+
 }  // namespace
 
 std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random) {
     std::vector<double> radii(static_cast<std::size_t>(request.count), mean_radius(request));
     if (request.size_ratio == 1.0) return radii;
-    const double smallest = 2.0 * mean_radius(request) / (1.0 + request.size_ratio);
+    const double smallest = smallest_radius(request);
     for (double& radius : radii) radius = random.uniform(smallest, smallest * request.size_ratio);
     std::sort(radii.begin(), radii.end(), std::greater<>());
     return radii;
+}
+
+double solid_volume(const std::vector<double>& radii) {
+    double sum = 0.0;
+    for (const double r : radii) sum += 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    return sum;
+}
+
+double least_solid_fraction(const PackingRequest& request) {
+    return static_cast<double>(request.count) * solid_volume({smallest_radius(request)}) /
+           request.filled().volume();
 }
 
 PackingResult random_packing(const PackingRequest& request) {

@@ -22,6 +22,13 @@ namespace turbidite {
 /// smallest [D].
 std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random);
 
+/// Of spheres [D3].
+double solid_volume(const std::vector<double>& radii);
+
+/// Share of the region that grains.count spheres fill even if each is as small as grains.size_ratio
+/// allows: refuses counts for which drawing the radii alone would fill the memory.
+double least_solid_fraction(const PackingRequest& request);
+
 PackingResult random_packing(const PackingRequest& request);
 
 }  // namespace turbidite

@@ -18,8 +18,15 @@ constexpr double clamping_distance = 1e-3;  // in compacity, as in the plane
 constexpr double rounding = 1e-9;           // [D] lets an exact fit survive rounding
 
 /// Cells along an axis of which the first site is inside.
-int cells_along(double length, double radius, double edge) {
-    return static_cast<int>(std::floor((length - 2.0 * radius + rounding) / edge)) + 1;
+std::int64_t cells_along(double length, double radius, double edge) {
+    return static_cast<std::int64_t>(std::floor((length - 2.0 * radius + rounding) / edge)) + 1;
+}
+
+PlacedGrain sphere_at(const Vec3& place, double radius, std::size_t index) {
+    PlacedGrain grain{
+        .id = static_cast<GrainId>(index), .x = place[0], .y = place[1], .radius = radius};
+    grain.z = place[2];
+    return grain;
 }
 
 }  // namespace
@@ -51,27 +58,23 @@ const SpaceLattice& space_lattice(const std::string& name) {
 
 // Layer by layer from below, so that ids ascend with height.
 Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, double radius,
-                      double compacity) {
+                      double compacity, std::size_t most) {
     const double edge =
         2.0 * radius * lattice.edge * std::cbrt(std::max(1.0, lattice.densest() / compacity));
-    const int nx = cells_along(region.width, radius, edge);
-    const int ny = cells_along(region.height, radius, edge);
-    const int nz = cells_along(region.depth, radius, edge);
+    const std::int64_t nx = cells_along(region.width, radius, edge);
+    const std::int64_t ny = cells_along(region.height, radius, edge);
+    const std::int64_t nz = cells_along(region.depth, radius, edge);
     Packing grains;
-    for (int j = 0; j < ny; ++j)
-        for (int k = 0; k < nz; ++k)
-            for (int i = 0; i < nx; ++i)
+    for (std::int64_t j = 0; j < ny; ++j)
+        for (std::int64_t k = 0; k < nz; ++k)
+            for (std::int64_t i = 0; i < nx; ++i)
                 for (const Vec3& site : lattice.sites) {
-                    const Vec3 place = region.corner + Vec3{radius + edge * (i + site[0]),
-                                                            radius + edge * (j + site[1]),
-                                                            radius + edge * (k + site[2])};
+                    const Vec3 steps{i + site[0], j + site[1], k + site[2]};
+                    const Vec3 place =
+                        region.corner + (Vec3{radius, radius, radius} + edge * steps);
                     if (!region.holds(place, radius)) continue;
-                    PlacedGrain grain{.id = static_cast<GrainId>(grains.size()),
-                                      .x = place[0],
-                                      .y = place[1],
-                                      .radius = radius};
-                    grain.z = place[2];
-                    grains.push_back(grain);
+                    grains.push_back(sphere_at(place, radius, grains.size()));
+                    if (grains.size() == most) return grains;
                 }
     return grains;
 }

@@ -11,6 +11,8 @@
 // site whose sphere is inside the region has one, so that spheres do not meet across cyclic sides.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,9 +37,9 @@ const std::vector<SpaceLattice>& space_lattices();
 const SpaceLattice& space_lattice(const std::string& name);
 
 /// Spheres of this radius [D] on the lattice stretched to a compacity, from the corner of the
-/// region.
+/// region; the lowest ones if there are more than `most`.
 Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, double radius,
-                      double compacity);
+                      double compacity, std::size_t most = SIZE_MAX);
 
 /// Values up to 1e-3 above the densest compacity are clamped with a note, larger ones refused.
 PackingResult space_lattice_packing(const PackingRequest& request);

@@ -24,12 +24,6 @@ constexpr double shaking_distance = 0.2;  // [D]
 // Random sequential addition of equal spheres ends at 0.38; from here on most attempts fail.
 constexpr double one_by_one_fraction = 0.3;
 
-double solid_volume(const std::vector<double>& radii) {
-    double sum = 0.0;
-    for (const double r : radii) sum += 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    return sum;
-}
-
 PlacedGrain random_place(const PackingRegion& region, double edge, RandomNumbers& random) {
     PlacedGrain grain{.x = region.corner[0] + random.uniform(edge, region.width - edge),
                       .y = region.corner[1] + random.uniform(edge, region.height - edge)};
@@ -130,6 +124,10 @@ std::string does_not_fit(const PackingRequest& request) {
 
 PackingResult random_space_packing(const PackingRequest& request) {
     PackingResult result;
+    if (const double least = least_solid_fraction(request); least > largest_random_fraction) {
+        result.refusal = too_dense(request, least);
+        return result;
+    }
     RandomNumbers random(request.seed);
     const std::vector<double> radii = draw_radii(request, random);
     const double fraction = solid_volume(radii) / request.filled().volume();

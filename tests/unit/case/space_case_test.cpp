@@ -66,6 +66,12 @@ TEST_F(SpaceCase, TellsThePrograms) {
     EXPECT_GT(deepest->position[2], 3.0);
 }
 
+TEST_F(SpaceCase, NullStandsForNothingOnlyWhereThereIsNoDefault) {
+    EXPECT_SAYS(refusal("", {"grains.lattice=~"}), "grains.lattice has no value");
+    EXPECT_SAYS(refusal("", {"contact.film_cutoff=~"}), "contact.film_cutoff has no value");
+    EXPECT_FALSE(load("", {"grains.pour_friction=~"}).settings.has("grains.pour_friction"));
+}
+
 TEST_F(PlaneCase, ThePlaneSendsNothingOfSpace) {
     const ResolvedCase plane = load();
     const Settings& s = plane.settings;
@@ -355,6 +361,22 @@ TEST(SpaceLattice, HasItsCompacityAndTouchesWhenDensest) {
                 << lattice.name;
         }
     }
+}
+
+// Of dust there is room for 1e13 grains.
+TEST(SpaceLattice, StopsAtTheSitesAskedFor) {
+    const Packing grains = lattice_sites(space_lattice("fcc"), {40.0, 40.0, 40.0}, 1e-3, 0.7, 1000);
+    EXPECT_EQ(grains.size(), 1000u);
+    EXPECT_LT(grains.back().y, 0.01);
+}
+
+TEST(RandomSpacePacking, RefusesBillionsBeforeItDrawsThem) {
+    const GrainForms forms = plain_spheres();
+    const PackingBox box{.width = 8.0, .height = 8.0, .depth = 8.0};
+    const PackingRequest request{
+        .box = box, .count = 3'000'000'000'000, .forms = &forms, .size_ratio = 1.5};
+    EXPECT_SAYS(random_space_packing(request).refusal, "grains.generator: lattice");
+    EXPECT_SAYS(poured_stand_in(request).refusal, "fewer grains");
 }
 
 TEST(SpaceLattice, DoesNotMeetAcrossCyclicSides) {

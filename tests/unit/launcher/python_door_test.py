@@ -14,7 +14,7 @@ from unittest import mock
 import numpy as np
 from made_up_run import CASE, COLUMNS, ROWS, RunFolderTest, foam_file, velocities
 from processor_fields_test import label_file
-from space_report_test import array, poly_data, slice_file
+from space_report_test import array, poly_data, rectilinear_file, slice_file
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'launcher/python'))
 import turbidite
@@ -233,6 +233,29 @@ class Fields(Door):
         self.write('case.yaml', CASE.replace('dimension: 2', 'dimension: 3').replace('[4, 6]', '[4, 3, 1]'))
         field = turbidite.load(self.folder).fields[0]
         self.assertEqual((field['U'].shape, field.z.tolist()), ((2, 6, COLUMNS, 3), [0.25, 0.75]))
+
+    def test_fields_of_the_box_program(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('dimension: 2', 'dimension: 3').replace('[4, 6]', '[1, 3, 1]')
+                   .replace('cells_per_diameter: 2', 'cells_per_diameter: 2\n  stretch_ratio: 1.5'))
+        self.write('run.json', json.dumps({'status': 'done', 'fluid_program': 'box', **SI}))
+        heights = 0.01 * np.array([0, 0.5, 1, 3])
+        cells = np.arange(12, dtype=float).reshape(2, 3, 2)  # z, y, x
+        self.write('fluid/fields/a.vtr', rectilinear_file({
+            'x': [0, 0.005, 0.01], 'y': heights, 'z': [0, 0.005, 0.01], 'p': cells.ravel(),
+            'U': np.stack([cells, -cells, 2 * cells], axis=-1).ravel()}))
+        self.write('fluid/fields/fields.pvd', series((0.02, 'a.vtr')))
+        field = turbidite.load(self.folder).fields[0]
+        self.assertEqual((field.time, list(field), field['p'].shape), (1.0, ['U', 'p'], (2, 3, 2)))
+        np.testing.assert_allclose(field['p'], cells / 0.5**2)
+        np.testing.assert_allclose(field['U'][1, 2, 0], np.array([10, -10, 20]) / 0.5)
+        np.testing.assert_allclose((field.x, field.z), ([0.25, 0.75], [0.25, 0.75]))
+        np.testing.assert_allclose(field.y, [0.25, 0.75, 2.0])
+
+    def test_fields_of_the_box_program_that_do_not_fit_their_mesh(self):
+        self.write('a.vtr', rectilinear_file({'x': [0, 1], 'y': [0, 1], 'z': [0, 1], 'p': [1, 2]}))
+        with self.assertRaisesRegex(ValueError, 'p has 2 values for 1 x 1 x 1 cells'):
+            turbidite.readers.reader('fluid_fields').cell_values(None, self.folder / 'a.vtr', 'p')
 
     def test_a_run_without_fluid_has_none(self):
         self.write_all()

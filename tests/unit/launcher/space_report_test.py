@@ -117,12 +117,8 @@ class Liquid(SpaceRun):
     def test_fields_of_the_box_program_count_by_their_heights(self):
         edges = [np.array(along, dtype='<f4') for along in ([0, 1, 2], [0, 1, 3], [0, 1])]
         velocity = np.arange(12, dtype='<f4').reshape(1, 2, 2, 3)  # z, y, x
-        parts = [('x', edges[0]), ('y', edges[1]), ('z', edges[2]), ('U', velocity.ravel())]
-        head, data = '', b''
-        for name, values in parts:
-            head += f'<DataArray type="Float32" Name="{name}" format="appended" offset="{len(data)}"/>'
-            data += np.uint64(values.nbytes).tobytes() + values.tobytes()
-        self.write('fluid/fields/fields_00000002.vtr', f'<VTKFile>{head}<AppendedData encoding="raw">\n_'.encode() + data)
+        self.write('fluid/fields/fields_00000002.vtr',
+                   rectilinear_file({'x': edges[0], 'y': edges[1], 'z': edges[2], 'U': velocity.ravel()}))
         self.write('fluid/fields/fields.pvd', '<VTKFile><Collection><DataSet timestep="0.5" part="0" '
                    'file="fields_00000002.vtr"/></Collection></VTKFile>')
         data = run_data.load_run(self.folder)
@@ -170,6 +166,11 @@ def slice_file(axis, place):
     places = np.stack([x, y, z], axis=-1).reshape(-1, 3)
     arrays = {'x': edges[0], 'y': edges[1], 'z': edges[2], 'p': np.arange(len(places)), 'U': places,
               'covered': np.zeros(len(places))}
+    return rectilinear_file(arrays)
+
+
+def rectilinear_file(arrays):
+    """{name: numbers} as the fluid programs write them."""
     head, data = '', b''
     for name, values in arrays.items():
         head += f'<DataArray type="Float32" Name="{name}" NumberOfComponents="1" format="appended" offset="{len(data)}"/>\n'

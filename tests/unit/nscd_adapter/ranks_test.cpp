@@ -187,7 +187,9 @@ Played play(int ranks, const std::vector<SavedState>& from = {}) {
 }
 
 void expect_equal(const State& one, const State& many, bool with_numbers = true) {
-    if (with_numbers) EXPECT_EQ(one.numbers, many.numbers);
+    if (with_numbers) {
+        EXPECT_EQ(one.numbers, many.numbers);
+    }
     ASSERT_EQ(one.grains.size(), many.grains.size());
     for (const auto& [id, grain] : one.grains) EXPECT_TRUE(same(grain, many.grains.at(id))) << id;
     ASSERT_EQ(one.contacts.size(), many.contacts.size());
