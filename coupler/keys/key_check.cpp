@@ -157,7 +157,8 @@ bool has_fallback(const KeySpec& key, int dimension) {
 /// Whether null may stand for it, as if it were not there. Keys of space are, in the plane.
 bool may_be_null(const KeySpec& key, int dimension) {
     if (key.dimension == 3 && dimension == 2) return true;
-    return (key.need == Need::optional || key.dimension == 3) && !has_fallback(key, dimension);
+    const bool may_be_absent = key.need == Need::optional || key.need == Need::conditional;
+    return may_be_absent && !has_fallback(key, dimension);
 }
 
 void check_entry(const KeyTable& table, const CaseEntry& entry, int dimension, Settings& settings,
@@ -211,6 +212,11 @@ CaseProblem missing_key(const std::string& source, const KeySpec& key) {
             .remedy = key.remedy.empty() ? fmt::format("Add it: {}.", key.help) : key.remedy};
 }
 
+/// Not there, or null in its place; null that is refused has been told.
+bool is_absent(const CaseEntry* entry, const KeySpec& key, int dimension) {
+    return entry == nullptr || (entry->is_null && may_be_null(key, dimension));
+}
+
 bool is_needed(const KeySpec& key, const Settings& settings) {
     if (key.need == Need::required) return true;
     return key.need == Need::conditional && key.required(settings);
@@ -226,7 +232,7 @@ CheckedKeys check_keys(const KeyTable& table, const CaseEntries& entries) {
         check_entry(table, entry, dimension, checked.settings, checked.problems);
     fill_defaults(table, entries, dimension, checked.settings);
     for (const KeySpec& key : table)
-        if (is_needed(key, checked.settings) && entries.find(key.name) == nullptr)
+        if (is_needed(key, checked.settings) && is_absent(entries.find(key.name), key, dimension))
             checked.problems.push_back(missing_key(source, in_dimension(key, dimension)));
     return checked;
 }

@@ -169,6 +169,15 @@ TEST_F(CaseFile, WrongTypes) {
     EXPECT_SAYS(refusal("", {"contact.friction="}), "contact.friction has no value");
 }
 
+TEST_F(CaseFile, NullTakesAKeyOutOfTheCase) {
+    const std::string square = "grains.vertices=[0, 0, 1, 0, 1, 1, 0, 1]";
+    EXPECT_FALSE(load("", {square, "grains.vertices=~"}).settings.has("grains.vertices"));
+    EXPECT_SAYS(refusal("", {"grains.shape=polygon", "grains.vertices=~"}),
+                "grains.vertices is missing");
+    EXPECT_SAYS(refusal("", {"domain.size=~"}), "domain.size has no value");
+    EXPECT_EQ(refusal("", {"domain.size=~"}).find("missing"), std::string::npos);
+}
+
 TEST_F(CaseFile, DuplicateKey) {
     const std::string text = refusal("contact:\n  friction: 0.3\n  friction: 0.4\n");
     EXPECT_SAYS(text, "line 12: contact.friction is given twice");
