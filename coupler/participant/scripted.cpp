@@ -22,7 +22,8 @@ ScriptedGrains::ScriptedGrains(std::string adapter_name, Fault fault)
     hello_.adapter = std::move(adapter_name);
     hello_.adapter_version = "scripted";
     hello_.host_code = "script";
-    hello_.capabilities.shapes = {"disc"};
+    hello_.dimension = both_dimensions;
+    hello_.capabilities.shapes = {"disc", "sphere"};
     hello_.capabilities.effective_inertia = true;
     hello_.capabilities.saves_state = true;
     hello_.capabilities.serialises_state = true;
@@ -133,7 +134,8 @@ Hello ScriptedFluid::describe() const {
     hello.adapter = "scripted-fluid";
     hello.adapter_version = "scripted";
     hello.host_code = "script";
-    hello.capabilities.shapes = {"disc"};
+    hello.dimension = both_dimensions;
+    hello.capabilities.shapes = {"disc", "sphere"};
     hello.capabilities.effective_inertia = true;
     hello.capabilities.saves_state = true;
     hello.capabilities.serialises_state = true;

@@ -73,9 +73,10 @@ std::optional<MeshRows> mesh_rows(const Settings& settings, double top) {
     const Growth most = growth_of(settings);
     MeshRows rows;
     rows.height = h;
-    rows.equal = static_cast<int>(std::ceil(settings.real("fluid.stretch_from") / h - rounding));
-    const double room = top / h - rows.equal;
+    const double equal = std::ceil(settings.real("fluid.stretch_from") / h - rounding);
+    const double room = top / h - equal;
     if (!(room > 0.0)) return std::nullopt;
+    rows.equal = static_cast<int>(equal);
     const int count = most.rows_to(room);
     if (count > room * (1.0 + rounding)) return std::nullopt;
     rows.ratio = fitted_ratio(most, count, room);

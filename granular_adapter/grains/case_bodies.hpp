@@ -31,6 +31,6 @@ std::vector<GrainState> grain_states(const nscd::Bodies& bodies);
 /// Sets the velocities from the kicks, with dimension 2 those in the plane only. Throws
 /// std::runtime_error naming a grain with no kick or two; `when` ends the sentence.
 void take_velocities(nscd::Bodies& bodies, const std::vector<Kick>& kicks, const std::string& when,
-                     int dimension = 2);
+                     int dimension);
 
 }  // namespace turbidite

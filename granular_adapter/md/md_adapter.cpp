@@ -202,8 +202,8 @@ void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepRep
         Vec3& angular = bodies_.contact_angular_impulse[i];
         impulse = gained - held.impulse - weight;
         angular = turned - held.angular_impulse;
-        const double scale = norm(held.impulse) + norm(weight) +
-                             bodies_.mass[i] * (norm(before[i].velocity) + norm(gained));
+        const double scale = norm(held.impulse) + norm(weight) + norm(gained) +
+                             bodies_.mass[i] * norm(before[i].velocity);
         touched_[i] = norm(impulse) > round_off * scale;
         if (run.impulses.empty()) continue;
         const Load given = load(i, dt);
@@ -246,7 +246,7 @@ void MdAdapter::agree(Check check) {
 void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks) {
     const std::vector<Twist> with_contact = bodies_.twist;
     const auto ordered = by_grain(bodies_.id, kicks, "kick", in_window(window));
-    take_velocities(bodies_, kicks, in_window(window));
+    take_velocities(bodies_, kicks, in_window(window), run_.dimension);
     const double lag = 0.5 * (window.step + velocity_lag());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Twist& now = bodies_.twist[i];

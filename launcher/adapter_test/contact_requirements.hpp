@@ -8,11 +8,11 @@
 
 namespace turbidite {
 
-/// A disc that slides on the floor slows down by mu g and is turned until it rolls, with two thirds
-/// of its velocity.
+/// A grain that slides on the floor slows down by mu g and is turned until it rolls: a disc with
+/// two thirds of its velocity, a sphere with five sevenths.
 Finding slides_into_rolling(const Candidate& candidate, const std::filesystem::path& folder);
 
-/// Two discs that pass each other closely: the tangential impulse is mu times the normal one and
+/// Two grains that pass each other closely: the tangential impulse is mu times the normal one and
 /// against the slip, momentum and angular momentum are conserved.
 Finding collides_with_friction(const Candidate& candidate, const std::filesystem::path& folder);
 
@@ -22,7 +22,7 @@ Finding respects_held_grains(const Candidate& candidate, const std::filesystem::
 /// The single contacts of a grain add up to its contact impulse.
 Finding reports_contacts(const Candidate& candidate, const std::filesystem::path& folder);
 
-/// Deepest overlap [m] of grains that are discs, with each other and with walls at all four sides.
+/// Deepest overlap [m] of discs or spheres, with each other and with walls at all sides.
 double overlap_of(const Motion& state, const Settings& settings);
 
 /// The deepest overlap of a trial [D], from its positions; failed where the program reported less.

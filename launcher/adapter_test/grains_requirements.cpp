@@ -7,11 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "coupler/keys/key_spec.hpp"
 #include "launcher/adapter_test/altered_recording.hpp"
 #include "launcher/adapter_test/contact_requirements.hpp"
 #include "launcher/adapter_test/partner.hpp"
+#include "launcher/adapter_test/trial_grain.hpp"
 
 namespace turbidite {
 namespace {
@@ -21,6 +22,10 @@ constexpr double at_rest = 0.02;  // [u_c]
 // Far from each other and from all sides; ids are identifiers, in no order.
 const std::string apart =
     "id,x,y\n1000000007,2,8\n5,4.5,8\n3,7,8\n42,9.5,8\n41,12,8\n9000000000000,14,8\n";
+// In space they also move across the plane.
+const std::string apart_and_across =
+    "id,x,y,vz\n1000000007,2,8,0.5\n5,4.5,8,0.5\n3,7,8,0.5\n42,9.5,8,0.5\n41,12,8,0.5\n"
+    "9000000000000,14,8,0.5\n";
 const std::string above_the_floor = "id,x,y\n7,3,0.6\n8,6,0.7\n9,9,0.8\n";
 const std::string two_in_a_row = "id,x,y,vx\n1,6,5,1\n2,7.05,5,-1\n";
 const std::string across_the_middle =
@@ -28,26 +33,42 @@ const std::string across_the_middle =
 const std::string one_alone = "id,x,y,vx\n4,6.5,8,6\n";
 const std::string near_a_side = "id,x,y,vx\n1,15,5,5\n2,4,8,0\n3,8,8,0\n";
 
-/// Velocity after each window. Free fall with the weight (M - m_f) g on the inertia cM has the
-/// acceleration g; the scripted fluid then divides by 1 + gamma dt/cM, cM = (rho_r - 1) pi/4.
-std::vector<double> expected_velocity(const Trial& trial) {
-    const Settings& s = trial.settings;
-    const double g = s.real("run.gravity"), dt = s.real("run.step");
-    const double inertia = 0.5 * std::numbers::pi / 4.0;
-    const bool wet = s.flag("fluid.enabled");
-    const double share = wet ? 1.0 / (1.0 + partner_drag * dt / inertia) : 1.0;
-    std::vector<double> velocity{0.0};
+/// Far from each other, for this dimension of space.
+const std::string& falling(const Candidate& candidate) {
+    return candidate.dimension == 3 ? apart_and_across : apart;
+}
+
+/// Velocity after each window, from this one and with this acceleration on; the scripted fluid
+/// divides by 1 + gamma dt/cM.
+std::vector<double> in_the_drag(double velocity, double acceleration, const Settings& s) {
+    const double dt = s.real("run.step");
+    const double inertia = immersed_ratios(s).inertia * volume_of(0.5, s);
+    const double share = s.flag("fluid.enabled") ? 1.0 / (1.0 + partner_drag * dt / inertia) : 1.0;
+    std::vector<double> velocities{velocity};
     for (std::int64_t k = 0; k < s.integer("run.windows"); ++k)
-        velocity.push_back(share * (velocity.back() - g * dt));
-    return velocity;
+        velocities.push_back(share * (velocities.back() + acceleration * dt));
+    return velocities;
+}
+
+/// Free fall with the weight (M - m_f) g on the inertia cM.
+std::vector<double> expected_fall(const Settings& s) {
+    const ImmersedRatios ratios = immersed_ratios(s);
+    return in_the_drag(0.0, -ratios.weight / ratios.inertia * s.real("run.gravity"), s);
 }
 
 Finding judge_fall(const Trial& trial) {
     if (!trial.done()) return failure_of(trial.outcome);
-    const auto expected = expected_velocity(trial);
+    const auto expected = expected_fall(trial.settings);
     const Finding velocity =
         within(worst(trial.history.at("mean_velocity_y"), expected), round_off, "velocity");
     if (velocity.grade == Grade::failed) return velocity;
+    if (in_space(trial.settings)) {
+        const auto& across = trial.history.at("mean_velocity_z");
+        const Finding finding =
+            within(worst(across, in_the_drag(across.front(), 0.0, trial.settings)), round_off,
+                   "velocity along z");
+        if (finding.grade == Grade::failed) return finding;
+    }
     // q + dt U in every window; codes with sub-steps are up to one window apart.
     const double dt = trial.settings.real("run.step");
     std::vector<double> height{8.0};
@@ -58,11 +79,12 @@ Finding judge_fall(const Trial& trial) {
 }
 
 Finding falls_without_a_fluid(const Candidate& candidate, const std::filesystem::path& folder) {
-    return judge_fall(play_trial(candidate, {"dry", apart, {"fluid.enabled=false"}}, folder));
+    return judge_fall(
+        play_trial(candidate, {"dry", falling(candidate), {"fluid.enabled=false"}}, folder));
 }
 
 Finding settles_in_a_drag(const Candidate& candidate, const std::filesystem::path& folder) {
-    return judge_fall(play_trial(candidate, {"drag", apart, {}}, folder));
+    return judge_fall(play_trial(candidate, {"drag", falling(candidate), {}}, folder));
 }
 
 /// The fall, and that contacts and fluid came to the same velocities in every window.
@@ -79,7 +101,7 @@ Finding judge_agreement(const Trial& trial, const std::string& fault) {
 
 Finding uses_responses(const Candidate& candidate, const std::filesystem::path& folder) {
     const Trial trial =
-        play_trial(candidate, {"responses", apart, {"coupling.scheme=joint"}}, folder);
+        play_trial(candidate, {"responses", falling(candidate), {"coupling.scheme=joint"}}, folder);
     if (trial.outcome.code == ExitCode::handshake_refused)
         return {Grade::not_supported, "effective_inertia is not claimed"};
     return judge_agreement(trial, "the velocities of the responses are not taken");
@@ -155,9 +177,11 @@ Finding keeps_order(const Candidate& candidate, const std::filesystem::path& fol
 
 /// Repeats every window until grains and fluid agree: what the drag does, to coupling.tolerance.
 Finding repeats_windows(const Candidate& candidate, const std::filesystem::path& folder) {
-    const Trial trial = play_trial(
-        candidate,
-        {"repeated", apart, {"coupling.scheme=sub-iterated", "coupling.tolerance=1e-10"}}, folder);
+    const Trial trial = play_trial(candidate,
+                                   {"repeated",
+                                    falling(candidate),
+                                    {"coupling.scheme=sub-iterated", "coupling.tolerance=1e-10"}},
+                                   folder);
     if (trial.outcome.code == ExitCode::handshake_refused)
         return {Grade::not_supported, "restores_within_window is not claimed"};
     return judge_agreement(trial, "advance does not go back to t^n, or the impulse is not held");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/adapter_test/trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -14,7 +15,7 @@
 namespace turbidite {
 namespace {
 
-constexpr auto case_of_grains =
+constexpr auto case_of_grains_in_plane =
     "domain: {size: [16, 10]}\n"
     "grains: {file: grains.csv, density_ratio: 1.5}\n"
     "contact: {friction: 0}\n"
@@ -25,8 +26,19 @@ constexpr auto case_of_grains =
     "output: {interval: 0.01}\n"
     "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
 
+constexpr auto case_of_grains_in_space =
+    "dimension: 3\n"
+    "domain: {size: [16, 10, 4]}\n"
+    "grains: {file: grains.csv, density_ratio: 2.5}\n"
+    "contact: {friction: 0}\n"
+    "fluid: {reynolds: 10, cells_per_diameter: 8}\n"
+    "coupling: {scheme: split}\n"
+    "time: {step: 0.01, end: 0.2}\n"
+    "output: {interval: 0.01}\n"
+    "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
+
 // The grains of the partner touch nothing, so that they must stay apart.
-constexpr auto case_of_fluid =
+constexpr auto case_of_fluid_in_plane =
     "domain: {size: [8, 8]}\n"
     "grains: {file: grains.csv, density_ratio: 1.5}\n"
     "contact: {friction: 0}\n"
@@ -35,6 +47,41 @@ constexpr auto case_of_fluid =
     "time: {step: 0.01, end: 0.2}\n"
     "output: {interval: 0.01}\n"
     "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
+
+constexpr auto case_of_fluid_in_space =
+    "dimension: 3\n"
+    "domain: {size: [8, 8, 4]}\n"
+    "grains: {file: grains.csv, density_ratio: 2.5}\n"
+    "contact: {friction: 0}\n"
+    "fluid: {reynolds: 36, cells_per_diameter: 8}\n"
+    "coupling: {scheme: split}\n"
+    "time: {step: 0.01, end: 0.2}\n"
+    "output: {interval: 0.01, fields_interval: 10}\n"
+    "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
+
+std::string case_of(const Candidate& candidate) {
+    const bool space = candidate.dimension == 3;
+    if (candidate.side == Role::fluid)
+        return space ? case_of_fluid_in_space : case_of_fluid_in_plane;
+    return space ? case_of_grains_in_space : case_of_grains_in_plane;
+}
+
+constexpr double middle = 2.0;  // of the depth [D]
+
+/// A table of grains in the plane, with a column z after y.
+std::string in_the_middle(const std::string& table) {
+    std::istringstream rows(table);
+    std::string result;
+    for (std::string row; std::getline(rows, row);) {
+        std::size_t third = 0;  // where what follows y begins
+        for (int column = 0; column < 3 && third != std::string::npos; ++column)
+            third = row.find(',', third + (column > 0));
+        const std::string z = result.empty() ? "z" : std::to_string(middle);
+        const std::size_t end = std::min(third, row.size());
+        result += row.substr(0, end) + "," + z + row.substr(end) + "\n";
+    }
+    return result;
+}
 
 void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream out(file);
@@ -51,6 +98,8 @@ std::vector<std::string> overrides_of(const Candidate& candidate, const TrialCas
     else
         all = {"grains.adapter=" + candidate.adapter};
     all.push_back(std::string("coupling.recording=") + role_name(candidate.side));
+    if (candidate.side == Role::fluid && candidate.adapter != users_program)
+        all.push_back("fluid.program=" + candidate.adapter);
     if (candidate.side == Role::grains && !candidate.words.empty())
         all.push_back("grains.command=" + command_text(candidate.words));
     all.insert(all.end(), trial.overrides.begin(), trial.overrides.end());
@@ -132,8 +181,9 @@ Trial play_trial(const Candidate& candidate, const TrialCase& trial,
                  const std::filesystem::path& folder) {
     const auto root = folder / trial.name;
     std::filesystem::create_directories(root);
-    write(root / "grains.csv", trial.grains);
-    write(root / "trial.yaml", candidate.side == Role::fluid ? case_of_fluid : case_of_grains);
+    write(root / "grains.csv",
+          candidate.dimension == 3 ? in_the_middle(trial.grains) : trial.grains);
+    write(root / "trial.yaml", case_of(candidate));
     const ResolvedCase resolved = load_case(root / "trial.yaml", overrides_of(candidate, trial));
     const PreparedRun prepared = prepare(resolved, {root / "run", true}, site_for(candidate));
     if (trial.stop_at_once) write(prepared.folder.stop(), "143\n");

@@ -18,14 +18,16 @@ namespace turbidite {
 /// The program under test: a shipped one, or a command.
 struct Candidate {
     Role side = Role::grains;
-    std::string adapter = users_program;  ///< of the grains; a shipped one by its name
+    std::string adapter = users_program;  ///< a shipped one by its name
     std::vector<std::string> words = {};  ///< program and arguments; empty: the shipped one
+    int dimension = 2;                    ///< of space: discs or spheres
 };
 
-/// Grains and changes of the case that all trials of a side share (trial.cpp): discs of ratio 1.5.
+/// Grains and changes of the case that all trials of a side share (trial.cpp): discs of ratio 1.5,
+/// spheres of ratio 2.5.
 struct TrialCase {
-    std::string name;                    ///< of its folder
-    std::string grains;                  ///< CSV: id,x,y[,vx…]
+    std::string name;    ///< of its folder
+    std::string grains;  ///< CSV: id,x,y[,vx…]; in space in the middle of the depth
     std::vector<std::string> overrides;  ///< key=value
     bool stop_at_once = false;           ///< a stop request is there before the first window
 };

@@ -63,6 +63,15 @@ Failure refused(const std::string& text) {
     return Failure(ExitCode::bad_input, "adapter-test " + text + " Exit code 2.");
 }
 
+void check_fluid(const Candidate& candidate) {
+    const std::string& name = candidate.adapter;
+    if (name == users_program || name == "openfoam") return;
+    if (name != "box")
+        throw refused("knows no fluid \"" + name + "\"; there are openfoam and box.");
+    if (candidate.dimension == 2)
+        throw refused("plays the box program in space only: add --dimension 3.");
+}
+
 /// Which program is meant. Throws Failure (bad input).
 Candidate candidate_of(const AdapterTestOptions& options) {
     Candidate candidate = options.candidate;
@@ -76,7 +85,7 @@ Candidate candidate_of(const AdapterTestOptions& options) {
     if (candidate.side == Role::fluid && !candidate.words.empty() &&
         find_program_file(candidate.words.front()).empty())
         throw refused("finds no executable program " + candidate.words.front() + ".");
-    if (candidate.side == Role::grains) check_name(candidate.adapter);
+    candidate.side == Role::grains ? check_name(candidate.adapter) : check_fluid(candidate);
     return candidate;
 }
 
@@ -119,8 +128,12 @@ CommandAction declare_adapter_test(CLI::App& app) {
         ->check(CLI::IsMember({"grains", "fluid"}))
         ->type_name("grains|fluid");
     app.add_option("--adapter", options->candidate.adapter,
-                   "a shipped grains adapter instead of a command")
+                   "a shipped grains adapter, or openfoam or box, instead of a command")
         ->type_name("NAME");
+    app.add_option("--dimension", options->candidate.dimension,
+                   "of space: 2, with discs, or 3, with spheres")
+        ->check(CLI::IsMember({2, 3}))
+        ->type_name("2|3");
     app.add_option("--only", options->only, "the requirements whose name contains this")
         ->type_name("TEXT");
     app.add_option("--keep", options->keep, "keep the runs in this folder")->type_name("DIR");
