@@ -74,12 +74,15 @@ Layers layers_of(const CellGrid& grid, const ImmersedGrain& grain) {
 void cover(const FluidField& field, const ImmersedGrain& grain, std::vector<double>& shares) {
     const CellGrid& grid = field.grid();
     const auto [first, last] = layers_of(grid, grain);
+    // Indices are not wrapped where the cell's place is asked for: its image is then the one at
+    // this grain.
     for (int j = first[1]; j <= last[1]; ++j)
         for (int k = first[2]; k <= last[2]; ++k)
             for (int i = first[0]; i <= last[0]; ++i) {
                 const int cell =
                     field.cell(grid.wrapped(0, i), grid.wrapped(1, j), grid.wrapped(2, k));
                 if (cell < 0 || !field.owns(cell)) continue;
+                // Two grains may share a cell; where they overlap their shares could exceed it.
                 shares[cell] = std::min(1.0, shares[cell] + share_of(grid, grain, {i, j, k}));
             }
 }
