@@ -169,6 +169,7 @@ void add_row(int count, double share, const double* __restrict change, double* _
 
 TURBIDITE_ROW_WORK
 double sum_row(int count, const double* __restrict a) {
+    // Eight partial sums, so that the plain and the AVX2 version add in the same order.
     constexpr int lanes = 8;
     double sums[lanes] = {};
     int i = 0;

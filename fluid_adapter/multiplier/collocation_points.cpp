@@ -26,8 +26,7 @@ struct AxisStencil {
 int node_behind(const CellGrid& grid, int axis, double coordinate, int out) {
     if (grid.stretched(axis)) {
         const int below = grid.layer_below(axis, coordinate);
-        // A coordinate at a centre has that node behind it in both directions, as by floor and
-        // ceil.
+        // A coordinate at a centre has that node behind it both ways, as with floor and ceil.
         return out > 0 || grid.centre(axis, below) == coordinate ? below : below + 1;
     }
     // In cells from the centre of layer 0.
@@ -67,8 +66,7 @@ AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate,
         return stencil;
     }
     const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
-    // From the inner node along `out`, in cells: 0 <= t < 1. The weights are Lagrange's for nodes
-    // at 0, 1 and 2.
+    // From the inner node along `out`, in cells: 0 <= t < 1; Lagrange weights of 0, 1 and 2.
     const double t = (place - inner) * out;
     stencil.weight = {0.5 * (1.0 - t) * (2.0 - t), t * (2.0 - t), -0.5 * t * (1.0 - t)};
     return stencil;
@@ -191,8 +189,7 @@ void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGr
                            CollocationPoints& points) {
     if (field.grid().dimension != 2)
         throw std::invalid_argument("multiplier points are supported in two dimensions only");
-    // Set to -1 once; `forget` undoes what a window has set, so that no window passes over all
-    // cells.
+    // Set to -1 once; `forget` undoes what a window sets, so that none passes over all cells.
     owner_.resize(field.local_cells(), -1);
     depth_.resize(field.local_cells());
     slot_.resize(field.local_cells(), -1);
@@ -404,15 +401,13 @@ void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain
         const int row = grid.wrapped(1, along[1].layer[n]);
         for (int m = 0; m < along[0].nodes; ++m) {
             const double weight = along[0].weight[m] * along[1].weight[n];
-            // A point on a line of centres does not need the cells beside it: rule 6 leaves them to
-            // the interior.
+            // A point on a line of centres leaves the cells beside it to the interior (rule 6).
             if (weight == 0.0) continue;
             const int column = grid.wrapped(0, along[0].layer[m]);
             const int cell = cells.at(column, row);
             if (cell < 0) continue;  // beyond the halo: of another rank's point
             int slot = slot_[cell];
-            // Also for a point of another rank: by rule 6 its cells are not interior ones here
-            // either.
+            // Also for a point of another rank: rule 6 is about points of all ranks.
             if (slot < 0) slot = new_slot(cell, grid.relative_volume(column, row), points);
             if (!owned) continue;
             points.slot[next] = slot;
@@ -440,8 +435,7 @@ void PointPlacement::claim_cells(const FluidField& field,
         if (!overlapped_[g]) continue;
         for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
             const double depth = relative_depth(grains[g], point);
-            // Smaller is deeper: depth is |r|^2/R_h^2, from 0 in the middle to 1 on a disc's
-            // surface.
+            // Smaller is deeper: |r|^2/R_h^2 is 0 in the middle and 1 on a disc's surface.
             const int rival = owner_[point.cell];
             if (rival >= 0 && (depth > depth_[point.cell] ||
                                (depth == depth_[point.cell] && grains[g].id > grains[rival].id)))

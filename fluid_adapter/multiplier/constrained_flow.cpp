@@ -114,8 +114,7 @@ void ConstrainedFlow::impose() {
     }
     for (std::size_t g = 0; g < by_grain_.size(); ++g) {
         impulses_[g] += by_grain_[g];
-        // With T^T L in P, L = 0 stands for the same motions: what is imposed is where the next
-        // solve begins.
+        // With T^T L in P, L = 0 stands for the same motions: the next solve begins there.
         momentum_[g] += multipliers_.on_grains[g];
     }
     multipliers_.assign_zero(system_->rows(), system_->grains());

@@ -74,8 +74,7 @@ Layers layers_of(const CellGrid& grid, const ImmersedGrain& grain) {
 void cover(const FluidField& field, const ImmersedGrain& grain, std::vector<double>& shares) {
     const CellGrid& grid = field.grid();
     const auto [first, last] = layers_of(grid, grain);
-    // Indices are not wrapped where the cell's place is asked for: its image is then the one at
-    // this grain.
+    // The place of a cell is that of the index before it is wrapped: the image at this grain.
     for (int j = first[1]; j <= last[1]; ++j)
         for (int k = first[2]; k <= last[2]; ++k)
             for (int i = first[0]; i <= last[0]; ++i) {

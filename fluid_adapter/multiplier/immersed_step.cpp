@@ -123,8 +123,7 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window
         // (M - m_f) g dt: buoyancy is that of R, not of R_h.
         given.linear[1] = -bodies_(states[g]).submerged_mass * run_.gravity * window.step;
         if (!carries_contacts_) continue;
-        // J^n of the last window, a prediction: `push` adds the difference that the contacts of
-        // this one make.
+        // J^n of the last window, a prediction: `push` adds the difference to this window's.
         contact_impulses_[g] = contact_impulse(states[g]);
         given += contact_impulses_[g];
     }

@@ -66,8 +66,7 @@ void PlaneConstraint::for_cells(const std::function<void(int)>& visit) const {
 }
 
 void PlaneConstraint::clear_covered(double* values) const {
-    // Cells that boundary points interpolate from are fluid, also where the grain contains their
-    // centres.
+    // Cells that boundary points interpolate from are fluid, even if their centres are inside.
     for (const InteriorCell& inside : points_.interior) values[inside.cell] = 0.0;
 }
 

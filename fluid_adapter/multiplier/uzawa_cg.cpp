@@ -59,8 +59,7 @@ MultiplierResult uzawa_cg(ConstrainedFlow& flow, const MultiplierSettings& setti
         system.apply(w, y);
         const double alpha = rz / system.dot(w.values.data(), y);
         change(L, 1.0, w, alpha);  // L += alpha w
-        // r = s - S L by recurrence, in the flow's own slip: a later push or change goes on from
-        // it.
+        // r = s - S L by recurrence; it is the flow's own slip, from which a push goes on.
         for (int i = 0; i < rows; ++i) r[i] -= alpha * y[i];
         rr = system.dot(r, r);
         ++result.iterations;

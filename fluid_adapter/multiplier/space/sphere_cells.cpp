@@ -150,8 +150,7 @@ void SphereCells::join_shut_in() {
     for (std::size_t g = 0; g < runs_.size(); ++g)
         for (const CellRun& run : runs_[g]) {
             const Place at = place_of(run.cell);
-            // By its covered neighbour at -x a cell is found once: no two runs end at the same
-            // cell.
+            // Found once, by the covered neighbour at -x: no two runs end at the same cell.
             join_if_shut_in(static_cast<int>(g), {at.i + run.count, at.j, at.k}, joined);
             if (at.i == 1 && !grid().cyclic(x))
                 join_if_shut_in(static_cast<int>(g), {0, at.j, at.k}, joined);
