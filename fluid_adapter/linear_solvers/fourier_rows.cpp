@@ -71,12 +71,15 @@ class Periodic final : public RowTransform::Kind {
     explicit Periodic(int n) : n_(n), plans_(n) {}
 
     void forward(double* a, double* b) override {
+        // z = a + ib
         for (int j = 0; j < n_; ++j) plans_.in[j] = {a[j], b[j]};
         plans_.forward();
         const Complex* Z = plans_.out;
         a[0] = Z[0].re;
         b[0] = Z[0].im;
         for (int k = 1; 2 * k <= n_; ++k) {
+            // With p = Z_k and q = Z_{n-k}: A_k = (p + conj q)/2, B_k = (p - conj q)/2i. R2HC has
+            // the real part at k and the imaginary part at n - k.
             const Complex p = Z[k], q = Z[n_ - k];
             a[n_ - k] = 0.5 * (p.im - q.im);
             b[n_ - k] = 0.5 * (q.re - p.re);
@@ -89,6 +92,7 @@ class Periodic final : public RowTransform::Kind {
         Complex* Z = plans_.in;
         Z[0] = {a[0], b[0]};
         for (int k = 1; 2 * k < n_; ++k) {
+            // Z_k = A_k + i B_k, Z_{n-k} = conj A_k + i conj B_k
             Z[k] = {a[k] - b[n_ - k], a[n_ - k] + b[k]};
             Z[n_ - k] = {a[k] + b[n_ - k], b[k] - a[n_ - k]};
         }
@@ -119,6 +123,7 @@ class SameEnds final : public RowTransform::Kind {
         b[mode(0)] = 2.0 * Z[0].im;
         for (int k = 1; 2 * k <= n_; ++k) {
             const Complex p = Z[k], q = Z[n_ - k], w = turns_[k];
+            // 2 A_k and 2 B_k; X_k = 2 Re(w A_k), X_{n-k} = -2 Im(w A_k)
             const Complex A{p.re + q.re, p.im - q.im}, B{p.im + q.im, q.re - p.re};
             a[mode(n_ - k)] = -(w.re * A.im + w.im * A.re);
             b[mode(n_ - k)] = -(w.re * B.im + w.im * B.re);
@@ -132,6 +137,8 @@ class SameEnds final : public RowTransform::Kind {
         Z[0] = {a[mode(0)], b[mode(0)]};
         for (int k = 1; 2 * k <= n_; ++k) {
             const Complex w = turns_[k];
+            // conj(w) (X_k - i X_{n-k}) = 2 A_k, and Z = A + iB again. The factor 2 is part of the
+            // normalisation 2n.
             const Complex A = unturned(a, k, w), B = unturned(b, k, w);
             Z[n_ - k] = {A.re + B.im, B.re - A.im};
             Z[k] = {A.re - B.im, A.im + B.re};
@@ -200,6 +207,7 @@ class MixedEnds final : public RowTransform::Kind {
         }
         plans_.forward();
         for (int k = 0; k < n_ / 2; ++k) {
+            // X_2k - i X_{n-1-2k} = 2 t_k Z_k
             const Complex y = product(plans_.out[k], turns_[k]);
             x[2 * k] = 2.0 * y.re;
             x[n_ - 1 - 2 * k] = odd ? 2.0 * y.im : -2.0 * y.im;  // the sign of odd modes
