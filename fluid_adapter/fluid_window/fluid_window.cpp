@@ -20,6 +20,7 @@ CoupledLimits coupled_limits(const Settings& settings) {
     limits.viscosity.most = most;
     if (!splitting_of(settings).iterated) return limits;
     limits.iterated = true;
+    // u_c/D [1/s] for the divergence, u_c^2/D [m/s2] for the missing viscous acceleration
     const double rate = settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter;
     limits.viscosity = {most, rate * run.velocity};
     limits.pressure = {most, rate};
@@ -67,12 +68,15 @@ void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
 }
 
 void FluidWindow::correct(const std::vector<GrainState>& grains) {
+    // Under `joint` let_fall has taken the grains, and these are the results of their contacts;
+    // under `split` this is the first time that they come.
     if (!grains_taken_) check_rows(grains);
     if (!grains_taken_)
         return answer("step 5 (multipliers)",
                       [&] { multipliers_.take_constrained(grains, window_); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
                 [&] { note(multipliers_.push(grains)); });
+    // implicit-multiplier, after every round: what the contacts change is not solenoidal.
     if (coupled_limits_.iterated) correct_fluid(coupled_limits_);
 }
 
@@ -90,6 +94,7 @@ Kicks FluidWindow::impose() {
         for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
         if (lambda_is_seen()) field_.put_force_density(multipliers_.constraint());
+        // After put_force_density, which needs the u3 that the fields still have.
         field_.store(multipliers_.constraint());
         close_ledger();
     });
@@ -134,6 +139,7 @@ void FluidWindow::project() {
 void FluidWindow::drive() {
     if (run_.acceleration == Vec3{}) return;
     field_.accelerate(window_.step * run_.acceleration);
+    // The ledger multiplies by rho_f dt.
     const Vec3 rate = volume() * run_.acceleration;
     ledger_.add(BoundaryForce{rate[0], rate[1], rate[2]});
 }
@@ -150,6 +156,7 @@ void FluidWindow::diffuse() {
 /// Takes the grains of this window and solves for their multipliers.
 template <class Take>
 void FluidWindow::answer(const char* name, Take take) {
+    // Points first: what is loaded are the velocities in the cells that they need.
     watch_.play(name, timings_.points, take);
     watch_.play(name, timings_.multipliers, [&] {
         field_.load(multipliers_.constraint());
@@ -165,6 +172,8 @@ void FluidWindow::correct_fluid(const CoupledLimits& limits) {
     CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
+        // Pressure and viscosity change an imposed velocity by rigid changes, and the multipliers
+        // go on from what has been imposed.
         multipliers_.impose();
         RigidGrains grains(multipliers_.constraint(), field_.velocities(), field_.owned_cells());
         note(coupled->correct(grains, limits));
@@ -182,6 +191,7 @@ void FluidWindow::note(const CoupledReport& result) {
     splitting.divergence = result.pressure.residual;
     splitting.viscous_residual = result.viscosity.residual;
     splitting.converged = splitting.converged && result.converged;
+    // That of `settle`, which came last
     if (coupled_limits_.iterated) report_.multiplier_residual = result.slip.residual;
 }
 
@@ -199,6 +209,7 @@ void FluidWindow::note(const MultiplierResult& result) {
 
 void FluidWindow::close_ledger() {
     Vec3 to_grains = multipliers_.impulse_to_grains().linear;
+    // Each body has been counted on one rank.
     field_.sum_over_ranks(to_grains.data(), 3);
     report_.momentum_defect = ledger_.close(to_grains);
     report_.mean_velocity = ledger_.momentum() / (run_.fluid_density * volume());
@@ -224,6 +235,7 @@ void FluidWindow::check_rows(const std::vector<GrainState>& grains) const {
     const double own = height;
     store_.ranks().max(&height, 1);
     if (height <= highest_grain_ * (1.0 + 1e-9)) return;
+    // The grain is named by the rank that has it; the others offer -1.
     double id = height == own && highest != grains.end() ? static_cast<double>(highest->id) : -1.0;
     store_.ranks().max(&id, 1);
     std::ostringstream why;
