@@ -65,6 +65,7 @@ FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup
 }
 
 bool FluidFields::finished() const {
+    // Within half a step, since times are sums of steps
     return time.value() >= time.endTime().value() - 0.5 * time.deltaTValue();
 }
 
@@ -86,6 +87,7 @@ Foam::scalar FluidFields::largest_divergence() const {
 
 Foam::scalar FluidFields::courant() const {
     const Foam::tmp<Foam::volScalarField> sum = Foam::fvc::surfaceSum(Foam::mag(phi));
+    // dt sum |phi| / (2 V), as OpenFOAM's solvers print it: what enters a cell also leaves it.
     return 0.5 * time.deltaTValue() * Foam::gMax((sum().primitiveField() / mesh.V().field())());
 }
 

@@ -29,6 +29,7 @@ void PlaneField::know_halo() {
 }
 
 void PlaneField::work_on(FluidStep& step) {
+    // The step has no contiguous components: u stays in U and is copied where step 5 needs it.
     if (step.velocity(0) == nullptr) return copy_velocity();
     copies_used_ = false;
     for (std::vector<double>& copy : copies_) copy = {};
@@ -50,6 +51,7 @@ std::array<const double*, 2> PlaneField::import_halo(const double* x, const doub
 
 void PlaneField::share_sums(double* x, double* y) const {
     if (!halo_) return;
+    // Sums to the owners, and from there to all that know the cell: the same bits everywhere
     halo_->export_sums({x, y});
     halo_->import({x, y});
 }
@@ -76,6 +78,7 @@ FluidMomentum PlaneField::momentum() const {
 void PlaneField::load(const Constraint& constraint) {
     if (!copies_used_) return;
     constraint.for_cells([&](int cell) { load(cell); });
+    // Other ranks read these through import_halo, even if no point of this rank uses them.
     for (const int cell : shared_cells_) load(cell);
 }
 
