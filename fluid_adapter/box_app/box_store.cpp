@@ -42,6 +42,7 @@ void set_transport(BoxFluid& fluid, const Settings& settings) {
     std::istringstream words(settings.text("fluid.transport_scheme"));
     std::string gauss, scheme;
     words >> gauss >> scheme;
+    // Share a of linear interpolation (box_step/convective_flux.hpp)
     const std::pair<const char*, double> central[] = {
         {"linearUpwind", 0.0}, {"LUST", 0.75}, {"linear", 1.0}};
     for (const auto& [name, share] : central) {

@@ -43,6 +43,7 @@ class SharedFile {
 
 /// All but the values.
 bool write_frame(const std::filesystem::path& file, const SliceLayout& layout) {
+    // Places between are left open: the ranks write their values there.
     SharedFile out(file, O_CREAT | O_TRUNC);
     out.write(0, layout.begin.data(), layout.begin.size());
     for (std::size_t array = 0; array < layout.places.size(); ++array) {

@@ -74,6 +74,7 @@ double BoxOperators::volume() const {
 /// Of a row of layer j, whose values these are.
 void BoxOperators::add_products(int j, const double* image, const double* d, const double* r,
                                 ImageProducts& products) const {
+    // Weighted by volumes: in this product D G, Q and L are symmetric.
     const double volume = layers_.heights.relative(j);
     const int nx = layers_.nx;
     products.direction += volume * dot_row(nx, image, d);

@@ -16,6 +16,7 @@ FaceValues values_on_faces(const BoxLayers& layers) {
 
 VelocityOnSides at_rest(const BoxLayers& layers) {
     VelocityOnSides sides;
+    // Of the sides normal to x, y and z (side_values.hpp); in the plane there are none normal to z.
     const std::size_t sizes[] = {
         static_cast<std::size_t>(layers.ny) * layers.nz, layers.layer(),
         layers.in_space() ? static_cast<std::size_t>(layers.nx) * layers.ny : 0};
@@ -44,6 +45,7 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
     pressure_.factorise({0.0, 1.0});
     for (int axis = 0; axis < layers_.components(); ++axis) {
         viscous_.emplace_back(fluid.velocity, rows_->pencils());
+        // Readers know what sides prescribe; the solves take it to be zero (add_side_velocity).
         u_.emplace_back(fluid.velocity, *rows_, &side_velocity_[axis]);
     }
     // phi1 of the last window; 0 counts for nothing where a run begins.
@@ -120,6 +122,7 @@ void BoxStep::add_impulses(const VelocityStage::Values& u2, ImpulsesOfWindow& im
 void BoxStep::begin_impulses(ImpulsesOfWindow& impulses) {
     impulses.f.resize(layers_.components(), cells());
     impulses.sum_f = {};
+    // Of the last window: p^n is in the step's own array.
     p_.begin(pressure());
 }
 
@@ -178,6 +181,7 @@ void BoxStep::hold_middle_flux(bool begins) {
     for (int axis = 0; axis < layers_.components(); ++axis) {
         std::vector<double>& last = held_.last[axis];
         std::swap(held_.flux[axis], last);  // phi1 is the next window's last flux
+        // flux = 3/2 phi1 - 1/2 of the last window's, which flux has after the swap
         if (begins) held_.flux[axis] = last;
         if (!begins) combine(last.size(), -0.5, held_.flux[axis].data(), 1.5, last.data());
     }

@@ -70,6 +70,7 @@ void RowReader::load(int j) {
     const std::size_t outside = j < 0 ? beyond + j : beyond + j - ny;
     const double* from = own(j) ? values_ + static_cast<std::size_t>(j) * grid_.layer()
                                 : outside_.data() + outside * grid_.layer();
+    // The slot of layer j - kept, which is no longer valid
     PaddedLayer& layer = slots_[(j + beyond) % kept];
     for (int k = 0; k < grid_.z.cells; ++k) {
         std::copy_n(from + static_cast<std::size_t>(k) * nx, nx, layer.row(k));

@@ -94,6 +94,7 @@ std::vector<SideForce> SecondOrder::transport(SecondOrderHost& host, double dt,
         // u2 is u3 then, which is the velocity and the memory of the next window.
         if (last && parts.viscous) stage.copy = velocity;
         forces.push_back(sub_step(host, stage, 1.0 / parts.count, last));
+        // The next sub-step begins where this one has ended, with the same flux.
         stage.v = stage.result;
     }
     goes_on_ = true;
@@ -122,6 +123,7 @@ SideForce SecondOrder::diffuse(SecondOrderHost& host, double dt) {
 
 void SecondOrder::visit_memory(SecondOrderHost& host, const ValuesVisit& visit) {
     make_room(host);
+    // A number like all others, since a saved state is made of arrays of doubles
     double goes_on = goes_on_ ? 1.0 : 0.0;
     visit(&goes_on, 1);
     goes_on_ = goes_on > 0.0;

@@ -91,6 +91,7 @@ Projection BoxFluidStep::project() {
     // All ranks cut transport into the same number of parts.
     ranks_.max(largest, 2);
     const BoxStep::Force none{};
+    // With rigid grains p is found later: end_coupled tells its force.
     return {{largest[0], largest[1]}, coupled_ ? none : on_all_ranks(step_.pressure_force())};
 }
 
@@ -98,6 +99,7 @@ Projection BoxFluidStep::project() {
 TransportParts BoxFluidStep::parts(double courant) const {
     if (!in_second_order_) return {transport_parts(courant)};
     const double decay = step_.fastest_decay(dt_);
+    // A decay without bound keeps viscosity out of the stages.
     return SecondOrder::parts(courant / largest_courant_, coupled_ ? INFINITY : decay);
 }
 
@@ -129,6 +131,7 @@ std::vector<BoundaryForce> BoxFluidStep::transport_in_first_order(int parts) {
 
 BoundaryForce BoxFluidStep::diffuse() {
     if (coupled_) {
+        // f, explicit, has come with transport, and `correct` makes it implicit.
         coupled_->keep_transported();
         return {};
     }
@@ -184,6 +187,7 @@ void BoxFluidStep::visit_memory(const ValuesVisit& visit) {
         visit(values.data(), values.size());
     };
     const int components = step_.layers().components();
+    // This order is that of saved states (memory_rows); `kind` tells which parts there are.
     for (int axis = 0; axis < components; ++axis) visit_all(step_.excess(axis));
     // The next window begins with p itself: the field has another level where no side fixes it.
     if (coupled_) visit(step_.pressure(), step_.cells());

@@ -55,6 +55,7 @@ FluidWindow::FluidWindow(FluidStore& store, const Settings& settings, const Shap
 
 void FluidWindow::advance(const Window& window) {
     begin(window);
+    // Before step 1, whose body force (`drive`) is part of the balance.
     ledger_.open(window.step);
     watch_.play("step 1 (projection)", timings_.projection, [&] { project(); });
     watch_.play("step 2 (transport)", timings_.transport, [&] { transport(); });
@@ -91,6 +92,7 @@ Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
         if (lambda_is_seen()) step_.put_unconstrained();  // u3
         multipliers_.impose();
+        // Those of pressure and viscosity with rigid grains are known only now.
         for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
         if (lambda_is_seen()) field_.put_force_density(multipliers_.constraint());
@@ -115,7 +117,9 @@ void FluidWindow::begin(const Window& window) {
     timings_ = {};
     report_ = {};
     grains_taken_ = false;
+    // An array per component, only for windows whose lambda somebody sees.
     if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(lambda_is_seen());
+    // Before step 1, which sees what sides hold in this window.
     if (store_.begin(window)) step_.sides_changed();
     step_.begin(window.step);
     fields_follow_ = false;
@@ -198,6 +202,7 @@ void FluidWindow::note(const CoupledReport& result) {
 /// Accumulates the results of all solves of a window.
 void FluidWindow::note(const MultiplierResult& result) {
     report_.multiplier_iterations += result.iterations;
+    // Of the last solve, while iterations are those of all.
     report_.multiplier_residual = result.residual;
     report_.multipliers_converged = report_.multipliers_converged && result.converged;
     if (result.converged) return;
@@ -284,6 +289,7 @@ void FluidWindow::velocity_changed() {
 void FluidWindow::fields_replaced() {
     step_.take_velocity();
     ledger_.forget();
+    // Rates and excess fluxes have come with the state: nothing is forgotten but the ledger's P.
     fields_follow_ = true;
 }
 

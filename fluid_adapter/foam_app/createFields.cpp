@@ -21,6 +21,7 @@ FluidMomentum momentum_of(const FluidFields& fields, X x, Y y) {
         sum[2] += volume[c] * (std::abs(x(c)) + std::abs(y(c)));
     }
     fields.ranks.sum(sum.data(), static_cast<int>(sum.size()));
+    // rho_f V per unit length in the plane, where the mesh has a thickness
     const Foam::scalar density = fields.rho / fields.thickness;
     return {density * Vec3{sum[0], sum[1], 0.0}, density * sum[2]};
 }

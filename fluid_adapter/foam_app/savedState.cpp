@@ -29,7 +29,7 @@ constexpr std::size_t components = 4;  // of u, and p
 /// A state by its parts.
 struct Parts {
     Header header;
-    std::vector<std::int32_t> cells;  // i + nx j
+    std::vector<std::int32_t> cells;  // i + nx (k + nz j)
     std::vector<double> values;       // u, v, w, p of each cell
     std::vector<double> memory;
 };
@@ -151,6 +151,7 @@ SavedState save_fields(const FluidRank& rank) {
                     static_cast<std::int64_t>(rows.first),
                     static_cast<std::int64_t>(rows.count),
                     static_cast<std::int64_t>(parts.memory.size())};
+    // Places in the grid: by them another decomposition finds its cells.
     parts.cells.assign(rank.cells.begin(), rank.cells.end());
     parts.values.reserve(components * parts.cells.size());
     forAll(fields.p, c) {
@@ -200,7 +201,7 @@ SavedState part_of(const std::vector<SavedState>& of_ranks, const FluidRank& ran
                       "fluid.ranks = " +
                           std::to_string(of_ranks.size()));
     WholeMemory memory(rows.arrays);
-    std::vector<std::array<double, components>> values;  // by i + nx j
+    std::vector<std::array<double, components>> values;  // by number of the cell
     Parts own;
     for (const SavedState& state : of_ranks) {
         const Parts other = parts_of(state);

@@ -37,6 +37,7 @@ struct Reading {
         const double h = side < 2 || height.empty() ? 1.0
                          : side == 2                ? height.front()
                                                     : height.back();
+        // The side is half a cell away: 2 c_y/g_j instead of 2 c_y/(g_j + g_{j+1}), and over g_j.
         return 2.0 * mean[side / 2] / (h * h);
     }
     /// The coefficient between rows j and j + 1.
@@ -248,6 +249,7 @@ void read_excess(const SolverMatrix& system, const BoxCells& box,
     });
     for (const PatchCoefficient& of : patches) excess[of.cell] += s * of.value;
     box.ranks.max(&largest, 1);
+    // Of the largest diagonal of all ranks, so that all judge alike
     reading.noise = rounding * largest;
 }
 
@@ -301,6 +303,8 @@ void read_sides(const BoxCells& box, Reading& reading) {
 Reading read(const SolverMatrix& system, const BoxCells& box, bool rows_differ) {
     Reading reading;
     const std::vector<PatchCoefficient> patches = patch_coefficients(system, box);
+    // Each step needs those before it: the sign, then heights, then the excess, of which a
+    // reference must be taken out before it is divided and sorted by sides.
     read_means(system, box, patches, reading);
     if (rows_differ) read_heights(system, box, patches, reading);
     read_excess(system, box, patches, reading);
@@ -318,6 +322,7 @@ End end_of(const Reading& reading, double alpha, int axis, bool high) {
 }
 
 BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
+    // What is left inside, where no side adds to it; only 0 lets constants be in the kernel.
     const double alpha = std::abs(reading.inside) <= reading.noise ? 0.0 : reading.inside;
     const auto end = [&](int axis, bool high) { return end_of(reading, alpha, axis, high); };
     BoxOperator found;
@@ -337,6 +342,7 @@ BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
 void check_coefficients(const SolverMatrix& system, const BoxCells& box, const Reading& reading) {
     std::string fault;
     const auto check_one = [&](int axis, int cell, int row, double value) {
+        // g_j c_x along x, 2 c_y/(g_j + g_{j+1}) along y
         const double magnitude = reading.height.empty() ? reading.mean[axis]
                                  : axis == 0            ? reading.mean[0] * reading.height_of(row)
                                                         : reading.between_rows(row);
@@ -389,6 +395,7 @@ void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxC
         const double expected =
             expected_excess(found, reading, box.column(box.place[c]), box.row(box.place[c]));
         const double off = std::abs(reading.excess[c] - expected);
+        // Also where two conditions meet on one side: `at_side` is a mean.
         if (off > coefficient_tolerance * expected + reading.noise)
             fault = misfit(found, reading, box, static_cast<int>(c), expected);
     }

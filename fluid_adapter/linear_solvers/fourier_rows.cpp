@@ -96,6 +96,7 @@ class Periodic final : public RowTransform::Kind {
             Z[k] = {a[k] - b[n_ - k], a[n_ - k] + b[k]};
             Z[n_ - k] = {a[k] + b[n_ - k], b[k] - a[n_ - k]};
         }
+        // k = n - k: real parts alone
         if (n_ % 2 == 0) Z[n_ / 2] = {a[n_ / 2], b[n_ / 2]};
         plans_.backward();
         for (int j = 0; j < n_; ++j) {
@@ -119,6 +120,7 @@ class SameEnds final : public RowTransform::Kind {
         reorder(a, b);
         plans_.forward();
         const Complex* Z = plans_.out;
+        // k = 0 has no partner: A_0 is the real part of Z_0, B_0 the imaginary one.
         a[mode(0)] = 2.0 * Z[0].re;
         b[mode(0)] = 2.0 * Z[0].im;
         for (int k = 1; 2 * k <= n_; ++k) {

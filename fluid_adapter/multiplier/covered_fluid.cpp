@@ -70,6 +70,7 @@ Planar carry_cells(const CollocationPoints& points, const VelocityPointers& velo
         ux[point.cell] = x;
         uy[point.cell] = y;
     }
+    // What the fluid loses the grain gains: part of its multiplier impulse.
     return reference_mass * Planar(lost_x, lost_y, moment);
 }
 

@@ -28,6 +28,7 @@ struct Reach {
 };
 
 Reach reach_of(const CellGrid& grid, const Eigen::Vector3d& centre, const CellIndex& cell) {
+    // Squares of both, axis by axis: a cell is a box with edges along the axes.
     double near = 0.0, far = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double off = std::abs(grid.centre(axis, cell[axis]) - centre[axis]);

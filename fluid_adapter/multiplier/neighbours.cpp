@@ -11,6 +11,7 @@ class Bins {
  public:
     Bins(const CellGrid& grid, double reach) : grid_(grid) {
         for (int axis = 0; axis < grid.dimension; ++axis)
+            // Rounded down: a bin is at least as wide as `reach`.
             counts_[axis] = std::max(1, static_cast<int>(grid.length(axis) / reach));
         lists_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
     }

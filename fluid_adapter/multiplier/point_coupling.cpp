@@ -34,6 +34,7 @@ void PointCoupling::find_shared(const FluidField& field, const CollocationPoints
             user = user == nobody || user == g ? g : several;
         }
     shared_.assign(points.slots(), is_private);
+    // On one rank only cells of several grains are shared.
     const bool border = field.has_halo();
     for (int slot = 0; slot < points.slots(); ++slot) {
         const StencilCell& at = points.stencilled[slot];
@@ -86,6 +87,7 @@ void PointCoupling::apply_private(const double* w, double* y) const {
             y[2 * at->point] += at->value * wx;
             y[2 * at->point + 1] += at->value * wy;
         }
+        // Rows have earlier points only, so y of p is set before a later row adds to it.
         y[2 * p] = x;
         y[2 * p + 1] = y_of_p;
     }

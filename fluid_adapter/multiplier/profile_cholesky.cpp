@@ -52,6 +52,7 @@ bool ProfileCholesky::factorise() {
         for (int k = first; k < i; ++k) pivot -= row[k] * row[k];
         // L_ii^2 = A_ii - sum_k L_ik^2; written so that NaN is refused too.
         if (!(pivot > least_pivot * row[i])) return false;
+        // Kept, since every solve divides by it twice.
         inverse_[begin + i] = 1.0 / std::sqrt(pivot);
         row[i] = std::sqrt(pivot);
     }

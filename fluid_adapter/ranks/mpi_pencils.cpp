@@ -29,6 +29,7 @@ MpiPencils::MpiPencils(const RankGroup& group, int columns, const std::vector<Sp
     : group_(group),
       columns_(columns),
       rows_of_rank_(rows_of_rank),
+      // Evenly, whatever rows the ranks have
       modes_of_rank_(even_spans(columns, group.size())),
       row_values_(aligned_values(static_cast<std::size_t>(columns) * own_rows().count)),
       starts_(group.size()) {
@@ -101,6 +102,7 @@ void MpiPencils::send_to_columns() {
     requests_.clear();
     for (int rank = 0; rank < group_.size(); ++rank)
         if (rank != group_.rank())
+            // Straight to its place, where rows of consecutive y follow each other
             PMPI_Irecv(block_of_rows(rank), rows_of_rank_[rank].count * mode_count(), MPI_DOUBLE,
                        rank, to_columns_tag, group_.comm(), &requests_.emplace_back());
     for (int step = 1; step < group_.size(); ++step) {

@@ -30,6 +30,7 @@ SharedValues::SharedValues(const RankGroup& group, std::size_t count)
         int unit = 0;
         PMPI_Win_shared_query(window_, rank, &size, &unit, &values_[rank]);
     }
+    // Each rank its own; the fence shows them to the others.
     std::fill_n(own, count, 0.0);
     fence();
 }

@@ -166,6 +166,7 @@ InteriorConstraint::Six InteriorConstraint::moved(std::size_t grain, const Six& 
 /// sum m (u ; r x u) of every grain, over all ranks.
 std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(
     const VelocityPointers& u) const {
+    // Columns are equal along x, so that cells of a run are h apart and have one volume.
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> sums(grains_->size());
     for (std::size_t g = 0; g < sums.size(); ++g) {
@@ -187,6 +188,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> lost(grains_->size());
     for (std::size_t g = 0; g < lost.size(); ++g) {
+        // u_c = U + omega x r, by one step from cell to cell of a run
         const Vector spin = motions[g].tail<3>();
         const Vector step = h * spin.cross(Vector::UnitX());  // of U + omega x r along a run
         CellSums off(h);
