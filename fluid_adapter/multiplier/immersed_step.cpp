@@ -197,7 +197,7 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
 /// Of what is sent, whatever has changed the motions since the contacts were solved.
 double ImmersedStep::mismatch(std::size_t g) const {
     if (!pushed_) return 0.0;
-    // U' - U| + R |omega' - omega|, with R = (R_h - shift) / (R_h/R)
+    // |U' - U| + R |omega' - omega|, with R = (R_h - shift) / (R_h/R)
     const double radius = (grains_[g].radius - run_.surface_shift) / run_.hydrodynamic_radius;
     const Twist motion = constraint_->motion(g);
     return norm(motion.velocity - solved_[g].velocity) +

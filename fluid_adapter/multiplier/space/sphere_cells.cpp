@@ -77,7 +77,7 @@ bool SphereCells::belongs(int grain, int i, int j, int k) const {
     for (const int other : neighbours_[grain]) {
         const double theirs = power(other, i, j, k);
         if (theirs < own) return false;
-        // Otherwise the cell would have two owners, or one that depends on the order of the grains.
+        // Otherwise a cell on the plane between them would have two owners.
         if (theirs == own && (*grains_)[other].id < (*grains_)[grain].id) return false;
     }
     return true;
