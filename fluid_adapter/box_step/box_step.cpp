@@ -83,7 +83,7 @@ FluxReport BoxStep::hold_solenoidal_flux(double dt) {
 
 void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
     begin_velocity(values_of_velocity());
-    // Of u1, as the readers have it: they keep the layers that transport overwrites.
+    // Of u1, which the readers still have where transport has overwritten a layer.
     if (impulses) begin_impulses(*impulses);
     transport_.begin(false);
     for (int j = 0; j < layers_.ny; ++j) {

@@ -116,7 +116,7 @@ void HaloExchange::export_sums(std::array<double*, 2> fields) {
     for (const Neighbour& neighbour : neighbours_) {
         const double* values = neighbour.owned_values.data();
         for (double* field : fields)
-            // In ascending order of ranks, whoever's message was the first
+            // In ascending order of ranks, whichever message has come first
             for (const int cell : neighbour.shared) field[cell] += *values++;
     }
 }

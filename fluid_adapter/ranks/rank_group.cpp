@@ -21,7 +21,7 @@ std::vector<int> starts_of(const std::vector<int>& counts) {
 template <class Number>
 ByRank<Number> exchange_lists(const RankGroup& group, const ByRank<Number>& lists,
                               MPI_Datatype type) {
-    // What a rank sends to itself it gets.
+    // A single rank gets what it sends to itself, without MPI.
     if (!group.parallel()) return lists;
     const int ranks = group.size();
     std::vector<int> sent(ranks), received(ranks);
@@ -30,7 +30,7 @@ ByRank<Number> exchange_lists(const RankGroup& group, const ByRank<Number>& list
         sent[r] = static_cast<int>(lists[r].size());
         out.insert(out.end(), lists[r].begin(), lists[r].end());
     }
-    // First how much, so that there is room, then what
+    // Lengths first, to make room for the lists.
     PMPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, group.comm());
     const std::vector<int> out_starts = starts_of(sent), in_starts = starts_of(received);
     std::vector<Number> in(in_starts.back() + received.back());
@@ -94,7 +94,6 @@ std::vector<Span> even_spans(int total, int ranks) {
     std::vector<Span> spans(ranks);
     int first = 0;
     for (int r = 0; r < ranks; ++r) {
-        // The first total % ranks spans have one more.
         spans[r] = {first, total / ranks + (r < total % ranks)};
         first += spans[r].count;
     }
