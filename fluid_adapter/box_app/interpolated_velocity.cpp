@@ -28,6 +28,7 @@ InterpolatedVelocity::InterpolatedVelocity(FluidField& field, BoxRows& rows,
 
 double InterpolatedVelocity::divergence(const CellIndex& at) const {
     double sum = 0.0;
+    // Of the flux that steps have: S of box_step/row_heights.hpp weighs by volumes.
     for (int axis = 0; axis < 3; ++axis) sum += derivative(axis, axis, at, Weight::volume);
     return sum;
 }
@@ -36,6 +37,7 @@ Vec3 InterpolatedVelocity::curl(const CellIndex& at) const {
     const auto d = [&](int component, int axis) {
         return derivative(component, axis, at, Weight::distance);
     };
+    // (dw/dy - dv/dz, du/dz - dw/dx, dv/dx - du/dy)
     return {d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1)};
 }
 

@@ -52,6 +52,7 @@ void RowReader::look_outside(const double* values) {
 /// Fills layer `to` of outside with the image of layer `from` of edges beyond side 2 (bottom) or 3.
 void RowReader::mirror(int from, int to, int side) {
     const std::size_t n = grid_.layer();
+    // The image of row 0 is row -1, that of row 1 row -2; at the top alike.
     const double factor = mirrored(side == 2 ? grid_.y.lower : grid_.y.upper);
     for (std::size_t i = 0; i < n; ++i) outside_[to * n + i] = factor * edges_[from * n + i];
     for (std::size_t i = 0; sides_ && i < n; ++i) outside_[to * n + i] += 2.0 * (*sides_)[side][i];

@@ -22,6 +22,7 @@ FoamField::FoamField(FluidFields& fields, const FluidDomain& domain)
       grid_(grid_of(domain, fields.thickness)),
       cell_mass_(fields.rho * grid_.spacing[0] * grid_.spacing[1]) {
     if (grid_.dimension == 3) cell_mass_ *= grid_.spacing[2];
+    // A single rank holds every grain alone: nothing is summed.
     if (fields.ranks.parallel()) shared_ = std::make_unique<SharedGrains>(fields.ranks);
 }
 

@@ -136,6 +136,7 @@ bool OperatorStep::finite() {
 
 std::vector<double> OperatorStep::memory() {
     std::vector<double> values;
+    // In OpenFOAM's order of faces, which is that of this decomposition: memory_rows stays empty.
     append_faces(fields_.excess, values);
     if (!in_second_order_) return values;
     append_faces(last_flux_, values);

@@ -12,6 +12,7 @@ constexpr int halo_layers = 3;
 
 PlaneField::PlaneField(FluidFields& fields, const FluidDomain& domain)
     : FoamField(fields, domain),
+      // A single rank knows every cell without a halo.
       block_(grid(), cell_numbers(), fields.ranks.parallel() ? halo_layers : 0) {
     if (fields.ranks.parallel()) know_halo();
     cells_ = block_.table();
@@ -22,6 +23,7 @@ PlaneField::PlaneField(FluidFields& fields, const FluidDomain& domain)
 void PlaneField::know_halo() {
     halo_ = std::make_unique<HaloExchange>(fields_.ranks, grid().counts[0] * grid().counts[1],
                                            cell_numbers(), block_.halo());
+    // Ordered by owner, as import_halo fills them in
     block_.number_halo(halo_->halo());
     in_a_halo_.assign(owned_cells(), 0);
     shared_cells_ = halo_->shared();
@@ -32,6 +34,7 @@ void PlaneField::work_on(FluidStep& step) {
     // The step has no contiguous components: u stays in U and is copied where step 5 needs it.
     if (step.velocity(0) == nullptr) return copy_velocity();
     copies_used_ = false;
+    // Not needed any more: their memory is given back.
     for (std::vector<double>& copy : copies_) copy = {};
     for (int axis = 0; axis < 2; ++axis) velocity_[axis] = step.velocity(axis);
 }

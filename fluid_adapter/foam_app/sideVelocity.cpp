@@ -70,6 +70,7 @@ bool SideVelocity::set(double time, double step) {
 
 VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box) {
     const std::array<int, 2> length = {box.cells[1], box.cells[0]};
+    // One after the other: left and right by row, bottom and top by column
     const int per_component = 2 * (length[0] + length[1]);
     const auto first = [&](int side) {
         return side < 2 ? side * length[0] : 2 * length[0] + (side - 2) * length[1];

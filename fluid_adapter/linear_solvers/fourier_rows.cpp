@@ -161,6 +161,7 @@ class SameEnds final : public RowTransform::Kind {
 
     void reorder(const double* a, const double* b) {
         constexpr double sign = odd ? -1.0 : 1.0;
+        // Even places ascending, then odd ones descending; signs of odd places for DST-II
         for (int j = 0; 2 * j < n_; ++j) plans_.in[j] = {a[2 * j], b[2 * j]};
         for (int j = 0; 2 * j + 1 < n_; ++j)
             plans_.in[n_ - 1 - j] = {sign * a[2 * j + 1], sign * b[2 * j + 1]};
@@ -203,6 +204,7 @@ class MixedEnds final : public RowTransform::Kind {
 
     void one_row(double* x) {
         for (int j = 0; j < n_ / 2; ++j) {
+            // z_j = (x_2j + i x_{n-1-2j}) t_j, of a row that is reversed for DST-IV
             const Complex z =
                 odd ? Complex{x[n_ - 1 - 2 * j], x[2 * j]} : Complex{x[2 * j], x[n_ - 1 - 2 * j]};
             plans_.in[j] = product(z, turns_[j]);

@@ -43,6 +43,7 @@ Reach reach_of(const CellGrid& grid, const Eigen::Vector3d& centre, const CellIn
 double share_of_cell_in_space(const CellGrid& grid, const ImmersedGrain& grain,
                               const CellIndex& cell) {
     const Reach reach = reach_of(grid, grain.position, cell);
+    // Only cells that the surface cuts need the lines.
     if (reach.farthest <= grain.radius) return 1.0;
     if (reach.nearest >= grain.radius) return 0.0;
     double sum = 0.0;

@@ -99,6 +99,7 @@ void SharedGrains::begin(const double* rows, int per_grain) {
                    partner.rank, rows_tag, group_.comm(), &requests_.emplace_back());
     }
     for (Partner& partner : partners_) {
+        // A copy: `sum` zeroes the rows while messages are on their way.
         partner.sent.clear();
         for (const int g : partner.grains)
             partner.sent.insert(partner.sent.end(), rows + g * per_grain,
